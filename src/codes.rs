@@ -1,0 +1,154 @@
+//! The one table of codes.
+//!
+//! The control's own numbers (`P-ERR-…`) stand here only where a document ties the number to the
+//! cause; all others begin with `FC` (R9.23): FC1xx files, configuration and lists, FC2xx syntax,
+//! FC3xx meaning, FC4xx lints, FC5xx drive, FC9xx unknown values and budgets. Numbers are never
+//! used again.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+use crate::diagnostic::Severity;
+
+macro_rules! codes {
+    ($($name:ident $text:literal $severity:ident $title:literal;)+) => {
+        /// The stable name of a diagnostic.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code {
+            $(#[doc = concat!("`", $text, "`: ", $title, ".")] $name,)+
+        }
+
+        impl Code {
+            /// Every code, in the order of the table.
+            pub const ALL: &'static [Self] = &[$(Self::$name,)+];
+
+            /// The code as it is printed.
+            pub fn text(self) -> &'static str {
+                match self { $(Self::$name => $text,)+ }
+            }
+
+            /// The severity unless the user's `[lint]` table says otherwise (R9.28).
+            pub fn severity(self) -> Severity {
+                match self { $(Self::$name => Severity::$severity,)+ }
+            }
+
+            /// What it is about, in a few words.
+            pub fn title(self) -> &'static str {
+                match self { $(Self::$name => $title,)+ }
+            }
+
+            /// The page that `frictcomp explain` shows.
+            #[cfg(feature = "cli")]
+            pub fn page(self) -> &'static str {
+                match self { $(Self::$name => include_str!(concat!("../docs/codes/", $text, ".md")),)+ }
+            }
+        }
+    };
+}
+
+codes! {
+    PErr21301 "P-ERR-21301" Error "invalid first keyword in an axis bracket";
+    PErr21403 "P-ERR-21403" Error "COMP on an axis in an active coupling";
+    PErr21947 "P-ERR-21947" Error "unknown axis";
+    PErr70435 "P-ERR-70435" Error "motion without a compensation that the axis requires";
+    PErr70495 "P-ERR-70495" Error "friction compensation is not configured";
+    PErr110229 "P-ERR-110229" Error "axis number differs between the lists";
+    PErr110591 "P-ERR-110591" Error "velocities negative or not ascending";
+    PErr110592 "P-ERR-110592" Error "unknown mode or no table values";
+    PErr110641 "P-ERR-110641" Error "max_points changed after the first load";
+    Fc101 "FC101" Warning "character outside ASCII";
+    Fc110 "FC110" Error "configuration not understood";
+    Fc120 "FC120" Info "list without `Ende`";
+    Fc121 "FC121" Warning "key given twice";
+    Fc122 "FC122" Warning "unknown key";
+    Fc123 "FC123" Error "list file not found";
+    Fc124 "FC124" Warning "list line not understood";
+    Fc130 "FC130" Error "value outside its type";
+    Fc131 "FC131" Error "more table entries than max_points";
+    Fc132 "FC132" Warning "value outside the documented range";
+    Fc133 "FC133" Error "fewer table lines than table_entries";
+    Fc134 "FC134" Warning "more table lines than table_entries";
+    Fc135 "FC135" Warning "value list on an axis that is not configured";
+    Fc136 "FC136" Warning "first table point comes too late";
+    Fc137 "FC137" Warning "value beyond 16 bit";
+    Fc138 "FC138" Warning "friction values on a spindle";
+    Fc201 "FC201" Error "incomplete COMP command";
+    Fc202 "FC202" Error "unknown compensation kind";
+    Fc203 "FC203" Error "kind behind OFF_ALL";
+    Fc204 "FC204" Error "more than one selection in a bracket";
+    Fc205 "FC205" Error "bracket not closed";
+    Fc206 "FC206" Error "block too long";
+    Fc207 "FC207" Error "text not understood";
+    Fc208 "FC208" Error "control block not balanced";
+    Fc209 "FC209" Error "jump label missing or given twice";
+    Fc301 "FC301" Warning "opposite COMP commands in one block";
+    Fc302 "FC302" Error "COMP on a spindle";
+    Fc303 "FC303" Warning "selected without an accepted value list";
+    Fc305 "FC305" Warning "compensation kind newer than the CNC build";
+    Fc310 "FC310" Warning "program without M30";
+    Fc311 "FC311" Error "parameter read before it was written";
+    Fc312 "FC312" Error "expression cannot be computed";
+    Fc313 "FC313" Error "two words of one G group";
+    Fc314 "FC314" Warning "machine data written by the program";
+    Fc315 "FC315" Warning "program end inside a subprogram";
+    Fc320 "FC320" Error "called program not found";
+    Fc401 "FC401" Warning "left changed past program end";
+    Fc402 "FC402" Info "command changes nothing";
+    Fc403 "FC403" Info "depends on the program before";
+    Fc404 "FC404" Info "lower-case keyword";
+    Fc405 "FC405" Info "COMP and motion in one block";
+    Fc406 "FC406" Info "kind named twice";
+    Fc490 "FC490" Warning "unused `allow` comment";
+    Fc501 "FC501" Error "no additive torque interface";
+    Fc502 "FC502" Warning "actual torque not mapped";
+    Fc503 "FC503" Error "drive type without friction compensation";
+    Fc901 "FC901" Warning "condition not known offline";
+    Fc902 "FC902" Warning "jump or call not known offline";
+    Fc910 "FC910" Error "budget of executed blocks";
+    Fc911 "FC911" Error "budget of call depth";
+    Fc912 "FC912" Error "budget of nested control blocks";
+    Fc913 "FC913" Error "budget of nested brackets";
+    Fc914 "FC914" Error "budget of macro expansion";
+}
+
+impl Code {
+    /// Finds a code by its text, in any case; the control's numbers also without `P-ERR-`.
+    pub fn find(text: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|code| {
+            code.text().eq_ignore_ascii_case(text)
+                || (code.is_controller() && code.text().strip_prefix("P-ERR-") == Some(text))
+        })
+    }
+
+    /// Whether it is a number of the control; those cannot be silenced (R9.24).
+    pub fn is_controller(self) -> bool {
+        self.text().starts_with("P-ERR-")
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text())
+    }
+}
+
+impl Serialize for Code {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.text())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_found_by_their_text() {
+        // R9.23
+        assert_eq!(Code::find("70495"), Some(Code::PErr70495));
+        assert_eq!(Code::find("p-err-70495"), Some(Code::PErr70495));
+        assert_eq!(Code::find("fc201"), Some(Code::Fc201));
+        assert_eq!(Code::find("201"), None);
+    }
+}

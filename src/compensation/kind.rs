@@ -1,0 +1,102 @@
+//! The facts about each kind of compensation, one row a kind.
+
+use crate::machine::CncBuild;
+use crate::syntax::Kind;
+
+/// What the control's documents say about a kind (R1.10, R1.40).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Facts {
+    /// The kind.
+    pub kind: Kind,
+    /// The key in the axis list that configures it.
+    pub selector: &'static str,
+    /// The number of that parameter.
+    pub parameter: &'static str,
+    /// The key that makes the program switch it: off at start-up, at program end and at reset.
+    pub manual_activation: Option<&'static str>,
+    /// The number of the manual-activation parameter where one is documented.
+    pub manual_parameter: Option<&'static str>,
+    /// The CNC build that brought the keyword.
+    pub since: CncBuild,
+}
+
+/// Sources: *Selecting/deselecting axis compensation in the NC program* (builds), the axis and
+/// compensation parameter descriptions (selectors, manual activation).
+const TABLE: [Facts; 7] = [
+    Facts {
+        kind: Kind::Backlash,
+        selector: "lr_param.anwahl_losekomp",
+        parameter: "P-AXIS-00021",
+        manual_activation: None,
+        manual_parameter: None,
+        since: CncBuild::new([3, 1, 3081, 5]),
+    },
+    Facts {
+        kind: Kind::Cross,
+        selector: "lr_param.crosscomp",
+        parameter: "P-AXIS-00047",
+        manual_activation: Some("kw.crosscomp.manual_activation"),
+        manual_parameter: Some("P-COMP-00029"),
+        since: CncBuild::new([2, 10, 1501, 0]),
+    },
+    Facts {
+        kind: Kind::Plane,
+        selector: "lr_param.crosscomp2",
+        parameter: "P-AXIS-00174",
+        manual_activation: Some("kw.crosscomp2.manual_activation"),
+        manual_parameter: Some("P-COMP-00030"),
+        since: CncBuild::new([2, 10, 1501, 0]),
+    },
+    Facts {
+        kind: Kind::Lead,
+        selector: "lr_param.ssfk",
+        parameter: "P-AXIS-00175",
+        manual_activation: Some("kw.ssfk.manual_activation"),
+        manual_parameter: Some("P-COMP-00028"),
+        since: CncBuild::new([2, 10, 1501, 0]),
+    },
+    Facts {
+        kind: Kind::Temp,
+        selector: "lr_param.temp_comp",
+        parameter: "P-AXIS-00271",
+        manual_activation: Some("lr_param.temp_comp_manual_activation"),
+        manual_parameter: Some("P-AXIS-00482"),
+        since: CncBuild::new([2, 10, 1501, 0]),
+    },
+    Facts {
+        kind: Kind::Frict,
+        selector: "lr_param.frict_comp",
+        parameter: "P-AXIS-00522",
+        manual_activation: None,
+        manual_parameter: None,
+        since: CncBuild::new([2, 11, 2022, 5]),
+    },
+    Facts {
+        kind: Kind::Crosstalk,
+        selector: "lr_param.crosstalk",
+        parameter: "P-AXIS-00789",
+        manual_activation: Some("kw.crosstalk.manual_activation"),
+        manual_parameter: None,
+        since: CncBuild::new([3, 1, 3079, 32]),
+    },
+];
+
+impl Kind {
+    /// The facts about this kind.
+    pub fn facts(self) -> &'static Facts {
+        &TABLE[self as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_has_its_own_row() {
+        // R1.40
+        for kind in Kind::ALL {
+            assert_eq!(kind.facts().kind, kind);
+        }
+    }
+}

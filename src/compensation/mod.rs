@@ -1,0 +1,352 @@
+//! The slice itself: the compensation state of every axis and what a COMP command does to it.
+//!
+//! It knows no files, no interpreter and no clock. A host with an interpreter of its own hands it
+//! the COMP commands that it meets and gets the changes, or the control's own error.
+
+mod kind;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+pub use kind::Facts;
+
+use crate::codes::Code;
+use crate::machine::{AxisIndex, Machine};
+use crate::syntax::{CompCommand, Kind, KindSet, Membership, Selection};
+
+/// What a user sees of one kind on one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum State {
+    /// Selected, configured and parameterised: it works.
+    Active,
+    /// Selected, but no value list was accepted: it does nothing.
+    Ineffective,
+    /// Configured, but not selected.
+    Inactive,
+    /// The axis parameter that enables it is 0.
+    Unconfigured,
+    /// The command that decides it hangs on a value that only the machine knows.
+    Unknown,
+}
+
+impl State {
+    /// The word of the records.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Active => "active",
+            Self::Ineffective => "ineffective",
+            Self::Inactive => "inactive",
+            Self::Unconfigured => "unconfigured",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// One state that a command changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Change {
+    /// The axis.
+    pub axis: AxisIndex,
+    /// The kind.
+    pub kind: Kind,
+    /// The state before the command.
+    pub from: State,
+    /// The state after it.
+    pub to: State,
+}
+
+/// Why the control, or this tool in its place, refuses a COMP command.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum CompensationError {
+    /// `X[COMP ON FRICT]` while P-AXIS-00522 of X is 0 (R1.24).
+    #[error("friction compensation of axis `{axis}` is switched on, but P-AXIS-00522 is not set")]
+    NotConfigured {
+        /// The axis of the command.
+        axis: String,
+    },
+    /// `Q[COMP ON FRICT]` on a machine without an axis Q.
+    #[error("the machine has no axis `{axis}`")]
+    UnknownAxis {
+        /// The name in front of the bracket.
+        axis: String,
+    },
+    /// `X[COMP ON FRICT]` between `#ENABLE AX LINK` and `#DISABLE AX LINK` of a coupling with X.
+    #[error("axis `{axis}` is in an active coupling, COMP is not allowed")]
+    Coupled {
+        /// The axis of the command.
+        axis: String,
+    },
+    /// `S[COMP ON FRICT]`.
+    #[error("`{axis}` is a spindle, spindles have no COMP")]
+    Spindle {
+        /// The spindle's name.
+        axis: String,
+    },
+}
+
+impl CompensationError {
+    /// The control's error number, or ours where the control documents none.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotConfigured { .. } => Code::PErr70495,
+            Self::UnknownAxis { .. } => Code::PErr21947,
+            Self::Coupled { .. } => Code::PErr21403,
+            Self::Spindle { .. } => Code::Fc302,
+        }
+    }
+
+    /// The axis that the command names.
+    pub fn axis(&self) -> &str {
+        match self {
+            Self::NotConfigured { axis }
+            | Self::UnknownAxis { axis }
+            | Self::Coupled { axis }
+            | Self::Spindle { axis } => axis,
+        }
+    }
+}
+
+/// The compensation of one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+struct AxisState {
+    configured: KindSet,
+    parameterised: KindSet,
+    /// The kinds that fall off at program end and reset.
+    manual: KindSet,
+    selected: KindSet,
+    unknown: KindSet,
+    coupled: bool,
+}
+
+impl AxisState {
+    fn state(&self, kind: Kind) -> State {
+        if !self.configured.contains(kind) {
+            State::Unconfigured
+        } else if self.unknown.contains(kind) {
+            State::Unknown
+        } else if !self.selected.contains(kind) {
+            State::Inactive
+        } else if self.parameterised.contains(kind) {
+            State::Active
+        } else {
+            State::Ineffective
+        }
+    }
+}
+
+/// The compensation state of all axes of a machine.
+///
+/// ```
+/// use frictcomp::compensation::{Compensation, CompensationError, State};
+/// use frictcomp::machine::Machine;
+/// use frictcomp::syntax::{Kind, parse_comp};
+///
+/// let machine = Machine::enabled(["X"]);
+/// let mut comp = Compensation::at_startup(&machine);
+/// let changes = comp.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
+/// assert_eq!((changes[0].from, changes[0].to), (State::Active, State::Inactive));
+///
+/// comp.program_end();
+/// assert_eq!(comp.state(machine.find("X").unwrap(), Kind::Frict), State::Inactive);
+///
+/// let refused = comp.apply(&parse_comp("Y[COMP ON FRICT]")?);
+/// assert_eq!(refused.unwrap_err().code().text(), "P-ERR-70495");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Compensation {
+    axes: Vec<AxisState>,
+    names: Vec<String>,
+    spindles: Vec<bool>,
+}
+
+impl Compensation {
+    /// The state after a start of the control (R1.22, R1.29): a kind is selected when its axis
+    /// parameter configures it, unless the program has to activate it.
+    pub fn at_startup(machine: &Machine) -> Self {
+        let axes = machine.axes.iter().map(|axis| AxisState {
+            configured: axis.configured,
+            parameterised: axis.parameterised(),
+            manual: axis.manual,
+            selected: axis.configured.without(axis.manual),
+            unknown: KindSet::NONE,
+            coupled: false,
+        });
+        Self {
+            axes: axes.collect(),
+            names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
+            spindles: machine.axes.iter().map(|axis| axis.is_spindle()).collect(),
+        }
+    }
+
+    /// The state of one kind on one axis.
+    pub fn state(&self, axis: AxisIndex, kind: Kind) -> State {
+        self.axes[axis.get()].state(kind)
+    }
+
+    /// How many axes there are.
+    pub fn len(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// Whether the machine has no axis at all.
+    pub fn is_empty(&self) -> bool {
+        self.axes.is_empty()
+    }
+
+    /// Applies a command and returns what it changed.
+    ///
+    /// # Errors
+    /// The control's refusal; nothing is changed then (R1.24).
+    pub fn apply(&mut self, command: &CompCommand) -> Result<Vec<Change>, CompensationError> {
+        let axis = self.resolve(&command.axis)?;
+        let mut changes = Vec::new();
+        self.switch(axis, command.selection, &mut changes)?;
+        Ok(changes)
+    }
+
+    /// The axis that a command may address.
+    ///
+    /// # Errors
+    /// A name that the machine does not have, or a spindle's.
+    pub fn resolve(&self, name: &str) -> Result<AxisIndex, CompensationError> {
+        let found = self.names.iter().position(|axis| axis == name);
+        match found {
+            Some(index) if !self.spindles[index] => Ok(AxisIndex::new(index)),
+            Some(_) => Err(CompensationError::Spindle { axis: name.into() }),
+            None if name.starts_with('S') => Err(CompensationError::Spindle { axis: name.into() }),
+            None => Err(CompensationError::UnknownAxis { axis: name.into() }),
+        }
+    }
+
+    /// Applies a selection to an axis and appends what it changed to `changes`.
+    ///
+    /// # Errors
+    /// The control's refusal; nothing is changed then (R1.24).
+    pub fn switch(
+        &mut self,
+        axis: AxisIndex,
+        selection: Selection,
+        changes: &mut Vec<Change>,
+    ) -> Result<(), CompensationError> {
+        let name = &self.names[axis.get()];
+        let state = &mut self.axes[axis.get()];
+        if state.coupled {
+            return Err(CompensationError::Coupled { axis: name.clone() });
+        }
+        let on = matches!(selection, Selection::On(_));
+        if on && selection.kinds().contains(Kind::Frict) && !state.configured.contains(Kind::Frict)
+        {
+            return Err(CompensationError::NotConfigured { axis: name.clone() });
+        }
+        let membership = if on { Membership::In } else { Membership::Out };
+        for kind in selection.kinds().intersection(state.configured).iter() {
+            let from = state.state(kind);
+            state.selected.assign(kind, membership);
+            state.unknown.remove(kind);
+            let to = state.state(kind);
+            if from != to {
+                changes.push(Change {
+                    axis,
+                    kind,
+                    from,
+                    to,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// What program end does (R1.27, R1.40): friction compensation stays as it is, kinds with
+    /// manual activation fall off. Returns what changed.
+    pub fn program_end(&mut self) -> Vec<Change> {
+        let mut changes = Vec::new();
+        for index in 0..self.axes.len() {
+            let axis = AxisIndex::new(index);
+            let state = &mut self.axes[index];
+            for kind in state.manual.intersection(state.configured).iter() {
+                let from = state.state(kind);
+                state.selected.remove(kind);
+                state.unknown.remove(kind);
+                let to = state.state(kind);
+                if from != to {
+                    changes.push(Change {
+                        axis,
+                        kind,
+                        from,
+                        to,
+                    });
+                }
+            }
+        }
+        changes
+    }
+
+    /// What a reset does: the same as program end (R1.28).
+    pub fn reset(&mut self) -> Vec<Change> {
+        self.program_end()
+    }
+
+    /// Makes kinds of an axis unknown, because a command that decides them hangs on a value that
+    /// only the machine knows (R2.51), and appends what changed.
+    pub fn forget(&mut self, axis: AxisIndex, kinds: KindSet, changes: &mut Vec<Change>) {
+        let state = &mut self.axes[axis.get()];
+        for kind in kinds.intersection(state.configured).iter() {
+            let from = state.state(kind);
+            state.unknown.insert(kind);
+            let to = state.state(kind);
+            if from != to {
+                changes.push(Change {
+                    axis,
+                    kind,
+                    from,
+                    to,
+                });
+            }
+        }
+    }
+
+    /// Says that an axis entered or left a coupling; COMP is refused while it is in one.
+    pub fn set_coupled(&mut self, axis: AxisIndex, coupling: Coupling) {
+        self.axes[axis.get()].coupled = coupling == Coupling::Active;
+    }
+
+    /// The kinds of an axis that are selected, for the state file.
+    pub fn selected(&self, axis: AxisIndex) -> KindSet {
+        self.axes[axis.get()].selected
+    }
+
+    /// The kinds of an axis that are unknown, for the state file.
+    pub fn unknown(&self, axis: AxisIndex) -> KindSet {
+        self.axes[axis.get()].unknown
+    }
+
+    /// Takes over what an earlier session left on an axis.
+    pub fn restore(&mut self, axis: AxisIndex, selected: KindSet, unknown: KindSet) {
+        let state = &mut self.axes[axis.get()];
+        state.selected = selected;
+        state.unknown = unknown;
+    }
+
+    /// Whether the value list of an axis was accepted, by kind. The other kinds' lists are not
+    /// read; they count as parameterised.
+    pub fn set_parameterised(&mut self, axis: AxisIndex, kinds: KindSet) {
+        self.axes[axis.get()].parameterised = kinds;
+    }
+
+    /// Whether an axis is configured for a kind.
+    pub fn is_configured(&self, axis: AxisIndex, kind: Kind) -> bool {
+        self.axes[axis.get()].configured.contains(kind)
+    }
+}
+
+/// Whether an axis takes part in a coupling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coupling {
+    /// It does.
+    Active,
+    /// It does not.
+    None,
+}

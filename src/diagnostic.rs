@@ -1,0 +1,177 @@
+//! Statements about the user's programs and lists, as plain data.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::codes::Code;
+use crate::source::{Position, Span};
+
+/// How much a diagnostic weighs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Worth knowing.
+    Info,
+    /// Likely a mistake, or an effect that outlives the program.
+    Warning,
+    /// The control stops here, or does not take the list.
+    Error,
+}
+
+impl Severity {
+    /// The word of the records: `error`, `warning`, `info`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Info => "info",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        }
+    }
+}
+
+/// A place in a file, together with the lines that show it.
+///
+/// It carries its lines itself, so that a program of any length can be streamed and forgotten.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Place {
+    /// The file as the user named it.
+    pub file: Arc<str>,
+    /// The source lines to show, joined by `\n`.
+    pub text: Arc<str>,
+    /// The 1-based number of the first line of `text`.
+    pub first_line: u32,
+    /// The bytes of `text` that are meant.
+    pub span: Span,
+}
+
+impl Place {
+    /// The first character that is meant.
+    pub fn start(&self) -> Position {
+        self.position(self.span.start)
+    }
+
+    /// One past the last character that is meant.
+    pub fn end(&self) -> Position {
+        self.position(self.span.end)
+    }
+
+    fn position(&self, offset: u32) -> Position {
+        let before = self.text.get(..offset as usize).unwrap_or(&self.text);
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        Position {
+            line: self.first_line + count(before.matches('\n').count()),
+            column: count(before[line_start..].chars().count()) + 1,
+        }
+    }
+}
+
+/// A second place that explains the first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Label {
+    /// Where.
+    pub place: Place,
+    /// What is there, in a few words.
+    pub text: String,
+}
+
+/// One statement about a program or a list.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// The control's number, or one of ours.
+    pub code: Code,
+    /// Its weight, already changed by `[lint]` where the user did so.
+    pub severity: Severity,
+    /// One sentence in lower case.
+    pub message: String,
+    /// What is meant.
+    pub place: Place,
+    /// The axis that it is about.
+    pub axis: Option<String>,
+    /// What to do, one piece of advice each.
+    pub help: Vec<String>,
+    /// Further places.
+    pub labels: Vec<Label>,
+}
+
+impl Diagnostic {
+    /// A diagnostic with the code's own severity and nothing but a message.
+    pub fn new(code: Code, place: Place, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            severity: code.severity(),
+            message: message.into(),
+            place,
+            axis: None,
+            help: Vec::new(),
+            labels: Vec::new(),
+        }
+    }
+
+    /// The same with the axis that it is about.
+    pub fn with_axis(mut self, axis: impl Into<String>) -> Self {
+        self.axis = Some(axis.into());
+        self
+    }
+
+    /// The same with one more piece of advice.
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help.push(help.into());
+        self
+    }
+
+    /// The same with one more place.
+    pub fn with_label(mut self, place: Place, text: impl Into<String>) -> Self {
+        self.labels.push(Label {
+            place,
+            text: text.into(),
+        });
+        self
+    }
+}
+
+/// What the user's `[lint]` table says: other severities for codes of ours (R9.28).
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Levels {
+    levels: std::collections::BTreeMap<Code, Option<Severity>>,
+}
+
+impl Levels {
+    /// Gives a code another severity, or none, which silences it. The control's own errors keep
+    /// theirs (R9.24); the return value says whether the code may be changed.
+    pub fn set(&mut self, code: Code, level: Option<Severity>) -> bool {
+        let ours = !code.is_controller();
+        if ours {
+            self.levels.insert(code, level);
+        }
+        ours
+    }
+
+    /// The severity of a code, `None` when it is off.
+    pub fn severity(&self, code: Code) -> Option<Severity> {
+        self.levels
+            .get(&code)
+            .copied()
+            .unwrap_or(Some(code.severity()))
+    }
+}
+
+/// The nearest of several known words, close enough to be meant: at most a third of the letters
+/// differ, swapped neighbours count once.
+pub(crate) fn did_you_mean<'a>(
+    found: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let found = found.to_ascii_uppercase();
+    let allowed = (found.chars().count() / 3).max(1);
+    known
+        .into_iter()
+        .map(|word| {
+            let distance = strsim::damerau_levenshtein(&found, &word.to_ascii_uppercase());
+            (distance, word)
+        })
+        .filter(|&(distance, _)| distance <= allowed)
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, word)| word)
+}

@@ -1,0 +1,11 @@
+//! Dry runs of ISG and TwinCAT CNC programs with an eye on friction compensation.
+
+pub mod codes;
+pub mod compensation;
+pub mod diagnostic;
+pub mod lists;
+pub mod machine;
+pub mod session;
+pub mod source;
+pub mod syntax;
+pub mod timeline;

@@ -1,0 +1,294 @@
+//! The machine: its axes and their parameters, wherever they came from.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::lists::FrictionList;
+use crate::syntax::{Kind, KindSet};
+
+/// The position of an axis in the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct AxisIndex(u16);
+
+impl AxisIndex {
+    /// The index from a position in [`Machine::axes`].
+    pub fn new(position: usize) -> Self {
+        Self(u16::try_from(position).expect("a control has fewer than 65536 axes"))
+    }
+
+    /// The position in [`Machine::axes`].
+    pub fn get(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// The type of an axis, P-AXIS-00018 (`kenngr.achs_typ`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+pub enum AxisType {
+    /// Translatory, list value 1.
+    #[default]
+    #[serde(rename = "T")]
+    Linear,
+    /// Rotary, list value 2.
+    #[serde(rename = "R")]
+    Rotary,
+    /// Spindle, list value 4.
+    #[serde(rename = "S")]
+    Spindle,
+}
+
+/// Where the value of a parameter came from.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Origin {
+    /// No list sets it; the documented default holds.
+    Default,
+    /// A line of a list or of `frictcomp.toml`.
+    File {
+        /// The file as the user would name it.
+        file: String,
+        /// The line, from 1.
+        line: u32,
+    },
+    /// The user said so on the command line with `--enable`.
+    Assumed,
+}
+
+/// Whether an axis has a friction value list that the control would take.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub enum Parameterisation {
+    /// No value list belongs to the axis.
+    #[default]
+    Missing,
+    /// The list says mode 0, off.
+    Off,
+    /// The list was read and rejected with this code.
+    Rejected {
+        /// The list.
+        file: String,
+        /// The code of the first check that it failed.
+        code: String,
+    },
+    /// The user said `--enable`: a list is assumed, its values are not known.
+    Assumed,
+    /// The list was accepted.
+    Accepted(FrictionList),
+}
+
+/// One axis of the machine.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// The name in NC programs, case-sensitive.
+    pub name: String,
+    /// The logical axis number, P-AXIS-00016 (`kopf.achs_nr`).
+    pub number: Option<u32>,
+    /// The type.
+    pub axis_type: AxisType,
+    /// The kinds whose selector in the axis list is set; FRICT is P-AXIS-00522.
+    pub configured: KindSet,
+    /// Where P-AXIS-00522 came from.
+    pub frict_comp_origin: Origin,
+    /// The kinds that only the program activates and that fall off at program end (R1.40).
+    pub manual: KindSet,
+    /// The kinds that must be active while the axis moves, P-AXIS-00465 (R1.36).
+    pub required: KindSet,
+    /// The friction value list.
+    pub friction: Parameterisation,
+    /// The table size that was reserved at start-up, P-COMP-00062.
+    pub max_points: u32,
+    /// The maximum velocity in mm/min or °/min, where known.
+    pub max_velocity: Option<f64>,
+}
+
+impl Axis {
+    /// An axis with the documented defaults: P-AXIS-00522 is 0, no value list.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            number: None,
+            axis_type: AxisType::Linear,
+            configured: KindSet::NONE,
+            frict_comp_origin: Origin::Default,
+            manual: KindSet::NONE,
+            required: KindSet::NONE,
+            friction: Parameterisation::Missing,
+            max_points: crate::lists::DEFAULT_MAX_POINTS,
+            max_velocity: None,
+        }
+    }
+
+    /// The kinds that have what they need to work. Only the friction value list is read; the
+    /// other kinds count as parameterised.
+    pub fn parameterised(&self) -> KindSet {
+        let mut kinds = KindSet::ALL;
+        if !matches!(
+            self.friction,
+            Parameterisation::Accepted(_) | Parameterisation::Assumed
+        ) {
+            kinds.remove(Kind::Frict);
+        }
+        kinds
+    }
+
+    /// Whether it is a spindle.
+    pub fn is_spindle(&self) -> bool {
+        self.axis_type == AxisType::Spindle
+    }
+
+    /// Assumes P-AXIS-00522 = 1 and an accepted value list, as `--enable` does. A list that was
+    /// accepted stays.
+    pub fn enable(&mut self) {
+        if !self.configured.contains(Kind::Frict) {
+            self.configured.insert(Kind::Frict);
+            self.frict_comp_origin = Origin::Assumed;
+        }
+        if !matches!(self.friction, Parameterisation::Accepted(_)) {
+            self.friction = Parameterisation::Assumed;
+        }
+    }
+}
+
+/// The version of the control's kernel, `V3.1.3132.0`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CncBuild([u32; 4]);
+
+impl CncBuild {
+    /// A build from its four numbers.
+    pub const fn new(numbers: [u32; 4]) -> Self {
+        Self(numbers)
+    }
+}
+
+/// A text that is no CNC build.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{0}` is no CNC build; write it like `3.1.3132.0`")]
+pub struct NoBuild(String);
+
+impl FromStr for CncBuild {
+    type Err = NoBuild;
+
+    fn from_str(text: &str) -> Result<Self, NoBuild> {
+        let no_build = || NoBuild(text.to_owned());
+        let mut numbers = [0; 4];
+        let mut parts = text.trim_start_matches(['V', 'v']).split('.');
+        for (place, number) in numbers.iter_mut().enumerate() {
+            match parts.next() {
+                Some(part) => *number = part.parse().map_err(|_| no_build())?,
+                None if place >= 2 => {}
+                None => return Err(no_build()),
+            }
+        }
+        match parts.next() {
+            None => Ok(Self(numbers)),
+            Some(_) => Err(no_build()),
+        }
+    }
+}
+
+impl fmt::Display for CncBuild {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [a, b, c, d] = self.0;
+        write!(f, "V{a}.{b}.{c}.{d:02}")
+    }
+}
+
+/// Where the axes of a machine come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum AxisSet {
+    /// The configuration lists them; any other name is P-ERR-21947.
+    #[default]
+    Configured,
+    /// Nothing is configured: X Y Z A B C U V W are taken as they occur (R2.20).
+    AsTheyOccur,
+}
+
+/// A machine as far as NC programs see it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Machine {
+    /// The axes, in the machine's order.
+    pub axes: Vec<Axis>,
+    /// Whether the configuration lists the axes.
+    pub axis_set: AxisSet,
+    /// The CNC cycle in milliseconds.
+    pub cycle_time_ms: Option<f64>,
+    /// The kernel version, where the user gave it.
+    pub build: Option<CncBuild>,
+    /// Programs that run by themselves or stand behind a word.
+    pub programs: ConfiguredPrograms,
+}
+
+/// Programs that the configuration names (R2.14, R2.15).
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ConfiguredPrograms {
+    /// Runs before the first block of every main program, P-CHAN-00119.
+    pub start: Option<String>,
+    /// Runs before M02 or M30 of every main program, P-CHAN-00252.
+    pub end: Option<String>,
+    /// What a word calls: `G80`, `M6`, `T`.
+    pub words: Vec<(String, String)>,
+}
+
+/// The value that the user gives to a variable that only the machine knows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Setting {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(String),
+}
+
+impl Machine {
+    /// The machine without any configuration: X Y Z A B C U V W with the documented defaults,
+    /// taken as they occur (R2.20).
+    pub fn unconfigured() -> Self {
+        Self {
+            axes: ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"]
+                .into_iter()
+                .map(Axis::new)
+                .collect(),
+            axis_set: AxisSet::AsTheyOccur,
+            ..Self::default()
+        }
+    }
+
+    /// The unconfigured machine with friction compensation assumed on some axes.
+    pub fn enabled<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut machine = Self::unconfigured();
+        for name in names {
+            machine.enable(name);
+        }
+        machine
+    }
+
+    /// Assumes friction compensation on an axis, see [`Axis::enable`]. Returns whether the
+    /// machine has the axis; an unconfigured machine gets it.
+    pub fn enable(&mut self, name: &str) -> bool {
+        if let Some(axis) = self.axes.iter_mut().find(|axis| axis.name == name) {
+            axis.enable();
+            return true;
+        }
+        let admitted = self.axis_set == AxisSet::AsTheyOccur;
+        if admitted {
+            let mut axis = Axis::new(name);
+            axis.enable();
+            self.axes.push(axis);
+        }
+        admitted
+    }
+
+    /// The position of an axis by its name.
+    pub fn find(&self, name: &str) -> Option<AxisIndex> {
+        self.axes
+            .iter()
+            .position(|axis| axis.name == name)
+            .map(AxisIndex::new)
+    }
+
+    /// An axis by its position.
+    pub fn axis(&self, index: AxisIndex) -> &Axis {
+        &self.axes[index.get()]
+    }
+}

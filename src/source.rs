@@ -1,0 +1,299 @@
+//! Text and places in it: spans, lines and columns, physical lines one after another.
+//!
+//! Nothing here knows what an NC block or a list entry is. Offsets are bytes in UTF-8 text; lines
+//! and columns are made only when something is printed.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// A range of bytes in a text, `start..end`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+pub struct Span {
+    /// Offset of the first byte.
+    pub start: u32,
+    /// Offset behind the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// A span from byte offsets. Offsets beyond 4 GiB are clamped, no text of that size is kept.
+    pub fn new(start: usize, end: usize) -> Self {
+        let clamp = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
+        Self {
+            start: clamp(start),
+            end: clamp(end.max(start)),
+        }
+    }
+
+    /// The part of `text` that the span covers, empty when it lies outside.
+    pub fn of(self, text: &str) -> &str {
+        text.get(self.range()).unwrap_or_default()
+    }
+
+    /// The span as a range of indices.
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
+    /// The smallest span that covers both.
+    pub fn to(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+
+    /// The span moved towards the end of the text by `offset` bytes.
+    pub fn shifted(self, offset: u32) -> Self {
+        Self {
+            start: self.start.saturating_add(offset),
+            end: self.end.saturating_add(offset),
+        }
+    }
+}
+
+/// A line and a column for people: both count from 1, columns count characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Position {
+    /// Line, from 1.
+    pub line: u32,
+    /// Column in characters, from 1.
+    pub column: u32,
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.line, self.column)
+    }
+}
+
+/// Where the lines of a text begin.
+#[derive(Debug, Clone)]
+pub struct LineIndex {
+    starts: Vec<u32>,
+}
+
+impl LineIndex {
+    /// Indexes a text whose lines end in LF, CRLF or CR.
+    pub fn new(text: &str) -> Self {
+        let bytes = text.as_bytes();
+        let mut starts = vec![0];
+        for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
+            let crlf = bytes[at] == b'\r' && bytes.get(at + 1) == Some(&b'\n');
+            if !crlf {
+                starts.push(Span::new(at + 1, at + 1).start);
+            }
+        }
+        Self { starts }
+    }
+
+    /// The 1-based line that holds a byte offset.
+    pub fn line(&self, offset: u32) -> u32 {
+        let before = self.starts.partition_point(|&start| start <= offset);
+        u32::try_from(before.max(1)).unwrap_or(u32::MAX)
+    }
+
+    /// The span of a 1-based line in `text`, without its line end.
+    pub fn line_span(&self, text: &str, line: u32) -> Span {
+        let index = (line.max(1) - 1) as usize;
+        let Some(&start) = self.starts.get(index) else {
+            return Span::new(text.len(), text.len());
+        };
+        let end = self
+            .starts
+            .get(index + 1)
+            .map_or(text.len(), |&next| next as usize);
+        let line = text.get(start as usize..end).unwrap_or_default();
+        let trimmed = line.trim_end_matches(['\r', '\n']);
+        Span::new(start as usize, start as usize + trimmed.len())
+    }
+
+    /// How many lines the text has; a text without any line end has one.
+    pub fn lines(&self) -> usize {
+        self.starts.len()
+    }
+}
+
+/// A named text in memory with its line index.
+#[derive(Debug, Clone)]
+pub struct SourceFile {
+    name: std::sync::Arc<str>,
+    text: String,
+    lines: LineIndex,
+}
+
+impl SourceFile {
+    /// A source under the name that diagnostics and records show.
+    pub fn new(name: impl Into<std::sync::Arc<str>>, text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self {
+            name: name.into(),
+            lines: LineIndex::new(&text),
+            text,
+        }
+    }
+
+    /// The name that diagnostics and records show.
+    pub fn name(&self) -> &std::sync::Arc<str> {
+        &self.name
+    }
+
+    /// The whole text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The line index of the text.
+    pub fn lines(&self) -> &LineIndex {
+        &self.lines
+    }
+
+    /// The place of a span in this file, showing the lines that it touches.
+    pub fn place(&self, span: Span) -> crate::diagnostic::Place {
+        let first_line = self.lines.line(span.start);
+        let last_line = self.lines.line(span.end.max(span.start + 1) - 1);
+        let lines = self
+            .lines
+            .line_span(&self.text, first_line)
+            .to(self.lines.line_span(&self.text, last_line));
+        crate::diagnostic::Place {
+            file: self.name.clone(),
+            text: lines.of(&self.text).into(),
+            first_line,
+            span: Span {
+                start: span.start.saturating_sub(lines.start),
+                end: span.end.saturating_sub(lines.start),
+            },
+        }
+    }
+}
+
+/// A line of text without its line end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PhysicalLine<'a> {
+    /// The characters of the line.
+    pub text: &'a str,
+    /// Whether characters were left out because the line is longer than any block may be.
+    pub cut: bool,
+}
+
+/// Gives physical lines one after another; the end of the text is `None`.
+pub trait LineSource {
+    /// The next line.
+    fn next_line(&mut self) -> Option<PhysicalLine<'_>>;
+}
+
+/// The lines of a text in memory, ended by LF, CRLF or CR; a last line without an end counts.
+#[derive(Debug, Clone)]
+pub struct TextLines<'a> {
+    rest: &'a str,
+}
+
+impl<'a> TextLines<'a> {
+    /// The lines of `text`. A byte order mark at its start is passed over.
+    pub fn new(text: &'a str) -> Self {
+        Self {
+            rest: text.strip_prefix('\u{feff}').unwrap_or(text),
+        }
+    }
+
+    /// The next line with the lifetime of the text.
+    pub fn advance(&mut self) -> Option<&'a str> {
+        if self.rest.is_empty() {
+            return None;
+        }
+        let bytes = self.rest.as_bytes();
+        let Some(end) = memchr::memchr2(b'\n', b'\r', bytes) else {
+            return Some(std::mem::take(&mut self.rest));
+        };
+        let next = if bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n') {
+            end + 2
+        } else {
+            end + 1
+        };
+        let line = &self.rest[..end];
+        self.rest = &self.rest[next..];
+        Some(line)
+    }
+
+    /// What has not been given yet.
+    pub fn rest(&self) -> &'a str {
+        self.rest
+    }
+}
+
+impl LineSource for TextLines<'_> {
+    fn next_line(&mut self) -> Option<PhysicalLine<'_>> {
+        self.advance().map(|text| PhysicalLine { text, cut: false })
+    }
+}
+
+/// Looks through the bytes of a program, piece by piece, for anything that needs the whole text at
+/// once: a `$` statement or a local subprogram (`%L name`).
+#[derive(Debug, Clone, Default)]
+pub struct FlowScan {
+    found: bool,
+}
+
+impl FlowScan {
+    /// Looks through the next piece.
+    pub fn feed(&mut self, piece: &[u8]) {
+        let mut from = 0;
+        while !self.found {
+            let Some(at) = memchr::memchr2(b'$', b'%', &piece[from..]).map(|at| from + at) else {
+                break;
+            };
+            self.found = piece[at] == b'$' || Self::opens_subprogram(&piece[at + 1..]);
+            from = at + 1;
+        }
+    }
+
+    /// Whether the whole text is needed.
+    pub fn needs_whole_text(&self) -> bool {
+        self.found
+    }
+
+    /// `%L` with a separator behind it; a piece that ends before that is taken as one.
+    fn opens_subprogram(behind: &[u8]) -> bool {
+        let mut rest = behind
+            .iter()
+            .skip_while(|byte| matches!(byte, b' ' | b'\t'));
+        match (rest.next(), rest.next()) {
+            (None, _) | (Some(b'L' | b'l'), None) => true,
+            (Some(b'L' | b'l'), Some(next)) => matches!(next, b' ' | b'\t'),
+            _ => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_in_any_manner() {
+        // R2.1
+        let mut lines = TextLines::new("\u{feff}a\r\nb\rc\n\nd");
+        let mut found = Vec::new();
+        while let Some(line) = lines.advance() {
+            found.push(line);
+        }
+        assert_eq!(found, ["a", "b", "c", "", "d"]);
+    }
+
+    #[test]
+    fn a_place_shows_its_lines_and_counts_characters() {
+        let file = SourceFile::new("a.nc", "N1\r\n(\u{dc}) X[COMP]\r\nN3");
+        let place = file.place(Span::new(9, 16));
+        assert_eq!(&*place.text, "(\u{dc}) X[COMP]");
+        assert_eq!(place.start(), Position { line: 2, column: 5 });
+        assert_eq!(
+            place.end(),
+            Position {
+                line: 2,
+                column: 12
+            }
+        );
+    }
+}

@@ -1,0 +1,359 @@
+//! The words of a COMP bracket: which kinds, switched how (R1.1 to R1.6).
+
+use serde::{Deserialize, Serialize};
+
+use super::Fault;
+use crate::codes::Code;
+use crate::diagnostic::did_you_mean;
+use crate::source::Span;
+
+/// A kind of axis compensation that COMP switches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub enum Kind {
+    /// Backlash compensation.
+    Backlash,
+    /// Cross compensation.
+    Cross,
+    /// Plane compensation.
+    Plane,
+    /// Leadscrew error compensation.
+    Lead,
+    /// Temperature compensation.
+    Temp,
+    /// Friction compensation.
+    Frict,
+    /// Crosstalk compensation.
+    Crosstalk,
+}
+
+impl Kind {
+    /// Every kind, in the order of the control's documents.
+    pub const ALL: [Self; 7] = [
+        Self::Backlash,
+        Self::Cross,
+        Self::Plane,
+        Self::Lead,
+        Self::Temp,
+        Self::Frict,
+        Self::Crosstalk,
+    ];
+
+    /// The keyword in an NC program.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Backlash => "BACKLASH",
+            Self::Cross => "CROSS",
+            Self::Plane => "PLANE",
+            Self::Lead => "LEAD",
+            Self::Temp => "TEMP",
+            Self::Frict => "FRICT",
+            Self::Crosstalk => "CROSSTALK",
+        }
+    }
+
+    /// The kind that a keyword names, in any case.
+    pub fn from_keyword(word: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.keyword().eq_ignore_ascii_case(word))
+    }
+}
+
+/// A set of kinds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+pub struct KindSet(u8);
+
+impl KindSet {
+    /// No kind.
+    pub const NONE: Self = Self(0);
+    /// Every kind.
+    pub const ALL: Self = Self(0x7f);
+
+    /// The set of one kind.
+    pub const fn of(kind: Kind) -> Self {
+        Self(1 << kind as u8)
+    }
+
+    /// Whether the kind is in the set.
+    pub fn contains(self, kind: Kind) -> bool {
+        self.0 & Self::of(kind).0 != 0
+    }
+
+    /// Puts a kind into the set.
+    pub fn insert(&mut self, kind: Kind) {
+        self.0 |= Self::of(kind).0;
+    }
+
+    /// Takes a kind out of the set.
+    pub fn remove(&mut self, kind: Kind) {
+        self.0 &= !Self::of(kind).0;
+    }
+
+    /// Puts a kind into the set or takes it out.
+    pub fn assign(&mut self, kind: Kind, present: Membership) {
+        match present {
+            Membership::In => self.insert(kind),
+            Membership::Out => self.remove(kind),
+        }
+    }
+
+    /// The kinds in either set.
+    pub fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// The kinds in both sets.
+    pub fn intersection(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// The kinds of this set that are not in the other.
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// Whether no kind is in the set.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The kinds of the set, in the order of [`Kind::ALL`].
+    pub fn iter(self) -> impl Iterator<Item = Kind> {
+        Kind::ALL
+            .into_iter()
+            .filter(move |&kind| self.contains(kind))
+    }
+}
+
+impl FromIterator<Kind> for KindSet {
+    fn from_iter<I: IntoIterator<Item = Kind>>(kinds: I) -> Self {
+        let mut set = Self::NONE;
+        for kind in kinds {
+            set.insert(kind);
+        }
+        set
+    }
+}
+
+/// Whether a kind belongs to a set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Membership {
+    /// It does.
+    In,
+    /// It does not.
+    Out,
+}
+
+/// What a COMP bracket selects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Selection {
+    /// `ON` and the kinds behind it.
+    On(KindSet),
+    /// `OFF` and the kinds behind it.
+    Off(KindSet),
+    /// `OFF_ALL`.
+    OffAll,
+}
+
+impl Selection {
+    /// The kinds that the command names; `OFF_ALL` names every kind (R1.3).
+    pub fn kinds(self) -> KindSet {
+        match self {
+            Self::On(kinds) | Self::Off(kinds) => kinds,
+            Self::OffAll => KindSet::ALL,
+        }
+    }
+}
+
+/// One understood COMP command, `X[COMP ON FRICT]`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct CompCommand {
+    /// The axis in front of the bracket.
+    pub axis: String,
+    /// What is switched.
+    pub selection: Selection,
+    /// Whether `NO_MOVE` stands in the bracket; friction compensation does not care (R1.6).
+    pub no_move: bool,
+    /// From the axis name to the closing bracket.
+    pub span: Span,
+}
+
+/// The words that may stand in a COMP bracket behind `COMP`.
+const KEYWORDS: [&str; 11] = [
+    "ON",
+    "OFF",
+    "OFF_ALL",
+    "NO_MOVE",
+    "BACKLASH",
+    "CROSS",
+    "PLANE",
+    "LEAD",
+    "TEMP",
+    "FRICT",
+    "CROSSTALK",
+];
+
+/// The words of a bracket whose first keyword is COMP, as spans into the block's text.
+pub(super) struct CompWords<'a> {
+    pub(super) text: &'a str,
+    pub(super) axis: Span,
+    /// From the axis name to the closing bracket.
+    pub(super) whole: Span,
+    /// `COMP` and everything behind it.
+    pub(super) words: &'a [Span],
+}
+
+impl CompWords<'_> {
+    /// Reads the command. What is wrong goes into `faults`; a command that the control would
+    /// refuse is `None`.
+    pub(super) fn lower(&self, faults: &mut Vec<Fault>) -> Option<CompCommand> {
+        let before = faults.len();
+        self.lint_case(faults);
+        let mut selection: Option<(Span, &str)> = None;
+        let mut kinds = KindSet::NONE;
+        let mut no_move = false;
+        let mut repeated = false;
+        for &span in &self.words[1..] {
+            let word = span.of(self.text);
+            let upper = word.to_ascii_uppercase();
+            match upper.as_str() {
+                "ON" | "OFF" | "OFF_ALL" => {
+                    if let Some((_, first)) = selection {
+                        faults.push(second_selection(span, word, first));
+                        return None;
+                    }
+                    if !kinds.is_empty() {
+                        faults.push(self.incomplete("a kind stands in front of `ON` or `OFF`"));
+                        return None;
+                    }
+                    selection = Some((span, word));
+                }
+                "NO_MOVE" => no_move = true,
+                _ => match (Kind::from_keyword(word), selection) {
+                    (Some(kind), Some((_, by))) if by.eq_ignore_ascii_case("OFF_ALL") => {
+                        faults.push(kind_behind_off_all(span, kind));
+                        return None;
+                    }
+                    (Some(kind), _) => {
+                        if kinds.contains(kind) && !repeated {
+                            repeated = true;
+                            faults.push(named_twice(span, kind));
+                        }
+                        kinds.insert(kind);
+                    }
+                    (None, _) => {
+                        faults.push(unknown_word(span, word));
+                        return None;
+                    }
+                },
+            }
+        }
+        let selection = match selection {
+            None if kinds.is_empty() => {
+                faults.push(self.incomplete("nothing stands behind `COMP`"));
+                return None;
+            }
+            None => {
+                faults.push(self.incomplete("neither `ON` nor `OFF` stands behind `COMP`"));
+                return None;
+            }
+            Some((_, by)) if by.eq_ignore_ascii_case("OFF_ALL") => Selection::OffAll,
+            Some((_, by)) if kinds.is_empty() => {
+                let found = format!("no kind stands behind `{by}`");
+                faults.push(self.incomplete(&found));
+                return None;
+            }
+            Some((_, by)) if by.eq_ignore_ascii_case("ON") => Selection::On(kinds),
+            Some(_) => Selection::Off(kinds),
+        };
+        debug_assert!(faults.len() >= before);
+        Some(CompCommand {
+            axis: self.axis.of(self.text).to_owned(),
+            selection,
+            no_move,
+            span: self.whole,
+        })
+    }
+
+    /// One remark a bracket, at its first word that is not in upper case (R1.8).
+    fn lint_case(&self, faults: &mut Vec<Fault>) {
+        let known = |word: &str| {
+            word.eq_ignore_ascii_case("COMP")
+                || KEYWORDS.iter().any(|k| k.eq_ignore_ascii_case(word))
+        };
+        let lower = self.words.iter().copied().find(|span| {
+            let word = span.of(self.text);
+            known(word) && word.bytes().any(|byte| byte.is_ascii_lowercase())
+        });
+        if let Some(span) = lower {
+            let word = span.of(self.text);
+            faults.push(
+                Fault::new(
+                    Code::Fc404,
+                    span,
+                    format!("keyword `{word}` is not in upper case"),
+                )
+                .with_help(format!("write `{}`", word.to_ascii_uppercase())),
+            );
+        }
+    }
+
+    fn incomplete(&self, found: &str) -> Fault {
+        let axis = self.axis.of(self.text);
+        Fault::new(
+            Code::Fc201,
+            self.whole,
+            format!("incomplete COMP command: {found}"),
+        )
+        .with_help(format!(
+            "write `{axis}[COMP ON FRICT]`, `{axis}[COMP OFF FRICT]` or `{axis}[COMP OFF_ALL]`"
+        ))
+    }
+}
+
+fn second_selection(span: Span, word: &str, first: &str) -> Fault {
+    Fault::new(
+        Code::Fc204,
+        span,
+        format!("`{word}` behind `{first}`: a bracket has one selection"),
+    )
+    .with_help("give each selection a bracket of its own, `X[COMP ON FRICT] X[COMP OFF LEAD]`")
+}
+
+fn kind_behind_off_all(span: Span, kind: Kind) -> Fault {
+    let keyword = kind.keyword();
+    Fault::new(
+        Code::Fc203,
+        span,
+        format!("kind `{keyword}` behind `OFF_ALL`, which takes none"),
+    )
+    .with_help(format!(
+        "write `OFF {keyword}` for this kind alone, `OFF_ALL` alone for every kind"
+    ))
+}
+
+fn named_twice(span: Span, kind: Kind) -> Fault {
+    let keyword = kind.keyword();
+    Fault::new(
+        Code::Fc406,
+        span,
+        format!("kind `{keyword}` is named twice in this bracket, it counts once"),
+    )
+}
+
+fn unknown_word(span: Span, word: &str) -> Fault {
+    let kinds = Kind::ALL.map(Kind::keyword).join(", ");
+    let fault = Fault::new(
+        Code::Fc202,
+        span,
+        format!("unknown compensation kind `{word}`"),
+    );
+    match did_you_mean(word, KEYWORDS) {
+        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+        None if word.contains(',') => {
+            fault.with_help("kinds are separated by blanks, a comma is no separator")
+        }
+        None => fault.with_help(format!("the kinds are {kinds}")),
+    }
+}

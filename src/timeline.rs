@@ -1,0 +1,221 @@
+//! Rows and records: what a dry run says, in the order in which it is said.
+//!
+//! The records of a session come in a fixed order (chapter 9.2 of the rules): the session, then
+//! for each program its beginning, its blocks, its end, and at last the summary. A [`Sink`] takes
+//! them one after another; nothing is kept, so a program of any length streams through.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use crate::compensation::{Change, Compensation, State};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::machine::{AxisIndex, Machine};
+use crate::syntax::Kind;
+
+/// The number of the record format.
+pub const SCHEMA: u32 = 1;
+
+/// The compensation of all axes at one moment.
+#[derive(Debug, Clone, Copy)]
+pub struct StateView<'a> {
+    /// The machine, for the names of the axes.
+    pub machine: &'a Machine,
+    /// The state.
+    pub compensation: &'a Compensation,
+    /// The axes that are listed, by position: all of a configured machine; of an unconfigured one
+    /// those that occurred so far.
+    pub listed: &'a [bool],
+    /// Rises whenever a state or the list of axes changes, so that a writer may keep what it made.
+    pub version: u64,
+}
+
+impl<'a> StateView<'a> {
+    /// The listed axes in the machine's order, with their names.
+    pub fn axes(self) -> impl Iterator<Item = (AxisIndex, &'a str)> {
+        self.machine
+            .axes
+            .iter()
+            .zip(self.listed)
+            .enumerate()
+            .filter(|(_, (_, listed))| **listed)
+            .map(|(index, (axis, _))| (AxisIndex::new(index), axis.name.as_str()))
+    }
+
+    /// The state of one kind on one axis.
+    pub fn state(self, axis: AxisIndex, kind: Kind) -> State {
+        self.compensation.state(axis, kind)
+    }
+
+    /// The name of an axis.
+    pub fn name(self, axis: AxisIndex) -> &'a str {
+        &self.machine.axis(axis).name
+    }
+}
+
+/// One executed block.
+#[derive(Debug, Clone, Copy)]
+pub struct Row<'a> {
+    /// The program of the session, from 1.
+    pub program: u32,
+    /// The executed block of the program, from 1, loops included.
+    pub seq: u64,
+    /// The file that holds the block.
+    pub file: &'a str,
+    /// The line on which the block starts, from 1.
+    pub line: u32,
+    /// The block number, where it is known.
+    pub number: Option<i64>,
+    /// The call depth, from 1; absent in the main program.
+    pub level: Option<u32>,
+    /// The source lines joined by `\n`, without trailing blanks.
+    pub text: &'a str,
+    /// What the block changed, of every kind, in the order of the commands.
+    pub changes: &'a [Change],
+    /// The state after the block.
+    pub state: StateView<'a>,
+    /// What there is to say about the block; written right behind it.
+    pub diagnostics: &'a [Diagnostic],
+}
+
+/// Why a program ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum EndedBy {
+    /// M30.
+    M30,
+    /// M02.
+    M02,
+    /// The file ended without either.
+    EndOfFile,
+    /// An error of the control.
+    Error,
+    /// A budget was used up.
+    Budget,
+}
+
+impl EndedBy {
+    /// The word of the records.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::M30 => "M30",
+            Self::M02 => "M02",
+            Self::EndOfFile => "end-of-file",
+            Self::Error => "error",
+            Self::Budget => "budget",
+        }
+    }
+}
+
+/// A diagnostic at the end of a program, with the executed block that it is about.
+#[derive(Debug, Clone)]
+pub struct EndNote {
+    /// The executed block that it is about.
+    pub seq: u64,
+    /// What there is to say.
+    pub diagnostic: Diagnostic,
+}
+
+/// The end of a program.
+#[derive(Debug, Clone, Copy)]
+pub struct End<'a> {
+    /// The program of the session, from 1.
+    pub program: u32,
+    /// How many blocks were executed.
+    pub seq: u64,
+    /// Why it ended.
+    pub by: EndedBy,
+    /// What can only be said now (FC401, FC403, …); written before the end record.
+    pub notes: &'a [EndNote],
+    /// What program end itself changed (kinds with manual activation).
+    pub changes: &'a [Change],
+    /// The state that the next program starts with.
+    pub state: StateView<'a>,
+}
+
+/// What the text summary says about one axis.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AxisSummary {
+    /// The axis.
+    pub axis: AxisIndex,
+    /// Friction compensation when the session began.
+    pub start: State,
+    /// Friction compensation now.
+    pub end: State,
+    /// The blocks that changed it: file, line and block number of at most the first hundred.
+    pub changed_by: Vec<ChangedBy>,
+    /// How many executed blocks changed it.
+    pub changes: u64,
+}
+
+/// A block that changed an axis.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChangedBy {
+    /// The program of the session, from 1.
+    pub program: u32,
+    /// The file that holds the block.
+    pub file: String,
+    /// The line of the block.
+    pub line: u32,
+    /// The block number.
+    pub number: Option<i64>,
+    /// The state after it.
+    pub to: State,
+}
+
+/// The end of a session.
+#[derive(Debug, Clone)]
+pub struct Summary<'a> {
+    /// How many programs were started.
+    pub programs: u32,
+    /// How many blocks were executed.
+    pub blocks: u64,
+    /// How many diagnostics were said, by severity.
+    pub counts: BTreeMap<Severity, u64>,
+    /// What was accepted and passed over: word → how often.
+    pub opaque: &'a BTreeMap<String, u64>,
+    /// What happened to each listed axis.
+    pub axes: Vec<AxisSummary>,
+    /// The state that is left.
+    pub state: StateView<'a>,
+}
+
+impl Summary<'_> {
+    /// How many diagnostics of a severity were said.
+    pub fn count(&self, severity: Severity) -> u64 {
+        self.counts.get(&severity).copied().unwrap_or_default()
+    }
+}
+
+/// One record of a session.
+#[derive(Debug, Clone, Copy)]
+pub enum Record<'a> {
+    /// The control started, or the state file was loaded.
+    Session {
+        /// The state that the first program starts with.
+        state: StateView<'a>,
+    },
+    /// A statement about the machine's lists; the programs have not begun.
+    Machine(&'a Diagnostic),
+    /// A program begins.
+    Program {
+        /// The program of the session, from 1.
+        program: u32,
+        /// The file as the user named it.
+        file: &'a str,
+        /// The name behind `%`.
+        name: Option<&'a str>,
+        /// The state that it starts with.
+        state: StateView<'a>,
+    },
+    /// A block was executed.
+    Block(Row<'a>),
+    /// A program ended.
+    End(End<'a>),
+    /// The session ended.
+    Summary(&'a Summary<'a>),
+}
+
+/// Takes the records of a session.
+pub trait Sink {
+    /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()>;
+}

@@ -33,7 +33,7 @@ impl Severity {
 /// A place in a file, together with the lines that show it.
 ///
 /// It carries its lines itself, so that a program of any length can be streamed and forgotten.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Place {
     /// The file as the user named it.
     pub file: Arc<str>,

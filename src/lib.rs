@@ -3,6 +3,8 @@
 pub mod codes;
 pub mod compensation;
 pub mod diagnostic;
+pub mod interpreter;
+mod lint;
 pub mod lists;
 pub mod machine;
 pub mod session;

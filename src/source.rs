@@ -178,54 +178,83 @@ pub struct PhysicalLine<'a> {
     pub cut: bool,
 }
 
-/// Gives physical lines one after another; the end of the text is `None`.
+/// Gives physical lines one after another.
 pub trait LineSource {
-    /// The next line.
-    fn next_line(&mut self) -> Option<PhysicalLine<'_>>;
+    /// Goes to the next line; `false` at the end of the text.
+    fn advance(&mut self) -> bool;
+
+    /// The line that [`advance`](Self::advance) went to.
+    fn line(&self) -> PhysicalLine<'_>;
+
+    /// Where that line begins, in bytes from the start of the text.
+    fn offset(&self) -> usize;
+}
+
+impl<S: LineSource + ?Sized> LineSource for &mut S {
+    fn advance(&mut self) -> bool {
+        (**self).advance()
+    }
+
+    fn line(&self) -> PhysicalLine<'_> {
+        (**self).line()
+    }
+
+    fn offset(&self) -> usize {
+        (**self).offset()
+    }
 }
 
 /// The lines of a text in memory, ended by LF, CRLF or CR; a last line without an end counts.
 #[derive(Debug, Clone)]
 pub struct TextLines<'a> {
-    rest: &'a str,
+    text: &'a str,
+    line: std::ops::Range<usize>,
+    next: usize,
 }
 
 impl<'a> TextLines<'a> {
     /// The lines of `text`. A byte order mark at its start is passed over.
     pub fn new(text: &'a str) -> Self {
+        let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
+        Self::starting_at(text, start)
+    }
+
+    /// The lines of `text` from a byte offset on, which begins a line.
+    pub fn starting_at(text: &'a str, offset: usize) -> Self {
         Self {
-            rest: text.strip_prefix('\u{feff}').unwrap_or(text),
+            text,
+            line: 0..0,
+            next: offset,
         }
-    }
-
-    /// The next line with the lifetime of the text.
-    pub fn advance(&mut self) -> Option<&'a str> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let bytes = self.rest.as_bytes();
-        let Some(end) = memchr::memchr2(b'\n', b'\r', bytes) else {
-            return Some(std::mem::take(&mut self.rest));
-        };
-        let next = if bytes[end] == b'\r' && bytes.get(end + 1) == Some(&b'\n') {
-            end + 2
-        } else {
-            end + 1
-        };
-        let line = &self.rest[..end];
-        self.rest = &self.rest[next..];
-        Some(line)
-    }
-
-    /// What has not been given yet.
-    pub fn rest(&self) -> &'a str {
-        self.rest
     }
 }
 
 impl LineSource for TextLines<'_> {
-    fn next_line(&mut self) -> Option<PhysicalLine<'_>> {
-        self.advance().map(|text| PhysicalLine { text, cut: false })
+    fn advance(&mut self) -> bool {
+        let start = self.next;
+        let bytes = self.text.as_bytes();
+        let Some(rest) = bytes.get(start..).filter(|rest| !rest.is_empty()) else {
+            return false;
+        };
+        let end = memchr::memchr2(b'\n', b'\r', rest).map_or(bytes.len(), |at| start + at);
+        self.line = start..end;
+        self.next = match &bytes[end..] {
+            [b'\r', b'\n', ..] => end + 2,
+            [_, ..] => end + 1,
+            [] => end,
+        };
+        true
+    }
+
+    fn line(&self) -> PhysicalLine<'_> {
+        PhysicalLine {
+            text: &self.text[self.line.clone()],
+            cut: false,
+        }
+    }
+
+    fn offset(&self) -> usize {
+        self.line.start
     }
 }
 
@@ -276,8 +305,8 @@ mod tests {
         // R2.1
         let mut lines = TextLines::new("\u{feff}a\r\nb\rc\n\nd");
         let mut found = Vec::new();
-        while let Some(line) = lines.advance() {
-            found.push(line);
+        while lines.advance() {
+            found.push(lines.line().text.to_owned());
         }
         assert_eq!(found, ["a", "b", "c", "", "d"]);
     }

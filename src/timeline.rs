@@ -7,8 +7,10 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
+use crate::codes::Code;
 use crate::compensation::{Change, Compensation, State};
 use crate::diagnostic::{Diagnostic, Severity};
+pub use crate::interpreter::EndedBy;
 use crate::machine::{AxisIndex, Machine};
 use crate::syntax::Kind;
 
@@ -77,34 +79,6 @@ pub struct Row<'a> {
     pub diagnostics: &'a [Diagnostic],
 }
 
-/// Why a program ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum EndedBy {
-    /// M30.
-    M30,
-    /// M02.
-    M02,
-    /// The file ended without either.
-    EndOfFile,
-    /// An error of the control.
-    Error,
-    /// A budget was used up.
-    Budget,
-}
-
-impl EndedBy {
-    /// The word of the records.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::M30 => "M30",
-            Self::M02 => "M02",
-            Self::EndOfFile => "end-of-file",
-            Self::Error => "error",
-            Self::Budget => "budget",
-        }
-    }
-}
-
 /// A diagnostic at the end of a program, with the executed block that it is about.
 #[derive(Debug, Clone)]
 pub struct EndNote {
@@ -112,6 +86,19 @@ pub struct EndNote {
     pub seq: u64,
     /// What there is to say.
     pub diagnostic: Diagnostic,
+}
+
+/// How often a remark came true that was made once.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Repeat {
+    /// The remark.
+    pub code: Code,
+    /// The file.
+    pub file: String,
+    /// The line of the block.
+    pub line: u32,
+    /// How many executed blocks it came true in.
+    pub times: u64,
 }
 
 /// The end of a program.
@@ -125,6 +112,8 @@ pub struct End<'a> {
     pub by: EndedBy,
     /// What can only be said now (FC401, FC403, …); written before the end record.
     pub notes: &'a [EndNote],
+    /// Remarks that were made once for a place although they came true more often.
+    pub repeated: &'a [Repeat],
     /// What program end itself changed (kinds with manual activation).
     pub changes: &'a [Change],
     /// The state that the next program starts with.

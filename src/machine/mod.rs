@@ -132,6 +132,11 @@ impl Axis {
         kinds
     }
 
+    /// STUB
+    pub fn keep_reserved(&self, _earlier: u32) -> Option<crate::diagnostic::Diagnostic> {
+        None
+    }
+
     /// Whether it is a spindle.
     pub fn is_spindle(&self) -> bool {
         self.axis_type == AxisType::Spindle

@@ -60,9 +60,22 @@ impl Kind {
     }
 }
 
-/// A set of kinds.
+/// A set of kinds; serialised as the list of their keywords.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<Kind>", from = "Vec<Kind>")]
 pub struct KindSet(u8);
+
+impl From<KindSet> for Vec<Kind> {
+    fn from(set: KindSet) -> Self {
+        set.iter().collect()
+    }
+}
+
+impl From<Vec<Kind>> for KindSet {
+    fn from(kinds: Vec<Kind>) -> Self {
+        kinds.into_iter().collect()
+    }
+}
 
 impl KindSet {
     /// No kind.
@@ -208,7 +221,6 @@ impl CompWords<'_> {
     /// Reads the command. What is wrong goes into `faults`; a command that the control would
     /// refuse is `None`.
     pub(super) fn lower(&self, faults: &mut Vec<Fault>) -> Option<CompCommand> {
-        let before = faults.len();
         self.lint_case(faults);
         let mut selection: Option<(Span, &str)> = None;
         let mut kinds = KindSet::NONE;
@@ -267,7 +279,6 @@ impl CompWords<'_> {
             Some((_, by)) if by.eq_ignore_ascii_case("ON") => Selection::On(kinds),
             Some(_) => Selection::Off(kinds),
         };
-        debug_assert!(faults.len() >= before);
         Some(CompCommand {
             axis: self.axis.of(self.text).to_owned(),
             selection,

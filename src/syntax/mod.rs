@@ -1,11 +1,25 @@
 //! From text to blocks.
+//!
+//! This is the only place that knows pest. Parsing never fails: a block comes back with what was
+//! understood and with the faults of the rest. Nothing here knows a machine.
 
+pub(crate) mod allow;
+pub mod ast;
 mod comp;
+mod expression;
+mod fast;
+mod grammar;
+mod lines;
+mod lower;
 
 pub use comp::{CompCommand, Kind, KindSet, Membership, Selection};
+pub use lines::{BlockReader, FastPath, MAX_LINE, RawBlock, Stretch};
 
 use crate::codes::Code;
-use crate::source::Span;
+use crate::source::{Span, TextLines};
+
+/// How deep brackets may nest (R2.60).
+pub const MAX_BRACKETS: usize = 64;
 
 /// A statement about the text of one block: a diagnostic whose span counts from the block's start.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,6 +53,63 @@ impl Fault {
 }
 
 /// Parses one COMP command, `X[COMP ON FRICT]`, and nothing else.
-pub fn parse_comp(_text: &str) -> Result<CompCommand, Fault> {
-    unimplemented!()
+///
+/// ```
+/// use frictcomp::syntax::{Kind, KindSet, Selection, parse_comp};
+///
+/// let command = parse_comp("X[COMP ON FRICT]").unwrap();
+/// assert_eq!(command.axis, "X");
+/// assert_eq!(command.selection, Selection::On(KindSet::of(Kind::Frict)));
+/// assert_eq!(parse_comp("X[COMP ON FRIKT]").unwrap_err().code.text(), "FC202");
+/// ```
+///
+/// # Errors
+/// The first fault that keeps the control from taking the command.
+pub fn parse_comp(text: &str) -> Result<CompCommand, Fault> {
+    let block = parse_block(text);
+    let refused = |fault: &Fault| fault.code.severity() == crate::diagnostic::Severity::Error;
+    if let Some(fault) = block.faults.into_iter().find(refused) {
+        return Err(fault);
+    }
+    let mut items = block.items.into_iter();
+    match (items.next(), items.next()) {
+        (Some(ast::Item::Comp(command)), None) => Ok(command),
+        _ => Err(Fault::new(
+            Code::Fc207,
+            Span::new(0, text.len()),
+            "this is no single COMP command",
+        )
+        .with_help("write `X[COMP ON FRICT]`")),
+    }
+}
+
+/// Parses the first block of a text; an empty block where there is none.
+pub fn parse_block(text: &str) -> ast::Block {
+    let mut block = ast::Block::default();
+    let _ = BlockReader::new(TextLines::new(text), 1, FastPath::On).next(&mut block);
+    block
+}
+
+/// The words of a `#` command in upper case, and how many bytes they take.
+pub(crate) fn hash_name(code: &str) -> (String, usize) {
+    let mut name = String::from("#");
+    let mut end = 1;
+    let mut rest = &code[1..];
+    loop {
+        let trimmed = rest.trim_start_matches([' ', '\t']);
+        let length = trimmed
+            .find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+            .unwrap_or(trimmed.len());
+        let (word, behind) = trimmed.split_at(length);
+        let is_word = word.starts_with(|c: char| c.is_ascii_alphabetic());
+        if !is_word || behind.starts_with('.') || behind.trim_start().starts_with('=') {
+            return (name, end);
+        }
+        if name.len() > 1 {
+            name.push(' ');
+        }
+        name.push_str(&word.to_ascii_uppercase());
+        end = code.len() - behind.len();
+        rest = behind;
+    }
 }

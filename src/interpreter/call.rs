@@ -1,0 +1,312 @@
+//! Calls: which program is meant, where it is, and whether it may be called (R2.13 to R2.16).
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::program::Index;
+use super::unknown::Scan;
+use super::{
+    At, Finder, Frame, Interpreter, Repeated, Request, Step, StopPolicy, Unit, Value,
+    after_motion_only,
+};
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Place, did_you_mean};
+use crate::machine::AxisIndex;
+use crate::source::Span;
+use crate::syntax::ast::{Block, Call, CallName, CallScope, Operand};
+use crate::syntax::{Fault, KindSet};
+
+/// A call whose program has not been looked for yet.
+#[derive(Debug, Clone)]
+pub(super) struct Wanted {
+    pub(super) scope: CallScope,
+    pub(super) name: String,
+    pub(super) own: BTreeMap<u32, Value>,
+    pub(super) span: Span,
+    /// Set for a modal cycle: whether it waits for motion.
+    pub(super) repeat: Option<bool>,
+}
+
+/// A program that was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Found {
+    pub(super) unit: usize,
+    pub(super) section: usize,
+}
+
+impl Interpreter {
+    /// What a call statement asks for; `None` when its name is not known offline (R2.52).
+    pub(super) fn wanted(
+        &mut self,
+        call: &Call,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<Option<Wanted>, Box<Fault>> {
+        let name = match call.name {
+            CallName::Literal(span) => Value::Text(span.of(at.text).into()),
+            CallName::Quoted(span) => {
+                let name = span.of(at.text).trim_matches('"');
+                Value::Text(self.state.memory.macro_code(name).unwrap_or(name).into())
+            }
+            CallName::Variable(place) => self.value(Operand::Expression(place), block, at)?,
+        };
+        let mut own = BTreeMap::new();
+        for (index, operand) in &call.arguments {
+            own.insert(*index, self.value(*operand, block, at)?);
+        }
+        match name {
+            Value::Text(name) => Ok(Some(Wanted {
+                scope: call.scope,
+                name: name.trim().to_owned(),
+                own,
+                span: call.span,
+                repeat: after_motion_only(call),
+            })),
+            Value::Unknown(cause) => {
+                self.forget_all();
+                let fault = Fault::new(
+                    Code::Fc902,
+                    call.span,
+                    format!("which program is called hangs on `{cause}`, which only the machine knows; the call is passed over, every axis becomes unknown"),
+                )
+                .with_help(super::flow::how_to_set(&cause));
+                self.work.diagnostics.push(at.diagnostic(fault));
+                Ok(None)
+            }
+            Value::Number(_) => Err(Box::new(Fault::new(
+                Code::Fc312,
+                call.span,
+                "a number is no program name",
+            ))),
+        }
+    }
+
+    /// The program that the configuration names for a word, `G80`, `M6`, or for every T word.
+    pub(super) fn configured(&self, words: [&str; 2], span: Span) -> Option<Wanted> {
+        let words_of = &self.machine.programs.words;
+        let found = words.iter().find_map(|word| {
+            words_of
+                .iter()
+                .find(|(configured, _)| configured.eq_ignore_ascii_case(word))
+        });
+        found.map(|(_, program)| Wanted {
+            scope: CallScope::Global,
+            name: program.clone(),
+            own: BTreeMap::new(),
+            span,
+            repeat: None,
+        })
+    }
+
+    /// Looks for the wanted program and makes the step that calls it.
+    pub(super) fn resolve(
+        &mut self,
+        wanted: Wanted,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Step> {
+        let found = match self.find(&wanted, at.file, finder) {
+            Ok(found) => found?,
+            Err(fault) => {
+                self.work.diagnostics.push(at.diagnostic(*fault));
+                return None;
+            }
+        };
+        let refused = self.units[found.unit].index.refused.clone();
+        if !refused.is_empty() && found.unit > 0 {
+            self.work.diagnostics.extend(refused);
+            if self.options.stop == StopPolicy::FirstError {
+                return None;
+            }
+        }
+        if let Some(after_motion_only) = wanted.repeat {
+            self.state.repeated = Some(Repeated {
+                found,
+                own: wanted.own.clone(),
+                after_motion_only,
+            });
+        }
+        let depth = self.state.frames.last().map_or(0, |frame| frame.level) + 1;
+        if depth > self.options.limits.calls {
+            let fault = Fault::new(
+                Code::Fc911,
+                wanted.span,
+                format!(
+                    "subprograms call each other more than {} deep",
+                    self.options.limits.calls
+                ),
+            )
+            .with_help(
+                "look for a program that calls itself, or raise the budget with `--max-calls`",
+            );
+            self.work.diagnostics.push(at.diagnostic(fault));
+            return None;
+        }
+        Some(Step::Call(Box::new(Request {
+            found,
+            own: wanted.own,
+            called_from: at.place(wanted.span),
+        })))
+    }
+
+    /// The step that repeats a modal cycle after a block, unless the block is one of the cycle's.
+    pub(super) fn repetition(&self, moved: bool, at: &At<'_>) -> Option<Step> {
+        let repeated = self.state.repeated.as_ref()?;
+        let inside = self.state.frames.iter().any(|frame| {
+            frame.level > 0
+                && frame.unit == repeated.found.unit
+                && frame.section == repeated.found.section
+        });
+        let due = moved || !repeated.after_motion_only;
+        (due && !inside).then(|| {
+            Step::Call(Box::new(Request {
+                found: repeated.found,
+                own: repeated.own.clone(),
+                called_from: at.place(Span::new(0, at.text.len())),
+            }))
+        })
+    }
+
+    fn find(
+        &mut self,
+        wanted: &Wanted,
+        caller: &str,
+        finder: &mut dyn Finder,
+    ) -> Result<Option<Found>, Box<Fault>> {
+        let name = wanted.name.as_str();
+        if wanted.scope == CallScope::Local {
+            let unit = self.state.frames.last().map_or(0, |frame| frame.unit);
+            let index = self.units.get(unit).map(|unit| &unit.index);
+            return match index.and_then(|index| index.local(name)) {
+                Some(section) => Ok(Some(Found { unit, section })),
+                None => Err(no_local(wanted, index)),
+            };
+        }
+        let key = (caller.to_owned(), name.to_owned());
+        let unit = if let Some(&unit) = self.found.get(&key) {
+            unit
+        } else {
+            let Some(source) = finder.find(name, caller) else {
+                return Err(Box::new(
+                    Fault::new(
+                        Code::Fc320,
+                        wanted.span,
+                        format!("the called program `{name}` is not found"),
+                    )
+                    .with_help("it is looked for beside the calling file, then in `program_dirs` of the configuration"),
+                ));
+            };
+            let known = self
+                .units
+                .iter()
+                .position(|unit| unit.index.source.name() == source.name());
+            let unit = known.unwrap_or(self.units.len());
+            if known.is_none() {
+                let index = Index::new(source, self.options.limits.nesting);
+                self.units.push(Unit::new(index));
+            }
+            self.found.insert(key, unit);
+            unit
+        };
+        let section = self.units[unit].index.main();
+        Ok(section.map(|section| Found { unit, section }))
+    }
+
+    /// Calls the configured program that runs before every main program (R2.15).
+    pub(super) fn start_program(&mut self, finder: &mut dyn Finder) -> Result<(), Diagnostic> {
+        let Some(name) = self.machine.programs.start.clone() else {
+            return Ok(());
+        };
+        let place = Place {
+            file: name.as_str().into(),
+            text: "".into(),
+            first_line: 1,
+            span: Span::default(),
+        };
+        let wanted = Wanted {
+            scope: CallScope::Global,
+            name,
+            own: BTreeMap::new(),
+            span: Span::default(),
+            repeat: None,
+        };
+        match self.find(&wanted, "", finder) {
+            Ok(Some(found)) => {
+                self.push_call(found, BTreeMap::new(), place);
+                Ok(())
+            }
+            Ok(None) => Ok(()),
+            Err(fault) => {
+                let mut diagnostic = Diagnostic::new(fault.code, place, fault.message);
+                diagnostic.help = fault.help;
+                Err(diagnostic)
+            }
+        }
+    }
+
+    pub(super) fn push_call(
+        &mut self,
+        found: Found,
+        own: BTreeMap<u32, Value>,
+        called_from: Place,
+    ) {
+        let level = self.state.frames.last().map_or(0, |frame| frame.level) + 1;
+        self.state.memory.enter_call(level as usize);
+        self.state.frames.push(Frame {
+            unit: found.unit,
+            section: found.section,
+            next: self.units[found.unit].index.sections[found.section].start,
+            level,
+            own,
+            seeking: None,
+            called_from: Some(called_from),
+        });
+    }
+
+    /// Every kind of every axis becomes unknown, and all positions (R2.52).
+    fn forget_all(&mut self) {
+        for position in 0..self.machine.axes.len() {
+            let axis = AxisIndex::new(position);
+            self.state
+                .compensation
+                .forget(axis, KindSet::ALL, &mut self.work.changes);
+        }
+        self.state.modal.forget_positions();
+    }
+
+    /// What called programs of a region could change becomes unknown too (R2.51).
+    pub(super) fn forget_called(&mut self, at: &At<'_>, finder: &mut dyn Finder) {
+        let mut pending = std::mem::take(&mut self.pending);
+        let mut seen = Vec::new();
+        while let Some(Scan { call, cause }) = pending.pop() {
+            let Ok(Some(found)) = self.find(&call, at.file, finder) else {
+                continue;
+            };
+            if seen.contains(&found) {
+                continue;
+            }
+            seen.push(found);
+            let section = &self.units[found.unit].index.sections[found.section];
+            let region = section.start..section.end;
+            self.forget_region(found.unit, region, &cause);
+            pending.append(&mut self.pending);
+        }
+    }
+}
+
+fn no_local(wanted: &Wanted, index: Option<&Index>) -> Box<Fault> {
+    let name = wanted.name.as_str();
+    let fault = Fault::new(
+        Code::Fc320,
+        wanted.span,
+        format!("the file has no local subprogram `{name}`"),
+    );
+    let near = index.and_then(|index| did_you_mean(name, index.local_names()));
+    Box::new(match near {
+        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+        None => fault.with_help(format!(
+            "a local subprogram begins with `%L {name}` in the same file"
+        )),
+    })
+}

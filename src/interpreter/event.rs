@@ -1,0 +1,140 @@
+//! What the interpreter tells while it runs.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::compensation::{Change, Compensation, CompensationError};
+use crate::diagnostic::Diagnostic;
+use crate::machine::AxisIndex;
+use crate::source::Span;
+use crate::syntax::CompCommand;
+use crate::syntax::ast::Block;
+
+/// Why a program ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum EndedBy {
+    /// M30.
+    M30,
+    /// M02.
+    M02,
+    /// The file ended without either.
+    EndOfFile,
+    /// An error of the control.
+    Error,
+    /// A budget was used up.
+    Budget,
+}
+
+impl EndedBy {
+    /// The word of the records.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::M30 => "M30",
+            Self::M02 => "M02",
+            Self::EndOfFile => "end-of-file",
+            Self::Error => "error",
+            Self::Budget => "budget",
+        }
+    }
+}
+
+/// What became of a COMP command.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// The command.
+    pub command: CompCommand,
+    /// The axis, or the control's refusal.
+    pub result: Result<AxisIndex, CompensationError>,
+    /// How many of the block's changes it made.
+    pub changes: usize,
+}
+
+/// A block that was executed.
+#[derive(Debug, Clone, Copy)]
+pub struct Executed<'a> {
+    /// The executed block of the program, from 1.
+    pub seq: u64,
+    /// The file that holds it.
+    pub file: &'a Arc<str>,
+    /// The line on which it starts, from 1.
+    pub line: u32,
+    /// The source lines joined by `\n`, without trailing blanks.
+    pub text: &'a str,
+    /// The comment line directly above that speaks to this tool, with its line.
+    pub remark: Option<(&'a str, u32)>,
+    /// Its block number, where it is known.
+    pub number: Option<i64>,
+    /// The call depth, from 1; absent in the main program.
+    pub level: Option<u32>,
+    /// What stands in it.
+    pub block: &'a Block,
+    /// Its COMP commands, from left to right, as far as it was executed.
+    pub outcomes: &'a [Outcome],
+    /// What it changed.
+    pub changes: &'a [Change],
+    /// The axes that it moves, each with its word.
+    pub moved: &'a [(AxisIndex, Span)],
+    /// What is to be said about it, in no order.
+    pub diagnostics: &'a [Diagnostic],
+    /// Whether an error stopped the program in this block.
+    pub stopped: bool,
+    /// The state after it.
+    pub compensation: &'a Compensation,
+    /// The axes that occurred so far.
+    pub occurred: &'a [bool],
+    /// Rises whenever the state or the axes that occurred change.
+    pub version: u64,
+}
+
+/// The end of a program.
+#[derive(Debug, Clone, Copy)]
+pub struct Ended<'a> {
+    /// How many blocks were executed.
+    pub seq: u64,
+    /// Why.
+    pub by: EndedBy,
+    /// What program end changed itself.
+    pub changes: &'a [Change],
+    /// What is to be said about the program and belongs to no executed block.
+    pub diagnostics: &'a [Diagnostic],
+    /// The state that is left.
+    pub compensation: &'a Compensation,
+    /// The axes that occurred so far.
+    pub occurred: &'a [bool],
+    /// Rises whenever the state or the axes that occurred change.
+    pub version: u64,
+}
+
+/// What the interpreter tells.
+#[derive(Debug, Clone, Copy)]
+pub enum Event<'a> {
+    /// A program begins; its name stands behind `%`.
+    Started {
+        /// The name, where it has one.
+        name: Option<&'a str>,
+        /// The state that it starts with.
+        compensation: &'a Compensation,
+        /// The axes that occurred so far.
+        occurred: &'a [bool],
+        /// Rises whenever the state or the axes that occurred change.
+        version: u64,
+    },
+    /// A block was executed.
+    Executed(Executed<'a>),
+    /// The program ended.
+    Ended(Ended<'a>),
+}
+
+/// Listens to a run.
+pub trait Observer {
+    /// Takes an event; `Break` stops the run, which can be resumed.
+    fn event(&mut self, event: Event<'_>) -> ControlFlow<()>;
+}
+
+impl<F: FnMut(Event<'_>) -> ControlFlow<()>> Observer for F {
+    fn event(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        self(event)
+    }
+}

@@ -1,0 +1,536 @@
+//! Flow: the order in which blocks are executed (R2.40 to R2.43).
+//!
+//! The structure of control blocks is known from the index, so the position in a program is a
+//! block number and nothing else; jumps into branches and loops need no care.
+
+use std::ops::ControlFlow;
+use std::rc::Rc;
+
+use super::expression::Place as Target;
+use super::program::{EntryIndex, LabelName};
+use super::value::rounded;
+use super::{
+    At, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Request, Seeking, Step,
+    Value,
+};
+use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+use crate::syntax::ast::{Block, Flow, JumpTarget, Operand};
+use crate::syntax::{Fault, Stretch};
+
+impl Interpreter {
+    /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
+    pub(super) fn run(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
+        loop {
+            let Some(frame) = self.state.frames.last() else {
+                return Outlook::Ended(self.state.ending.take().unwrap_or(EndedBy::EndOfFile));
+            };
+            let (unit, section, next) = (frame.unit, frame.section, frame.next);
+            if next >= self.units[unit].index.sections[section].end {
+                if frame.level == 0 {
+                    return Outlook::Ended(EndedBy::EndOfFile);
+                }
+                self.leave();
+                continue;
+            }
+            let parsed = self.parsed(unit, next);
+            if let Some(frame) = self.state.frames.last_mut() {
+                frame.next = next + 1;
+            }
+            if self.is_skipped(&parsed.block) {
+                continue;
+            }
+            let called_from = self
+                .state
+                .frames
+                .last_mut()
+                .and_then(|frame| frame.called_from.take());
+            let level = self.state.frames.last().map_or(0, |frame| frame.level);
+            let file = self.units[unit].index.source.name().clone();
+            let at = At {
+                file: &file,
+                text: &parsed.text,
+                line: self.units[unit].index.entries[next as usize].line,
+                remark: parsed
+                    .remark
+                    .as_ref()
+                    .map(|(text, line)| (text.as_str(), *line)),
+                level,
+                called_from: called_from.as_ref(),
+                macro_depth: 0,
+            };
+            if let Some(over) = self.over_budget(&at) {
+                let over = self.with_loop(over, unit, next);
+                self.work.diagnostics.clear();
+                self.work.diagnostics.push(over);
+                return Outlook::Ended(EndedBy::Budget);
+            }
+            let depth = self.state.frames.len();
+            let step = self.execute(&parsed.block, &at, finder, observer);
+            if let Some(frame) = self.state.frames.get_mut(depth - 1) {
+                frame.called_from = called_from;
+            }
+            let step = match step {
+                ControlFlow::Continue(step) => step,
+                ControlFlow::Break(()) => return Outlook::Paused,
+            };
+            if let ControlFlow::Break(by) = self.follow(step) {
+                return Outlook::Ended(by);
+            }
+        }
+    }
+
+    /// Does what a block asked for. `Break` when the program ends.
+    pub(super) fn follow(&mut self, step: Step) -> ControlFlow<EndedBy> {
+        match step {
+            Step::Next => {}
+            Step::Jump(entry) => {
+                if let Some(frame) = self.state.frames.last_mut() {
+                    frame.next = entry;
+                }
+            }
+            Step::Call(request) => {
+                let Request {
+                    found,
+                    own,
+                    called_from,
+                } = *request;
+                self.push_call(found, own, called_from);
+            }
+            Step::Return => match self.state.frames.last() {
+                Some(frame) if frame.level > 0 => self.leave(),
+                _ => return ControlFlow::Break(EndedBy::EndOfFile),
+            },
+            Step::End(by) => return ControlFlow::Break(by),
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn leave(&mut self) {
+        if let Some(frame) = self.state.frames.pop() {
+            self.state.memory.leave_call(frame.level as usize);
+        }
+    }
+
+    /// What a paused run has to do when it goes on.
+    pub(super) fn park(&mut self, step: Step) {
+        self.state.parked = Some(step);
+    }
+
+    /// A parsed block; those that are executed again are kept.
+    fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Rc<Parsed> {
+        let place = entry as usize;
+        let unit = &mut self.units[unit];
+        if let Some(Some(kept)) = unit.kept.get(place) {
+            return Rc::clone(kept);
+        }
+        unit.executed[place] = true;
+        let mut block = Block::default();
+        let mut text = String::new();
+        let mut remark = None;
+        if let Some(mut reader) = unit.index.reader(entry) {
+            if let Some(raw) = reader.next(&mut block) {
+                debug_assert_eq!(raw.stretch, Stretch::Block);
+                raw.text.clone_into(&mut text);
+                remark = raw.remark.map(|(text, line)| (text.to_owned(), line));
+            }
+        }
+        let remark = remark.or_else(|| unit.index.remark(entry));
+        let parsed = Rc::new(Parsed {
+            block,
+            text,
+            remark,
+        });
+        let again = entry < unit.high;
+        unit.high = unit.high.max(entry + 1);
+        if again && self.kept < MAX_KEPT {
+            if unit.kept.len() <= place {
+                unit.kept.resize(unit.index.entries.len(), None);
+            }
+            unit.kept[place] = Some(Rc::clone(&parsed));
+            self.kept += 1;
+        }
+        parsed
+    }
+
+    /// Blocks that no run of the program reached, for their syntax.
+    pub(super) fn check_all_unexecuted(&mut self, notes: &mut Vec<Diagnostic>) {
+        let Some(unit) = self.units.first() else {
+            return;
+        };
+        let file = unit.index.source.name().clone();
+        for place in 0..unit.index.entries.len() {
+            if unit.executed[place] {
+                continue;
+            }
+            let entry = Span::new(place, place).start;
+            let mut block = Block::default();
+            let Some(mut reader) = unit.index.reader(entry) else {
+                continue;
+            };
+            if let Some(raw) = reader.next(&mut block) {
+                self.check_unexecuted(&file, (raw.line, raw.text), &block, notes);
+            }
+        }
+    }
+
+    /// The condition of `$IF c $GOTO …`; `None` for any other statement.
+    pub(super) fn one_line_condition(
+        &mut self,
+        flow: &Flow,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<Option<Option<bool>>, Box<Fault>> {
+        let Flow::If(condition) = flow else {
+            return Ok(None);
+        };
+        if !block.jumps() {
+            return Ok(None);
+        }
+        let value = self.value(*condition, block, at)?;
+        if let Value::Unknown(cause) = &value {
+            let fault = Fault::new(
+                Code::Fc902,
+                flow_span(block),
+                format!("whether this jump is taken hangs on `{cause}`, which only the machine knows; the rest assumes that it is not"),
+            )
+            .with_help(how_to_set(cause));
+            self.work.diagnostics.push(at.diagnostic(fault));
+            return Ok(Some(Some(false)));
+        }
+        Ok(Some(value.truth()))
+    }
+
+    /// Executes a `$` statement.
+    pub(super) fn flow(
+        &mut self,
+        flow: &Flow,
+        span: Span,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let Some(frame) = self.state.frames.last_mut() else {
+            return Ok(None);
+        };
+        let entry = frame.next - 1;
+        let seeking = frame.seeking.take();
+        let links = self.units[frame.unit].index.links(entry);
+        let behind = Step::Jump(links.end + 1);
+        Ok(match flow {
+            Flow::If(condition) => self.branch(*condition, (block, at, span), links.next)?,
+            Flow::ElseIf(condition) => match seeking {
+                Some(Seeking::Condition) => {
+                    self.branch(*condition, (block, at, span), links.next)?
+                }
+                _ => Some(behind),
+            },
+            Flow::Else => match seeking {
+                Some(Seeking::Condition) => None,
+                _ => Some(behind),
+            },
+            Flow::Switch(target, operand) => {
+                let value = self.value(*operand, block, at)?;
+                if let Some(target) = target {
+                    let place = self.target_place(target.place, block, at)?;
+                    self.write(place, value.clone());
+                }
+                if let Value::Unknown(cause) = &value {
+                    self.skip_unknown((entry, links.end), cause, span, at)
+                } else {
+                    self.seek(Seeking::Case(value));
+                    Some(Step::Jump(links.next))
+                }
+            }
+            Flow::Case(operand) => match seeking {
+                Some(Seeking::Case(wanted)) => {
+                    let value = self.value(*operand, block, at)?;
+                    if let Value::Unknown(cause) = &value {
+                        self.skip_unknown((entry, links.end), cause, span, at)
+                    } else if same_case(&wanted, &value) {
+                        None
+                    } else {
+                        self.seek(Seeking::Case(wanted));
+                        Some(Step::Jump(links.next))
+                    }
+                }
+                // The case before ends without `$BREAK`: the control goes on with this one.
+                _ => None,
+            },
+            Flow::For {
+                counter,
+                start,
+                end,
+                step,
+            } => {
+                let start = self.value(*start, block, at)?;
+                let place = self.target_place(counter.place, block, at)?;
+                self.write(place, start.clone());
+                self.pass((&start, *end, *step), entry, (block, at, span))?
+            }
+            Flow::EndFor => return self.next_pass(links.opener, span, at),
+            Flow::While(condition) => {
+                self.loop_while(*condition, (block, at, span), (entry, links.end))?
+            }
+            Flow::Do(Some(condition)) => {
+                self.loop_while(*condition, (block, at, span), (entry, links.end))?
+            }
+            Flow::EndWhile | Flow::EndDo(None) => Some(Step::Jump(links.opener)),
+            Flow::EndDo(Some(condition)) => {
+                let value = self.value(*condition, block, at)?;
+                match (&value, value.truth()) {
+                    (Value::Unknown(cause), _) => {
+                        self.skip_unknown((links.opener, entry), cause, span, at)
+                    }
+                    (_, Some(true)) => Some(Step::Jump(links.opener)),
+                    _ => None,
+                }
+            }
+            Flow::Until(condition) => {
+                let value = self.value(*condition, block, at)?;
+                match (&value, value.truth()) {
+                    (Value::Unknown(cause), _) => {
+                        self.skip_unknown((links.opener, entry), cause, span, at)
+                    }
+                    (_, Some(false)) => Some(Step::Jump(links.opener)),
+                    _ => None,
+                }
+            }
+            Flow::Break => Some(behind),
+            Flow::Continue => Some(Step::Jump(links.end)),
+            Flow::Goto(target) => self.jump(target, span, block, at)?,
+            Flow::Default | Flow::EndIf | Flow::EndSwitch | Flow::Do(None) | Flow::Repeat => None,
+        })
+    }
+
+    fn seek(&mut self, seeking: Seeking) {
+        if let Some(frame) = self.state.frames.last_mut() {
+            frame.seeking = Some(seeking);
+        }
+    }
+
+    fn branch(
+        &mut self,
+        condition: Operand,
+        (block, at, span): (&Block, &At<'_>, Span),
+        next: EntryIndex,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let value = self.value(condition, block, at)?;
+        Ok(match (&value, value.truth()) {
+            (Value::Unknown(cause), _) => {
+                let (entry, end) = self.current_block();
+                self.skip_unknown((entry, end), cause, span, at)
+            }
+            (_, Some(true)) => None,
+            (_, Some(false)) => {
+                self.seek(Seeking::Condition);
+                Some(Step::Jump(next))
+            }
+            (_, None) => return Err(no_condition(span)),
+        })
+    }
+
+    /// The statement that is executed and the end of its control block.
+    fn current_block(&self) -> (EntryIndex, EntryIndex) {
+        self.state.frames.last().map_or((0, 0), |frame| {
+            let entry = frame.next - 1;
+            (entry, self.units[frame.unit].index.links(entry).end)
+        })
+    }
+
+    fn loop_while(
+        &mut self,
+        condition: Operand,
+        (block, at, span): (&Block, &At<'_>, Span),
+        region: (EntryIndex, EntryIndex),
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let value = self.value(condition, block, at)?;
+        Ok(match (&value, value.truth()) {
+            (Value::Unknown(cause), _) => self.skip_unknown(region, cause, span, at),
+            (_, Some(true)) => None,
+            (_, Some(false)) => Some(Step::Jump(region.1 + 1)),
+            (_, None) => return Err(no_condition(span)),
+        })
+    }
+
+    /// Goes through the loop once more, or leaves it when the counter passed the end.
+    fn pass(
+        &mut self,
+        (counter, end, step): (&Value, Operand, Operand),
+        opener: EntryIndex,
+        (block, at, span): (&Block, &At<'_>, Span),
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let end = self.value(end, block, at)?;
+        let step = self.value(step, block, at)?;
+        let region_end = self.state.frames.last().map_or(opener, |frame| {
+            self.units[frame.unit].index.links(opener).end
+        });
+        for value in [counter, &end, &step] {
+            if let Value::Unknown(cause) = value {
+                return Ok(self.skip_unknown((opener, region_end), cause, span, at));
+            }
+        }
+        let (Some(counter), Some(end), Some(step)) =
+            (counter.number(), end.number(), step.number())
+        else {
+            return Err(no_condition(span));
+        };
+        let passed = if step > 0.0 {
+            counter > end
+        } else {
+            step < 0.0 && counter < end
+        };
+        Ok(Some(Step::Jump(if passed {
+            region_end + 1
+        } else {
+            opener + 1
+        })))
+    }
+
+    /// `$ENDFOR`: counts, and looks at the end again.
+    fn next_pass(
+        &mut self,
+        opener: EntryIndex,
+        span: Span,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let Some(unit) = self.state.frames.last().map(|frame| frame.unit) else {
+            return Ok(None);
+        };
+        let parsed = self.parsed(unit, opener);
+        let line = self.units[unit].index.entries[opener as usize].line;
+        let head = At {
+            text: &parsed.text,
+            line,
+            ..*at
+        };
+        let block = &parsed.block;
+        let statement = block.items.iter().find_map(|item| match item {
+            crate::syntax::ast::Item::Flow(
+                Flow::For {
+                    counter, end, step, ..
+                },
+                _,
+            ) => Some((*counter, *end, *step)),
+            _ => None,
+        });
+        let Some((counter, end, step)) = statement else {
+            return Ok(None);
+        };
+        let shown = |mut fault: Box<Fault>| {
+            fault.span = span;
+            fault
+        };
+        let operand = Operand::Expression(counter.place);
+        let value = self.value(operand, block, &head).map_err(shown)?;
+        let width = self.value(step, block, &head).map_err(shown)?;
+        let sum = match (value.number(), width.number()) {
+            (Some(value), Some(width)) => Value::Number(value + width),
+            _ => match (value, width) {
+                (unknown @ Value::Unknown(_), _) | (_, unknown) => unknown,
+            },
+        };
+        let place: Target = self
+            .target_place(counter.place, block, &head)
+            .map_err(shown)?;
+        self.write(place, sum.clone());
+        let mut step = self
+            .pass((&sum, end, step), opener, (block, &head, span))
+            .map_err(shown)?;
+        if let Some(Step::Jump(entry)) = &mut step {
+            // A jump into the loop found no opener before it; the index knows it all the same.
+            *entry = (*entry).max(opener + 1);
+        }
+        Ok(step)
+    }
+
+    fn jump(
+        &mut self,
+        target: &JumpTarget,
+        span: Span,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let value = match target {
+            JumpTarget::Number(operand) => self.value(*operand, block, at)?,
+            JumpTarget::Label(name) => Value::Text(name.of(at.text).into()),
+            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), block, at)?,
+        };
+        let label = match &value {
+            Value::Number(number) => LabelName::Number(rounded(*number).unwrap_or_default()),
+            Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
+            Value::Unknown(cause) => {
+                let fault = Fault::new(
+                    Code::Fc902,
+                    span,
+                    format!("where this jump goes hangs on `{cause}`, which only the machine knows; the rest assumes that it is not taken"),
+                )
+                .with_help(how_to_set(cause));
+                self.work.diagnostics.push(at.diagnostic(fault));
+                return Ok(None);
+            }
+        };
+        let Some(frame) = self.state.frames.last() else {
+            return Ok(None);
+        };
+        let found = self.units[frame.unit]
+            .index
+            .label(frame.section, label.clone());
+        match found {
+            Some(entry) => Ok(Some(Step::Jump(entry))),
+            None if matches!(
+                target,
+                JumpTarget::Number(Operand::Number(_)) | JumpTarget::Label(_)
+            ) =>
+            {
+                // Said before the program began.
+                Ok(None)
+            }
+            None => Err(Box::new(Fault::new(
+                Code::Fc209,
+                span,
+                format!("jump label `{label}` does not exist in this program"),
+            ))),
+        }
+    }
+
+    /// The budget's message with the loop that used it up.
+    fn with_loop(&self, diagnostic: Diagnostic, unit: usize, entry: EntryIndex) -> Diagnostic {
+        let index = &self.units[unit].index;
+        match index.innermost_loop(entry) {
+            Some(opener) => {
+                let place = index.block_place(opener);
+                diagnostic.with_label(place, "in this loop")
+            }
+            None => diagnostic,
+        }
+    }
+}
+
+/// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
+fn same_case(wanted: &Value, value: &Value) -> bool {
+    match (wanted, value) {
+        (Value::Number(wanted), Value::Number(value)) => (wanted - value).abs() < 0.001,
+        (wanted, value) => wanted == value,
+    }
+}
+
+fn no_condition(span: Span) -> Box<Fault> {
+    Box::new(Fault::new(Code::Fc312, span, "a text is no condition"))
+}
+
+fn flow_span(block: &Block) -> Span {
+    block
+        .items
+        .iter()
+        .find_map(|item| match item {
+            crate::syntax::ast::Item::Flow(_, span) => Some(*span),
+            _ => None,
+        })
+        .unwrap_or_default()
+}
+
+/// How a user makes a value known.
+pub(super) fn how_to_set(name: &str) -> String {
+    format!("make it known with `--set {name}=VALUE` or in `[variables]` of frictcomp.toml")
+}

@@ -1,0 +1,824 @@
+//! Executes programs block by block: flow, expressions, modal state, COMP commands.
+//!
+//! It opens no file and prints nothing. A host hands it texts and a [`Finder`] for called
+//! programs, and listens with an [`Observer`]. Everything that a run depends on is data, so it
+//! can be stopped, saved and resumed at any block of a program that is held in memory.
+
+mod block;
+mod call;
+mod event;
+mod expression;
+mod flow;
+mod memory;
+mod modal;
+mod program;
+mod unknown;
+mod value;
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+pub use event::{Ended, EndedBy, Event, Executed, Observer, Outcome};
+pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
+pub use value::Value;
+
+use crate::codes::Code;
+use crate::compensation::{Change, Compensation};
+use crate::diagnostic::{Diagnostic, Place, Severity};
+use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
+use crate::source::{LineSource, SourceFile, Span};
+use crate::syntax::ast::{Block, Call, Repetition};
+use crate::syntax::{BlockReader, FastPath, Fault, Stretch};
+use call::Found;
+use memory::Memory;
+use program::{EntryIndex, Index};
+use unknown::Scan;
+
+/// What happens at an error of the control (R9.20).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StopPolicy {
+    /// The first error stops the program and the session, as on the control.
+    #[default]
+    FirstError,
+    /// The failing command is treated as if it were not there.
+    KeepGoing,
+    /// As `KeepGoing`; blocks that are never executed are checked for their syntax too.
+    CheckAll,
+}
+
+/// Bounds on what a dry run may do (R2.60).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Executed blocks of a session, `--max-blocks`.
+    pub blocks: u64,
+    /// Depth of subprogram calls, `--max-calls`.
+    pub calls: u32,
+    /// Depth of nested `$` blocks, `--max-nesting`.
+    pub nesting: u32,
+    /// Depth of macro expansion, `--max-macros`.
+    pub macros: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            blocks: 100_000_000,
+            calls: 50,
+            nesting: 50,
+            macros: 16,
+        }
+    }
+}
+
+/// How programs are run.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Options {
+    /// What happens at an error.
+    pub stop: StopPolicy,
+    /// The levels of blocks that are skipped, bit 1 for `/` and `/1`, up to bit 10 (R2.3).
+    pub skip: u16,
+    /// Budgets.
+    pub limits: Limits,
+    /// Whether plain blocks are parsed by hand.
+    pub fast_path: FastPath,
+}
+
+/// Finds called programs for the library, which opens no file itself.
+pub trait Finder {
+    /// The text of the program called `name`, asked for by the file `caller`. `None` when there
+    /// is none (FC320).
+    fn find(&mut self, name: &str, caller: &str) -> Option<SourceFile>;
+}
+
+impl<F: FnMut(&str, &str) -> Option<SourceFile>> Finder for F {
+    fn find(&mut self, name: &str, caller: &str) -> Option<SourceFile> {
+        self(name, caller)
+    }
+}
+
+/// A finder that finds nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoFiles;
+
+impl Finder for NoFiles {
+    fn find(&mut self, _name: &str, _caller: &str) -> Option<SourceFile> {
+        None
+    }
+}
+
+/// How a run goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outlook {
+    /// The program ended.
+    Ended(EndedBy),
+    /// The observer stopped it; it can be resumed.
+    Paused,
+}
+
+/// One level of the call stack: where a program or subprogram stands.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Frame {
+    /// The file, by its position among the files of the run.
+    unit: usize,
+    section: usize,
+    /// The next block.
+    next: EntryIndex,
+    /// The call depth; 0 is the main program.
+    level: u32,
+    /// Own parameters of the call.
+    own: BTreeMap<u32, Value>,
+    /// Set between `$IF` or `$SWITCH` and the branch that is looked for.
+    seeking: Option<Seeking>,
+    /// Where it was called.
+    called_from: Option<Place>,
+}
+
+/// What the next branch statement has to decide.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum Seeking {
+    /// A true condition.
+    Condition,
+    /// A case with this value.
+    Case(Value),
+}
+
+/// Everything that a run depends on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct State {
+    compensation: Compensation,
+    memory: Memory,
+    modal: Modal,
+    frames: Vec<Frame>,
+    /// Executed blocks of the program.
+    seq: u64,
+    /// Executed blocks of the session.
+    blocks: u64,
+    /// Words and commands that were passed over.
+    opaque: BTreeMap<String, u64>,
+    /// The axes that occurred.
+    occurred: Vec<bool>,
+    /// Axes of coupling groups that `#SET AX LINK` defined.
+    couplings: BTreeMap<String, Vec<AxisIndex>>,
+    /// The cycle that is repeated after blocks.
+    repeated: Option<Repeated>,
+    /// Set while the configured end program runs.
+    ending: Option<EndedBy>,
+    /// The last executed block of the main program.
+    last: Option<Last>,
+    /// What a paused run does first when it goes on.
+    parked: Option<Step>,
+}
+
+/// The last executed block, in case that the program ends without M30.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Last {
+    file: Arc<str>,
+    line: u32,
+    text: String,
+}
+
+/// A modal cycle (R2.13).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Repeated {
+    found: Found,
+    own: BTreeMap<u32, Value>,
+    after_motion_only: bool,
+}
+
+/// A run between two blocks, to be saved and resumed (R9.30 is about what outlives programs; this
+/// is about the middle of one).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// 1.
+    pub schema: u32,
+    /// The files of the run, in the order in which they were first needed.
+    pub files: Vec<String>,
+    state: State,
+}
+
+/// A file of the run.
+struct Unit {
+    index: Index,
+    /// Blocks that were executed more than once, parsed.
+    kept: Vec<Option<Rc<Parsed>>>,
+    /// Blocks below this one were executed before.
+    high: EntryIndex,
+    /// Which blocks were executed, where that is asked for.
+    executed: Vec<bool>,
+}
+
+/// A parsed block with its text.
+struct Parsed {
+    block: Block,
+    text: String,
+    remark: Option<(String, u32)>,
+}
+
+/// How many parsed blocks a run keeps.
+const MAX_KEPT: usize = 100_000;
+
+/// Runs programs on a machine.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options};
+/// use frictcomp::{compensation::Compensation, machine::Machine, source::SourceFile};
+///
+/// let machine = Machine::enabled(["X"]);
+/// let comp = Compensation::at_startup(&machine);
+/// let mut run = Interpreter::new(machine, comp, Options::default());
+/// let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
+/// let mut changes = 0;
+/// run.program(program, &mut NoFiles, &mut |event: Event<'_>| {
+///     if let Event::Executed(block) = event {
+///         changes += block.changes.len();
+///     }
+///     ControlFlow::Continue(())
+/// });
+/// assert_eq!(changes, 1);
+/// ```
+pub struct Interpreter {
+    machine: Arc<Machine>,
+    options: Options,
+    /// The axes with one-letter names.
+    letters: [Option<AxisIndex>; 26],
+    /// The axes with longer names.
+    names: BTreeMap<String, AxisIndex>,
+    units: Vec<Unit>,
+    /// Which file a call by name from a file meant.
+    found: BTreeMap<(String, String), usize>,
+    /// Calls in regions that may or may not be executed.
+    pending: Vec<Scan>,
+    kept: usize,
+    state: State,
+    version: u64,
+    work: Work,
+}
+
+/// Buffers that are used again for each block.
+#[derive(Default)]
+struct Work {
+    block: Block,
+    outcomes: Vec<Outcome>,
+    changes: Vec<Change>,
+    moved: Vec<(AxisIndex, Span)>,
+    diagnostics: Vec<Diagnostic>,
+    stack: Vec<Result<Value, Box<Fault>>>,
+    /// Axis words of the block with their values.
+    coordinates: Vec<(AxisIndex, Option<f64>)>,
+}
+
+impl Work {
+    fn clear(&mut self) {
+        self.outcomes.clear();
+        self.changes.clear();
+        self.moved.clear();
+        self.diagnostics.clear();
+        self.coordinates.clear();
+    }
+}
+
+/// Where a block stands and what is known about it beside its tree.
+struct At<'a> {
+    file: &'a Arc<str>,
+    text: &'a str,
+    line: u32,
+    remark: Option<(&'a str, u32)>,
+    level: u32,
+    called_from: Option<&'a Place>,
+    /// How many macros lie around the code.
+    macro_depth: u32,
+}
+
+impl At<'_> {
+    fn place(&self, span: Span) -> Place {
+        Place {
+            file: self.file.clone(),
+            text: self.text.into(),
+            first_line: self.line,
+            span,
+        }
+    }
+
+    fn diagnostic(&self, fault: Fault) -> Diagnostic {
+        let mut diagnostic = Diagnostic::new(fault.code, self.place(fault.span), fault.message);
+        diagnostic.help = fault.help;
+        if let Some(caller) = self.called_from {
+            diagnostic = diagnostic.with_label(caller.clone(), "called from here");
+        }
+        diagnostic
+    }
+}
+
+/// What the control does after a block.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum Step {
+    Next,
+    /// To a block of the same program.
+    Jump(EntryIndex),
+    Call(Box<Request>),
+    /// M17, M29.
+    Return,
+    End(EndedBy),
+}
+
+/// A program to call.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Request {
+    found: Found,
+    own: BTreeMap<u32, Value>,
+    called_from: Place,
+}
+
+impl Interpreter {
+    /// An interpreter for a machine whose compensation is in a given state.
+    pub fn new(
+        machine: impl Into<Arc<Machine>>,
+        compensation: Compensation,
+        options: Options,
+    ) -> Self {
+        let machine = machine.into();
+        let axes = machine.axes.len();
+        let configured = machine.axis_set == AxisSet::Configured;
+        let occurred = machine
+            .axes
+            .iter()
+            .map(|axis| configured || axis.frict_comp_origin != crate::machine::Origin::Default)
+            .collect();
+        let state = State {
+            compensation,
+            memory: Memory::default(),
+            modal: Modal::new(axes),
+            frames: Vec::new(),
+            seq: 0,
+            blocks: 0,
+            opaque: BTreeMap::new(),
+            occurred,
+            couplings: BTreeMap::new(),
+            repeated: None,
+            ending: None,
+            last: None,
+            parked: None,
+        };
+        Self::with_state(machine, options, state)
+    }
+
+    fn with_state(machine: Arc<Machine>, options: Options, state: State) -> Self {
+        let mut letters = [None; 26];
+        let mut names = BTreeMap::new();
+        for (position, axis) in machine.axes.iter().enumerate() {
+            let index = AxisIndex::new(position);
+            match axis.name.as_bytes() {
+                [letter @ b'A'..=b'Z'] => letters[usize::from(letter - b'A')] = Some(index),
+                _ => {
+                    names.insert(axis.name.clone(), index);
+                }
+            }
+        }
+        Self {
+            machine,
+            options,
+            letters,
+            names,
+            units: Vec::new(),
+            found: BTreeMap::new(),
+            pending: Vec::new(),
+            kept: 0,
+            state,
+            version: 0,
+            work: Work::default(),
+        }
+    }
+
+    /// Gives a variable the value that only the machine knows (R2.36).
+    pub fn set(&mut self, name: &str, setting: &Setting) {
+        self.state.memory.set_variable(name, setting.into());
+    }
+
+    /// The machine.
+    pub fn machine(&self) -> &Arc<Machine> {
+        &self.machine
+    }
+
+    /// The compensation state of the moment.
+    pub fn compensation(&self) -> &Compensation {
+        &self.state.compensation
+    }
+
+    /// The axes that occurred so far, by position; every axis of a configured machine.
+    pub fn occurred(&self) -> &[bool] {
+        &self.state.occurred
+    }
+
+    /// Rises whenever the compensation state or the axes that occurred change.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// The executed blocks of the session.
+    pub fn blocks(&self) -> u64 {
+        self.state.blocks
+    }
+
+    /// What was passed over, by word.
+    pub fn opaque(&self) -> &BTreeMap<String, u64> {
+        &self.state.opaque
+    }
+
+    /// Where an axis stands after the last block: the programmed coordinate in mm or degrees.
+    pub fn position(&self, axis: AxisIndex) -> AxisPosition {
+        self.state.modal.position(axis)
+    }
+
+    /// The G functions in force.
+    pub fn modal(&self) -> &Modal {
+        &self.state.modal
+    }
+
+    /// The `V.S.` variables, which outlive programs (R2.34).
+    pub fn shared_variables(&self) -> BTreeMap<String, Value> {
+        self.state.memory.shared()
+    }
+
+    /// Takes over the compensation state of an earlier session.
+    pub fn set_compensation(&mut self, compensation: Compensation) {
+        self.state.compensation = compensation;
+        self.version += 1;
+    }
+
+    /// Takes over a variable of an earlier session.
+    pub fn set_shared(&mut self, name: &str, value: Value) {
+        self.state.memory.set_variable(name, value);
+    }
+
+    /// Runs a main program whose text is in memory.
+    pub fn program(
+        &mut self,
+        source: SourceFile,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
+        self.start();
+        let index = Index::new(source, self.options.limits.nesting);
+        let main = index.main();
+        let name = main.and_then(|main| index.sections[main].name.clone());
+        if self.announce(name.as_deref(), observer).is_break() {
+            return Outlook::Paused;
+        }
+        let refused = index.refused.clone();
+        self.units.push(Unit::new(index));
+        if !refused.is_empty() && self.options.stop == StopPolicy::FirstError {
+            return self.ended(EndedBy::Error, refused, observer);
+        }
+        if let Some(section) = main {
+            self.enter(0, section);
+        }
+        if let Err(missing) = self.start_program(finder) {
+            return self.ended(EndedBy::Error, vec![missing], observer);
+        }
+        let outlook = self.run(finder, observer);
+        self.close(outlook, refused, observer)
+    }
+
+    /// Goes on with a run that an observer stopped.
+    pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
+        if let Some(step) = self.state.parked.take() {
+            if let ControlFlow::Break(by) = self.follow(step) {
+                let refused = self.units.first().map(|unit| unit.index.refused.clone());
+                return self.close(Outlook::Ended(by), refused.unwrap_or_default(), observer);
+            }
+        }
+        let outlook = self.run(finder, observer);
+        let refused = self.units.first().map(|unit| unit.index.refused.clone());
+        self.close(outlook, refused.unwrap_or_default(), observer)
+    }
+
+    /// Runs a main program whose lines come one after another and are forgotten. Such a program
+    /// has no flow; [`crate::source::FlowScan`] tells which has.
+    pub fn stream(
+        &mut self,
+        file: &str,
+        lines: &mut dyn LineSource,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
+        self.start();
+        let file: Arc<str> = file.into();
+        let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
+        let mut block = std::mem::take(&mut self.work.block);
+        let mut announced = false;
+        let mut by = None;
+        let mut notes = Vec::new();
+        while let Some(raw) = reader.next(&mut block) {
+            if let Stretch::Program { name, .. } = raw.stretch {
+                if announced {
+                    break;
+                }
+                announced = true;
+                if self.announce(Some(name.of(raw.text)), observer).is_break() {
+                    return Outlook::Paused;
+                }
+                continue;
+            }
+            if by.is_some() {
+                self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
+                continue;
+            }
+            if !announced {
+                announced = true;
+                if self.announce(None, observer).is_break() {
+                    return Outlook::Paused;
+                }
+                if let Err(missing) = self.start_program(finder) {
+                    return self.ended(EndedBy::Error, vec![missing], observer);
+                }
+                if let Some(outlook) = self.run_called(finder, observer) {
+                    return outlook;
+                }
+            }
+            let at = At {
+                file: &file,
+                text: raw.text,
+                line: raw.line,
+                remark: raw.remark,
+                level: 0,
+                called_from: None,
+                macro_depth: 0,
+            };
+            if let Some(over) = self.over_budget(&at) {
+                return self.ended(EndedBy::Budget, vec![over], observer);
+            }
+            if self.is_skipped(&block) {
+                continue;
+            }
+            let step = match self.execute(&block, &at, finder, observer) {
+                ControlFlow::Continue(step) => step,
+                ControlFlow::Break(()) => return Outlook::Paused,
+            };
+            match self.follow(step) {
+                ControlFlow::Continue(()) => match self.run_called(finder, observer) {
+                    None => {}
+                    Some(outlook) => return outlook,
+                },
+                ControlFlow::Break(ended) => {
+                    by = Some(ended);
+                    if self.options.stop != StopPolicy::CheckAll {
+                        break;
+                    }
+                }
+            }
+        }
+        self.work.block = block;
+        if !announced && self.announce(None, observer).is_break() {
+            return Outlook::Paused;
+        }
+        let by = by.unwrap_or_else(|| {
+            notes.extend(self.missing_end());
+            EndedBy::EndOfFile
+        });
+        self.ended(by, notes, observer)
+    }
+
+    /// Prepares the state for a program start.
+    fn start(&mut self) {
+        let axes = self.machine.axes.len();
+        let positions = std::mem::replace(&mut self.state.modal, Modal::new(axes));
+        for position in 0..axes {
+            let axis = AxisIndex::new(position);
+            self.state
+                .modal
+                .set_reference(axis, positions.position(axis).value);
+        }
+        self.state.memory.start_program();
+        self.state.frames.clear();
+        self.state.seq = 0;
+        self.state.repeated = None;
+        self.state.ending = None;
+        self.state.last = None;
+        self.state.parked = None;
+        self.units.clear();
+        self.found.clear();
+        self.kept = 0;
+    }
+
+    fn announce(&mut self, name: Option<&str>, observer: &mut dyn Observer) -> ControlFlow<()> {
+        observer.event(Event::Started {
+            name,
+            compensation: &self.state.compensation,
+            occurred: &self.state.occurred,
+            version: self.version,
+        })
+    }
+
+    fn enter(&mut self, unit: usize, section: usize) {
+        let next = self.units[unit].index.sections[section].start;
+        self.state.frames.push(Frame {
+            unit,
+            section,
+            next,
+            level: 0,
+            own: BTreeMap::new(),
+            seeking: None,
+            called_from: None,
+        });
+    }
+
+    /// Runs called programs until the one that called them goes on; `None` when it does.
+    fn run_called(
+        &mut self,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Option<Outlook> {
+        if self.state.frames.is_empty() {
+            return None;
+        }
+        match self.run(finder, observer) {
+            Outlook::Ended(EndedBy::EndOfFile) => None,
+            Outlook::Ended(by) => Some(self.ended(by, Vec::new(), observer)),
+            Outlook::Paused => Some(Outlook::Paused),
+        }
+    }
+
+    /// Ends a program whose text is in memory.
+    fn close(
+        &mut self,
+        outlook: Outlook,
+        refused: Vec<Diagnostic>,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
+        let Outlook::Ended(by) = outlook else {
+            return outlook;
+        };
+        let mut notes = refused;
+        notes.append(&mut self.work.diagnostics);
+        if by == EndedBy::EndOfFile && !self.state.frames.is_empty() {
+            notes.extend(self.missing_end());
+        }
+        if self.options.stop == StopPolicy::CheckAll {
+            self.check_all_unexecuted(&mut notes);
+        }
+        self.ended(by, notes, observer)
+    }
+
+    /// FC310 at the last executed block; a program without any block needs no M30 (R2.8).
+    fn missing_end(&self) -> Option<Diagnostic> {
+        let last = self.state.last.as_ref()?;
+        let place = Place {
+            file: last.file.clone(),
+            text: last.text.as_str().into(),
+            first_line: last.line,
+            span: Span::new(0, last.text.len()),
+        };
+        let message = "the program ends here without M30 or M02";
+        Some(Diagnostic::new(Code::Fc310, place, message).with_help("end it with `M30`"))
+    }
+
+    fn ended(
+        &mut self,
+        by: EndedBy,
+        diagnostics: Vec<Diagnostic>,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
+        let changes = self.state.compensation.program_end();
+        if !changes.is_empty() {
+            self.version += 1;
+        }
+        self.state.frames.clear();
+        // The observer wants no more, or it does not: the program has ended either way.
+        let _ = observer.event(Event::Ended(Ended {
+            seq: self.state.seq,
+            by,
+            changes: &changes,
+            diagnostics: &diagnostics,
+            compensation: &self.state.compensation,
+            occurred: &self.state.occurred,
+            version: self.version,
+        }));
+        Outlook::Ended(by)
+    }
+
+    fn is_skipped(&self, block: &Block) -> bool {
+        block
+            .skip
+            .is_some_and(|level| self.options.skip & (1 << level.min(15)) != 0)
+    }
+
+    /// FC910 when the next block may not be executed any more.
+    fn over_budget(&self, at: &At<'_>) -> Option<Diagnostic> {
+        let budget = self.options.limits.blocks;
+        (self.state.blocks >= budget).then(|| {
+            at.diagnostic(
+                Fault::new(
+                    Code::Fc910,
+                    Span::new(0, at.text.len()),
+                    format!("more than {budget} blocks were executed"),
+                )
+                .with_help(
+                    "look for a loop that does not end, or raise the budget with `--max-blocks`",
+                ),
+            )
+        })
+    }
+
+    fn check_unexecuted(
+        &self,
+        file: &Arc<str>,
+        (line, text): (u32, &str),
+        block: &Block,
+        notes: &mut Vec<Diagnostic>,
+    ) {
+        let at = At {
+            file,
+            text,
+            line,
+            remark: None,
+            level: 0,
+            called_from: None,
+            macro_depth: 0,
+        };
+        notes.extend(
+            block
+                .faults
+                .iter()
+                .map(|fault| at.diagnostic(fault.clone())),
+        );
+    }
+
+    /// The state of the run between two blocks. Programs that are streamed have none.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            schema: 1,
+            files: self
+                .units
+                .iter()
+                .map(|unit| unit.index.source.name().to_string())
+                .collect(),
+            state: self.state.clone(),
+        }
+    }
+
+    /// An interpreter in the state of a snapshot. `source` gives the text of each file of the run.
+    ///
+    /// # Errors
+    /// The name of a file that `source` does not give, or of a machine with other axes.
+    pub fn resume(
+        machine: impl Into<Arc<Machine>>,
+        options: Options,
+        snapshot: Snapshot,
+        source: &mut dyn FnMut(&str) -> Option<SourceFile>,
+    ) -> Result<Self, ResumeError> {
+        let machine = machine.into();
+        if snapshot.state.compensation.len() != machine.axes.len() {
+            return Err(ResumeError::OtherMachine);
+        }
+        let mut resumed = Self::with_state(machine, options, snapshot.state);
+        for file in snapshot.files {
+            let Some(text) = source(&file) else {
+                return Err(ResumeError::MissingFile(file));
+            };
+            let index = Index::new(text, options.limits.nesting);
+            resumed.units.push(Unit::new(index));
+        }
+        Ok(resumed)
+    }
+}
+
+/// Why a snapshot cannot be resumed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ResumeError {
+    /// A file of the run is not there.
+    #[error("the file `{0}` of the run is missing")]
+    MissingFile(String),
+    /// The machine has other axes.
+    #[error("the snapshot belongs to a machine with other axes")]
+    OtherMachine,
+}
+
+impl Unit {
+    fn new(index: Index) -> Self {
+        Self {
+            kept: Vec::new(),
+            high: 0,
+            executed: vec![false; index.entries.len()],
+            index,
+        }
+    }
+}
+
+/// Whether a diagnostic stops the control.
+fn stops(diagnostic: &Diagnostic) -> bool {
+    diagnostic.code.severity() == Severity::Error
+}
+
+/// What a call repeats after.
+fn after_motion_only(call: &Call) -> Option<bool> {
+    match call.repetition {
+        Repetition::Once => None,
+        Repetition::AfterMotion => Some(true),
+        Repetition::AfterBlock => Some(false),
+    }
+}

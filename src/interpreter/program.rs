@@ -1,0 +1,505 @@
+//! The index of a program with flow: blocks, sections, labels, control blocks.
+//!
+//! It holds offsets, not trees: blocks are parsed when they are executed, and kept only when they
+//! are executed again.
+
+use std::collections::HashMap;
+
+use super::value::rounded;
+use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
+use crate::source::{SourceFile, Span, TextLines};
+use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::syntax::{BlockReader, FastPath, Fault, Stretch};
+
+/// The position of a block in [`Index::entries`].
+pub(super) type EntryIndex = u32;
+
+/// One block of the text.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry {
+    pub(super) offset: u32,
+    pub(super) line: u32,
+}
+
+/// A main program or a local subprogram.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    pub(super) name: Option<String>,
+    pub(super) local: bool,
+    pub(super) start: EntryIndex,
+    pub(super) end: EntryIndex,
+}
+
+/// How the parts of a control block hang together.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Links {
+    /// The statement that opened the control block.
+    pub(super) opener: EntryIndex,
+    /// The next branch: `$ELSEIF`, `$ELSE`, `$CASE`, `$DEFAULT`, or the end.
+    pub(super) next: EntryIndex,
+    /// The statement that closes it.
+    pub(super) end: EntryIndex,
+}
+
+/// A jump label within a section.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum LabelName {
+    Number(i64),
+    Text(String),
+}
+
+impl std::fmt::Display for LabelName {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "N{number}"),
+            Self::Text(text) => write!(f, "[{text}]"),
+        }
+    }
+}
+
+/// The index of one file.
+#[derive(Debug)]
+pub(super) struct Index {
+    pub(super) source: SourceFile,
+    pub(super) entries: Vec<Entry>,
+    pub(super) sections: Vec<Section>,
+    links: HashMap<EntryIndex, Links>,
+    labels: HashMap<(usize, LabelName), EntryIndex>,
+    remarks: HashMap<EntryIndex, (String, u32)>,
+    /// What keeps the program from running at all.
+    pub(super) refused: Vec<Diagnostic>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    If,
+    Switch,
+    For,
+    While,
+    Do,
+    Repeat,
+}
+
+impl Kind {
+    fn opener(self) -> &'static str {
+        match self {
+            Self::If => "$IF",
+            Self::Switch => "$SWITCH",
+            Self::For => "$FOR",
+            Self::While => "$WHILE",
+            Self::Do => "$DO",
+            Self::Repeat => "$REPEAT",
+        }
+    }
+
+    fn closer(self) -> &'static str {
+        match self {
+            Self::If => "$ENDIF",
+            Self::Switch => "$ENDSWITCH",
+            Self::For => "$ENDFOR",
+            Self::While => "$ENDWHILE",
+            Self::Do => "$ENDDO",
+            Self::Repeat => "$UNTIL",
+        }
+    }
+}
+
+/// A control block that is not closed yet.
+struct Open {
+    kind: Kind,
+    opener: EntryIndex,
+    /// All statements of the control block so far.
+    parts: Vec<EntryIndex>,
+    span: Span,
+}
+
+/// A jump whose label is looked up when the section is known.
+struct Jump {
+    section: usize,
+    label: LabelName,
+    span: Span,
+}
+
+impl Index {
+    /// Indexes a text. At most `nesting` control blocks may stand in each other.
+    pub(super) fn new(source: SourceFile, nesting: u32) -> Self {
+        let builder = Builder {
+            index: Self {
+                source,
+                entries: Vec::new(),
+                sections: Vec::new(),
+                links: HashMap::new(),
+                labels: HashMap::new(),
+                remarks: HashMap::new(),
+                refused: Vec::new(),
+            },
+            nesting: nesting as usize,
+            open: Vec::new(),
+            jumps: Vec::new(),
+            inner: Vec::new(),
+        };
+        builder.build()
+    }
+
+    /// The links of a `$` statement.
+    pub(super) fn links(&self, entry: EntryIndex) -> Links {
+        self.links.get(&entry).copied().unwrap_or(Links {
+            opener: entry,
+            next: entry,
+            end: entry,
+        })
+    }
+
+    /// The section that a run of the file begins with: blocks in front of any `%` line, else the
+    /// first program that is no local subprogram.
+    pub(super) fn main(&self) -> Option<usize> {
+        let has_blocks = |section: &&Section| section.end > section.start;
+        self.sections
+            .iter()
+            .take(1)
+            .find(|section| section.name.is_none() && has_blocks(section))
+            .map(|_| 0)
+            .or_else(|| {
+                self.sections
+                    .iter()
+                    .position(|section| !section.local && section.name.is_some())
+            })
+    }
+
+    /// A local subprogram by its name.
+    pub(super) fn local(&self, name: &str) -> Option<usize> {
+        self.sections
+            .iter()
+            .position(|section| section.local && section.name.as_deref() == Some(name))
+    }
+
+    /// The names of the local subprograms.
+    pub(super) fn local_names(&self) -> impl Iterator<Item = &str> {
+        self.sections
+            .iter()
+            .filter(|section| section.local)
+            .filter_map(|section| section.name.as_deref())
+    }
+
+    /// The block of a label.
+    pub(super) fn label(&self, section: usize, label: LabelName) -> Option<EntryIndex> {
+        self.labels.get(&(section, label)).copied()
+    }
+
+    /// The span of a block's first line in the file's text, shifted to a span in the block.
+    pub(super) fn place(&self, entry: EntryIndex, span: Span) -> crate::diagnostic::Place {
+        let offset = self
+            .entries
+            .get(entry as usize)
+            .map_or(0, |entry| entry.offset);
+        self.source.place(span.shifted(offset))
+    }
+
+    /// The place of a whole block's first line.
+    pub(super) fn block_place(&self, entry: EntryIndex) -> crate::diagnostic::Place {
+        let line = self
+            .entries
+            .get(entry as usize)
+            .map_or(1, |entry| entry.line);
+        let span = self.source.lines().line_span(self.source.text(), line);
+        self.source.place(span)
+    }
+
+    /// The loop that a block stands in, by its opener.
+    pub(super) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
+        self.links
+            .iter()
+            .filter(|(at, links)| links.opener == **at && **at <= entry && entry <= links.end)
+            .map(|(at, _)| *at)
+            .max()
+    }
+
+    /// The comment line above a block that speaks to this tool, with its line.
+    pub(super) fn remark(&self, entry: EntryIndex) -> Option<(String, u32)> {
+        self.remarks.get(&entry).cloned()
+    }
+
+    /// A reader that stands in front of a block.
+    pub(super) fn reader(&self, entry: EntryIndex) -> Option<BlockReader<TextLines<'_>>> {
+        let entry = self.entries.get(entry as usize)?;
+        let lines = TextLines::starting_at(self.source.text(), entry.offset as usize);
+        Some(BlockReader::new(lines, entry.line, FastPath::On))
+    }
+}
+
+struct Builder {
+    index: Index,
+    nesting: usize,
+    open: Vec<Open>,
+    jumps: Vec<Jump>,
+    /// `$BREAK` and `$CONTINUE` with the loops that they stand in, by opener.
+    inner: Vec<(EntryIndex, EntryIndex)>,
+}
+
+impl Builder {
+    fn build(mut self) -> Index {
+        let text = self.index.source.text().to_owned();
+        let mut reader = BlockReader::new(TextLines::new(&text), 1, FastPath::On);
+        let mut block = Block::default();
+        self.section(None, false);
+        while let Some(raw) = reader.next(&mut block) {
+            match raw.stretch {
+                Stretch::Program { name, local } => {
+                    self.close_section();
+                    self.section(Some(name.of(raw.text).to_owned()), local);
+                }
+                Stretch::Block => {
+                    let entry = Span::new(self.index.entries.len(), raw.offset);
+                    self.index.entries.push(Entry {
+                        offset: entry.end,
+                        line: raw.line,
+                    });
+                    if let Some((text, line)) = raw.remark {
+                        let remark = (text.to_owned(), line);
+                        self.index.remarks.insert(entry.start, remark);
+                    }
+                    self.block(entry.start, &block, raw.text);
+                }
+            }
+        }
+        self.close_section();
+        self.check_jumps();
+        for (statement, opener) in std::mem::take(&mut self.inner) {
+            let end = self.index.links(opener).end;
+            let links = Links {
+                opener,
+                next: end,
+                end,
+            };
+            self.index.links.insert(statement, links);
+        }
+        self.index
+            .refused
+            .sort_by_key(|diagnostic| diagnostic.place.start());
+        self.index
+    }
+
+    fn at(&self) -> EntryIndex {
+        Span::new(self.index.entries.len(), self.index.entries.len()).start
+    }
+
+    fn section(&mut self, name: Option<String>, local: bool) {
+        let start = self.at();
+        self.index.sections.push(Section {
+            name,
+            local,
+            start,
+            end: start,
+        });
+    }
+
+    fn close_section(&mut self) {
+        let end = self.at();
+        if let Some(section) = self.index.sections.last_mut() {
+            section.end = end;
+        }
+        for open in std::mem::take(&mut self.open) {
+            let fault = not_closed(&open);
+            self.refuse(open.opener, fault);
+        }
+    }
+
+    fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
+        let place = self.index.place(entry, fault.span);
+        let mut diagnostic = Diagnostic::new(fault.code, place, fault.message);
+        diagnostic.help = fault.help;
+        self.index.refused.push(diagnostic);
+    }
+
+    fn block(&mut self, entry: EntryIndex, block: &Block, text: &str) {
+        if let Some(number) = block.number.filter(|number| number.label) {
+            if let Operand::Number(value) = number.value {
+                let name = LabelName::Number(rounded(value).unwrap_or_default());
+                self.label(entry, name, number.span);
+            }
+        }
+        let jumps = block.jumps();
+        for item in &block.items {
+            match item {
+                Item::Label(span) => {
+                    let name = LabelName::Text(span.of(text).to_owned());
+                    self.label(entry, name, *span);
+                }
+                // `$IF c $GOTO N10` opens nothing.
+                Item::Flow(Flow::If(_), _) if jumps => {}
+                Item::Flow(flow, span) => self.flow(entry, flow, (*span, text)),
+                _ => {}
+            }
+        }
+    }
+
+    fn label(&mut self, entry: EntryIndex, name: LabelName, span: Span) {
+        let section = self.index.sections.len() - 1;
+        let key = (section, name);
+        if let Some(&first) = self.index.labels.get(&key) {
+            let line = self.index.entries[first as usize].line;
+            let fault = Fault::new(
+                Code::Fc209,
+                span,
+                format!("jump label `{}` stands already in line {line}", key.1),
+            );
+            self.refuse(entry, fault);
+        } else {
+            self.index.labels.insert(key, entry);
+        }
+    }
+
+    fn flow(&mut self, entry: EntryIndex, flow: &Flow, (span, text): (Span, &str)) {
+        match flow {
+            Flow::If(_) => self.opens(Kind::If, entry, span),
+            Flow::Switch(..) => self.opens(Kind::Switch, entry, span),
+            Flow::For { .. } => self.opens(Kind::For, entry, span),
+            Flow::While(_) => self.opens(Kind::While, entry, span),
+            Flow::Do(_) => self.opens(Kind::Do, entry, span),
+            Flow::Repeat => self.opens(Kind::Repeat, entry, span),
+            Flow::ElseIf(_) | Flow::Else => self.branches(Kind::If, entry, (span, text)),
+            Flow::Case(_) | Flow::Default => self.branches(Kind::Switch, entry, (span, text)),
+            Flow::EndIf => self.closes(Kind::If, entry, (span, text)),
+            Flow::EndSwitch => self.closes(Kind::Switch, entry, (span, text)),
+            Flow::EndFor => self.closes(Kind::For, entry, (span, text)),
+            Flow::EndWhile => self.closes(Kind::While, entry, (span, text)),
+            Flow::EndDo(_) => self.closes(Kind::Do, entry, (span, text)),
+            Flow::Until(_) => self.closes(Kind::Repeat, entry, (span, text)),
+            Flow::Break => self.leaves(entry, (span, text), |kind| kind != Kind::If),
+            Flow::Continue => {
+                self.leaves(entry, (span, text), |kind| {
+                    !matches!(kind, Kind::If | Kind::Switch)
+                });
+            }
+            Flow::Goto(target) => self.jump(target, (span, text)),
+        }
+    }
+
+    fn opens(&mut self, kind: Kind, entry: EntryIndex, span: Span) {
+        if self.open.len() >= self.nesting {
+            let fault = Fault::new(
+                Code::Fc912,
+                span,
+                format!("control blocks nest more than {} deep", self.nesting),
+            )
+            .with_help("a deeper nesting is allowed with `--max-nesting`");
+            self.refuse(entry, fault);
+        }
+        self.open.push(Open {
+            kind,
+            opener: entry,
+            parts: vec![entry],
+            span,
+        });
+    }
+
+    fn branches(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
+        match self.open.last_mut() {
+            Some(open) if open.kind == kind => open.parts.push(entry),
+            _ => self.refuse(entry, stray(span, text, kind)),
+        }
+    }
+
+    fn closes(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
+        let Some(depth) = self.open.iter().rposition(|open| open.kind == kind) else {
+            self.refuse(entry, stray(span, text, kind));
+            return;
+        };
+        for open in self.open.split_off(depth + 1) {
+            let fault = not_closed(&open);
+            self.refuse(open.opener, fault);
+        }
+        let Some(mut open) = self.open.pop() else {
+            return;
+        };
+        open.parts.push(entry);
+        for pair in open.parts.windows(2) {
+            let links = Links {
+                opener: open.opener,
+                next: pair[1],
+                end: entry,
+            };
+            self.index.links.insert(pair[0], links);
+        }
+        let links = Links {
+            opener: open.opener,
+            next: entry,
+            end: entry,
+        };
+        self.index.links.insert(entry, links);
+    }
+
+    fn leaves(&mut self, entry: EntryIndex, (span, text): (Span, &str), left: fn(Kind) -> bool) {
+        match self.open.iter().rfind(|open| left(open.kind)) {
+            Some(open) => self.inner.push((entry, open.opener)),
+            None => {
+                let word = span.of(text).trim();
+                let fault = Fault::new(
+                    Code::Fc208,
+                    span,
+                    format!("`{word}` stands outside any loop that it could leave"),
+                );
+                self.refuse(entry, fault);
+            }
+        }
+    }
+
+    fn jump(&mut self, target: &JumpTarget, (span, text): (Span, &str)) {
+        let label = match target {
+            JumpTarget::Number(Operand::Number(number)) => {
+                LabelName::Number(rounded(*number).unwrap_or_default())
+            }
+            JumpTarget::Label(name) => LabelName::Text(name.of(text).to_owned()),
+            _ => return,
+        };
+        let offset = self.index.entries.last().map_or(0, |entry| entry.offset);
+        self.jumps.push(Jump {
+            section: self.index.sections.len() - 1,
+            label,
+            span: span.shifted(offset),
+        });
+    }
+
+    fn check_jumps(&mut self) {
+        for jump in std::mem::take(&mut self.jumps) {
+            if self.index.label(jump.section, jump.label.clone()).is_none() {
+                let help = match &jump.label {
+                    LabelName::Number(number) => {
+                        format!("write the label with a colon, `N{number}:`, in the same program")
+                    }
+                    LabelName::Text(name) => {
+                        format!("write `[{name}]` at the start of the block to jump to")
+                    }
+                };
+                let diagnostic = Diagnostic::new(
+                    Code::Fc209,
+                    self.index.source.place(jump.span),
+                    format!("jump label `{}` does not exist in this program", jump.label),
+                )
+                .with_help(help);
+                self.index.refused.push(diagnostic);
+            }
+        }
+    }
+}
+
+fn not_closed(open: &Open) -> Fault {
+    let (opener, closer) = (open.kind.opener(), open.kind.closer());
+    Fault::new(
+        Code::Fc208,
+        open.span,
+        format!("`{opener}` has no `{closer}`"),
+    )
+    .with_help(format!("write `{closer}` in a block of its own"))
+}
+
+fn stray(span: Span, text: &str, kind: Kind) -> Fault {
+    let word = span.of(text).split_whitespace().next().unwrap_or_default();
+    let opener = kind.opener();
+    Fault::new(
+        Code::Fc208,
+        span,
+        format!("`{word}` without an open `{opener}`"),
+    )
+}

@@ -1,0 +1,65 @@
+//! Values of the language: numbers, texts, and what only the machine knows.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+/// A value of an expression, parameter or variable.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(Arc<str>),
+    /// Something that only the machine knows; the text names it (R2.50).
+    Unknown(Arc<str>),
+}
+
+impl Value {
+    /// The number, where it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// Whether the value counts as true: |value| ≥ 0.5 (R2.31). `None` where it is not a number.
+    pub fn truth(&self) -> Option<bool> {
+        self.number().map(is_true)
+    }
+}
+
+/// R2.31
+pub(super) fn is_true(number: f64) -> bool {
+    number.abs() >= 0.5
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(truth: bool) -> Self {
+        Self::Number(f64::from(u8::from(truth)))
+    }
+}
+
+impl From<&crate::machine::Setting> for Value {
+    fn from(setting: &crate::machine::Setting) -> Self {
+        match setting {
+            crate::machine::Setting::Number(number) => Self::Number(*number),
+            crate::machine::Setting::Text(text) => Self::Text(text.as_str().into()),
+        }
+    }
+}
+
+/// A number as a whole one, rounded half away from zero; out of range is `None`.
+pub(super) fn rounded(number: f64) -> Option<i64> {
+    let rounded = number.round();
+    // 2^53: beyond it a number of the language is no whole number any more.
+    #[allow(clippy::cast_possible_truncation)]
+    (rounded.abs() <= 9_007_199_254_740_992.0).then_some(rounded as i64)
+}

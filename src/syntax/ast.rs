@@ -1,0 +1,474 @@
+//! The blocks of a program as data, compact and owned.
+//!
+//! Names are spans into the block's text. Expressions stand in one vector per block, each operand
+//! in front of its operator, so that they are evaluated with a stack and without recursion.
+
+use super::{CompCommand, Fault};
+use crate::source::Span;
+
+/// One block.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Block {
+    /// The skip level of a leading slash, 1 to 10 (R2.3).
+    pub skip: Option<u8>,
+    /// The block number.
+    pub number: Option<Number>,
+    /// What stands in the block, from left to right.
+    pub items: Vec<Item>,
+    /// The expressions of the block.
+    pub nodes: Vec<Node>,
+    /// The source of each node.
+    pub spans: Vec<Span>,
+    /// What is wrong with its text, from left to right.
+    pub faults: Vec<Fault>,
+}
+
+impl Block {
+    /// Whether a `$GOTO` stands in the block; an `$IF` beside it opens no control block.
+    pub fn jumps(&self) -> bool {
+        self.items
+            .iter()
+            .any(|item| matches!(item, Item::Flow(Flow::Goto(_), _)))
+    }
+
+    /// Empties the block and keeps its memory.
+    pub fn clear(&mut self) {
+        self.skip = None;
+        self.number = None;
+        self.items.clear();
+        self.nodes.clear();
+        self.spans.clear();
+        self.faults.clear();
+    }
+}
+
+/// `N10`, or the jump label `N10:`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number {
+    /// The number, often an expression.
+    pub value: Operand,
+    /// Whether a colon makes it a jump label.
+    pub label: bool,
+    /// From the N to the number's or the colon's end.
+    pub span: Span,
+}
+
+/// A value: a plain number, or an expression.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Operand {
+    /// A number, sign included.
+    Number(f64),
+    /// Something to compute.
+    Expression(Expression),
+}
+
+/// A range of [`Block::nodes`] whose last node is the expression's root.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Expression {
+    /// The first node.
+    pub start: u32,
+    /// One past the last node.
+    pub end: u32,
+}
+
+/// The address of a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Address {
+    /// One letter, in upper case.
+    Letter(u8),
+    /// A lower-case letter that would name an axis in upper case; axis names are case-sensitive.
+    Lower(u8),
+    /// A longer axis or spindle name.
+    Name(Span),
+}
+
+/// A word: `G1`, `X12.5`, `X1=100`, `M200=1200`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Word {
+    /// The address.
+    pub address: Address,
+    /// The value behind it; some machines take an axis letter alone.
+    pub value: Option<Operand>,
+    /// The word.
+    pub span: Span,
+}
+
+/// Something in a block.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Item {
+    /// A word.
+    Word(Word),
+    /// A COMP command.
+    Comp(CompCommand),
+    /// A COMP bracket that was not understood; its fault says why.
+    BadCommand(Span),
+    /// A bracket command of another kind: the axis, its first keyword, the whole.
+    Bracket {
+        /// The axis or spindle.
+        axis: Span,
+        /// The first keyword.
+        keyword: Span,
+        /// The whole command.
+        span: Span,
+    },
+    /// `G800[1, 2, , 4]`.
+    GCall(GCall),
+    /// A number without an address, `G04 2.5`.
+    BareNumber(Operand, Span),
+    /// `P1 = 5`.
+    Assign(Assignment),
+    /// `[NAME]`, a jump label.
+    Label(Span),
+    /// A `$` statement.
+    Flow(Flow, Span),
+    /// A `#` command: its words up to the first bracket or number, and what follows.
+    Hash(Hash),
+    /// A subprogram call.
+    Call(Call),
+    /// `"NAME" = "code"`, both with their quotes.
+    MacroDefinition(Span, Span),
+    /// `"NAME"`, with its quotes.
+    MacroUse(Span),
+}
+
+impl Item {
+    /// The source of the item.
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Word(word) => word.span,
+            Self::Comp(command) => command.span,
+            Self::BadCommand(span)
+            | Self::Bracket { span, .. }
+            | Self::BareNumber(_, span)
+            | Self::Label(span)
+            | Self::Flow(_, span)
+            | Self::MacroUse(span) => *span,
+            Self::GCall(call) => call.span,
+            Self::Assign(assignment) => assignment.span,
+            Self::Hash(hash) => hash.span,
+            Self::Call(call) => call.span,
+            Self::MacroDefinition(name, code) => name.to(*code),
+        }
+    }
+}
+
+/// An implicit call, `G800[1, 2, , 4]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GCall {
+    /// The number of the G function.
+    pub number: u32,
+    /// The values; one that is left out is `None`.
+    pub arguments: Vec<Option<Operand>>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// `target = value`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Assignment {
+    /// What is written.
+    pub target: Target,
+    /// The new value.
+    pub value: Operand,
+    /// The whole.
+    pub span: Span,
+}
+
+/// A place that an assignment writes: a range of nodes as for reading it, whose last node names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Target {
+    /// The nodes; the last one is a parameter or variable.
+    pub place: Expression,
+    /// Its text.
+    pub span: Span,
+}
+
+/// A `$` statement.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Flow {
+    /// `$IF c`.
+    If(Operand),
+    /// `$ELSEIF c`.
+    ElseIf(Operand),
+    /// `$ELSE`.
+    Else,
+    /// `$ENDIF`.
+    EndIf,
+    /// `$SWITCH e`, also `$SWITCH P1 = e`.
+    Switch(Option<Target>, Operand),
+    /// `$CASE v`.
+    Case(Operand),
+    /// `$DEFAULT`.
+    Default,
+    /// `$ENDSWITCH`.
+    EndSwitch,
+    /// `$FOR P1 = start, end, step`.
+    For {
+        /// The counter.
+        counter: Target,
+        /// Its first value.
+        start: Operand,
+        /// The value that ends the loop when it is passed.
+        end: Operand,
+        /// What is added each time, 1 when left out.
+        step: Operand,
+    },
+    /// `$ENDFOR`.
+    EndFor,
+    /// `$WHILE c`.
+    While(Operand),
+    /// `$ENDWHILE`.
+    EndWhile,
+    /// `$DO`, with a condition or without.
+    Do(Option<Operand>),
+    /// `$ENDDO`, with a condition or without.
+    EndDo(Option<Operand>),
+    /// `$REPEAT`.
+    Repeat,
+    /// `$UNTIL c`.
+    Until(Operand),
+    /// `$BREAK`.
+    Break,
+    /// `$CONTINUE`.
+    Continue,
+    /// `$GOTO`.
+    Goto(JumpTarget),
+}
+
+/// Where `$GOTO` goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JumpTarget {
+    /// `N20`.
+    Number(Operand),
+    /// `[NAME]`, the name without its brackets.
+    Label(Span),
+    /// `V.E.NAME`, a variable that holds the name.
+    Variable(Expression),
+}
+
+/// A `#` command.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hash {
+    /// Its words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
+    pub name: String,
+    /// What follows the words.
+    pub rest: Span,
+    /// The value of `#TIME`, the target of `#DELETE`.
+    pub argument: Option<Operand>,
+    /// The declarations of `#VAR`.
+    pub declarations: Vec<Declaration>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// One declaration in `#VAR` … `#ENDVAR`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declaration {
+    /// The variable with its dimensions as subscripts.
+    pub target: Target,
+    /// The type in upper case, REAL64 when left out.
+    pub kind: Option<String>,
+    /// The initial values in row order; a scalar has one.
+    pub initial: Vec<Operand>,
+}
+
+/// How a called program is named.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CallName {
+    /// As it stands.
+    Literal(Span),
+    /// In quotes, a macro's name or the program's; the span holds the quotes.
+    Quoted(Span),
+    /// A variable that holds the name.
+    Variable(Expression),
+}
+
+/// Where a called program is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CallScope {
+    /// `LL`: in the same file.
+    Local,
+    /// `L`: in a file.
+    Global,
+}
+
+/// How a cycle is repeated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Repetition {
+    /// Not at all.
+    #[default]
+    Once,
+    /// `MODAL_MOVE`: after each block with motion.
+    AfterMotion,
+    /// `MODAL_BLOCK`: after each block.
+    AfterBlock,
+}
+
+/// `LL NAME`, `L file.nc`, `L CYCLE [NAME=… @P1=…]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Call {
+    /// Where the program is looked for.
+    pub scope: CallScope,
+    /// How it is named.
+    pub name: CallName,
+    /// Own parameters of the call, `@P1` …: number and value.
+    pub arguments: Vec<(u32, Operand)>,
+    /// Whether it is repeated.
+    pub repetition: Repetition,
+    /// The whole.
+    pub span: Span,
+}
+
+/// One step of an expression; operands stand in front of their operator.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Node {
+    /// A number.
+    Number(f64),
+    /// A text; the node's span holds the quotes.
+    Text,
+    /// `P10` or `@P10`.
+    Parameter {
+        /// Whose parameter.
+        owner: Owner,
+        /// Its number.
+        index: u32,
+    },
+    /// `PP10`, `P100[3]`: the number and the subscripts are popped.
+    IndexedParameter {
+        /// Whose parameter.
+        owner: Owner,
+        /// How many subscripts lie above the number.
+        subscripts: u8,
+    },
+    /// `V.P.NAME`; the node's span is its text, subscripts are popped.
+    Variable {
+        /// How many subscripts it has.
+        subscripts: u8,
+    },
+    /// The sign is turned.
+    Negate,
+    /// Two values become one.
+    Binary(BinaryOperator),
+    /// Arguments become one value.
+    Call {
+        /// The function.
+        function: Function,
+        /// How many arguments.
+        arguments: u8,
+    },
+}
+
+/// Whose parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// `P`, shared with subprograms.
+    Program,
+    /// `@P`, of this call.
+    Call,
+}
+
+/// An operator between two values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BinaryOperator {
+    /// `+`, also between texts.
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+    /// `**`
+    Power,
+    /// `MOD`
+    Modulo,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `>=`
+    GreaterOrEqual,
+    /// `<=`
+    LessOrEqual,
+    /// `<`
+    Less,
+    /// `>`
+    Greater,
+    /// `&`
+    BitAnd,
+    /// `|`
+    BitOr,
+    /// `&&`
+    And,
+    /// `||`
+    Or,
+    /// `XOR`
+    Xor,
+}
+
+/// A function of the language (R2.30, R2.34, R2.35).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Function {
+    /// Absolute value.
+    Abs,
+    /// Square.
+    Sqr,
+    /// Square root.
+    Sqrt,
+    /// Exponential.
+    Exp,
+    /// Natural logarithm.
+    Ln,
+    /// Power of ten.
+    Dexp,
+    /// Logarithm to base 10.
+    Log,
+    /// Sine of degrees.
+    Sin,
+    /// Cosine of degrees.
+    Cos,
+    /// Tangent of degrees.
+    Tan,
+    /// Cotangent of degrees.
+    Cot,
+    /// Arc sine in degrees.
+    Asin,
+    /// Arc cosine in degrees.
+    Acos,
+    /// Arc tangent in degrees.
+    Atan,
+    /// Arc tangent of y, x in degrees.
+    Atan2,
+    /// Arc cotangent in degrees.
+    Acot,
+    /// Integer part.
+    Int,
+    /// Fractional part.
+    Fract,
+    /// Next integer above.
+    Ceil,
+    /// Next integer below.
+    Floor,
+    /// Nearest integer.
+    Round,
+    /// Bitwise inversion.
+    Inv,
+    /// Logical inversion.
+    Not,
+    /// Whether a parameter or variable exists.
+    Exist,
+    /// The number of elements of an array.
+    Sizeof,
+    /// The first characters of a text.
+    Left,
+    /// Characters from the middle of a text.
+    Mid,
+    /// The last characters of a text.
+    Right,
+    /// The length of a text.
+    Len,
+    /// The position of a text in another, from 1, 0 when absent.
+    Find,
+    /// The code of a text's first character.
+    Ord,
+}

@@ -1,0 +1,374 @@
+//! Expressions: a flat list in the grammar, precedence here, operands in front of operators in
+//! the block's nodes.
+
+use pest::iterators::Pair;
+
+use super::ast::{BinaryOperator, Block, Expression, Function, Node, Operand, Owner};
+use super::grammar::Rule;
+use crate::source::Span;
+
+/// How tightly operators bind, loosest first.
+const PRECEDENCE: &[&[BinaryOperator]] = {
+    use BinaryOperator::{
+        Add, And, BitAnd, BitOr, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
+        Multiply, NotEqual, Or, Power, Subtract, Xor,
+    };
+    &[
+        &[Or],
+        &[Xor],
+        &[And],
+        &[BitOr],
+        &[BitAnd],
+        &[Equal, NotEqual],
+        &[Less, Greater, LessOrEqual, GreaterOrEqual],
+        &[Add, Subtract],
+        &[Multiply, Divide, Modulo],
+        &[Power],
+    ]
+};
+
+/// An operator whose operands are not complete yet.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Waiting {
+    /// A sign in front of an operand; it binds less tightly than `**`, more than `*`.
+    Negate,
+    Binary(BinaryOperator),
+}
+
+impl Waiting {
+    fn binding(self) -> usize {
+        match self {
+            Self::Negate => 2 * (PRECEDENCE.len() - 1) - 1,
+            Self::Binary(operator) => {
+                let level = PRECEDENCE
+                    .iter()
+                    .position(|level| level.contains(&operator));
+                2 * level.unwrap_or_default()
+            }
+        }
+    }
+}
+
+/// Lowers `expression`, whose spans count from `base` in the block.
+pub(super) fn lower(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Operand {
+    let from = block.nodes.len();
+    Lowering { base, block }.expression(pair);
+    operand(from, block)
+}
+
+/// Lowers a single value.
+pub(super) fn lower_primary(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Operand {
+    let from = block.nodes.len();
+    Lowering { base, block }.primary(pair);
+    operand(from, block)
+}
+
+/// Lowers a parameter or variable, or a rule that wraps one, as a place to write.
+pub(super) fn place(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Expression {
+    let from = block.nodes.len();
+    let mut inner = pair;
+    while !matches!(inner.as_rule(), Rule::parameter | Rule::variable) {
+        match inner.clone().into_inner().next() {
+            Some(next) => inner = next,
+            None => break,
+        }
+    }
+    Lowering { base, block }.primary(inner);
+    range(from, block)
+}
+
+fn range(from: usize, block: &Block) -> Expression {
+    let span = Span::new(from, block.nodes.len());
+    Expression {
+        start: span.start,
+        end: span.end,
+    }
+}
+
+/// A plain number stays out of the nodes.
+fn operand(from: usize, block: &mut Block) -> Operand {
+    match block.nodes[from..] {
+        [Node::Number(value)] => {
+            block.nodes.truncate(from);
+            block.spans.truncate(from);
+            Operand::Number(value)
+        }
+        _ => Operand::Expression(range(from, block)),
+    }
+}
+
+struct Lowering<'a> {
+    base: u32,
+    block: &'a mut Block,
+}
+
+impl Lowering<'_> {
+    fn span(&self, pair: &Pair<'_, Rule>) -> Span {
+        let span = pair.as_span();
+        let length = span.as_str().trim_end().len();
+        Span::new(span.start(), span.start() + length).shifted(self.base)
+    }
+
+    fn push(&mut self, node: Node, span: Span) {
+        self.block.nodes.push(node);
+        self.block.spans.push(span);
+    }
+
+    /// Precedence over the flat list: operators wait until one that binds less tightly follows,
+    /// so nothing recurses but brackets.
+    fn expression(&mut self, pair: Pair<'_, Rule>) {
+        let start = self.span(&pair).start;
+        let mut waiting: Vec<Waiting> = Vec::new();
+        let mut negative = false;
+        for part in pair.into_inner() {
+            let end = self.span(&part).end;
+            match part.as_rule() {
+                Rule::sign => negative ^= part.as_str() == "-",
+                Rule::infix => {
+                    let Some(operator) = operator(part.as_str()) else {
+                        continue;
+                    };
+                    let operator = Waiting::Binary(operator);
+                    self.reduce(&mut waiting, Some(operator), Span { start, end });
+                    waiting.push(operator);
+                }
+                _ => {
+                    if std::mem::take(&mut negative) {
+                        waiting.push(Waiting::Negate);
+                    }
+                    self.primary(part);
+                }
+            }
+        }
+        let end = self.block.spans.last().map_or(start, |span| span.end);
+        self.reduce(&mut waiting, None, Span { start, end });
+    }
+
+    /// Writes the waiting operators that bind at least as tightly as the next one.
+    fn reduce(&mut self, waiting: &mut Vec<Waiting>, next: Option<Waiting>, span: Span) {
+        while let Some(&last) = waiting.last() {
+            let goes_first = next.is_none_or(|next| {
+                let rightwards = next == Waiting::Binary(BinaryOperator::Power);
+                last.binding() > next.binding() || (last.binding() == next.binding() && !rightwards)
+            });
+            if !goes_first {
+                return;
+            }
+            waiting.pop();
+            match last {
+                Waiting::Binary(operator) => self.push(Node::Binary(operator), span),
+                Waiting::Negate => self.negate(span),
+            }
+        }
+    }
+
+    fn negate(&mut self, span: Span) {
+        match self.block.nodes.last_mut() {
+            Some(Node::Number(value)) => *value = -*value,
+            _ => self.push(Node::Negate, span),
+        }
+    }
+
+    fn primary(&mut self, pair: Pair<'_, Rule>) {
+        let span = self.span(&pair);
+        match pair.as_rule() {
+            Rule::literal => self.push(Node::Number(number(pair.as_str())), span),
+            Rule::quoted => self.push(Node::Number(quoted(pair.as_str())), span),
+            Rule::constant => self.push(Node::Number(constant(pair.as_str())), span),
+            Rule::text => self.push(Node::Text, span),
+            Rule::group => {
+                for inner in pair.into_inner() {
+                    self.expression(inner);
+                }
+            }
+            Rule::call => self.call(pair, span),
+            Rule::parameter => self.parameter(pair, span),
+            Rule::variable => self.variable(pair, span),
+            _ => {}
+        }
+    }
+
+    fn call(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut inner = pair.into_inner();
+        let Some(function) = inner.next().and_then(|name| function(name.as_str())) else {
+            return;
+        };
+        let mut arguments = 0_u8;
+        for argument in inner {
+            self.expression(argument);
+            arguments = arguments.saturating_add(1);
+        }
+        self.push(
+            Node::Call {
+                function,
+                arguments,
+            },
+            span,
+        );
+    }
+
+    fn parameter(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut owner = Owner::Program;
+        let mut direct = None;
+        let mut subscripts = 0_u8;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::own => owner = Owner::Call,
+                Rule::index => direct = Some(part.as_str().parse().unwrap_or(u32::MAX)),
+                Rule::parameter_index => self.inner_parameter(part),
+                _ => {
+                    if let Some(index) = direct.take() {
+                        self.push(Node::Number(f64::from(index)), span);
+                    }
+                    subscripts = subscripts.saturating_add(self.subscripts(part));
+                }
+            }
+        }
+        let node = match direct {
+            Some(index) => Node::Parameter { owner, index },
+            None => Node::IndexedParameter { owner, subscripts },
+        };
+        self.push(node, span);
+    }
+
+    /// `PP10` reads P10 to know which parameter is meant.
+    fn inner_parameter(&mut self, pair: Pair<'_, Rule>) {
+        let span = self.span(&pair);
+        let owner = Owner::Program;
+        let mut direct = None;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::index => direct = Some(part.as_str().parse().unwrap_or(u32::MAX)),
+                _ => self.inner_parameter(part),
+            }
+        }
+        let node = match direct {
+            Some(index) => Node::Parameter { owner, index },
+            None => Node::IndexedParameter {
+                owner,
+                subscripts: 0,
+            },
+        };
+        self.push(node, span);
+    }
+
+    fn subscripts(&mut self, pair: Pair<'_, Rule>) -> u8 {
+        let mut count = 0_u8;
+        for value in pair.into_inner() {
+            self.expression(value);
+            count = count.saturating_add(1);
+        }
+        count
+    }
+
+    fn variable(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut subscripts = 0_u8;
+        for part in pair.into_inner() {
+            if part.as_rule() == Rule::variable_subscript {
+                subscripts = subscripts.saturating_add(self.subscripts(part));
+            }
+        }
+        self.push(Node::Variable { subscripts }, span);
+    }
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap_or(f64::NAN)
+}
+
+/// `'16#FA1B'`, `'0x0ED2'`, `'H1869f'`, `'2#1011'`, `'B1011'`; anything else is no number.
+fn quoted(text: &str) -> f64 {
+    let inner = text.trim_matches('\'');
+    let (radix, digits) = if let Some((radix, digits)) = inner.split_once('#') {
+        (radix.parse().unwrap_or(16), digits)
+    } else if let Some(digits) = inner.strip_prefix("0x").or(inner.strip_prefix("0X")) {
+        (16, digits)
+    } else if let Some(digits) = inner.strip_prefix(['H', 'h']) {
+        (16, digits)
+    } else if let Some(digits) = inner.strip_prefix(['B', 'b']) {
+        (2, digits)
+    } else {
+        (10, inner)
+    };
+    if !(2..=36).contains(&radix) {
+        return f64::NAN;
+    }
+    let value = u32::from_str_radix(digits, radix);
+    value.map_or(f64::NAN, f64::from)
+}
+
+fn constant(text: &str) -> f64 {
+    match text.to_ascii_uppercase().as_str() {
+        "PI" => std::f64::consts::PI,
+        "TRUE" => 1.0,
+        _ => 0.0,
+    }
+}
+
+fn operator(text: &str) -> Option<BinaryOperator> {
+    use BinaryOperator::{
+        Add, And, BitAnd, BitOr, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
+        Multiply, NotEqual, Or, Power, Subtract, Xor,
+    };
+    Some(match text.trim().to_ascii_uppercase().as_str() {
+        "+" => Add,
+        "-" => Subtract,
+        "*" => Multiply,
+        "/" => Divide,
+        "**" => Power,
+        "MOD" => Modulo,
+        "==" => Equal,
+        "!=" => NotEqual,
+        ">=" => GreaterOrEqual,
+        "<=" => LessOrEqual,
+        "<" => Less,
+        ">" => Greater,
+        "&" => BitAnd,
+        "|" => BitOr,
+        "&&" => And,
+        "||" => Or,
+        "XOR" => Xor,
+        _ => return None,
+    })
+}
+
+fn function(name: &str) -> Option<Function> {
+    use Function::{
+        Abs, Acos, Acot, Asin, Atan, Atan2, Ceil, Cos, Cot, Dexp, Exist, Exp, Find, Floor, Fract,
+        Int, Inv, Left, Len, Ln, Log, Mid, Not, Ord, Right, Round, Sin, Sizeof, Sqr, Sqrt, Tan,
+    };
+    Some(match name.to_ascii_uppercase().as_str() {
+        "ABS" => Abs,
+        "SQR" => Sqr,
+        "SQRT" => Sqrt,
+        "EXP" => Exp,
+        "LN" => Ln,
+        "DEXP" => Dexp,
+        "LOG" => Log,
+        "SIN" => Sin,
+        "COS" => Cos,
+        "TAN" => Tan,
+        "COT" => Cot,
+        "ASIN" => Asin,
+        "ACOS" => Acos,
+        "ATAN" => Atan,
+        "ATAN2" => Atan2,
+        "ACOT" => Acot,
+        "INT" => Int,
+        "FRACT" => Fract,
+        "CEIL" => Ceil,
+        "FLOOR" => Floor,
+        "ROUND" => Round,
+        "INV" => Inv,
+        "NOT" => Not,
+        "EXIST" => Exist,
+        "SIZEOF" => Sizeof,
+        "LEFT" => Left,
+        "MID" => Mid,
+        "RIGHT" => Right,
+        "LEN" => Len,
+        "FIND" => Find,
+        "ORD" => Ord,
+        _ => return None,
+    })
+}

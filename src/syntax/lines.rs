@@ -1,0 +1,391 @@
+//! Physical lines to blocks: comments, continuations, comment regions (R2.2, R2.6, R2.7).
+//!
+//! What a block's parser sees is its *code*: the text with comments, continuation signs and the
+//! block numbers of continued lines blanked out byte for byte, so that spans fit both.
+
+use super::ast::Block;
+use super::{Fault, fast, lower};
+use crate::codes::Code;
+use crate::source::{LineSource, Span};
+
+/// Characters that one line may have (R2.2).
+pub const MAX_LINE: usize = 4000;
+
+/// Lines that one continued block, or one `#VAR` region, may have. The documents state no bound;
+/// without one a damaged file would be read into memory whole.
+const MAX_LINES: u32 = 4000;
+
+/// What a stretch of source lines is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stretch {
+    /// A block, parsed.
+    Block,
+    /// `%NAME`: a program begins.
+    Program {
+        /// The name.
+        name: Span,
+        /// Whether it is a local subprogram, `%L NAME`.
+        local: bool,
+    },
+}
+
+/// One block, or one `%` line, as it stands in the file.
+#[derive(Debug, Clone, Copy)]
+pub struct RawBlock<'a> {
+    /// What it is.
+    pub stretch: Stretch,
+    /// The source lines joined by `\n`, without trailing blanks.
+    pub text: &'a str,
+    /// The line on which it starts, from 1.
+    pub line: u32,
+    /// Where that line starts, in bytes from the start of the text.
+    pub offset: usize,
+    /// The comment line directly above that speaks to this tool (R9.24), with its line.
+    pub remark: Option<(&'a str, u32)>,
+}
+
+/// Whether blocks are parsed by hand where that is possible.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FastPath {
+    /// Plain blocks are parsed by hand, the rest by the grammar.
+    #[default]
+    On,
+    /// Every block is parsed by the grammar.
+    Off,
+}
+
+/// Reads blocks one after another.
+#[derive(Debug)]
+pub struct BlockReader<S> {
+    source: S,
+    fast_path: FastPath,
+    /// The number of the line that `source` stands on.
+    line: u32,
+    text: String,
+    code: String,
+    remark: String,
+    remark_line: u32,
+}
+
+/// What masking found in a line.
+#[derive(Debug, Clone, Copy, Default)]
+struct Masked {
+    /// A `\` stands at the end of the code.
+    continues: bool,
+    /// The first character outside ASCII that stands in code.
+    foreign: Option<Span>,
+}
+
+impl<S: LineSource> BlockReader<S> {
+    /// A reader whose first line has the number `first_line`.
+    pub fn new(source: S, first_line: u32, fast_path: FastPath) -> Self {
+        Self {
+            source,
+            fast_path,
+            line: first_line - 1,
+            text: String::new(),
+            code: String::new(),
+            remark: String::new(),
+            remark_line: 0,
+        }
+    }
+
+    /// The source of the lines, to ask it about errors.
+    pub fn source(&self) -> &S {
+        &self.source
+    }
+
+    /// Parses the next block into `block`, or finds the next `%` line. Blank lines, comment lines
+    /// and `#COMMENT` regions are passed over (R9.11).
+    pub fn next(&mut self, block: &mut Block) -> Option<RawBlock<'_>> {
+        block.clear();
+        loop {
+            if !self.source.advance() {
+                return None;
+            }
+            self.line += 1;
+            if self.fast_path == FastPath::On {
+                let line = self.source.line();
+                if line.text.len() <= MAX_LINE && fast::parse(line.text, block) {
+                    return Some(RawBlock {
+                        stretch: Stretch::Block,
+                        text: self.source.line().text.trim_ascii_end(),
+                        line: self.line,
+                        offset: self.source.offset(),
+                        remark: remark(&self.remark, self.remark_line, self.line),
+                    });
+                }
+            }
+            let (line, offset) = (self.line, self.source.offset());
+            let stretch = self.slow(block);
+            if let Some(stretch) = stretch {
+                return Some(RawBlock {
+                    stretch,
+                    text: &self.text,
+                    line,
+                    offset,
+                    remark: remark(&self.remark, self.remark_line, line),
+                });
+            }
+        }
+    }
+
+    /// Reads the line that the source stands on, and those that belong to it.
+    fn slow(&mut self, block: &mut Block) -> Option<Stretch> {
+        self.text.clear();
+        self.code.clear();
+        let cut = self.source.line().cut;
+        let masked = self.take_line();
+        let start = self.code.trim_ascii_start();
+        if start.is_empty() {
+            if self.text.contains(super::allow::MARK) {
+                self.remark.clone_from(&self.text);
+                self.remark_line = self.line;
+            }
+            if !masked.continues {
+                return None;
+            }
+        }
+        if let Some(name) = start.strip_prefix('%') {
+            return Some(program_line(&self.code, name));
+        }
+        let mut foreign = masked.foreign;
+        if masked.continues {
+            foreign = foreign.or(self.take_continuation(block));
+            if self.code.trim_ascii().is_empty() {
+                return None;
+            }
+        }
+        match hash_word(&self.code) {
+            Some(word) if word == "#COMMENT BEGIN" => {
+                self.skip_comment_region();
+                return None;
+            }
+            Some(word) if word == "#VAR" => self.take_region("#ENDVAR", block),
+            Some(word) if word == "#RT CYCLE" => self.take_region("#RT CYCLE END", block),
+            _ => {}
+        }
+        if cut || self.text.lines().any(|line| too_long(line)) {
+            block.faults.push(
+                Fault::new(
+                    Code::Fc206,
+                    Span::new(0, self.text.len().min(MAX_LINE)),
+                    format!("a block has at most {MAX_LINE} characters"),
+                )
+                .with_help("divide the block, or continue it on the next line with `\\`"),
+            );
+            return Some(Stretch::Block);
+        }
+        if let Some(span) = foreign {
+            block.faults.push(Fault::new(
+                Code::Fc101,
+                span,
+                format!(
+                    "`{}` is outside ASCII; programs are ASCII except in comments and texts",
+                    span.of(&self.text)
+                ),
+            ));
+        }
+        lower::block(&self.code, block);
+        block.faults.sort_by_key(|fault| fault.span.start);
+        Some(Stretch::Block)
+    }
+
+    /// Appends the source's line to text and code, without trailing blanks.
+    fn take_line(&mut self) -> Masked {
+        let line = self.source.line().text.trim_end_matches(is_blank);
+        let from = self.code.len();
+        self.text.push_str(line);
+        let masked = mask(line, &mut self.code);
+        Masked {
+            continues: masked.continues,
+            foreign: masked
+                .foreign
+                .map(|span| span.shifted(Span::new(from, from).start)),
+        }
+    }
+
+    /// Appends the lines that a `\` continues on; blank and comment lines in between are free.
+    fn take_continuation(&mut self, block: &mut Block) -> Option<Span> {
+        let mut foreign = None;
+        for _ in 0..MAX_LINES {
+            if !self.source.advance() {
+                return foreign;
+            }
+            self.line += 1;
+            self.text.push('\n');
+            self.code.push('\n');
+            let from = self.code.len();
+            let masked = self.take_line();
+            foreign = foreign.or(masked.foreign);
+            let blank = self.code[from..].trim_ascii().is_empty();
+            mask_number(&mut self.code, from);
+            if !blank && !masked.continues {
+                return foreign;
+            }
+        }
+        block.faults.push(Fault::new(
+            Code::Fc206,
+            Span::new(0, self.text.find('\n').unwrap_or_default()),
+            format!("a block is continued over more than {MAX_LINES} lines"),
+        ));
+        foreign
+    }
+
+    fn skip_comment_region(&mut self) {
+        while self.source.advance() {
+            self.line += 1;
+            self.code.clear();
+            mask(self.source.line().text, &mut self.code);
+            if hash_word(&self.code).is_some_and(|word| word == "#COMMENT END") {
+                return;
+            }
+        }
+    }
+
+    /// Appends lines up to the one that ends a region of declarations.
+    fn take_region(&mut self, end: &str, block: &mut Block) {
+        let opener = Span::new(0, self.text.len());
+        let mut continued = false;
+        for _ in 0..MAX_LINES {
+            if !self.source.advance() {
+                break;
+            }
+            self.line += 1;
+            self.text.push('\n');
+            // A continued declaration is one line to the parser.
+            self.code.push(if continued { ' ' } else { '\n' });
+            let from = self.code.len();
+            continued = self.take_line().continues;
+            if hash_word(&self.code[from..]).is_some_and(|word| word == end) {
+                return;
+            }
+        }
+        block.faults.push(
+            Fault::new(
+                Code::Fc208,
+                opener,
+                format!("`{}` has no `{end}`", opener.of(&self.text).trim()),
+            )
+            .with_help(format!("write `{end}` in a block of its own")),
+        );
+    }
+}
+
+fn remark(remark: &str, remark_line: u32, line: u32) -> Option<(&str, u32)> {
+    (!remark.is_empty() && remark_line + 1 == line).then_some((remark, remark_line))
+}
+
+/// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
+pub(super) fn is_blank(c: char) -> bool {
+    c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
+}
+
+fn too_long(line: &str) -> bool {
+    line.len() > MAX_LINE && line.chars().count() > MAX_LINE
+}
+
+/// `%NAME`, `% NAME`, `%L NAME` (R2.10).
+fn program_line(code: &str, behind: &str) -> Stretch {
+    let separators = [
+        ' ', '\t', '\u{0}', '\u{3}', '(', ';', '"', ']', ',', '#', '$',
+    ];
+    let rest = behind.trim_start_matches(is_blank);
+    let (local, name) = match rest.strip_prefix(['L', 'l']) {
+        Some(name) if name.starts_with([' ', '\t']) => (true, name.trim_start_matches(is_blank)),
+        _ => (false, rest),
+    };
+    let start = code.len() - name.len();
+    let length = name.find(separators).unwrap_or(name.len());
+    Stretch::Program {
+        name: Span::new(start, start + length),
+        local,
+    }
+}
+
+/// The words of a `#` command at the start of a block, behind its number, in upper case.
+pub(super) fn hash_word(code: &str) -> Option<String> {
+    let start = code.trim_start_matches(is_blank);
+    let start = match start.strip_prefix(['N', 'n']) {
+        Some(number) => number.trim_start_matches(|c: char| c.is_ascii_digit() || is_blank(c)),
+        None => start,
+    };
+    start.starts_with('#').then(|| super::hash_name(start).0)
+}
+
+/// Blanks out the block number of a continued line (R1.5).
+fn mask_number(code: &mut String, from: usize) {
+    let line = &code[from..];
+    let start = from + line.len() - line.trim_start_matches(is_blank).len();
+    let Some(number) = code[start..].strip_prefix(['N', 'n']) else {
+        return;
+    };
+    let digits = number.trim_start_matches(|c: char| c.is_ascii_digit());
+    let length = number.len() - digits.len();
+    if length > 0 {
+        let end = start + 1 + length;
+        code.replace_range(start..end, &" ".repeat(end - start));
+    }
+}
+
+/// Appends a line to `code` with comments, a continuation sign and foreign characters blanked out.
+fn mask(line: &str, code: &mut String) -> Masked {
+    let from = code.len();
+    let bytes = line.as_bytes();
+    let mut masked = Masked::default();
+    let mut at = 0;
+    while at < bytes.len() {
+        match bytes[at] {
+            b'"' if memchr::memchr(b'"', &bytes[at + 1..]).is_some() => {
+                let end = at + 2 + memchr::memchr(b'"', &bytes[at + 1..]).unwrap_or_default();
+                code.push_str(&line[at..end]);
+                at = end;
+            }
+            b';' => {
+                blank(code, bytes.len() - at);
+                at = bytes.len();
+            }
+            b'(' => {
+                let end = comment_end(bytes, at);
+                blank(code, end - at);
+                at = end;
+            }
+            byte if byte.is_ascii() => {
+                code.push(char::from(byte));
+                at += 1;
+            }
+            _ => {
+                let length = line[at..].chars().next().map_or(1, char::len_utf8);
+                masked.foreign = masked.foreign.or(Some(Span::new(at, at + length)));
+                blank(code, length);
+                at += length;
+            }
+        }
+    }
+    let end = from + code[from..].trim_end_matches(is_blank).len();
+    if code[from..end].ends_with('\\') {
+        code.replace_range(end - 1..end, " ");
+        masked.continues = true;
+    }
+    masked
+}
+
+fn blank(code: &mut String, length: usize) {
+    code.extend(std::iter::repeat_n(' ', length));
+}
+
+/// One past the `)` that closes the comment at `start`; comments nest (R2.6).
+fn comment_end(bytes: &[u8], start: usize) -> usize {
+    let mut depth = 0_usize;
+    for (at, byte) in bytes.iter().enumerate().skip(start) {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            _ => continue,
+        }
+        if depth == 0 {
+            return at + 1;
+        }
+    }
+    bytes.len()
+}

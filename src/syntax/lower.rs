@@ -1,0 +1,740 @@
+//! pest pairs to blocks.
+
+use pest::Parser;
+use pest::iterators::Pair;
+
+use super::ast::{
+    Address, Assignment, Block, Call, CallName, CallScope, Declaration, Flow, GCall, Hash, Item,
+    JumpTarget, Number, Operand, Repetition, Target, Word,
+};
+use super::comp::CompWords;
+use super::expression;
+use super::grammar::{NcParser, Rule};
+use super::{Fault, MAX_BRACKETS, hash_name};
+use crate::codes::Code;
+use crate::diagnostic::did_you_mean;
+use crate::source::Span;
+
+/// Keywords behind which an axis bracket is a command that is not modelled (R2.23).
+const OTHER_COMMANDS: [&str; 11] = [
+    "INDP_SYN",
+    "INDP_ASYN",
+    "OSC",
+    "DIST_CTRL",
+    "OVERRIDE",
+    "DYNAMIC",
+    "LIFT",
+    "LIFT_START",
+    "LIFT_END",
+    "SYNC",
+    "POLY",
+];
+
+/// The `$` statements.
+const FLOW_WORDS: [&str; 20] = [
+    "$IF",
+    "$ELSEIF",
+    "$ELSE",
+    "$ENDIF",
+    "$SWITCH",
+    "$CASE",
+    "$DEFAULT",
+    "$ENDSWITCH",
+    "$FOR",
+    "$ENDFOR",
+    "$WHILE",
+    "$ENDWHILE",
+    "$DO",
+    "$ENDDO",
+    "$REPEAT",
+    "$UNTIL",
+    "$BREAK",
+    "$CONTINUE",
+    "$GOTO",
+    "$",
+];
+
+/// Parses the code of a block into an empty block.
+pub(super) fn block(code: &str, block: &mut Block) {
+    let unclosed = match brackets(code) {
+        Ok(unclosed) => unclosed,
+        Err(fault) => {
+            block.faults.push(fault);
+            return;
+        }
+    };
+    let Ok(mut pairs) = NcParser::parse(Rule::block, code) else {
+        // `block` matches any text; see the last alternative of `item`.
+        block
+            .faults
+            .push(not_understood(Span::new(0, code.len()), code));
+        return;
+    };
+    let mut lowering = Lowering {
+        code,
+        block,
+        unclosed,
+        unknown: None,
+        lower_case: None,
+    };
+    for pair in pairs.next().into_iter().flat_map(Pair::into_inner) {
+        lowering.part(pair);
+    }
+    lowering.finish();
+}
+
+/// Finds the first `[` that is never closed; refuses what nests too deeply for recursion.
+fn brackets(code: &str) -> Result<Option<usize>, Fault> {
+    let mut open = Vec::new();
+    let mut powers = 0_usize;
+    let mut in_text = false;
+    let bytes = code.as_bytes();
+    for (at, byte) in bytes.iter().enumerate() {
+        match byte {
+            b'"' => in_text = !in_text,
+            _ if in_text => {}
+            b'[' => open.push(at),
+            b']' => {
+                open.pop();
+            }
+            b'*' if bytes.get(at + 1) == Some(&b'*') => powers += 1,
+            _ => {}
+        }
+        if open.len() > MAX_BRACKETS || powers > MAX_BRACKETS {
+            return Err(Fault::new(
+                Code::Fc913,
+                Span::new(at, at + 1),
+                format!("expressions nest more than {MAX_BRACKETS} deep"),
+            )
+            .with_help("compute parts of it in blocks of their own"));
+        }
+    }
+    Ok(open.first().copied())
+}
+
+fn span_of(pair: &Pair<'_, Rule>) -> Span {
+    let span = pair.as_span();
+    Span::new(span.start(), span.end())
+}
+
+/// The span without the blanks that pest leaves at its end.
+fn trimmed(span: Span, code: &str) -> Span {
+    let text = span.of(code);
+    let length = text.trim_end_matches(super::lines::is_blank).len();
+    Span::new(span.start as usize, span.start as usize + length)
+}
+
+fn not_understood(span: Span, code: &str) -> Fault {
+    let found = span.of(code).trim();
+    let shown: String = found.chars().take(40).collect();
+    Fault::new(
+        Code::Fc207,
+        span,
+        format!("`{shown}` is not understood here"),
+    )
+}
+
+struct Lowering<'a> {
+    code: &'a str,
+    block: &'a mut Block,
+    /// The first `[` that is never closed.
+    unclosed: Option<usize>,
+    /// Tokens that no rule understood, so far.
+    unknown: Option<Span>,
+    /// The first address or keyword in lower case.
+    lower_case: Option<Span>,
+}
+
+impl Lowering<'_> {
+    fn part(&mut self, pair: Pair<'_, Rule>) {
+        if !matches!(pair.as_rule(), Rule::unknown | Rule::bare_word) {
+            self.flush_unknown();
+        }
+        let span = trimmed(span_of(&pair), self.code);
+        match pair.as_rule() {
+            Rule::skip => {
+                let level = pair.into_inner().next();
+                self.block.skip =
+                    Some(level.map_or(1, |level| level.as_str().parse().unwrap_or(1)));
+            }
+            Rule::number => self.number(pair, span),
+            Rule::flow => self.flow(pair, span),
+            Rule::hash => self.hash(span),
+            Rule::macro_definition => {
+                let mut texts = pair.into_inner().map(|text| span_of(&text));
+                if let (Some(name), Some(code)) = (texts.next(), texts.next()) {
+                    self.block.items.push(Item::MacroDefinition(name, code));
+                }
+            }
+            Rule::macro_use => self.block.items.push(Item::MacroUse(span)),
+            Rule::label => {
+                let name = pair.into_inner().next().map_or(span, |name| span_of(&name));
+                self.block.items.push(Item::Label(name));
+            }
+            Rule::cycle_call => self.cycle_call(pair, span),
+            Rule::local_call => self.plain_call(pair, CallScope::Local, span),
+            Rule::global_call => self.plain_call(pair, CallScope::Global, span),
+            Rule::assignment => self.assignment(pair, span),
+            Rule::axis_bracket => self.axis_bracket(pair, span),
+            Rule::named_word => self.named_word(pair, span),
+            Rule::g_call => self.g_call(pair, span),
+            Rule::word => self.word(pair, span),
+            Rule::bare_number => {
+                if let Some(value) = pair.into_inner().next() {
+                    let value = expression::lower(value, 0, self.block);
+                    self.block.items.push(Item::BareNumber(value, span));
+                }
+            }
+            Rule::bare_word => self.bare_word(span),
+            Rule::unknown => {
+                self.unknown = Some(self.unknown.map_or(span, |so_far| so_far.to(span)))
+            }
+            _ => {}
+        }
+    }
+
+    fn finish(&mut self) {
+        self.flush_unknown();
+        if let Some(span) = self.lower_case {
+            let word = span.of(self.code);
+            self.block.faults.push(
+                Fault::new(Code::Fc404, span, format!("`{word}` is not in upper case"))
+                    .with_help(format!("write `{}`", word.to_ascii_uppercase())),
+            );
+        }
+    }
+
+    fn flush_unknown(&mut self) {
+        let Some(span) = self.unknown.take() else {
+            return;
+        };
+        let fault = match self.unclosed.take() {
+            Some(at) => not_closed(at),
+            None => not_understood(span, self.code),
+        };
+        self.block.items.push(Item::BadCommand(span));
+        self.block.faults.push(fault);
+    }
+
+    fn note_case(&mut self, span: Span) {
+        let lower = span
+            .of(self.code)
+            .bytes()
+            .any(|byte| byte.is_ascii_lowercase());
+        if lower && self.lower_case.is_none() {
+            self.lower_case = Some(span);
+        }
+    }
+
+    fn number(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        self.note_case(Span::new(span.start as usize, span.start as usize + 1));
+        let mut value = Operand::Number(0.0);
+        let mut label = false;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::number_value => {
+                    if let Some(inner) = part.into_inner().next() {
+                        value = expression::lower_primary(inner, 0, self.block);
+                    }
+                }
+                _ => label = true,
+            }
+        }
+        self.block.number = Some(Number { value, label, span });
+    }
+
+    fn bare_word(&mut self, span: Span) {
+        let text = span.of(self.code).as_bytes();
+        match text {
+            [letter] if is_axis_letter(*letter) => {
+                self.flush_unknown();
+                self.block.items.push(Item::Word(Word {
+                    address: address(*letter),
+                    value: None,
+                    span,
+                }));
+            }
+            _ => self.unknown = Some(self.unknown.map_or(span, |so_far| so_far.to(span))),
+        }
+    }
+
+    fn word(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut inner = pair.into_inner();
+        let (Some(letter), Some(value)) = (inner.next(), inner.next()) else {
+            return;
+        };
+        let byte = letter.as_str().bytes().next().unwrap_or_default();
+        if !is_axis_letter(byte) {
+            self.note_case(span_of(&letter));
+        }
+        let value = expression::lower(value, 0, self.block);
+        self.block.items.push(Item::Word(Word {
+            address: address(byte),
+            value: Some(value),
+            span,
+        }));
+    }
+
+    fn named_word(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut inner = pair.into_inner();
+        if let (Some(name), Some(value)) = (inner.next(), inner.next()) {
+            let name = span_of(&name);
+            let value = expression::lower(value, 0, self.block);
+            self.block.items.push(Item::Word(Word {
+                address: Address::Name(name),
+                value: Some(value),
+                span,
+            }));
+        }
+    }
+
+    fn g_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut inner = pair.into_inner();
+        let number = inner.next().and_then(|index| index.as_str().parse().ok());
+        let arguments = inner
+            .flat_map(Pair::into_inner)
+            .map(|argument| {
+                let value = argument.into_inner().next()?;
+                Some(expression::lower(value, 0, self.block))
+            })
+            .collect();
+        self.block.items.push(Item::GCall(GCall {
+            number: number.unwrap_or(u32::MAX),
+            arguments,
+            span,
+        }));
+    }
+
+    fn assignment(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut inner = pair.into_inner();
+        if let (Some(place), Some(value)) = (inner.next(), inner.next()) {
+            let target = self.target(place);
+            let value = expression::lower(value, 0, self.block);
+            self.block.items.push(Item::Assign(Assignment {
+                target,
+                value,
+                span,
+            }));
+        }
+    }
+
+    fn target(&mut self, pair: Pair<'_, Rule>) -> Target {
+        let span = trimmed(span_of(&pair), self.code);
+        let place = expression::place(pair, 0, self.block);
+        Target { place, span }
+    }
+
+    fn axis_bracket(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut axis = span;
+        let mut body = None;
+        let mut closed = false;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::axis_name => axis = trimmed(span_of(&part), self.code),
+                Rule::bracket_body => body = Some(span_of(&part)),
+                Rule::bracket_end => closed = true,
+                _ => {}
+            }
+        }
+        let body = body.unwrap_or(span);
+        if !closed {
+            let open = self.code[axis.end as usize..].find('[').unwrap_or_default();
+            self.unclosed = None;
+            self.refuse(not_closed(axis.end as usize + open), span);
+            return;
+        }
+        let words = words(self.code, body);
+        let keyword = words.first().copied();
+        let first = keyword.map_or("", |word| word.of(self.code));
+        if first.eq_ignore_ascii_case("COMP") {
+            let command = CompWords {
+                text: self.code,
+                axis,
+                whole: span,
+                words: &words,
+            }
+            .lower(&mut self.block.faults);
+            self.block.items.push(match command {
+                Some(command) => Item::Comp(command),
+                None => Item::BadCommand(span),
+            });
+        } else if let Some(keyword) = keyword.filter(|_| is_other_command(first)) {
+            self.block.items.push(Item::Bracket {
+                axis,
+                keyword,
+                span,
+            });
+        } else if let Some(keyword) = keyword {
+            // Spindle commands have keywords of their own (`M3`, `REV1000`, `MC_Home`).
+            let spindle = axis.of(self.code).starts_with(['S', 's']);
+            if spindle && !near_comp(first) {
+                self.block.items.push(Item::Bracket {
+                    axis,
+                    keyword,
+                    span,
+                });
+            } else {
+                self.refuse(invalid_keyword(keyword, first), span);
+            }
+        } else {
+            self.refuse(
+                Fault::new(
+                    Code::PErr21301,
+                    span,
+                    "no keyword stands in the bracket of an axis",
+                )
+                .with_help("write `X[COMP ON FRICT]`, or an expression for a position"),
+                span,
+            );
+        }
+    }
+
+    fn refuse(&mut self, fault: Fault, span: Span) {
+        self.block.faults.push(fault);
+        self.block.items.push(Item::BadCommand(span));
+    }
+
+    fn hash(&mut self, span: Span) {
+        let code = self.code;
+        let (name, length) = hash_name(&code[span.start as usize..]);
+        let name_end = span.start as usize + length;
+        self.note_case(Span::new(span.start as usize, name_end));
+        let rest = Span::new(name_end, span.end as usize);
+        let argument = match name.as_str() {
+            "#TIME" | "#DELETE" => self.expression_in(rest),
+            _ => None,
+        };
+        let declarations = if name == "#VAR" {
+            self.declarations(rest)
+        } else {
+            Vec::new()
+        };
+        self.block.items.push(Item::Hash(Hash {
+            name,
+            rest,
+            argument,
+            declarations,
+            span,
+        }));
+    }
+
+    fn expression_in(&mut self, rest: Span) -> Option<Operand> {
+        let mut pairs = NcParser::parse(Rule::spaced_expression, rest.of(self.code)).ok()?;
+        let pair = pairs.next()?.into_inner().next()?;
+        Some(expression::lower(pair, rest.start, self.block))
+    }
+
+    fn declarations(&mut self, rest: Span) -> Vec<Declaration> {
+        let mut declarations = Vec::new();
+        let mut start = rest.start as usize;
+        for line in rest.of(self.code).split('\n') {
+            let span = Span::new(start, start + line.len());
+            start += line.len() + 1;
+            let code = line.trim_matches(super::lines::is_blank);
+            if code.is_empty() || super::lines::hash_word(line).is_some() {
+                continue;
+            }
+            match NcParser::parse(Rule::declaration_line, line) {
+                Ok(pairs) => {
+                    let parts = pairs
+                        .flat_map(Pair::into_inner)
+                        .flat_map(|part| (part.as_rule() == Rule::declaration).then_some(part));
+                    for part in parts {
+                        declarations.extend(self.declaration(part, span.start));
+                    }
+                }
+                Err(_) => {
+                    let fault = not_understood(trimmed(span, self.code), self.code)
+                        .with_help("declare as in `V.P.COUNT : UNS32 = 3`");
+                    self.block.faults.push(fault);
+                }
+            }
+        }
+        declarations
+    }
+
+    fn declaration(&mut self, pair: Pair<'_, Rule>, base: u32) -> Option<Declaration> {
+        let mut target = None;
+        let mut kind = None;
+        let mut initial = Vec::new();
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::variable_or_array => {
+                    let span = trimmed(span_of(&part).shifted(base), self.code);
+                    let place = expression::place(part, base, self.block);
+                    target = Some(Target { place, span });
+                }
+                Rule::type_name => {
+                    kind = part
+                        .into_inner()
+                        .next()
+                        .map(|word| word.as_str().to_ascii_uppercase());
+                }
+                Rule::initial => self.initial(part, base, &mut initial),
+                _ => {}
+            }
+        }
+        Some(Declaration {
+            target: target?,
+            kind,
+            initial,
+        })
+    }
+
+    /// Initial values in row order; nested brackets only group them.
+    fn initial(&mut self, pair: Pair<'_, Rule>, base: u32, values: &mut Vec<Operand>) {
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::expression => values.push(expression::lower(part, base, self.block)),
+                _ => self.initial(part, base, values),
+            }
+        }
+    }
+
+    fn plain_call(&mut self, pair: Pair<'_, Rule>, scope: CallScope, span: Span) {
+        let mut name = None;
+        for part in pair.into_inner() {
+            name = match part.as_rule() {
+                Rule::called => part.into_inner().next().map(|inner| self.call_name(inner)),
+                _ => Some(self.call_name(part)),
+            };
+        }
+        if let Some(name) = name {
+            self.block.items.push(Item::Call(Call {
+                scope,
+                name,
+                arguments: Vec::new(),
+                repetition: Repetition::Once,
+                span,
+            }));
+        }
+    }
+
+    fn call_name(&mut self, pair: Pair<'_, Rule>) -> CallName {
+        let span = trimmed(span_of(&pair), self.code);
+        match pair.as_rule() {
+            Rule::text => CallName::Quoted(span),
+            Rule::variable => CallName::Variable(expression::place(pair, 0, self.block)),
+            _ => CallName::Literal(span),
+        }
+    }
+
+    fn cycle_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut scope = CallScope::Global;
+        let mut name = None;
+        let mut arguments = Vec::new();
+        let mut repetition = Repetition::Once;
+        for part in pair.into_inner() {
+            if part.as_rule() == Rule::call_word {
+                if part.as_str().len() == 2 {
+                    scope = CallScope::Local;
+                }
+                continue;
+            }
+            let Some(argument) = part.into_inner().next() else {
+                continue;
+            };
+            match argument.as_rule() {
+                Rule::cycle_name => {
+                    name = argument
+                        .into_inner()
+                        .next()
+                        .map(|inner| self.call_name(inner));
+                }
+                Rule::cycle_value => {
+                    let mut inner = argument.into_inner();
+                    if let (Some(index), Some(value)) = (inner.next(), inner.next()) {
+                        let index = index.as_str().parse().unwrap_or(u32::MAX);
+                        let value = expression::lower(value, 0, self.block);
+                        arguments.push((index, value));
+                    }
+                }
+                _ if argument.as_str().eq_ignore_ascii_case("MODAL_MOVE") => {
+                    repetition = Repetition::AfterMotion;
+                }
+                _ if argument.as_str().eq_ignore_ascii_case("MODAL_BLOCK") => {
+                    repetition = Repetition::AfterBlock;
+                }
+                _ => {}
+            }
+        }
+        match name {
+            Some(name) => self.block.items.push(Item::Call(Call {
+                scope,
+                name,
+                arguments,
+                repetition,
+                span,
+            })),
+            None => self.refuse(
+                not_understood(span, self.code)
+                    .with_help("name the cycle: `L CYCLE [NAME=cycle.nc @P1=10]`"),
+                span,
+            ),
+        }
+    }
+
+    fn flow(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let Some(statement) = pair.into_inner().next() else {
+            return;
+        };
+        let word = span.of(self.code);
+        let length = word[1..]
+            .find(|c: char| !c.is_ascii_alphabetic())
+            .map_or(word.len(), |at| at + 1);
+        self.note_case(Span::new(span.start as usize, span.start as usize + length));
+        if statement.as_rule() == Rule::flow_unknown {
+            self.refuse(unknown_flow(span, &word[..length]), span);
+            return;
+        }
+        let flow = self.flow_statement(statement);
+        self.block.items.push(Item::Flow(flow, span));
+    }
+
+    fn flow_statement(&mut self, pair: Pair<'_, Rule>) -> Flow {
+        let rule = pair.as_rule();
+        let mut targets = Vec::new();
+        let mut values = Vec::new();
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::target => targets.push(self.target(part)),
+                Rule::expression => values.push(expression::lower(part, 0, self.block)),
+                Rule::goto_number => {
+                    let value = part.into_inner().next();
+                    let value = value.map(|value| expression::lower(value, 0, self.block));
+                    return Flow::Goto(JumpTarget::Number(value.unwrap_or(Operand::Number(0.0))));
+                }
+                Rule::goto_label => {
+                    let name = part.into_inner().next().map(|name| span_of(&name));
+                    return Flow::Goto(JumpTarget::Label(name.unwrap_or_default()));
+                }
+                Rule::variable => {
+                    let place = expression::place(part, 0, self.block);
+                    return Flow::Goto(JumpTarget::Variable(place));
+                }
+                _ => {}
+            }
+        }
+        let first = values.first().copied();
+        let condition = first.unwrap_or(Operand::Number(0.0));
+        match rule {
+            Rule::flow_if => Flow::If(condition),
+            Rule::flow_elseif => Flow::ElseIf(condition),
+            Rule::flow_else => Flow::Else,
+            Rule::flow_endif => Flow::EndIf,
+            Rule::flow_switch => Flow::Switch(targets.first().copied(), condition),
+            Rule::flow_case => Flow::Case(condition),
+            Rule::flow_default => Flow::Default,
+            Rule::flow_endswitch => Flow::EndSwitch,
+            Rule::flow_for => match targets.first() {
+                Some(&counter) => Flow::For {
+                    counter,
+                    start: condition,
+                    end: values.get(1).copied().unwrap_or(condition),
+                    step: values.get(2).copied().unwrap_or(Operand::Number(1.0)),
+                },
+                None => Flow::EndFor,
+            },
+            Rule::flow_endfor => Flow::EndFor,
+            Rule::flow_while => Flow::While(condition),
+            Rule::flow_endwhile => Flow::EndWhile,
+            Rule::flow_do => Flow::Do(first),
+            Rule::flow_enddo => Flow::EndDo(first),
+            Rule::flow_repeat => Flow::Repeat,
+            Rule::flow_until => Flow::Until(condition),
+            Rule::flow_continue => Flow::Continue,
+            _ => Flow::Break,
+        }
+    }
+}
+
+fn is_axis_letter(byte: u8) -> bool {
+    matches!(byte.to_ascii_uppercase(), b'A'..=b'C' | b'U'..=b'Z' | b'Q')
+}
+
+fn address(byte: u8) -> Address {
+    if byte.is_ascii_lowercase() && is_axis_letter(byte) {
+        Address::Lower(byte)
+    } else {
+        Address::Letter(byte.to_ascii_uppercase())
+    }
+}
+
+/// The words of a bracket, separated by blanks.
+fn words(code: &str, body: Span) -> Vec<Span> {
+    let text = body.of(code);
+    let mut words = Vec::new();
+    let mut start = None;
+    for (at, c) in text.char_indices().chain([(text.len(), ' ')]) {
+        match (super::lines::is_blank(c), start) {
+            (false, None) => start = Some(at),
+            (true, Some(from)) => {
+                words.push(Span::new(from, at).shifted(body.start));
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    words
+}
+
+/// `M3`, `H56`, `MC_MoveAbsolute`, or one of the commands that are passed over.
+fn is_other_command(word: &str) -> bool {
+    let upper = word.to_ascii_uppercase();
+    let numbered = upper
+        .strip_prefix(['M', 'H'])
+        .is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()));
+    // A command word may touch what follows it: `OVERRIDE=50`, `SYNC[1]`.
+    let head = upper
+        .split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+        .next()
+        .unwrap_or_default();
+    numbered || upper.starts_with("MC_") || OTHER_COMMANDS.contains(&head)
+}
+
+fn near_comp(word: &str) -> bool {
+    did_you_mean(word, ["COMP"]).is_some()
+}
+
+fn invalid_keyword(span: Span, word: &str) -> Fault {
+    let known = OTHER_COMMANDS.into_iter().chain(["COMP"]);
+    let fault = Fault::new(
+        Code::PErr21301,
+        span,
+        format!("invalid first keyword `{word}` in an axis bracket"),
+    );
+    match did_you_mean(word, known) {
+        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+        None => fault.with_help("the friction compensation is switched with `COMP ON FRICT`"),
+    }
+}
+
+fn unknown_flow(span: Span, word: &str) -> Fault {
+    let upper = word.to_ascii_uppercase();
+    if FLOW_WORDS.contains(&upper.as_str()) {
+        let fault = Fault::new(
+            Code::Fc207,
+            span,
+            format!("`{word}` is incomplete or not understood"),
+        );
+        return match upper.as_str() {
+            "$FOR" => fault.with_help("write `$FOR P1 = start, end, step`"),
+            "$GOTO" => fault.with_help("write `$GOTO N100` or `$GOTO [NAME]`"),
+            _ => fault,
+        };
+    }
+    let fault = Fault::new(Code::Fc207, span, format!("unknown statement `{word}`"));
+    match did_you_mean(word, FLOW_WORDS) {
+        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+        None => fault,
+    }
+}
+
+fn not_closed(at: usize) -> Fault {
+    Fault::new(
+        Code::Fc205,
+        Span::new(at, at + 1),
+        "this bracket is not closed",
+    )
+    .with_help("close it with `]`, or continue the command on the next line with `\\`")
+}

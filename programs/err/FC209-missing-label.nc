@@ -1,5 +1,5 @@
 %FINISH
-; wrong: there is no block N900
+; wrong: there is no label N900:
 N10 P1 = 1
 N20 $IF P1 > 5 $GOTO N900
 N30 G01 X50 F1500

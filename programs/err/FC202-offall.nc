@@ -1,0 +1,6 @@
+%FINISH
+; wrong: OFFALL, it is OFF_ALL, with an underscore
+N10 G90
+N20 X[COMP OFFALL]
+N30 G01 X50 F1500
+N40 M30

@@ -1,0 +1,6 @@
+%FINISH
+; wrong: ON and OFF in the same bracket
+N10 G90
+N20 X[COMP ON FRICT OFF LEAD]
+N30 G01 X50 F1500
+N40 M30

@@ -1,0 +1,6 @@
+%FINISH
+; wrong: $ENDWHILE closes nothing
+N10 G90
+N20 G01 X50 F1500
+N30 $ENDWHILE
+N40 M30

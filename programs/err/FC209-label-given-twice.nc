@@ -1,0 +1,8 @@
+%FINISH
+; wrong: the label N40: stands twice
+N10 P1 = 1
+N20 $IF P1 == 1 $GOTO N40
+N30 G01 X50 F1500
+N40: G01 Y50 F1500
+N40: G01 Y80 F1500
+N50 M30

@@ -1,0 +1,7 @@
+%DRILL
+; wrong: S is a spindle
+N10 M3 S2000
+N20 S[COMP ON FRICT]
+N30 G01 X50 F1500
+N40 M5
+N50 M30

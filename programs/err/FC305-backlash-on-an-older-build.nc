@@ -1,0 +1,6 @@
+%FINISH
+; wrong: BACKLASH came with CNC build V3.1.3081.05, the machine has an older one
+N10 X[COMP OFF FRICT BACKLASH]
+N20 G01 X50 F1500
+N30 X[COMP ON FRICT]
+N40 M30

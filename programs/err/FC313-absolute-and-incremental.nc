@@ -1,0 +1,5 @@
+%FINISH
+; wrong: G90 and G91 in one block
+N10 G90 G91 G17
+N20 G01 X50 F1500
+N30 M30

@@ -1,0 +1,5 @@
+%FINISH
+; wrong: G00 and G01 in one block
+N10 G90
+N20 G00 G01 X50 F1500
+N30 M30

@@ -1,0 +1,9 @@
+%L RETRACT
+; wrong: M30 instead of M17 ends the whole run here
+N10 G00 Z100
+N20 M30
+%POCKET
+N30 G01 X50 F1500
+N40 LL RETRACT
+N50 G01 X0
+N60 M30

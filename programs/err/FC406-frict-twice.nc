@@ -1,0 +1,6 @@
+%FINISH
+; wrong: FRICT stands twice in the bracket
+N10 X[COMP OFF FRICT FRICT]
+N20 G01 X50 F1500
+N30 X[COMP ON FRICT]
+N40 M30

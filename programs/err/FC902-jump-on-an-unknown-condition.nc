@@ -1,0 +1,7 @@
+%REPEAT
+; wrong: whether the jump is taken is known to the machine only
+N10 G90
+N20 $IF V.E.DONE == 1 $GOTO N40
+N30 G01 X50 F1500
+N40: G00 Z100
+N50 M30

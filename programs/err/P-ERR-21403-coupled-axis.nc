@@ -1,0 +1,7 @@
+%GANTRY
+; wrong: COMP on Y while Y follows X in a coupling
+N10 #SET AX LINK[1, Y=X]
+N20 #ENABLE AX LINK[1]
+N30 Y[COMP OFF FRICT]
+N40 #DISABLE AX LINK[1]
+N50 M30

@@ -1,0 +1,13 @@
+%BRACKETS
+; Commands with brackets that have nothing to do with compensation
+N10 S[M3 REV5000]
+N20 S2[M3 REV1000]
+N30 X[INDP_ASYN G90 POS=100 G01 FEED=2500 \
+    SLOPE_TYPE=TRAPEZ]
+N40 Z[DIST_CTRL ON]
+N50 Y[OVERRIDE FEED_FACT=50]
+N60 Z[DIST_CTRL OFF]
+N65 P1 = 5
+N70 X[P1 + 10] Y[2 * [3 + 4]]
+N80 S[M5] S2[M5]
+N90 M30

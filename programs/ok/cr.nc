@@ -1,0 +1,1 @@
+%CR; Line ends of one carriage returnN10 X[COMP OFF FRICT]N20 G01 X50 F1500N30 X[COMP ON FRICT]N40 M30

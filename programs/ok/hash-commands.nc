@@ -1,0 +1,9 @@
+%PATH
+; Commands that the dry run passes over
+N10 #CONTOUR MODE [DEV PATH_DEV=0.1]
+N20 #HSC ON [BSPLINE PATH_DEV=0.01]
+N30 G01 X50 F1500
+N40 #HSC OFF
+N50 #CHANNEL SET [LOCK=0]
+N60 #MSG ["roughing (1 of 2) ends"]
+N70 M30

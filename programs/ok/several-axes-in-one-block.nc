@@ -1,0 +1,6 @@
+%AXES
+; Each axis has its own bracket and its own selection
+N10 X[COMP OFF FRICT] Y[COMP OFF FRICT LEAD]
+N20 G01 X50 Y20 F1500
+N30 X[COMP ON FRICT] Y[COMP ON FRICT]
+N40 M30

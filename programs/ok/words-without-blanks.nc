@@ -1,0 +1,8 @@
+%DENSE
+; Words need no blanks, a blank may stand between address and value
+N10G1X100F200
+N20G01Y 50Z-5
+N30X[COMP OFF FRICT]Y[COMP OFF FRICT]
+N40G0X.5Y-.5
+N50X[COMP ON FRICT]Y[COMP ON FRICT]
+N60M30

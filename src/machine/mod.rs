@@ -1,12 +1,10 @@
 //! The machine: its axes and their parameters, wherever they came from.
 
-use std::fmt;
-use std::str::FromStr;
-
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
+use crate::diagnostic::Place;
 use crate::lists::FrictionList;
+pub use crate::lists::{AxisType, CncBuild, NoBuild, Origin};
 use crate::syntax::{Kind, KindSet};
 
 /// The position of an axis in the machine.
@@ -23,37 +21,6 @@ impl AxisIndex {
     pub fn get(self) -> usize {
         usize::from(self.0)
     }
-}
-
-/// The type of an axis, P-AXIS-00018 (`kenngr.achs_typ`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-pub enum AxisType {
-    /// Translatory, list value 1.
-    #[default]
-    #[serde(rename = "T")]
-    Linear,
-    /// Rotary, list value 2.
-    #[serde(rename = "R")]
-    Rotary,
-    /// Spindle, list value 4.
-    #[serde(rename = "S")]
-    Spindle,
-}
-
-/// Where the value of a parameter came from.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Origin {
-    /// No list sets it; the documented default holds.
-    Default,
-    /// A line of a list or of `frictcomp.toml`.
-    File {
-        /// The file as the user would name it.
-        file: String,
-        /// The line, from 1.
-        line: u32,
-    },
-    /// The user said so on the command line with `--enable`.
-    Assumed,
 }
 
 /// Whether an axis has a friction value list that the control would take.
@@ -147,50 +114,6 @@ impl Axis {
         if !matches!(self.friction, Parameterisation::Accepted(_)) {
             self.friction = Parameterisation::Assumed;
         }
-    }
-}
-
-/// The version of the control's kernel, `V3.1.3132.0`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct CncBuild([u32; 4]);
-
-impl CncBuild {
-    /// A build from its four numbers.
-    pub const fn new(numbers: [u32; 4]) -> Self {
-        Self(numbers)
-    }
-}
-
-/// A text that is no CNC build.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{0}` is no CNC build; write it like `3.1.3132.0`")]
-pub struct NoBuild(String);
-
-impl FromStr for CncBuild {
-    type Err = NoBuild;
-
-    fn from_str(text: &str) -> Result<Self, NoBuild> {
-        let no_build = || NoBuild(text.to_owned());
-        let mut numbers = [0; 4];
-        let mut parts = text.trim_start_matches(['V', 'v']).split('.');
-        for (place, number) in numbers.iter_mut().enumerate() {
-            match parts.next() {
-                Some(part) => *number = part.parse().map_err(|_| no_build())?,
-                None if place >= 2 => {}
-                None => return Err(no_build()),
-            }
-        }
-        match parts.next() {
-            None => Ok(Self(numbers)),
-            Some(_) => Err(no_build()),
-        }
-    }
-}
-
-impl fmt::Display for CncBuild {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [a, b, c, d] = self.0;
-        write!(f, "V{a}.{b}.{c}.{d:02}")
     }
 }
 

@@ -26,9 +26,12 @@ pub struct AxisValues {
     pub manual: BTreeMap<Kind, Given<bool>>,
     /// The kinds that must be active while the axis moves, P-AXIS-00465.
     pub required: Option<Given<KindSet>>,
-    /// The entries of the drive, `antr.*`, as they stand.
-    pub drive: Vec<Entry>,
+    /// The entries of the drive, `antr.*`, by their keys.
+    pub drive: BTreeMap<String, Entry>,
 }
+
+/// More drive entries than any axis list has; what lies beyond is not kept.
+const MAX_DRIVE_ENTRIES: usize = 4096;
 
 impl AxisValues {
     /// Gathers the values; all keys that are not named in R3.10 and R3.11 are passed over.
@@ -40,7 +43,11 @@ impl AxisValues {
                 "kopf.log_achs_name" => values.name = text(entry),
                 "kenngr.achs_typ" => values.axis_type = axis_type(entry, diagnostics),
                 REQUIRED => values.required = Some(required(entry, diagnostics)),
-                pattern if pattern.starts_with("antr.") => values.drive.push(entry.clone()),
+                pattern if pattern.starts_with("antr.") => {
+                    if values.drive.len() < MAX_DRIVE_ENTRIES {
+                        values.drive.insert(entry.key(), entry.clone());
+                    }
+                }
                 pattern => values.set_switch(pattern, entry, diagnostics),
             }
         }
@@ -55,8 +62,6 @@ impl AxisValues {
         self.selectors.extend(other.selectors);
         self.manual.extend(other.manual);
         self.required = other.required.or(self.required.take());
-        let replaced = |old: &Entry| other.drive.iter().any(|new| same_key(old, new));
-        self.drive.retain(|old| !replaced(old));
         self.drive.extend(other.drive);
     }
 
@@ -135,10 +140,6 @@ impl AxisValues {
             return;
         }
     }
-}
-
-fn same_key(a: &Entry, b: &Entry) -> bool {
-    a.pattern == b.pattern && a.indices == b.indices
 }
 
 /// FC130 for a value that is none of the values in `expected`; the value is not used.

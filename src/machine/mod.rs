@@ -1,8 +1,25 @@
 //! The machine: its axes and their parameters, wherever they came from.
 
+mod assemble;
+mod check;
+#[cfg(feature = "toml")]
+mod config;
+mod load;
+#[cfg(feature = "toml")]
+mod section;
+
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostic::Place;
+pub use assemble::AxisReport;
+pub use check::{ListsReport, check_list};
+#[cfg(feature = "toml")]
+pub use config::ConfigError;
+pub use load::{ListFiles, NoLists};
+
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Levels, Place};
 use crate::lists::FrictionList;
 pub use crate::lists::{AxisType, CncBuild, NoBuild, Origin};
 use crate::syntax::{Kind, KindSet};
@@ -45,7 +62,7 @@ pub enum Parameterisation {
 }
 
 /// One axis of the machine.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// The name in NC programs, case-sensitive.
     pub name: String,
@@ -65,6 +82,8 @@ pub struct Axis {
     pub friction: Parameterisation,
     /// The table size that was reserved at start-up, P-COMP-00062.
     pub max_points: u32,
+    /// Where that size stands, or else the value list; `None` without a value list.
+    pub max_points_place: Option<Place>,
     /// The maximum velocity in mm/min or °/min, where known.
     pub max_velocity: Option<f64>,
 }
@@ -82,6 +101,7 @@ impl Axis {
             required: KindSet::NONE,
             friction: Parameterisation::Missing,
             max_points: crate::lists::DEFAULT_MAX_POINTS,
+            max_points_place: None,
             max_velocity: None,
         }
     }
@@ -97,6 +117,29 @@ impl Axis {
             kinds.remove(Kind::Frict);
         }
         kinds
+    }
+
+    /// Compares the reserved table size with that of an earlier load in the same session. The
+    /// control cannot change it later: it refuses the list and keeps the earlier one (R3.22).
+    pub fn check_max_points(&self, earlier: u32) -> Option<Diagnostic> {
+        let place = self.max_points_place.clone()?;
+        if self.max_points == earlier {
+            return None;
+        }
+        let number = match self.number {
+            Some(number) => format!(" (axis number {number})"),
+            None => String::new(),
+        };
+        let message = format!(
+            "`{}` reserves {} points for axis `{}`{number}, at start-up it was {earlier}: the \
+             list is not taken, the earlier one stays",
+            place.file, self.max_points, self.name
+        );
+        Some(
+            Diagnostic::new(Code::PErr110641, place, message)
+                .with_axis(&self.name)
+                .with_help("`frict_comp.max_points` changes only with a restart of the control"),
+        )
     }
 
     /// Whether it is a spindle.
@@ -161,6 +204,25 @@ pub enum Setting {
     Number(f64),
     /// A text.
     Text(String),
+}
+
+/// A machine and everything else that its configuration says.
+#[derive(Debug, Clone, Default)]
+pub struct Configuration {
+    /// The machine.
+    pub machine: Machine,
+    /// The values of variables that only the machine knows.
+    pub settings: Vec<(String, Setting)>,
+    /// The user's severities; those of `diagnostics` follow them already.
+    pub levels: Levels,
+    /// The folders in which called programs are looked for, as written.
+    pub program_dirs: Vec<String>,
+    /// What the lists give reason to say.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The lists that were read, as they are named in diagnostics, in the order of reading.
+    pub files: Vec<Arc<str>>,
+    /// The effective parameters of each axis, in the order of [`Machine::axes`].
+    pub reports: Vec<AxisReport>,
 }
 
 impl Machine {

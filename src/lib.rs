@@ -5,6 +5,7 @@ pub mod compensation;
 pub mod diagnostic;
 pub mod lists;
 pub mod machine;
+pub mod report;
 pub mod session;
 pub mod source;
 pub mod syntax;

@@ -210,7 +210,7 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
                 Code::Fc124,
                 word.place(),
                 format!(
-                    "`{}` is no kind of compensation, it is passed over",
+                    "`{}` is no kind of compensation, the words from here on are passed over",
                     word.value
                 ),
             );
@@ -218,6 +218,7 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
                 diagnostic = diagnostic.with_help(format!("did you mean `{meant}`?"));
             }
             diagnostics.push(diagnostic);
+            break;
         }
     }
     entry.word().with(kinds)

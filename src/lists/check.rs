@@ -8,6 +8,9 @@ use super::{
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Severity};
 
+/// After so many statements the rest of a broken table is not looked at.
+const MAX_DIAGNOSTICS: usize = 50;
+
 /// What the checks need to know besides the list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conditions {
@@ -338,6 +341,9 @@ impl Check<'_> {
             let output = self.point_value(point.output.as_ref(), *index, "out");
             let (Some(input), Some(output)) = (input, output) else {
                 whole = false;
+                if self.diagnostics.len() > MAX_DIAGNOSTICS {
+                    break;
+                }
                 continue;
             };
             points.push(TablePoint { input, output });

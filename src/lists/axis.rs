@@ -92,7 +92,7 @@ impl AxisValues {
             row("P-AXIS-00297", "kopf.log_achs_name", value, name.into());
         }
         if let Some(axis_type) = &self.axis_type {
-            let value = axis_type.value.letter().to_owned();
+            let value = axis_type.value.list_value().to_owned();
             row("P-AXIS-00018", "kenngr.achs_typ", value, axis_type.into());
         }
         for kind in Kind::ALL {

@@ -57,7 +57,7 @@ impl FromStr for CncBuild {
 
 impl fmt::Display for CncBuild {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [a, b, c, d] = self.0;
-        write!(f, "V{a}.{b}.{c}.{d:02}")
+        let [line, release, build, patch] = self.0;
+        write!(f, "V{line}.{release}.{build}.{patch:02}")
     }
 }

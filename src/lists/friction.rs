@@ -5,7 +5,9 @@
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-use super::{AxisType, Entries, Entry, Given, Written};
+use super::{
+    AxisType, DEFAULT_MAX_POINTS, Entries, Entry, Given, Number, Origin, Parameter, Written,
+};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, did_you_mean};
 
@@ -89,7 +91,7 @@ impl Field {
     pub fn default(self) -> i64 {
         match self {
             Self::ScalingFactor => 1000,
-            Self::MaxPoints => i64::from(super::DEFAULT_MAX_POINTS),
+            Self::MaxPoints => i64::from(DEFAULT_MAX_POINTS),
             _ => 0,
         }
     }
@@ -224,6 +226,65 @@ impl FrictionDraft {
             .or_else(|| self.scalars.values().next())
             .or_else(|| point().and_then(|point| point.input.as_ref().or(point.output.as_ref())))
             .map(|given| given.with(()))
+    }
+
+    /// The reserved table size; 0 and nonsense stand for the default (P-COMP-00062).
+    pub(super) fn max_points(&self) -> u32 {
+        let number = self.get(Field::MaxPoints).and_then(|g| g.value.number);
+        match number {
+            Some(Number::Integer(value)) => u32::try_from(value)
+                .ok()
+                .filter(|&points| points > 0)
+                .unwrap_or(DEFAULT_MAX_POINTS),
+            _ => DEFAULT_MAX_POINTS,
+        }
+    }
+
+    /// The rows of the table of effective parameters; none when nothing is written.
+    pub(super) fn parameters(&self, axis_type: AxisType) -> Vec<Parameter> {
+        if self.is_empty() {
+            return Vec::new();
+        }
+        let shown = |written: &Written| match written.number {
+            Some(number) => number.to_string(),
+            None => written.text.clone(),
+        };
+        let mut rows: Vec<_> = Field::ALL
+            .into_iter()
+            .map(|field| Parameter {
+                number: field.number(),
+                key: format!("frict_comp.{}", field.name()),
+                value: match self.get(field) {
+                    _ if field == Field::MaxPoints => self.max_points().to_string(),
+                    Some(given) => shown(&given.value),
+                    None => field.default().to_string(),
+                },
+                unit: field.unit(axis_type),
+                origin: self.get(field).map_or(Origin::Default, Origin::from),
+            })
+            .collect();
+        let velocity = if axis_type == AxisType::Linear {
+            "\u{b5}m/s"
+        } else {
+            "0.001\u{b0}/s"
+        };
+        for (index, point) in &self.table {
+            for (name, given, number, unit) in [
+                ("in", &point.input, "P-COMP-00046", velocity),
+                ("out", &point.output, "P-COMP-00047", "drive units"),
+            ] {
+                rows.push(Parameter {
+                    number,
+                    key: format!("frict_comp.table[{index}].{name}"),
+                    value: given
+                        .as_ref()
+                        .map_or_else(|| "0".to_owned(), |given| shown(&given.value)),
+                    unit,
+                    origin: given.as_ref().map_or(Origin::Default, Origin::from),
+                });
+            }
+        }
+        rows
     }
 }
 

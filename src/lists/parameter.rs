@@ -20,16 +20,16 @@ pub enum AxisType {
 }
 
 impl AxisType {
-    /// The letter of the parameter descriptions: `T`, `R`, `S`.
-    pub fn letter(self) -> &'static str {
+    /// The value in an axis list.
+    pub fn list_value(self) -> &'static str {
         match self {
-            Self::Linear => "T",
-            Self::Rotary => "R",
-            Self::Spindle => "S",
+            Self::Linear => "1",
+            Self::Rotary => "2",
+            Self::Spindle => "4",
         }
     }
 
-    /// The type that the letter names.
+    /// The type that a letter of the parameter descriptions names: `T`, `R`, `S`.
     pub fn from_letter(letter: &str) -> Option<Self> {
         match letter {
             "T" => Some(Self::Linear),

@@ -34,6 +34,8 @@ pub(super) struct AxisDraft {
     pub(super) values: AxisValues,
     /// The number that the axis lists give, before `frictcomp.toml` overrides it.
     number_in_list: Option<Given<u32>>,
+    /// The number that the channel list gives.
+    channel_number: Option<Given<u32>>,
     /// The number that the start-up list gives to the value list.
     pub(super) startup_number: Option<Given<u32>>,
     pub(super) value_list: ValueList,
@@ -46,6 +48,7 @@ impl AxisDraft {
             name,
             number_in_list: values.number.clone(),
             values,
+            channel_number: None,
             startup_number: None,
             value_list: ValueList::default(),
             max_velocity: None,
@@ -58,6 +61,15 @@ impl AxisDraft {
             self.number_in_list.clone_from(&list.number);
         }
         self.values.override_with(list);
+    }
+
+    /// Takes the number that the channel list gives; it holds where no axis list has one.
+    pub(super) fn set_channel_number(&mut self, number: Option<Given<u32>>) {
+        if self.number_in_list.is_none() {
+            self.number_in_list.clone_from(&number);
+            self.values.number.clone_from(&number);
+        }
+        self.channel_number = number;
     }
 
     /// The axis number that the axis lists give.
@@ -150,28 +162,34 @@ impl AxisDraft {
         }
     }
 
-    /// R3.14: all lists give the axis one number. `Some` when they do not.
+    /// R3.14: all lists give the axis one number. `Some` when the value list has another one, for
+    /// then it is not taken.
     fn check_numbers(&self, diagnostics: &mut Vec<Diagnostic>) -> Option<Code> {
-        let value = self.value_list.head.number.as_ref()?;
-        let other = [&self.startup_number, &self.number_in_list]
+        let code = Code::PErr110229;
+        let differ = |list: &Given<u32>, other: &Given<u32>| {
+            let message = format!(
+                "the axis number is {} in `{}`, but {} in `{}`",
+                list.value,
+                list.file(),
+                other.value,
+                other.file()
+            );
+            Diagnostic::new(code, list.place(), message)
+                .with_label(other.place(), "the other number")
+                .with_help("all lists of an axis have the same number")
+        };
+        let in_list = self.number_in_list.as_ref();
+        if let (Some(list), Some(channel)) = (in_list, &self.channel_number)
+            && list.value != channel.value
+        {
+            diagnostics.push(differ(list, channel));
+        }
+        let value_list = self.value_list.head.number.as_ref()?;
+        let other = [in_list, self.startup_number.as_ref()]
             .into_iter()
             .flatten()
-            .find(|other| other.value != value.value)?;
-        let code = Code::PErr110229;
-        diagnostics.push(
-            Diagnostic::new(
-                code,
-                value.place(),
-                format!(
-                    "`kopf.achs_nr` of the value list is {}, but `{}` says {}: the control does \
-                     not take the list",
-                    value.value,
-                    other.file(),
-                    other.value
-                ),
-            )
-            .with_label(other.place(), "the other number"),
-        );
+            .find(|other| other.value != value_list.value)?;
+        diagnostics.push(differ(value_list, other));
         Some(code)
     }
 

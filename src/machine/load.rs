@@ -137,13 +137,8 @@ impl<'f> Loader<'f> {
             let channel = ChannelList::from_entries(&entries, &mut self.diagnostics);
             let room = MAX_AXES.saturating_sub(axes.len());
             for axis in channel.axes.into_iter().take(room) {
-                let at = axis.number.as_ref().and_then(|number| {
-                    let number = Some(number.value);
-                    listed.iter().position(|(_, d)| d.list_number() == number)
-                });
-                let found = at.map(|at| listed.remove(at).1);
-                let draft = channel_axis(axis, found, &default);
-                axes.extend(draft);
+                let found = find_listed(&axis, &listed).map(|at| listed.remove(at).1);
+                axes.extend(channel_axis(axis, found, &default));
             }
         }
         for (asked, mut draft) in listed {
@@ -189,9 +184,12 @@ impl<'f> Loader<'f> {
         let mut at = 0;
         while at < axes.len() {
             if axes[..at].iter().any(|axis| axis.name == axes[at].name) {
-                let axis = axes.remove(at);
-                let place = axis.values.name.as_ref().map(Given::place);
-                let message = format!("axis `{}` exists already, this one is left out", axis.name);
+                let second = axes.remove(at);
+                let place = second.values.name.as_ref().map(Given::place);
+                let message = format!(
+                    "axis `{}` exists already, this one is left out",
+                    second.name
+                );
                 self.diagnostics
                     .extend(place.map(|place| Diagnostic::new(Code::Fc124, place, message)));
             } else {
@@ -205,25 +203,31 @@ impl<'f> Loader<'f> {
         let Some(list) = self.value_list(&named.path) else {
             return;
         };
-        let number = named.axis_number.as_ref().or(list.head.number.as_ref());
-        let value = number.map(|number| number.value);
-        let axis = match value {
-            Some(_) => axes.iter_mut().find(|axis| axis.list_number() == value),
-            None => {
-                let name = list.head.name.as_ref().map(|name| &name.value);
-                axes.iter_mut().find(|axis| Some(&axis.name) == name)
-            }
+        let numbers: Vec<Given<u32>> = [&named.axis_number, &list.head.number]
+            .into_iter()
+            .filter_map(Clone::clone)
+            .collect();
+        let position = if numbers.is_empty() {
+            let name = list.head.name.as_ref().map(|name| &name.value);
+            axes.iter().position(|axis| Some(&axis.name) == name)
+        } else {
+            numbers.iter().find_map(|number| {
+                let number = Some(number.value);
+                axes.iter().position(|axis| axis.list_number() == number)
+            })
         };
-        if let Some(axis) = axis {
-            axis.startup_number.clone_from(&named.axis_number);
-            axis.value_list = list;
+        if let Some(position) = position {
+            let owner = &mut axes[position];
+            owner.startup_number.clone_from(&named.axis_number);
+            owner.value_list = list;
             return;
         }
+        let number = numbers.first();
         let place = number.map_or_else(|| named.path.place(), Given::place);
-        let message = match value {
+        let message = match number {
             Some(number) => format!(
-                "`{}` is for axis number {number}, which no axis list has",
-                named.path.value
+                "`{}` is for axis number {}, which no axis list has",
+                named.path.value, number.value
             ),
             None => format!("`{}` does not say for which axis it is", named.path.value),
         };
@@ -232,17 +236,34 @@ impl<'f> Loader<'f> {
     }
 }
 
+/// The axis list of a channel's axis: the one with its number, else the one with its name.
+fn find_listed(axis: &ChannelAxis, listed: &[(Given<String>, AxisDraft)]) -> Option<usize> {
+    let find = |test: &dyn Fn(&AxisDraft) -> bool| listed.iter().position(|(_, d)| test(d));
+    let by_number = axis
+        .number
+        .as_ref()
+        .and_then(|number| find(&|draft| draft.list_number() == Some(number.value)));
+    let by_name = || {
+        let name = axis.name.as_ref()?;
+        find(&|draft| {
+            draft
+                .values
+                .name
+                .as_ref()
+                .is_some_and(|n| n.value == name.value)
+        })
+    };
+    by_number.or_else(by_name)
+}
+
 /// An axis as a channel names it, with its list if there is one. `None` when nothing names it.
 fn channel_axis(
     axis: ChannelAxis,
     found: Option<AxisDraft>,
     default: &AxisValues,
 ) -> Option<AxisDraft> {
-    let mut draft = found.unwrap_or_else(|| {
-        let mut values = default.clone();
-        values.number = axis.number;
-        AxisDraft::new(String::new(), values)
-    });
+    let mut draft = found.unwrap_or_else(|| AxisDraft::new(String::new(), default.clone()));
+    draft.set_channel_number(axis.number);
     let name = axis.name.or_else(|| draft.values.name.clone())?;
     draft.name.clone_from(&name.value);
     draft.values.name = Some(name);
@@ -281,8 +302,8 @@ impl Configuration {
             self.machine.axis_set = AxisSet::Configured;
         }
         for draft in axes {
-            let (axis, report) = draft.finish(&conditions, &mut self.diagnostics);
-            self.machine.axes.push(axis);
+            let (finished, report) = draft.finish(&conditions, &mut self.diagnostics);
+            self.machine.axes.push(finished);
             self.reports.push(report);
         }
         let levels = &self.levels;

@@ -233,6 +233,55 @@ fn axis_numbers_agree() {
 }
 
 #[test]
+fn the_start_up_and_channel_lists_have_the_same_numbers() {
+    // R3.14
+    let startup = start(&[
+        (
+            "hochlauf.lis",
+            "achs_mds[0] x.lis\nachs_kw[0] c.lis\nachs_kw_log_ax_nr[0] 9\nEnde",
+        ),
+        ("x.lis", "kopf.achs_nr 1\nkopf.log_achs_name X\nEnde"),
+        ("c.lis", VALUES),
+    ]);
+    assert_eq!(codes(&startup.diagnostics), ["P-ERR-110229 1:14"]);
+    assert_eq!(startup.diagnostics[0].labels[0].place.start().line, 3);
+
+    let channel = start(&[
+        ("hochlauf.lis", "achs_mds[0] x.lis\nsda_mds[0] k.lis\nEnde"),
+        (
+            "x.lis",
+            "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.crosscomp 1\nEnde",
+        ),
+        (
+            "k.lis",
+            "gruppe[0].achse[0].log_achs_nr 4\ngruppe[0].achse[0].bezeichnung X\nEnde",
+        ),
+    ]);
+    assert_eq!(codes(&channel.diagnostics), ["P-ERR-110229 1:14"]);
+    assert_eq!(channel.machine.axes.len(), 1);
+    assert!(channel.machine.axes[0].configured.contains(Kind::Cross));
+}
+
+#[test]
+fn a_list_without_a_number_is_found_by_its_name() {
+    // R3.13
+    let found = start(&[
+        (
+            "hochlauf.lis",
+            "achs_mds[0] x.lis\nsda_mds[0] k.lis\nachs_kw[0] c.lis\nEnde",
+        ),
+        ("x.lis", "kopf.log_achs_name X\nlr_param.frict_comp 1\nEnde"),
+        ("c.lis", VALUES),
+        (
+            "k.lis",
+            "gruppe[0].achse[0].log_achs_nr 1\ngruppe[0].achse[0].bezeichnung X\nEnde",
+        ),
+    ]);
+    assert_eq!(found.diagnostics, []);
+    assert_eq!(found.machine.axes[0].number, Some(1));
+}
+
+#[test]
 fn a_value_list_without_its_axis_is_said() {
     // R3.14
     let found = start(&[

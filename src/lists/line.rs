@@ -4,6 +4,7 @@
 //! and gives it as a number, a text or a set of words when asked.
 
 use std::collections::HashMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::{Given, Number, Written};
@@ -54,14 +55,14 @@ impl Entry {
             .find(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
             .unwrap_or(value.len());
         let end = value.find("/*").map_or(end, |comment| end.min(comment));
-        self.given(&value[..end])
+        self.part(0..end)
     }
 
     /// The value as a text; only `(` opens a comment behind it (R3.2).
     pub fn text(&self) -> Given<&str> {
         let value = self.value_span.of(self.source.text());
         let end = value.find('(').unwrap_or(value.len());
-        self.given(value[..end].trim_end())
+        self.part(0..value[..end].trim_end().len())
     }
 
     /// The value as a number, with the word that stands there.
@@ -95,7 +96,8 @@ impl Entry {
             if end == 0 {
                 return words;
             }
-            words.push(self.given(&rest[..end]));
+            let start = value.len() - rest.len();
+            words.push(self.part(start..start + end));
             rest = rest[end..].trim_start();
             match rest.strip_prefix('|') {
                 Some(behind) => rest = behind,
@@ -104,15 +106,16 @@ impl Entry {
         }
     }
 
-    /// A part of the value with its place. `part` is a slice of the file's text.
-    fn given<'a>(&self, part: &'a str) -> Given<&'a str> {
-        let offset = part.as_ptr().addr() - self.source.text().as_ptr().addr();
-        let span = if part.is_empty() {
+    /// The bytes `range` of the value with their place; nothing has the place of the key.
+    fn part(&self, range: Range<usize>) -> Given<&str> {
+        let start = self.value_span.range().start;
+        let span = if range.is_empty() {
             self.key_span
         } else {
-            Span::new(offset, offset + part.len())
+            Span::new(start + range.start, start + range.end)
         };
-        Given::new(part, &self.source, span)
+        let value = self.value_span.of(self.source.text());
+        Given::new(&value[range], &self.source, span)
     }
 }
 
@@ -260,7 +263,8 @@ impl Reader<'_> {
 
     fn line(&self, span: Span) -> Line {
         let whole = span.of(self.source.text());
-        let mut line = whole.trim_start_matches('\u{feff}').trim();
+        let whole = whole.trim_end();
+        let mut line = whole.trim_start_matches('\u{feff}').trim_start();
         while let Some(comment) = line.strip_prefix("/*") {
             match comment.split_once("*/") {
                 Some((_, behind)) => line = behind.trim_start(),
@@ -284,7 +288,7 @@ impl Reader<'_> {
         if first.eq_ignore_ascii_case("Ende") || first.eq_ignore_ascii_case("End") {
             return Line::End;
         }
-        let start = span.start as usize + (line.as_ptr().addr() - whole.as_ptr().addr());
+        let start = span.range().start + (whole.len() - line.len());
         self.entry(line, start)
     }
 

@@ -214,7 +214,7 @@ fn settings(root: &Section<'_>) -> Result<Vec<(String, Setting)>, ConfigError> {
     };
     let mut settings = Vec::new();
     for name in variables.names() {
-        let setting = match variables.number(name.value)? {
+        let setting = match variables.number(name.value) {
             Some(Given {
                 value:
                     Written {
@@ -373,7 +373,7 @@ fn inline_values(section: &Section<'_>) -> Result<FrictionDraft, ConfigError> {
         if section.given(field.name()).is_none() {
             continue;
         }
-        let Some(number) = section.number(field.name())? else {
+        let Some(number) = section.number(field.name()) else {
             let message = format!("`{}` is a number", field.name());
             return Err(ConfigError::at(
                 &section.given_or_whole(field.name()),

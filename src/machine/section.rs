@@ -156,13 +156,9 @@ impl<'a> Section<'a> {
 
     /// What stands where a number may stand; `None` without the key or for a value of another
     /// type.
-    pub(super) fn number(&self, key: &str) -> Result<Option<Given<Written>>, ConfigError> {
-        let Some(value) = self.table.get(key) else {
-            return Ok(None);
-        };
-        Ok(self
-            .written(value)
-            .map(|written| self.place(value, written)))
+    pub(super) fn number(&self, key: &str) -> Option<Given<Written>> {
+        let value = self.table.get(key)?;
+        Some(self.place(value, self.written(value)?))
     }
 
     /// A whole number from 0 to 65535.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use frictcomp::diagnostic::Severity;
-use frictcomp::lists::{Entries, Number};
+use frictcomp::lists::{Entries, Entry, Number};
 use frictcomp::source::SourceFile;
 
 use super::host::{codes, judge, meant};
@@ -13,18 +13,14 @@ fn parse(text: &str) -> Entries {
 }
 
 fn keys(text: &str) -> Vec<String> {
-    parse(text)
-        .entries
-        .iter()
-        .map(|entry| entry.key())
-        .collect()
+    parse(text).entries.iter().map(Entry::key).collect()
 }
 
 #[test]
 fn an_entry_is_a_path_and_a_value() {
     // R3.1
     let list = parse("frict_comp.table[ 0 ].in \t 316 note\r\n  =5 b\r\nx[007].y[ 2].z 1\nEnde");
-    let found: Vec<_> = list.entries.iter().map(|entry| entry.key()).collect();
+    let found: Vec<_> = list.entries.iter().map(Entry::key).collect();
     assert_eq!(found, ["frict_comp.table[0].in", "x[7].y[2].z"]);
     assert_eq!(
         list.entries[0].number().value.number,

@@ -87,6 +87,12 @@ struct Check<'a> {
 impl Check<'_> {
     fn verdict(&mut self) -> Verdict {
         let list = self.values();
+        for diagnostic in &mut self.diagnostics {
+            if diagnostic.severity == Severity::Error {
+                let consequence = "the list is not taken, friction compensation has no effect";
+                diagnostic.help.push(consequence.to_owned());
+            }
+        }
         let rejected = self
             .diagnostics
             .iter()

@@ -325,8 +325,11 @@ impl Reader<'_> {
         let separated = rest.is_empty() || rest.starts_with(char::is_whitespace);
         let is_path = pattern.contains(['.', '[']);
         let opens = pattern.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-        if !opens || !separated {
+        if !opens {
             return Line::Odd("this is no key of a list");
+        }
+        if !separated {
+            return Line::Odd("a key and its value are not parted by a blank");
         }
         if value.is_empty() && !is_path {
             return Line::Odd("a word without a value is no entry");

@@ -223,7 +223,10 @@ impl AxisDraft {
                 "friction compensation of axis `{}` is selected without effect: {why}",
                 axis.name
             );
-            return selector.map(|given| Diagnostic::new(Code::Fc303, given.place(), message));
+            return selector.map(|given| {
+                Diagnostic::new(Code::Fc303, given.place(), message)
+                    .with_help("the axis needs a value list with `frict_comp.mode` 3")
+            });
         }
         if !matches!(axis.friction, Parameterisation::Accepted(_)) {
             return None;
@@ -237,7 +240,10 @@ impl AxisDraft {
             Some(given) => diagnostic
                 .with_label(given.place(), "set to 0 here")
                 .with_help("set `lr_param.frict_comp` to 1"),
-            None => diagnostic.with_help("set `lr_param.frict_comp 1` in the axis list"),
+            None => diagnostic.with_help(
+                "set `lr_param.frict_comp` to 1 in the axis list, or `frict_comp = true` in \
+                 `frictcomp.toml`",
+            ),
         })
     }
 }

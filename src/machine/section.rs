@@ -44,7 +44,7 @@ impl<'a> Section<'a> {
                 .min_by_key(|key| key.span().start)
         {
             let name = key.get_ref().as_ref();
-            let message = format!("{} has no key `{name}`", shape.name);
+            let message = format!("`{}` has no key `{name}`", shape.name);
             return Err(
                 ConfigError::new(source, span(key), message).with_near(name, known.iter().copied())
             );

@@ -56,6 +56,7 @@ impl AxisDraft {
     }
 
     /// Lets another axis list override what is here.
+    #[cfg(feature = "toml")]
     pub(super) fn add_list(&mut self, list: AxisValues) {
         if list.number.is_some() {
             self.number_in_list.clone_from(&list.number);

@@ -7,6 +7,7 @@ pub mod interpreter;
 mod lint;
 pub mod lists;
 pub mod machine;
+pub mod report;
 pub mod session;
 pub mod source;
 pub mod syntax;

@@ -202,7 +202,7 @@ impl Session {
         }
         let mut said = Vec::new();
         for (axis, saved) in machine.axes.iter_mut().zip(&saved.axes) {
-            if let Some(diagnostic) = axis.keep_reserved(saved.max_points) {
+            if let Some(diagnostic) = axis.check_max_points(saved.max_points) {
                 said.push(diagnostic);
                 axis.max_points = saved.max_points;
                 axis.friction = match &saved.friction {

@@ -3,12 +3,10 @@
 //! It knows no files, no interpreter and no clock. A host with an interpreter of its own hands it
 //! the COMP commands that it meets and gets the changes, or the control's own error.
 
-mod kind;
-
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use kind::Facts;
+pub use crate::lists::Facts;
 
 use crate::codes::Code;
 use crate::machine::{AxisIndex, Machine};

@@ -1,6 +1,26 @@
 //! The control's ASCII lists: their lines, what they say, and the control's checks.
 
+mod axis;
+mod build;
+mod check;
+mod friction;
+mod kind;
+mod line;
+mod parameter;
+mod startup;
+mod value;
+
 use serde::{Deserialize, Serialize};
+
+pub use axis::AxisValues;
+pub use build::{CncBuild, NoBuild};
+pub use check::{Conditions, FrictionReading, Verdict};
+pub use friction::{Field, FrictionDraft, WrittenPoint};
+pub use kind::Facts;
+pub use line::{Entries, Entry};
+pub use parameter::{AxisType, Origin, Parameter};
+pub use startup::{ChannelAxis, ChannelList, ListKind, NamedList, StartupList};
+pub use value::{Given, Number, Written};
 
 /// The table size that P-COMP-00062 has when no list, or the value 0, is given.
 pub const DEFAULT_MAX_POINTS: u32 = 20;

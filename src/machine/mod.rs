@@ -1,12 +1,27 @@
 //! The machine: its axes and their parameters, wherever they came from.
 
-use std::fmt;
-use std::str::FromStr;
+mod assemble;
+mod check;
+#[cfg(feature = "toml")]
+mod config;
+mod load;
+#[cfg(feature = "toml")]
+mod section;
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
+pub use assemble::AxisReport;
+pub use check::{ListsReport, check_list};
+#[cfg(feature = "toml")]
+pub use config::ConfigError;
+pub use load::{ListFiles, NoLists};
+
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Levels, Place};
 use crate::lists::FrictionList;
+pub use crate::lists::{AxisType, CncBuild, NoBuild, Origin};
 use crate::syntax::{Kind, KindSet};
 
 /// The position of an axis in the machine.
@@ -23,37 +38,6 @@ impl AxisIndex {
     pub fn get(self) -> usize {
         usize::from(self.0)
     }
-}
-
-/// The type of an axis, P-AXIS-00018 (`kenngr.achs_typ`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-pub enum AxisType {
-    /// Translatory, list value 1.
-    #[default]
-    #[serde(rename = "T")]
-    Linear,
-    /// Rotary, list value 2.
-    #[serde(rename = "R")]
-    Rotary,
-    /// Spindle, list value 4.
-    #[serde(rename = "S")]
-    Spindle,
-}
-
-/// Where the value of a parameter came from.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Origin {
-    /// No list sets it; the documented default holds.
-    Default,
-    /// A line of a list or of `frictcomp.toml`.
-    File {
-        /// The file as the user would name it.
-        file: String,
-        /// The line, from 1.
-        line: u32,
-    },
-    /// The user said so on the command line with `--enable`.
-    Assumed,
 }
 
 /// Whether an axis has a friction value list that the control would take.
@@ -78,7 +62,7 @@ pub enum Parameterisation {
 }
 
 /// One axis of the machine.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// The name in NC programs, case-sensitive.
     pub name: String,
@@ -98,6 +82,8 @@ pub struct Axis {
     pub friction: Parameterisation,
     /// The table size that was reserved at start-up, P-COMP-00062.
     pub max_points: u32,
+    /// Where that size stands, or else the value list; `None` without a value list.
+    pub max_points_place: Option<Place>,
     /// The maximum velocity in mm/min or °/min, where known.
     pub max_velocity: Option<f64>,
 }
@@ -115,6 +101,7 @@ impl Axis {
             required: KindSet::NONE,
             friction: Parameterisation::Missing,
             max_points: crate::lists::DEFAULT_MAX_POINTS,
+            max_points_place: None,
             max_velocity: None,
         }
     }
@@ -132,9 +119,27 @@ impl Axis {
         kinds
     }
 
-    /// STUB
-    pub fn keep_reserved(&self, _earlier: u32) -> Option<crate::diagnostic::Diagnostic> {
-        None
+    /// Compares the reserved table size with that of an earlier load in the same session. The
+    /// control cannot change it later: it refuses the list and keeps the earlier one (R3.22).
+    pub fn check_max_points(&self, earlier: u32) -> Option<Diagnostic> {
+        let place = self.max_points_place.clone()?;
+        if self.max_points == earlier {
+            return None;
+        }
+        let number = match self.number {
+            Some(number) => format!(" (axis number {number})"),
+            None => String::new(),
+        };
+        let message = format!(
+            "`{}` reserves {} points for axis `{}`{number}, at start-up it was {earlier}: the \
+             list is not taken, the earlier one stays",
+            place.file, self.max_points, self.name
+        );
+        Some(
+            Diagnostic::new(Code::PErr110641, place, message)
+                .with_axis(&self.name)
+                .with_help("`frict_comp.max_points` changes only with a restart of the control"),
+        )
     }
 
     /// Whether it is a spindle.
@@ -152,50 +157,6 @@ impl Axis {
         if !matches!(self.friction, Parameterisation::Accepted(_)) {
             self.friction = Parameterisation::Assumed;
         }
-    }
-}
-
-/// The version of the control's kernel, `V3.1.3132.0`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct CncBuild([u32; 4]);
-
-impl CncBuild {
-    /// A build from its four numbers.
-    pub const fn new(numbers: [u32; 4]) -> Self {
-        Self(numbers)
-    }
-}
-
-/// A text that is no CNC build.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{0}` is no CNC build; write it like `3.1.3132.0`")]
-pub struct NoBuild(String);
-
-impl FromStr for CncBuild {
-    type Err = NoBuild;
-
-    fn from_str(text: &str) -> Result<Self, NoBuild> {
-        let no_build = || NoBuild(text.to_owned());
-        let mut numbers = [0; 4];
-        let mut parts = text.trim_start_matches(['V', 'v']).split('.');
-        for (place, number) in numbers.iter_mut().enumerate() {
-            match parts.next() {
-                Some(part) => *number = part.parse().map_err(|_| no_build())?,
-                None if place >= 2 => {}
-                None => return Err(no_build()),
-            }
-        }
-        match parts.next() {
-            None => Ok(Self(numbers)),
-            Some(_) => Err(no_build()),
-        }
-    }
-}
-
-impl fmt::Display for CncBuild {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [a, b, c, d] = self.0;
-        write!(f, "V{a}.{b}.{c}.{d:02}")
     }
 }
 
@@ -243,6 +204,25 @@ pub enum Setting {
     Number(f64),
     /// A text.
     Text(String),
+}
+
+/// A machine and everything else that its configuration says.
+#[derive(Debug, Clone, Default)]
+pub struct Configuration {
+    /// The machine.
+    pub machine: Machine,
+    /// The values of variables that only the machine knows.
+    pub settings: Vec<(String, Setting)>,
+    /// The user's severities; those of `diagnostics` follow them already.
+    pub levels: Levels,
+    /// The folders in which called programs are looked for, as written.
+    pub program_dirs: Vec<String>,
+    /// What the lists give reason to say.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The lists that were read, as they are named in diagnostics, in the order of reading.
+    pub files: Vec<Arc<str>>,
+    /// The effective parameters of each axis, in the order of [`Machine::axes`].
+    pub reports: Vec<AxisReport>,
 }
 
 impl Machine {

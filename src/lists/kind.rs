@@ -1,6 +1,6 @@
 //! The facts about each kind of compensation, one row a kind.
 
-use crate::machine::CncBuild;
+use super::CncBuild;
 use crate::syntax::Kind;
 
 /// What the control's documents say about a kind (R1.10, R1.40).

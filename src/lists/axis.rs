@@ -1,0 +1,225 @@
+//! What an axis list says about compensation (R3.10), and the few keys of that kind that stand in
+//! value lists (R3.11).
+
+use std::collections::BTreeMap;
+
+use super::{AxisType, Entries, Entry, Given, Number, Origin, Parameter};
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::syntax::{Kind, KindSet};
+
+/// P-AXIS-00465: the kinds without which the axis must not move (R1.36).
+const REQUIRED: &str = "lr_param.prog_movement_requires_compensations";
+
+/// The values of one axis list, or of the head of a value list.
+#[derive(Debug, Clone, Default)]
+pub struct AxisValues {
+    /// `kopf.achs_nr`, P-AXIS-00016.
+    pub number: Option<Given<u32>>,
+    /// `kopf.log_achs_name`, P-AXIS-00297.
+    pub name: Option<Given<String>>,
+    /// `kenngr.achs_typ`, P-AXIS-00018.
+    pub axis_type: Option<Given<AxisType>>,
+    /// The selectors of the kinds (R1.40); FRICT is P-AXIS-00522.
+    pub selectors: BTreeMap<Kind, Given<bool>>,
+    /// The manual activation of the kinds (R1.40).
+    pub manual: BTreeMap<Kind, Given<bool>>,
+    /// The kinds that must be active while the axis moves, P-AXIS-00465.
+    pub required: Option<Given<KindSet>>,
+    /// The entries of the drive, `antr.*`, by their keys.
+    pub drive: BTreeMap<String, Entry>,
+}
+
+/// More drive entries than any axis list has; what lies beyond is not kept.
+const MAX_DRIVE_ENTRIES: usize = 4096;
+
+impl AxisValues {
+    /// Gathers the values; all keys that are not named in R3.10 and R3.11 are passed over.
+    pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
+        let mut values = Self::default();
+        for entry in &list.entries {
+            match entry.pattern.as_str() {
+                "kopf.achs_nr" => values.number = axis_number(entry, diagnostics),
+                "kopf.log_achs_name" => values.name = text(entry),
+                "kenngr.achs_typ" => values.axis_type = axis_type(entry, diagnostics),
+                REQUIRED => values.required = Some(required(entry, diagnostics)),
+                pattern if pattern.starts_with("antr.") => {
+                    if values.drive.len() < MAX_DRIVE_ENTRIES {
+                        values.drive.insert(entry.key(), entry.clone());
+                    }
+                }
+                pattern => values.set_switch(pattern, entry, diagnostics),
+            }
+        }
+        values
+    }
+
+    /// Lets the values of another list replace those that are here.
+    pub fn override_with(&mut self, other: Self) {
+        self.number = other.number.or(self.number.take());
+        self.name = other.name.or(self.name.take());
+        self.axis_type = other.axis_type.or(self.axis_type.take());
+        self.selectors.extend(other.selectors);
+        self.manual.extend(other.manual);
+        self.required = other.required.or(self.required.take());
+        self.drive.extend(other.drive);
+    }
+
+    /// Whether P-AXIS-00522 is set, and where; `None` when no list sets it.
+    pub fn frict_comp(&self) -> Option<&Given<bool>> {
+        self.selectors.get(&Kind::Frict)
+    }
+
+    /// The rows of the table of effective parameters. P-AXIS-00522 is always among them, other
+    /// selectors when a list sets them.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        let mut rows = Vec::new();
+        let mut row = |number, key: &str, value: String, origin| {
+            rows.push(Parameter {
+                number,
+                key: key.to_owned(),
+                value,
+                unit: "",
+                origin,
+            });
+        };
+        if let Some(number) = &self.number {
+            let value = number.value.to_string();
+            row("P-AXIS-00016", "kopf.achs_nr", value, number.into());
+        }
+        if let Some(name) = &self.name {
+            let value = name.value.clone();
+            row("P-AXIS-00297", "kopf.log_achs_name", value, name.into());
+        }
+        if let Some(axis_type) = &self.axis_type {
+            let value = axis_type.value.list_value().to_owned();
+            row("P-AXIS-00018", "kenngr.achs_typ", value, axis_type.into());
+        }
+        for kind in Kind::ALL {
+            let facts = kind.facts();
+            let bit = |on: bool| u8::from(on).to_string();
+            match self.selectors.get(&kind) {
+                Some(on) => row(facts.parameter, facts.selector, bit(on.value), on.into()),
+                None if kind == Kind::Frict => {
+                    row(facts.parameter, facts.selector, bit(false), Origin::Default);
+                }
+                None => {}
+            }
+            if let (Some(key), Some(on)) = (facts.manual_activation, self.manual.get(&kind)) {
+                let number = facts.manual_parameter.unwrap_or_default();
+                row(number, key, bit(on.value), on.into());
+            }
+        }
+        if let Some(required) = &self.required {
+            let words: Vec<_> = required.value.iter().map(Kind::keyword).collect();
+            row("P-AXIS-00465", REQUIRED, words.join(" | "), required.into());
+        }
+        rows
+    }
+
+    fn set_switch(&mut self, pattern: &str, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
+        for kind in Kind::ALL {
+            let facts = kind.facts();
+            let switches = if pattern == facts.selector {
+                &mut self.selectors
+            } else if facts.manual_activation == Some(pattern) {
+                &mut self.manual
+            } else {
+                continue;
+            };
+            // P-AXIS-00021 is a number: backlash compensation is on when it is not 0 (R1.40).
+            let on = match entry.number().value.number {
+                Some(Number::Integer(value)) if kind == Kind::Backlash => {
+                    Some(entry.word().with(value != 0))
+                }
+                _ => truth(entry, diagnostics),
+            };
+            if let Some(on) = on {
+                switches.insert(kind, on);
+            }
+            return;
+        }
+    }
+}
+
+/// FC130 for a value that is none of the values in `expected`; the value is not used.
+fn no_value(entry: &Entry, expected: &str) -> Diagnostic {
+    let word = entry.word();
+    let found = if word.value.is_empty() {
+        "empty".to_owned()
+    } else {
+        format!("`{}`", word.value)
+    };
+    Diagnostic::new(
+        Code::Fc130,
+        word.place(),
+        format!("`{}` is {found}, the value is not used", entry.key()),
+    )
+    .with_help(format!("write {expected}"))
+}
+
+fn truth(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<bool>> {
+    let given = entry.truth();
+    if given.value.is_none() {
+        diagnostics.push(no_value(entry, "`0` or `1`, `FALSE` or `TRUE`"));
+    }
+    given.value.map(|on| given.with(on))
+}
+
+/// An axis number, a whole number of type UNS16.
+pub(super) fn axis_number(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<u32>> {
+    let given = entry.number();
+    let number = match given.value.number {
+        Some(Number::Integer(value)) => u16::try_from(value).ok(),
+        _ => None,
+    };
+    if number.is_none() {
+        diagnostics.push(no_value(entry, "a whole number from 0 to 65535"));
+    }
+    number.map(|number| given.with(u32::from(number)))
+}
+
+/// A text that is not empty.
+pub(super) fn text(entry: &Entry) -> Option<Given<String>> {
+    let given = entry.text();
+    (!given.value.is_empty()).then(|| given.with(given.value.to_owned()))
+}
+
+fn axis_type(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<AxisType>> {
+    let given = entry.number();
+    let axis_type = match given.value.number {
+        Some(Number::Integer(1)) => Some(AxisType::Linear),
+        Some(Number::Integer(2)) => Some(AxisType::Rotary),
+        Some(Number::Integer(4)) => Some(AxisType::Spindle),
+        _ => None,
+    };
+    if axis_type.is_none() {
+        let expected = "`1` for a linear axis, `2` for a rotary axis, `4` for a spindle";
+        diagnostics.push(no_value(entry, expected));
+    }
+    axis_type.map(|axis_type| given.with(axis_type))
+}
+
+fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> {
+    let mut kinds = KindSet::NONE;
+    for word in entry.words() {
+        if let Some(kind) = Kind::from_keyword(word.value) {
+            kinds.insert(kind);
+        } else if word.value != "0" && !word.value.eq_ignore_ascii_case("NONE") {
+            let mut diagnostic = Diagnostic::new(
+                Code::Fc124,
+                word.place(),
+                format!(
+                    "`{}` is no kind of compensation, the words from here on are passed over",
+                    word.value
+                ),
+            );
+            if let Some(meant) = did_you_mean(word.value, Kind::ALL.map(Kind::keyword)) {
+                diagnostic = diagnostic.with_help(format!("did you mean `{meant}`?"));
+            }
+            diagnostics.push(diagnostic);
+            break;
+        }
+    }
+    entry.word().with(kinds)
+}

@@ -1,0 +1,448 @@
+//! The control's checks of a friction value list (chapter 3.4).
+
+use super::friction::{Field, FrictionDraft};
+use super::{AxisType, CncBuild, FrictionList, Given, Number, Parameter, TablePoint, Written};
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Severity};
+
+/// After so many statements the rest of a broken table is not looked at.
+const MAX_DIAGNOSTICS: usize = 50;
+
+/// What the checks need to know besides the list.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conditions {
+    /// The kernel version, where it is known.
+    pub build: Option<CncBuild>,
+    /// The type of the axis.
+    pub axis_type: AxisType,
+    /// The feed in mm/min of the circle by which FC136 judges.
+    pub feed_mm_min: f64,
+}
+
+impl Default for Conditions {
+    fn default() -> Self {
+        Self {
+            build: None,
+            axis_type: AxisType::Linear,
+            feed_mm_min: 1000.0,
+        }
+    }
+}
+
+/// What the control makes of a list.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// There are no friction parameters at all.
+    Absent,
+    /// Mode 0.
+    Off,
+    /// A check failed; the code of the first one.
+    Rejected(Code),
+    /// The list works.
+    Accepted(FrictionList),
+}
+
+/// A checked friction value list.
+#[derive(Debug, Clone)]
+pub struct FrictionReading {
+    /// What the control makes of it.
+    pub verdict: Verdict,
+    /// The table size that is reserved, P-COMP-00062.
+    pub max_points: u32,
+    /// Every parameter with its value and where that came from.
+    pub parameters: Vec<Parameter>,
+    /// What the checks found.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl FrictionDraft {
+    /// Checks what is written as the control does when it loads the list (R3.20 to R3.29). Checks
+    /// that need the axis list are made where the axis is put together.
+    pub fn check(&self, conditions: &Conditions) -> FrictionReading {
+        let mut check = Check {
+            draft: self,
+            conditions,
+            diagnostics: Vec::new(),
+        };
+        let verdict = if self.is_empty() {
+            Verdict::Absent
+        } else {
+            check.verdict()
+        };
+        FrictionReading {
+            verdict,
+            max_points: self.max_points(),
+            parameters: self.parameters(conditions.axis_type),
+            diagnostics: check.diagnostics,
+        }
+    }
+}
+
+struct Check<'a> {
+    draft: &'a FrictionDraft,
+    conditions: &'a Conditions,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Check<'_> {
+    fn verdict(&mut self) -> Verdict {
+        let list = self.values();
+        for diagnostic in &mut self.diagnostics {
+            if diagnostic.severity == Severity::Error {
+                let consequence = "the list is not taken, friction compensation has no effect";
+                diagnostic.help.push(consequence.to_owned());
+            }
+        }
+        let rejected = self
+            .diagnostics
+            .iter()
+            .find(|diagnostic| diagnostic.severity == Severity::Error);
+        match (rejected, list) {
+            (Some(first), _) => Verdict::Rejected(first.code),
+            (None, Some((3, list))) => {
+                self.check_first_point(&list);
+                self.check_drive_range(&list);
+                Verdict::Accepted(list)
+            }
+            (None, _) => Verdict::Off,
+        }
+    }
+
+    fn has(&self, code: Code) -> bool {
+        self.diagnostics
+            .iter()
+            .any(|diagnostic| diagnostic.code == code)
+    }
+
+    /// The mode and the values, as far as every single one is a number of its type.
+    fn values(&mut self) -> Option<(u16, FrictionList)> {
+        let mode = self.scalar(Field::Mode);
+        let max_points = self.scalar(Field::MaxPoints);
+        let entries = self.scalar(Field::TableEntries);
+        let position_delay = self.scalar(Field::PositionDelay);
+        let reversal_lookahead = self.scalar(Field::ReversalLookahead);
+        let scaling_factor = self.scalar(Field::ScalingFactor);
+        let delay_cycles = self.scalar(Field::DelayCycles);
+        let entries: Option<u16> = entries;
+        let fits = match entries {
+            Some(entries) if max_points.is_some() => self.check_size(entries),
+            _ => false,
+        };
+        self.check_mode(mode, entries);
+        let table = entries.filter(|_| fits).and_then(|n| self.table(n));
+        let _: Option<u32> = max_points;
+        Some((
+            mode?,
+            FrictionList {
+                position_delay: position_delay?,
+                reversal_lookahead: reversal_lookahead?,
+                scaling_factor: scaling_factor?,
+                delay_cycles: delay_cycles?,
+                max_points: self.draft.max_points(),
+                table: table?,
+            },
+        ))
+    }
+
+    /// The value of a parameter or its default; `None` after FC130 (R3.24). Says FC132 for a value
+    /// outside the documented range (R3.25).
+    fn scalar<T: TryFrom<i64>>(&mut self, field: Field) -> Option<T> {
+        let Some(given) = self.draft.get(field) else {
+            return T::try_from(field.default()).ok();
+        };
+        let range = field.type_range();
+        let value = match given.value.number {
+            Some(Number::Integer(value)) if range.contains(&value) => value,
+            _ => {
+                let diagnostic = Diagnostic::new(
+                    Code::Fc130,
+                    given.place(),
+                    format!(
+                        "`frict_comp.{}` is {}, which is no value of type {}",
+                        field.name(),
+                        quoted(&given.value.text),
+                        field.type_name()
+                    ),
+                )
+                .with_help(format!(
+                    "write a whole number from {} to {}",
+                    range.start(),
+                    range.end()
+                ));
+                self.diagnostics.push(diagnostic);
+                return None;
+            }
+        };
+        if let Some(documented) = field.documented_range()
+            && !documented.contains(&value)
+        {
+            let diagnostic = Diagnostic::new(
+                Code::Fc132,
+                given.place(),
+                format!(
+                    "`frict_comp.{}` is {value}, the documented range is {} to {}",
+                    field.name(),
+                    documented.start(),
+                    documented.end()
+                ),
+            )
+            .with_help("the value is used as it is given");
+            self.diagnostics.push(diagnostic);
+        }
+        T::try_from(value).ok()
+    }
+
+    /// R3.23: whether the table fits into the reserved room; `≤` (reading C6).
+    fn check_size(&mut self, entries: u16) -> bool {
+        let max_points = self.draft.max_points();
+        let fits = u32::from(entries) <= max_points;
+        if let Some(given) = self.draft.get(Field::TableEntries)
+            && !fits
+        {
+            let diagnostic = Diagnostic::new(
+                Code::Fc131,
+                given.place(),
+                format!(
+                    "`frict_comp.table_entries` is {entries}, but `frict_comp.max_points` \
+                     reserves {max_points} points"
+                ),
+            );
+            self.diagnostics
+                .push(match self.draft.get(Field::MaxPoints) {
+                    Some(max) => diagnostic.with_label(max.place(), "the reserved size"),
+                    None => diagnostic.with_help(format!(
+                        "20 is the default; set `frict_comp.max_points` to {entries} or more"
+                    )),
+                });
+        }
+        fits
+    }
+
+    /// R3.21: the mode is 0 or 3 (reading C8), and mode 3 needs points.
+    fn check_mode(&mut self, mode: Option<u16>, entries: Option<u16>) {
+        let Some(given) = self.draft.get(Field::Mode) else {
+            return;
+        };
+        let diagnostic = match (mode, entries) {
+            (Some(3), Some(0)) => Diagnostic::new(
+                Code::PErr110592,
+                given.place(),
+                "`frict_comp.mode` is 3, but `frict_comp.table_entries` is 0: there are no values",
+            )
+            .with_help("set `frict_comp.table_entries` to the number of points in the table"),
+            (Some(0 | 3) | None, _) => return,
+            (Some(mode), _) => Diagnostic::new(
+                Code::PErr110592,
+                given.place(),
+                format!("`frict_comp.mode` is {mode}, the control knows the modes 0 and 3"),
+            )
+            .with_help("3 is friction compensation by an additive current, 0 is off"),
+        };
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// The points that are used, after R3.20, R3.24 and R3.26; `None` when one of them is wrong.
+    fn table(&mut self, entries: u16) -> Option<Vec<TablePoint>> {
+        let entries = u32::from(entries);
+        let written: Vec<_> = self.draft.table.range(..entries).collect();
+        let surplus = self.draft.table.range(entries..).next();
+        if let Some((index, point)) = surplus
+            && !self.has(Code::PErr110592)
+            && let Some(given) = point.input.as_ref().or(point.output.as_ref())
+        {
+            self.diagnostics.push(Diagnostic::new(
+                Code::Fc134,
+                given.place(),
+                format!(
+                    "`frict_comp.table[{index}]` is not used, `frict_comp.table_entries` is \
+                     {entries}"
+                ),
+            ));
+        }
+        if let Some(given) = self.draft.get(Field::TableEntries)
+            && let Some(missing) = (0..entries)
+                .zip(
+                    written
+                        .iter()
+                        .map(|(index, _)| Some(**index))
+                        .chain(std::iter::repeat(None)),
+                )
+                .find_map(|(at, index)| (index != Some(at)).then_some(at))
+        {
+            self.diagnostics.push(Diagnostic::new(
+                Code::Fc133,
+                given.place(),
+                format!(
+                    "`frict_comp.table_entries` is {entries}, but `frict_comp.table[{missing}]` \
+                     is missing"
+                ),
+            ));
+            return None;
+        }
+        let mut points: Vec<TablePoint> = Vec::with_capacity(written.len());
+        let mut whole = true;
+        for (index, point) in written {
+            let input = self.point_value(point.input.as_ref(), *index, "in");
+            let output = self.point_value(point.output.as_ref(), *index, "out");
+            let (Some(input), Some(output)) = (input, output) else {
+                whole = false;
+                if self.diagnostics.len() > MAX_DIAGNOSTICS {
+                    break;
+                }
+                continue;
+            };
+            points.push(TablePoint { input, output });
+        }
+        (whole && self.check_ascending(&points)).then_some(points)
+    }
+
+    /// One value of a point, 0 when it is not written; `None` after FC130 (R3.24).
+    fn point_value(
+        &mut self,
+        given: Option<&Given<Written>>,
+        index: u32,
+        name: &str,
+    ) -> Option<f64> {
+        let Some(given) = given else {
+            return Some(0.0);
+        };
+        let reals = self.conditions.build.map(CncBuild::reads_real_points);
+        let whole = i64::from(i32::MIN) + 1..i64::from(i32::MAX);
+        match given.value.number {
+            Some(number @ Number::Real(_)) if reals != Some(false) => return Some(number.to_f64()),
+            Some(number @ Number::Integer(value)) if whole.contains(&value) => {
+                return Some(number.to_f64());
+            }
+            Some(number @ Number::Integer(_)) if reals == Some(true) => {
+                return Some(number.to_f64());
+            }
+            _ => {}
+        }
+        let types = if reals == Some(false) {
+            "SGN32"
+        } else {
+            "SGN32 or REAL64"
+        };
+        let mut diagnostic = Diagnostic::new(
+            Code::Fc130,
+            given.place(),
+            format!(
+                "`frict_comp.table[{index}].{name}` is {}, which is no value of type {types}",
+                quoted(&given.value.text)
+            ),
+        );
+        if let (Some(build), Some(Number::Real(_))) = (self.conditions.build, given.value.number) {
+            diagnostic = diagnostic.with_help(format!(
+                "real numbers are read since V3.1.3132.0 and V4.29.0, this machine has {build}"
+            ));
+        }
+        self.diagnostics.push(diagnostic);
+        None
+    }
+
+    /// R3.20: velocities are not negative and strictly ascending (readings C4, C5).
+    fn check_ascending(&mut self, points: &[TablePoint]) -> bool {
+        let mut before: Option<f64> = None;
+        for (index, point) in (0_u32..).zip(points) {
+            let input = point.input;
+            let why = match before {
+                _ if input < 0.0 => "velocities are not negative".to_owned(),
+                Some(before) if input <= before => {
+                    format!("which is not above the {before} of the point before")
+                }
+                _ => {
+                    before = Some(input);
+                    continue;
+                }
+            };
+            let written = self.draft.table.get(&index);
+            if let Some(given) = written.and_then(|w| w.input.as_ref().or(w.output.as_ref())) {
+                self.diagnostics.push(
+                    Diagnostic::new(
+                        Code::PErr110591,
+                        given.place(),
+                        format!("`frict_comp.table[{index}].in` is {input}, {why}"),
+                    )
+                    .with_help("write the points with ascending velocities, the first from 0 on"),
+                );
+            }
+            return false;
+        }
+        true
+    }
+
+    /// R3.28: a first point (0, 0) leaves the axis without current until it reaches the second
+    /// one. On a circle an axis leaves its reversal with a = v²/r; chapter 4.3 sets r = 100 mm and
+    /// the limit of 10 ms.
+    fn check_first_point(&mut self, list: &FrictionList) {
+        const RADIUS_MM: f64 = 100.0;
+        const LIMIT_MS: f64 = 10.0;
+        let [first, second, ..] = list.table[..] else {
+            return;
+        };
+        let zero = first.input.abs() < f64::EPSILON && first.output.abs() < f64::EPSILON;
+        let second_given = self.draft.table.get(&1).and_then(|p| p.input.as_ref());
+        let Some(given) = second_given.filter(|_| zero) else {
+            return;
+        };
+        if self.conditions.axis_type != AxisType::Linear {
+            return;
+        }
+        let feed = self.conditions.feed_mm_min;
+        let velocity = feed / 60.0;
+        let acceleration = velocity * velocity / RADIUS_MM * 1000.0;
+        let time_ms = second.input / acceleration * 1000.0;
+        if time_ms > LIMIT_MS {
+            self.diagnostics.push(
+                Diagnostic::new(
+                    Code::Fc136,
+                    given.place(),
+                    format!(
+                        "the current comes too late at reversals: the first point is (0, 0), and \
+                         the axis needs {time_ms:.0} ms to reach the second at {} \u{b5}m/s on a \
+                         circle of {RADIUS_MM} mm radius at {feed} mm/min",
+                        second.input
+                    ),
+                )
+                .with_help(
+                    "give the first point the current of slow motion, \
+                     `frict_comp.position_delay` shapes the build-up",
+                ),
+            );
+        }
+    }
+
+    /// R3.29: the torque object of the drive has 16 bit.
+    fn check_drive_range(&mut self, list: &FrictionList) {
+        let scaled = |point: &TablePoint| point.output * f64::from(list.scaling_factor) / 1000.0;
+        let largest = (0_u32..)
+            .zip(&list.table)
+            .map(|(index, point)| (index, scaled(point)))
+            .max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
+        if let Some((index, current)) = largest
+            && current.abs() > f64::from(i16::MAX)
+            && let Some(given) = self.draft.table.get(&index).and_then(|p| p.output.as_ref())
+        {
+            self.diagnostics.push(
+                Diagnostic::new(
+                    Code::Fc137,
+                    given.place(),
+                    format!(
+                        "`frict_comp.table[{index}].out` gives {current} after scaling, a 16-bit \
+                         torque object carries at most 32767"
+                    ),
+                )
+                .with_help("the drive gets the limit instead"),
+            );
+        }
+    }
+}
+
+/// The text in backquotes, or words for none.
+fn quoted(text: &str) -> String {
+    if text.is_empty() {
+        "empty".to_owned()
+    } else {
+        format!("`{text}`")
+    }
+}

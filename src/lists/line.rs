@@ -1,0 +1,371 @@
+//! The line format that all lists share: one entry a line, key, value, comment (R3.1 to R3.5).
+//!
+//! This file knows no key. What a value may be depends on the key, so an entry keeps its raw value
+//! and gives it as a number, a text or a set of words when asked.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::{Given, Number, Written};
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Place};
+use crate::source::{SourceFile, Span};
+
+/// One line `path.with[index].dots  value  comment`.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The key with every index left empty: `frict_comp.table[].in`.
+    pub pattern: String,
+    /// The indices from left to right.
+    pub indices: Vec<u32>,
+    /// Where the key stands.
+    pub key_span: Span,
+    /// Everything behind the key, without blanks at either end.
+    pub value_span: Span,
+    source: Arc<SourceFile>,
+}
+
+impl Entry {
+    /// The key without blanks: `frict_comp.table[0].in`.
+    pub fn key(&self) -> String {
+        let mut key = String::with_capacity(self.pattern.len() + 4 * self.indices.len());
+        let mut indices = self.indices.iter();
+        for part in self.pattern.split_inclusive('[') {
+            key.push_str(part);
+            if part.ends_with('[')
+                && let Some(index) = indices.next()
+            {
+                key.push_str(&index.to_string());
+            }
+        }
+        key
+    }
+
+    /// Where the key stands.
+    pub fn key_place(&self) -> Place {
+        self.source.place(self.key_span)
+    }
+
+    /// The value as one word, as numbers and truth values are written: it ends at a blank or at
+    /// the start of a comment (R3.2).
+    pub fn word(&self) -> Given<&str> {
+        let value = self.value_span.of(self.source.text());
+        let end = value
+            .find(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
+            .unwrap_or(value.len());
+        let end = value.find("/*").map_or(end, |comment| end.min(comment));
+        self.part(0..end)
+    }
+
+    /// The value as a text; only `(` opens a comment behind it (R3.2).
+    pub fn text(&self) -> Given<&str> {
+        let value = self.value_span.of(self.source.text());
+        let end = value.find('(').unwrap_or(value.len());
+        self.part(0..value[..end].trim_end().len())
+    }
+
+    /// The value as a number, with the word that stands there.
+    pub fn number(&self) -> Given<Written> {
+        let word = self.word();
+        word.with(Written::new(word.value))
+    }
+
+    /// The value as a truth value, `0`, `1`, `FALSE` or `TRUE`; `None` when it is none (R3.4).
+    pub fn truth(&self) -> Given<Option<bool>> {
+        let word = self.word();
+        let truth = match Number::parse(word.value) {
+            Some(Number::Integer(0)) => Some(false),
+            Some(Number::Integer(1)) => Some(true),
+            None if word.value.eq_ignore_ascii_case("FALSE") => Some(false),
+            None if word.value.eq_ignore_ascii_case("TRUE") => Some(true),
+            _ => None,
+        };
+        word.with(truth)
+    }
+
+    /// The value as a set of words, `A | B |` (R3.4). Behind the last word all is comment.
+    pub fn words(&self) -> Vec<Given<&str>> {
+        let value = self.value_span.of(self.source.text());
+        let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+        let mut words = Vec::new();
+        let mut rest = value;
+        loop {
+            rest = rest.trim_start();
+            let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
+            if end == 0 {
+                return words;
+            }
+            let start = value.len() - rest.len();
+            words.push(self.part(start..start + end));
+            rest = rest[end..].trim_start();
+            match rest.strip_prefix('|') {
+                Some(behind) => rest = behind,
+                None => return words,
+            }
+        }
+    }
+
+    /// The bytes `range` of the value with their place; nothing has the place of the key.
+    fn part(&self, range: Range<usize>) -> Given<&str> {
+        let start = self.value_span.range().start;
+        let span = if range.is_empty() {
+            self.key_span
+        } else {
+            Span::new(start + range.start, start + range.end)
+        };
+        let value = self.value_span.of(self.source.text());
+        Given::new(&value[range], &self.source, span)
+    }
+}
+
+/// The entries of one list.
+#[derive(Debug, Clone)]
+pub struct Entries {
+    /// The entries in the order of their lines; of a key given twice only the last.
+    pub entries: Vec<Entry>,
+    /// What the lines themselves give reason to say: FC120, FC121, FC124.
+    pub diagnostics: Vec<Diagnostic>,
+    source: Arc<SourceFile>,
+}
+
+impl Entries {
+    /// Reads the lines of a list up to `Ende` (R3.3). Never fails: a line that is no entry is
+    /// passed over with FC124.
+    pub fn parse(source: &Arc<SourceFile>) -> Self {
+        let mut reader = Reader {
+            source,
+            lines: Vec::new(),
+            diagnostics: Vec::new(),
+        };
+        let ended = reader.read();
+        if !ended {
+            let end = source.text().trim_end().len();
+            let start = source.text()[..end]
+                .rfind(['\n', '\r'])
+                .map_or(0, |at| at + 1);
+            reader.diagnostics.push(
+                Diagnostic::new(
+                    Code::Fc120,
+                    source.place(Span::new(start, end)),
+                    "the list ends without `Ende`",
+                )
+                .with_help("write `Ende` on a line of its own behind the last entry"),
+            );
+        }
+        let mut entries = Self {
+            entries: reader.lines,
+            diagnostics: reader.diagnostics,
+            source: source.clone(),
+        };
+        entries.drop_repeated();
+        entries
+    }
+
+    /// The list as a source.
+    pub fn source(&self) -> &Arc<SourceFile> {
+        &self.source
+    }
+
+    /// The entry with this key, for keys without an index.
+    pub fn find(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.pattern == key)
+    }
+
+    /// The entries whose key has this pattern, `achs_mds[]`, each with its first index.
+    pub fn indexed<'a>(&'a self, pattern: &'a str) -> impl Iterator<Item = (u32, &'a Entry)> {
+        self.entries
+            .iter()
+            .filter(move |entry| entry.pattern == pattern)
+            .filter_map(|entry| entry.indices.first().map(|&index| (index, entry)))
+    }
+
+    /// Keeps the last of several entries with one key and says so (R3.5).
+    fn drop_repeated(&mut self) {
+        let mut last: HashMap<(&str, &[u32]), usize> = HashMap::new();
+        let mut repeated = Vec::new();
+        for (at, entry) in self.entries.iter().enumerate() {
+            if let Some(before) = last.insert((&entry.pattern, &entry.indices), at) {
+                let earlier = &self.entries[before];
+                self.diagnostics.push(
+                    Diagnostic::new(
+                        Code::Fc121,
+                        entry.key_place(),
+                        format!("`{}` is given twice, the last value holds", entry.key()),
+                    )
+                    .with_label(earlier.key_place(), "given here before"),
+                );
+                repeated.push(before);
+            }
+        }
+        if repeated.is_empty() {
+            return;
+        }
+        repeated.sort_unstable();
+        let mut at = 0;
+        self.entries.retain(|_| {
+            let keep = repeated.binary_search(&at).is_err();
+            at += 1;
+            keep
+        });
+    }
+}
+
+/// What a line is.
+enum Line {
+    /// Nothing, or a comment.
+    Blank,
+    /// `Ende`.
+    End,
+    /// An entry.
+    Entry(Entry),
+    /// Nothing of these; the reason as a sentence without its start.
+    Odd(&'static str),
+}
+
+struct Reader<'a> {
+    source: &'a Arc<SourceFile>,
+    lines: Vec<Entry>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    /// Reads line by line and returns whether `Ende` was found.
+    fn read(&mut self) -> bool {
+        let text = self.source.text();
+        let lines = self.source.lines();
+        let count = u32::try_from(lines.lines()).unwrap_or(u32::MAX);
+        for number in 1..=count {
+            let span = lines.line_span(text, number);
+            match self.line(span) {
+                Line::Blank => {}
+                Line::End => return true,
+                Line::Entry(entry) => self.lines.push(entry),
+                Line::Odd(why) => {
+                    let line = span.of(text);
+                    let start = line.len() - line.trim_start().len();
+                    let meant = Span::new(start, line.trim_end().len()).shifted(span.start);
+                    self.diagnostics.push(
+                        Diagnostic::new(
+                            Code::Fc124,
+                            self.source.place(meant),
+                            format!("{why}, the line is passed over"),
+                        )
+                        .with_help(
+                            "an entry is `key value`, a comment begins with `#` and a blank",
+                        ),
+                    );
+                }
+            }
+        }
+        false
+    }
+
+    fn line(&self, span: Span) -> Line {
+        let whole = span.of(self.source.text());
+        let whole = whole.trim_end();
+        let mut line = whole.trim_start_matches('\u{feff}').trim_start();
+        while let Some(comment) = line.strip_prefix("/*") {
+            match comment.split_once("*/") {
+                Some((_, behind)) => line = behind.trim_start(),
+                None => return Line::Odd("a comment is not closed on its line"),
+            }
+        }
+        if line.is_empty() || line == ":" {
+            return Line::Blank;
+        }
+        if let Some(comment) = line.strip_prefix('#') {
+            return if comment.starts_with(char::is_alphanumeric) {
+                Line::Odd("a comment needs a blank behind `#`")
+            } else {
+                Line::Blank
+            };
+        }
+        let first = line
+            .split(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
+            .next()
+            .unwrap_or_default();
+        if first.eq_ignore_ascii_case("Ende") || first.eq_ignore_ascii_case("End") {
+            return Line::End;
+        }
+        let start = span.range().start + (whole.len() - line.len());
+        self.entry(line, start)
+    }
+
+    /// Reads an entry. `line` begins with its key and lies at `start` of the text.
+    fn entry(&self, line: &str, start: usize) -> Line {
+        let mut pattern = String::new();
+        let mut indices = Vec::new();
+        let mut rest = line;
+        loop {
+            let end = rest
+                .find(|c: char| !(c.is_ascii_alphanumeric() || matches!(c, '_' | '.')))
+                .unwrap_or(rest.len());
+            pattern.push_str(&rest[..end]);
+            rest = &rest[end..];
+            let Some(bracket) = rest.trim_start().strip_prefix('[') else {
+                break;
+            };
+            if pattern.is_empty() {
+                break;
+            }
+            let Some((index, behind)) = bracket.split_once(']') else {
+                return Line::Odd("an index is not closed");
+            };
+            let index = index.trim();
+            match index.parse() {
+                Ok(index) if !pattern.ends_with('.') => indices.push(index),
+                _ => return Line::Odd("an index is no number that a table can have"),
+            }
+            pattern.push_str("[]");
+            rest = behind;
+        }
+        let key_end = line.len() - rest.len();
+        let value = rest.trim();
+        let separated = rest.is_empty() || rest.starts_with(char::is_whitespace);
+        let is_path = pattern.contains(['.', '[']);
+        let opens = pattern.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        if !opens {
+            return Line::Odd("this is no key of a list");
+        }
+        if !separated {
+            return Line::Odd("a key and its value are not parted by a blank");
+        }
+        if value.is_empty() && !is_path {
+            return Line::Odd("a word without a value is no entry");
+        }
+        let value_start = if value.is_empty() {
+            key_end
+        } else {
+            key_end + (rest.len() - rest.trim_start().len())
+        };
+        Line::Entry(Entry {
+            pattern,
+            indices,
+            key_span: Span::new(start, start + key_end),
+            value_span: Span::new(start + value_start, start + value_start + value.len()),
+            source: self.source.clone(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Entries {
+        Entries::parse(&Arc::new(SourceFile::new("a.lis", text)))
+    }
+
+    #[test]
+    fn an_entry_keeps_its_places() {
+        // R3.1
+        let list = parse("  a.b[ 1 ].c\t7 # seven\r\nEnde\r\n");
+        let entry = &list.entries[0];
+        assert_eq!(entry.pattern, "a.b[].c");
+        assert_eq!(entry.key(), "a.b[1].c");
+        assert_eq!(entry.key_span.of(list.source().text()), "a.b[ 1 ].c");
+        assert_eq!(entry.number().value.number, Some(Number::Integer(7)));
+        assert_eq!(entry.number().place().start().column, 14);
+    }
+}

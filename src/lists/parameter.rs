@@ -1,0 +1,81 @@
+//! What a parameter is worth in the end, and where that came from.
+
+use serde::{Deserialize, Serialize};
+
+use super::Given;
+
+/// The type of an axis, P-AXIS-00018 (`kenngr.achs_typ`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+pub enum AxisType {
+    /// Translatory, list value 1.
+    #[default]
+    #[serde(rename = "T")]
+    Linear,
+    /// Rotary, list value 2.
+    #[serde(rename = "R")]
+    Rotary,
+    /// Spindle, list value 4.
+    #[serde(rename = "S")]
+    Spindle,
+}
+
+impl AxisType {
+    /// The value in an axis list.
+    pub fn list_value(self) -> &'static str {
+        match self {
+            Self::Linear => "1",
+            Self::Rotary => "2",
+            Self::Spindle => "4",
+        }
+    }
+
+    /// The type that a letter of the parameter descriptions names: `T`, `R`, `S`.
+    pub fn from_letter(letter: &str) -> Option<Self> {
+        match letter {
+            "T" => Some(Self::Linear),
+            "R" => Some(Self::Rotary),
+            "S" => Some(Self::Spindle),
+            _ => None,
+        }
+    }
+}
+
+/// Where the value of a parameter came from.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Origin {
+    /// No list sets it; the documented default holds.
+    Default,
+    /// A line of a list or of `frictcomp.toml`.
+    File {
+        /// The file as the user would name it.
+        file: String,
+        /// The line, from 1.
+        line: u32,
+    },
+    /// The user said so on the command line with `--enable`.
+    Assumed,
+}
+
+impl<T> From<&Given<T>> for Origin {
+    fn from(given: &Given<T>) -> Self {
+        Self::File {
+            file: given.file().to_owned(),
+            line: given.line(),
+        }
+    }
+}
+
+/// One row of the table of effective parameters.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Parameter {
+    /// The number in the parameter descriptions, `P-COMP-00043`.
+    pub number: &'static str,
+    /// The key in a list, `frict_comp.position_delay`.
+    pub key: String,
+    /// The value that holds, as a list would write it.
+    pub value: String,
+    /// Its unit for the axis' type, empty for plain numbers.
+    pub unit: &'static str,
+    /// Where the value came from.
+    pub origin: Origin,
+}

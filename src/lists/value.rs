@@ -1,0 +1,158 @@
+//! Values as they are written, with their places.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::diagnostic::Place;
+use crate::source::{SourceFile, Span};
+
+/// A number as a list or `frictcomp.toml` writes it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Number {
+    /// Without point and exponent, decimal or hexadecimal.
+    Integer(i64),
+    /// With point or exponent; always finite.
+    Real(f64),
+}
+
+impl Number {
+    /// Reads a number of the forms of R3.4. `None` for anything else and for numbers that no type
+    /// of the control can hold.
+    pub fn parse(text: &str) -> Option<Self> {
+        let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
+        if let Some(hex) = digits
+            .strip_prefix("0x")
+            .or_else(|| digits.strip_prefix("0X"))
+        {
+            if !hex.starts_with(|first: char| first.is_ascii_hexdigit()) {
+                return None;
+            }
+            let value = i64::from_str_radix(hex, 16).ok()?;
+            return Some(Self::Integer(if text.starts_with('-') {
+                -value
+            } else {
+                value
+            }));
+        }
+        if !digits.starts_with(|first: char| first.is_ascii_digit() || first == '.') {
+            return None;
+        }
+        if digits.bytes().all(|byte| byte.is_ascii_digit()) {
+            return text.parse().ok().map(Self::Integer);
+        }
+        text.parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+            .map(Self::Real)
+    }
+
+    /// The number as a real one.
+    pub fn to_f64(self) -> f64 {
+        match self {
+            Self::Real(value) => value,
+            Self::Integer(value) => {
+                let high = i32::try_from(value >> 32).expect("the upper half of an i64");
+                let low = u32::try_from(value & 0xffff_ffff).expect("the lower half of an i64");
+                f64::from(high) * 4_294_967_296.0 + f64::from(low)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Integer(value) => value.fmt(f),
+            Self::Real(value) => value.fmt(f),
+        }
+    }
+}
+
+/// What stands where a number is expected.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Written {
+    /// The word as it stands there.
+    pub text: String,
+    /// The number that it is, if it is one.
+    pub number: Option<Number>,
+}
+
+impl Written {
+    /// What a word says as a number.
+    pub fn new(text: &str) -> Self {
+        Self {
+            text: text.to_owned(),
+            number: Number::parse(text),
+        }
+    }
+}
+
+/// A value together with the place that gave it.
+#[derive(Debug, Clone)]
+pub struct Given<T> {
+    /// The value.
+    pub value: T,
+    source: Arc<SourceFile>,
+    span: Span,
+}
+
+impl<T> Given<T> {
+    /// A value that stands at `span` of `source`.
+    pub fn new(value: T, source: &Arc<SourceFile>, span: Span) -> Self {
+        Self {
+            value,
+            source: source.clone(),
+            span,
+        }
+    }
+
+    /// Another value from the same place.
+    pub fn with<U>(&self, value: U) -> Given<U> {
+        Given::new(value, &self.source, self.span)
+    }
+
+    /// Where the value stands.
+    pub fn place(&self) -> Place {
+        self.source.place(self.span)
+    }
+
+    /// The name of the file that gave it.
+    pub fn file(&self) -> &str {
+        self.source.name()
+    }
+
+    /// The line that gave it, from 1.
+    pub fn line(&self) -> u32 {
+        self.source.lines().line(self.span.start)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_forms_of_the_lists() {
+        // R3.4
+        let cases = [
+            ("12", Some(Number::Integer(12))),
+            ("-3", Some(Number::Integer(-3))),
+            ("+3", Some(Number::Integer(3))),
+            ("0x1F", Some(Number::Integer(31))),
+            ("1.5", Some(Number::Real(1.5))),
+            ("-2e3", Some(Number::Real(-2000.0))),
+            ("", None),
+            ("-", None),
+            ("0x", None),
+            ("0x-1", None),
+            ("inf", None),
+            ("NaN", None),
+            ("1e999", None),
+            ("99999999999999999999", None),
+            ("3;", None),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(Number::parse(text), expected, "{text}");
+        }
+    }
+}

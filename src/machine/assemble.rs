@@ -1,0 +1,250 @@
+//! From all that the lists and `frictcomp.toml` say about one axis to the axis, with the checks
+//! that need the axis list and the value list side by side (R3.14, R3.27, R3.30).
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::load::ValueList;
+use super::{Axis, Origin, Parameterisation};
+use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
+use crate::lists::{AxisType, AxisValues, Conditions, Entry, Field, Given, Parameter, Verdict};
+use crate::syntax::{Kind, KindSet};
+
+/// The effective parameters of one axis.
+#[derive(Debug, Clone, Serialize)]
+pub struct AxisReport {
+    /// The name in NC programs; empty when a list is looked at by itself and names no axis.
+    pub axis: String,
+    /// The type of the axis.
+    pub axis_type: AxisType,
+    /// The parameters in the order of the lists.
+    pub parameters: Vec<Parameter>,
+    /// The entries of the drive, `antr.*`, by their keys.
+    #[serde(skip)]
+    pub drive: BTreeMap<String, Entry>,
+}
+
+/// One axis while its sources are being read.
+#[derive(Debug, Clone)]
+pub(super) struct AxisDraft {
+    pub(super) name: String,
+    /// What the axis lists say, then `frictcomp.toml`.
+    pub(super) values: AxisValues,
+    /// The number that the axis lists give, before `frictcomp.toml` overrides it.
+    number_in_list: Option<Given<u32>>,
+    /// The number that the channel list gives.
+    channel_number: Option<Given<u32>>,
+    /// The number that the start-up list gives to the value list.
+    pub(super) startup_number: Option<Given<u32>>,
+    pub(super) value_list: ValueList,
+    pub(super) max_velocity: Option<f64>,
+}
+
+impl AxisDraft {
+    pub(super) fn new(name: String, values: AxisValues) -> Self {
+        Self {
+            name,
+            number_in_list: values.number.clone(),
+            values,
+            channel_number: None,
+            startup_number: None,
+            value_list: ValueList::default(),
+            max_velocity: None,
+        }
+    }
+
+    /// Lets another axis list override what is here.
+    #[cfg(feature = "toml")]
+    pub(super) fn add_list(&mut self, list: AxisValues) {
+        if list.number.is_some() {
+            self.number_in_list.clone_from(&list.number);
+        }
+        self.values.override_with(list);
+    }
+
+    /// Takes the number that the channel list gives; it holds where no axis list has one.
+    pub(super) fn set_channel_number(&mut self, number: Option<Given<u32>>) {
+        if self.number_in_list.is_none() {
+            self.number_in_list.clone_from(&number);
+            self.values.number.clone_from(&number);
+        }
+        self.channel_number = number;
+    }
+
+    /// The axis number that the axis lists give.
+    pub(super) fn list_number(&self) -> Option<u32> {
+        self.number_in_list.as_ref().map(|number| number.value)
+    }
+
+    /// The axis, and what its parameters are worth.
+    pub(super) fn finish(
+        self,
+        conditions: &Conditions,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> (Axis, AxisReport) {
+        let axis_type = self.values.axis_type.as_ref();
+        let axis_type = axis_type.map_or(AxisType::Linear, |given| given.value);
+        let reading = self.value_list.friction.check(&Conditions {
+            axis_type,
+            ..*conditions
+        });
+        let first = diagnostics.len();
+        let conflict = self.check_numbers(diagnostics);
+        diagnostics.extend(reading.diagnostics);
+
+        let friction = self.parameterisation(reading.verdict, conflict);
+        let set = |switches: &BTreeMap<Kind, Given<bool>>| -> KindSet {
+            switches
+                .iter()
+                .filter(|(_, on)| on.value)
+                .map(|(&kind, _)| kind)
+                .collect()
+        };
+        let mut manual = self.values.manual.clone();
+        manual.extend(self.value_list.head.manual.clone());
+        let anchor = self.value_list.friction.anchor();
+        let max_points_given = self.value_list.friction.get(Field::MaxPoints);
+        let axis = Axis {
+            name: self.name.clone(),
+            number: self.values.number.as_ref().map(|number| number.value),
+            axis_type,
+            configured: set(&self.values.selectors),
+            frict_comp_origin: self
+                .values
+                .frict_comp()
+                .map_or(Origin::Default, Origin::from),
+            manual: set(&manual),
+            required: self
+                .values
+                .required
+                .as_ref()
+                .map_or(KindSet::NONE, |r| r.value),
+            friction,
+            max_points: reading.max_points,
+            max_points_place: max_points_given
+                .map(Given::place)
+                .or_else(|| anchor.as_ref().map(Given::place)),
+            max_velocity: self.max_velocity,
+        };
+        diagnostics.extend(self.check_selection(&axis));
+        for diagnostic in &mut diagnostics[first..] {
+            diagnostic.axis.get_or_insert_with(|| self.name.clone());
+        }
+
+        let mut values = self.values;
+        values.manual = manual;
+        let mut parameters = values.parameters();
+        parameters.extend(reading.parameters);
+        let report = AxisReport {
+            axis: self.name,
+            axis_type,
+            parameters,
+            drive: values.drive,
+        };
+        (axis, report)
+    }
+
+    fn parameterisation(&self, verdict: Verdict, conflict: Option<Code>) -> Parameterisation {
+        let rejected = |code: Code| Parameterisation::Rejected {
+            file: self
+                .value_list
+                .friction
+                .anchor()
+                .map_or_else(String::new, |anchor| anchor.file().to_owned()),
+            code: code.text().to_owned(),
+        };
+        match (verdict, conflict) {
+            (Verdict::Absent, _) => Parameterisation::Missing,
+            (_, Some(code)) | (Verdict::Rejected(code), None) => rejected(code),
+            (Verdict::Off, None) => Parameterisation::Off,
+            (Verdict::Accepted(list), None) => Parameterisation::Accepted(list),
+        }
+    }
+
+    /// R3.14: all lists give the axis one number. `Some` when the value list has another one, for
+    /// then it is not taken.
+    fn check_numbers(&self, diagnostics: &mut Vec<Diagnostic>) -> Option<Code> {
+        let code = Code::PErr110229;
+        let differ = |list: &Given<u32>, other: &Given<u32>| {
+            let message = format!(
+                "the axis number is {} in `{}`, but {} in `{}`",
+                list.value,
+                list.file(),
+                other.value,
+                other.file()
+            );
+            Diagnostic::new(code, list.place(), message)
+                .with_label(other.place(), "the other number")
+                .with_help("all lists of an axis have the same number")
+        };
+        let in_list = self.number_in_list.as_ref();
+        if let (Some(list), Some(channel)) = (in_list, &self.channel_number)
+            && list.value != channel.value
+        {
+            diagnostics.push(differ(list, channel));
+        }
+        let value_list = self.value_list.head.number.as_ref()?;
+        let other = [in_list, self.startup_number.as_ref()]
+            .into_iter()
+            .flatten()
+            .find(|other| other.value != value_list.value)?;
+        diagnostics.push(differ(value_list, other));
+        Some(code)
+    }
+
+    /// R3.27 and R3.30: whether the axis list and the value list want the same.
+    fn check_selection(&self, axis: &Axis) -> Option<Diagnostic> {
+        let anchor = self.value_list.friction.anchor();
+        let selector = self.values.frict_comp();
+        if axis.is_spindle() {
+            return anchor.map(|anchor| {
+                Diagnostic::new(
+                    Code::Fc138,
+                    anchor.place(),
+                    format!(
+                        "`{}` is a spindle, friction compensation is for linear and rotary axes",
+                        axis.name
+                    ),
+                )
+            });
+        }
+        let configured = axis.configured.contains(Kind::Frict);
+        if configured {
+            let why = match &axis.friction {
+                Parameterisation::Accepted(_) | Parameterisation::Assumed => return None,
+                Parameterisation::Missing => "no value list gives it friction values".to_owned(),
+                Parameterisation::Off => "`frict_comp.mode` is 0".to_owned(),
+                Parameterisation::Rejected { file, code } => {
+                    format!("the control rejects `{file}` with {code}")
+                }
+            };
+            let message = format!(
+                "friction compensation of axis `{}` is selected without effect: {why}",
+                axis.name
+            );
+            return selector.map(|given| {
+                Diagnostic::new(Code::Fc303, given.place(), message)
+                    .with_help("the axis needs a value list with `frict_comp.mode` 3")
+            });
+        }
+        if !matches!(axis.friction, Parameterisation::Accepted(_)) {
+            return None;
+        }
+        let message = format!(
+            "axis `{}` has friction values, but P-AXIS-00522 is 0: they have no effect",
+            axis.name
+        );
+        let diagnostic = Diagnostic::new(Code::Fc135, anchor?.place(), message);
+        Some(match selector {
+            Some(given) => diagnostic
+                .with_label(given.place(), "set to 0 here")
+                .with_help("set `lr_param.frict_comp` to 1"),
+            None => diagnostic.with_help(
+                "set `lr_param.frict_comp` to 1 in the axis list, or `frict_comp = true` in \
+                 `frictcomp.toml`",
+            ),
+        })
+    }
+}

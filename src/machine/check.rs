@@ -1,0 +1,110 @@
+//! One list judged by itself, or a start-up list with all that it names.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::load::{ListFiles, ValueList};
+use super::{AxisReport, CncBuild, Configuration};
+use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
+use crate::lists::{AxisType, AxisValues, ChannelList, Conditions, Entries, ListKind};
+use crate::source::{SourceFile, Span};
+
+/// What there is to say about a list.
+#[derive(Debug, Clone)]
+pub struct ListsReport {
+    /// The kind of the list, by its keys; `None` when they belong to no kind that is read.
+    pub kind: Option<ListKind>,
+    /// What the checks found, with their own severities.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The effective parameters of each axis that the list describes.
+    pub reports: Vec<AxisReport>,
+    /// The lists that were read, in the order of reading.
+    pub files: Vec<Arc<str>>,
+}
+
+/// Checks one list of any kind, under a kernel version where that is known. A start-up list is
+/// checked with every list that it names; any other list by itself, so nothing is said about what
+/// stands in its neighbours.
+pub fn check_list(
+    file: SourceFile,
+    build: Option<CncBuild>,
+    files: &mut dyn ListFiles,
+) -> ListsReport {
+    let source = Arc::new(file);
+    let entries = Entries::parse(&source);
+    let kind = ListKind::detect(&entries);
+    if kind == Some(ListKind::Startup) {
+        let mut configuration = Configuration::default();
+        configuration.machine.build = build;
+        configuration.read_startup(&source, files);
+        return ListsReport {
+            kind,
+            diagnostics: configuration.diagnostics,
+            reports: configuration.reports,
+            files: configuration.files,
+        };
+    }
+    let mut diagnostics = entries.diagnostics.clone();
+    let mut reports = Vec::new();
+    match kind {
+        Some(ListKind::Startup) => {}
+        Some(ListKind::Channel) => {
+            ChannelList::from_entries(&entries, &mut diagnostics);
+        }
+        Some(ListKind::Axis) => {
+            let values = AxisValues::from_entries(&entries, &mut diagnostics);
+            let mut report = head(&values);
+            report.parameters = values.parameters();
+            report.drive = values.drive;
+            reports.push(report);
+        }
+        Some(ListKind::Value) => {
+            let list = ValueList::from_entries(&entries, &mut diagnostics);
+            let mut report = head(&list.head);
+            let reading = list.friction.check(&Conditions {
+                build,
+                axis_type: report.axis_type,
+                ..Conditions::default()
+            });
+            diagnostics.extend(reading.diagnostics);
+            // A value list has no selectors; their defaults would say nothing.
+            report.parameters = list.head.parameters();
+            report
+                .parameters
+                .retain(|row| row.origin != crate::lists::Origin::Default);
+            report.parameters.extend(reading.parameters);
+            reports.push(report);
+        }
+        None => diagnostics.push(
+            Diagnostic::new(
+                Code::Fc124,
+                source.place(Span::new(0, 0)),
+                "no key of this file belongs to an axis, value, channel or start-up list",
+            )
+            .with_help("`frictcomp explain FC124` says how these lists are written"),
+        ),
+    }
+    ListsReport {
+        kind,
+        diagnostics,
+        reports,
+        files: vec![source.name().clone()],
+    }
+}
+
+/// The report of a list by itself, without parameters.
+fn head(values: &AxisValues) -> AxisReport {
+    AxisReport {
+        axis: values
+            .name
+            .as_ref()
+            .map_or_else(String::new, |name| name.value.clone()),
+        axis_type: values
+            .axis_type
+            .as_ref()
+            .map_or(AxisType::Linear, |given| given.value),
+        parameters: Vec::new(),
+        drive: BTreeMap::new(),
+    }
+}

@@ -1,0 +1,386 @@
+//! `frictcomp.toml`: the machine as its user writes it down, by itself or over the control's
+//! lists.
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use super::assemble::AxisDraft;
+use super::load::{ListFiles, Loader, MAX_AXES, NoLists};
+use super::section::{ROOT, Section, Shape};
+use super::{Configuration, ConfiguredPrograms, Machine, Setting};
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
+use crate::lists::{AxisType, AxisValues, Field, FrictionDraft, Given, Written, WrittenPoint};
+use crate::source::{SourceFile, Span};
+use crate::syntax::{Kind, KindSet};
+
+/// A `frictcomp.toml` that cannot be used: it is no TOML, or says something that does not exist.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{}:{}: {}", .diagnostic.place.file, .diagnostic.place.start(), .diagnostic.message)]
+pub struct ConfigError {
+    /// FC110 with the place.
+    pub diagnostic: Box<Diagnostic>,
+}
+
+impl ConfigError {
+    pub(super) fn new(source: &SourceFile, span: Span, message: impl Into<String>) -> Self {
+        let place = source.place(span);
+        Self {
+            diagnostic: Box::new(Diagnostic::new(Code::Fc110, place, message)),
+        }
+    }
+
+    pub(super) fn at<T>(given: &Given<T>, message: impl Into<String>) -> Self {
+        Self {
+            diagnostic: Box::new(Diagnostic::new(Code::Fc110, given.place(), message)),
+        }
+    }
+
+    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.diagnostic.help.push(help.into());
+        self
+    }
+
+    /// The same with "did you mean" where a known word is near.
+    pub(super) fn with_near<'a>(
+        self,
+        found: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        match did_you_mean(found, known) {
+            Some(meant) => self.with_help(format!("did you mean `{meant}`?")),
+            None => self,
+        }
+    }
+}
+
+impl Configuration {
+    /// The machine that a `frictcomp.toml` describes, with every list that it names. What the file
+    /// itself says overrides the lists.
+    ///
+    /// # Errors
+    /// The file is no TOML, or has a key or a value that does not exist.
+    pub fn from_toml(file: SourceFile, files: &mut dyn ListFiles) -> Result<Self, ConfigError> {
+        let source = Arc::new(file);
+        let table = toml::de::DeTable::parse(source.text()).map_err(|error| {
+            let span = error.span().unwrap_or_default();
+            let message = error.message().lines().collect::<Vec<_>>().join(", ");
+            ConfigError::new(&source, Span::new(span.start, span.end), message)
+        })?;
+        let root = Section::new(table.get_ref(), &source, &ROOT)?;
+
+        let mut configuration = Self::default();
+        let machine = root.table("machine", &MACHINE)?;
+        if let Some(machine) = &machine {
+            configuration.read_machine(machine)?;
+        }
+        configuration.settings = settings(&root)?;
+        configuration.levels = levels(&root)?;
+
+        let mut loader = Loader::new(files);
+        let startup = match &machine {
+            Some(machine) => machine.string("startup")?,
+            None => None,
+        };
+        let mut axes = match startup.and_then(|asked| loader.load(&asked)) {
+            Some(entries) => loader.startup(&entries),
+            None => Vec::new(),
+        };
+        let mut named: Vec<Given<String>> = Vec::new();
+        for section in root.tables("axis", &AXIS)? {
+            let name = axis_name(&section, &named)?;
+            if axes.len() >= MAX_AXES {
+                let message = format!("a machine has at most {MAX_AXES} axes");
+                return Err(ConfigError::at(&name, message));
+            }
+            let found = axes.iter().position(|axis| axis.name == name.value);
+            let at = found.unwrap_or_else(|| {
+                axes.push(AxisDraft::new(name.value.clone(), AxisValues::default()));
+                axes.len() - 1
+            });
+            read_axis(&section, &mut axes[at], &mut loader)?;
+            axes[at].values.name = Some(name.clone());
+            named.push(name);
+        }
+        configuration.assemble(axes, loader);
+        Ok(configuration)
+    }
+
+    fn read_machine(&mut self, section: &Section<'_>) -> Result<(), ConfigError> {
+        self.machine.cycle_time_ms = section.positive("cycle_time_ms")?;
+        if let Some(build) = section.string("cnc_build")? {
+            let parsed = build.value.parse();
+            let parsed = parsed.map_err(|e: super::NoBuild| ConfigError::at(&build, e.to_string()));
+            self.machine.build = Some(parsed?);
+        }
+        let dirs = section.strings("program_dirs")?;
+        self.program_dirs = dirs.into_iter().map(|dir| dir.value).collect();
+        let words = match section.table("programs", &WORDS)? {
+            Some(words) => words.string_pairs()?,
+            None => Vec::new(),
+        };
+        self.machine.programs = ConfiguredPrograms {
+            start: section.string("start_program")?.map(|given| given.value),
+            end: section.string("end_program")?.map(|given| given.value),
+            words,
+        };
+        Ok(())
+    }
+}
+
+impl Machine {
+    /// The machine that the text of a `frictcomp.toml` describes by itself, without lists.
+    ///
+    /// ```
+    /// use frictcomp::machine::Machine;
+    /// use frictcomp::syntax::Kind;
+    ///
+    /// let machine = Machine::from_toml("[[axis]]\nname = \"X\"\nfrict_comp = true\n")?;
+    /// assert!(machine.axes[0].configured.contains(Kind::Frict));
+    /// # Ok::<(), frictcomp::machine::ConfigError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The text is no TOML, or has a key or a value that does not exist.
+    pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
+        let file = SourceFile::new("frictcomp.toml", text);
+        Ok(Configuration::from_toml(file, &mut NoLists)?.machine)
+    }
+}
+
+const MACHINE: Shape = Shape {
+    name: "[machine]",
+    keys: Some(&[
+        "startup",
+        "cycle_time_ms",
+        "cnc_build",
+        "program_dirs",
+        "start_program",
+        "end_program",
+        "programs",
+    ]),
+};
+
+const WORDS: Shape = Shape {
+    name: "[machine.programs]",
+    keys: None,
+};
+
+const AXIS: Shape = Shape {
+    name: "[[axis]]",
+    keys: Some(&[
+        "name",
+        "type",
+        "number",
+        "frict_comp",
+        "axis_list",
+        "value_list",
+        "value",
+        "compensations",
+        "manual_activation",
+        "required",
+        "max_velocity",
+    ]),
+};
+
+const VALUE: Shape = Shape {
+    name: "[axis.value]",
+    keys: Some(&[
+        "mode",
+        "max_points",
+        "table_entries",
+        "position_delay",
+        "reversal_lookahead",
+        "scaling_factor",
+        "delay_cycles",
+        "table",
+    ]),
+};
+
+const VARIABLES: Shape = Shape {
+    name: "[variables]",
+    keys: None,
+};
+
+const LINT: Shape = Shape {
+    name: "[lint]",
+    keys: None,
+};
+
+fn settings(root: &Section<'_>) -> Result<Vec<(String, Setting)>, ConfigError> {
+    let Some(variables) = root.table("variables", &VARIABLES)? else {
+        return Ok(Vec::new());
+    };
+    let mut settings = Vec::new();
+    for name in variables.names() {
+        let setting = match variables.number(name.value) {
+            Some(Given {
+                value:
+                    Written {
+                        number: Some(number),
+                        ..
+                    },
+                ..
+            }) => Setting::Number(number.to_f64()),
+            _ => match variables.string(name.value) {
+                Ok(Some(text)) => Setting::Text(text.value),
+                _ => return Err(ConfigError::at(&name, "a variable is a number or a text")),
+            },
+        };
+        settings.push((name.value.to_owned(), setting));
+    }
+    Ok(settings)
+}
+
+fn levels(root: &Section<'_>) -> Result<Levels, ConfigError> {
+    let mut levels = Levels::default();
+    let Some(lint) = root.table("lint", &LINT)? else {
+        return Ok(levels);
+    };
+    for name in lint.names() {
+        let Some(code) = Code::find(name.value) else {
+            let message = format!("there is no diagnostic `{}`", name.value);
+            let known = Code::ALL.iter().map(|code| code.text());
+            return Err(ConfigError::at(&name, message).with_near(name.value, known));
+        };
+        let Some(word) = lint.string(name.value)? else {
+            continue;
+        };
+        let level = match word.value.as_str() {
+            "off" => None,
+            "info" => Some(Severity::Info),
+            "warning" => Some(Severity::Warning),
+            "error" => Some(Severity::Error),
+            other => {
+                let message = format!("`{other}` is no severity");
+                return Err(ConfigError::at(&word, message)
+                    .with_near(other, ["off", "info", "warning", "error"])
+                    .with_help("write `off`, `info`, `warning` or `error`"));
+            }
+        };
+        if !levels.set(code, level) {
+            let message = format!("{code} is an error of the control, it keeps its severity");
+            return Err(ConfigError::at(&name, message)
+                .with_help("only codes that begin with `FC` may be changed"));
+        }
+    }
+    Ok(levels)
+}
+
+/// The name of an axis; every `[[axis]]` has one of its own.
+fn axis_name(section: &Section<'_>, named: &[Given<String>]) -> Result<Given<String>, ConfigError> {
+    let Some(name) = section.string("name")? else {
+        let message = "an axis needs a `name`";
+        return Err(ConfigError::at(&section.whole(), message));
+    };
+    if name.value.is_empty() {
+        return Err(ConfigError::at(&name, "the name of an axis is empty"));
+    }
+    if named.iter().any(|other| other.value == name.value) {
+        let message = format!("there are two axes `{}`", name.value);
+        return Err(ConfigError::at(&name, message));
+    }
+    Ok(name)
+}
+
+fn read_axis(
+    section: &Section<'_>,
+    axis: &mut AxisDraft,
+    loader: &mut Loader<'_>,
+) -> Result<(), ConfigError> {
+    if let Some(list) = section.string("axis_list")?
+        && let Some(values) = loader.axis_list(&list)
+    {
+        axis.add_list(values);
+    }
+    if let Some(asked) = section.string("value_list")?
+        && let Some(list) = loader.value_list(&asked)
+    {
+        axis.value_list = list;
+        axis.startup_number = None;
+    }
+    if let Some(inline) = section.table("value", &VALUE)? {
+        let draft = inline_values(&inline)?;
+        axis.value_list.friction.override_with(draft);
+    }
+    let values = &mut axis.values;
+    if let Some(letter) = section.string("type")? {
+        let axis_type = AxisType::from_letter(&letter.value);
+        let axis_type = axis_type.ok_or_else(|| {
+            ConfigError::at(&letter, format!("`{}` is no type of axis", letter.value))
+                .with_help("write `T` for linear, `R` for rotary, `S` for a spindle")
+        })?;
+        values.axis_type = Some(letter.with(axis_type));
+    }
+    if let Some(number) = section.whole_number("number")? {
+        values.number = Some(number);
+    }
+    for (kind, given) in kinds(section, "compensations")? {
+        values.selectors.insert(kind, given.with(true));
+    }
+    if let Some(on) = section.truth("frict_comp")? {
+        values.selectors.insert(Kind::Frict, on);
+    }
+    for (kind, given) in kinds(section, "manual_activation")? {
+        if kind.facts().manual_activation.is_none() {
+            let message = format!("{} has no manual activation", kind.keyword());
+            return Err(ConfigError::at(&given, message));
+        }
+        values.manual.insert(kind, given.with(true));
+    }
+    if let Some(whole) = section.given("required") {
+        let required: KindSet = kinds(section, "required")?
+            .into_iter()
+            .map(|(kind, _)| kind)
+            .collect();
+        values.required = Some(whole.with(required));
+    }
+    if let Some(velocity) = section.positive("max_velocity")? {
+        axis.max_velocity = Some(velocity);
+    }
+    Ok(())
+}
+
+/// A list of compensation keywords.
+fn kinds(section: &Section<'_>, key: &str) -> Result<Vec<(Kind, Given<String>)>, ConfigError> {
+    let mut found = Vec::new();
+    for word in section.strings(key)? {
+        let kind = Kind::from_keyword(&word.value).ok_or_else(|| {
+            let message = format!("`{}` is no kind of compensation", word.value);
+            ConfigError::at(&word, message).with_near(&word.value, Kind::ALL.map(Kind::keyword))
+        })?;
+        found.push((kind, word));
+    }
+    Ok(found)
+}
+
+/// The value list that stands in `frictcomp.toml` itself. Its values have the names, units,
+/// defaults and checks of a list.
+fn inline_values(section: &Section<'_>) -> Result<FrictionDraft, ConfigError> {
+    let mut draft = FrictionDraft::default();
+    if let (Some(whole), Some(pairs)) = (section.given("table"), section.number_pairs("table")?) {
+        let points = pairs
+            .into_iter()
+            .map(|[input, output]| WrittenPoint {
+                input: Some(input),
+                output: Some(output),
+            })
+            .collect();
+        draft.set_table(points, &whole);
+    }
+    for field in Field::ALL {
+        if section.given(field.name()).is_none() {
+            continue;
+        }
+        let Some(number) = section.number(field.name()) else {
+            let message = format!("`{}` is a number", field.name());
+            return Err(ConfigError::at(
+                &section.given_or_whole(field.name()),
+                message,
+            ));
+        };
+        draft.set(field, number);
+    }
+    Ok(draft)
+}

@@ -1,0 +1,281 @@
+//! Tables of `frictcomp.toml` with the place of everything in them.
+
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::config::ConfigError;
+use crate::lists::{Given, Number, Written};
+use crate::source::{SourceFile, Span};
+
+/// What a table is called and which keys it may have.
+pub(super) struct Shape {
+    /// As the user writes it.
+    pub(super) name: &'static str,
+    /// The keys; `None` when the user chooses them.
+    pub(super) keys: Option<&'static [&'static str]>,
+}
+
+/// The whole file.
+pub(super) const ROOT: Shape = Shape {
+    name: "frictcomp.toml",
+    keys: Some(&["machine", "axis", "variables", "lint"]),
+};
+
+/// One table whose keys are all known.
+pub(super) struct Section<'a> {
+    table: &'a DeTable<'a>,
+    source: &'a Arc<SourceFile>,
+    span: Span,
+}
+
+impl<'a> Section<'a> {
+    /// A table after a look at its keys.
+    pub(super) fn new(
+        table: &'a DeTable<'a>,
+        source: &'a Arc<SourceFile>,
+        shape: &Shape,
+    ) -> Result<Self, ConfigError> {
+        if let Some(known) = shape.keys
+            && let Some(key) = table
+                .keys()
+                .filter(|key| !known.contains(&key.get_ref().as_ref()))
+                .min_by_key(|key| key.span().start)
+        {
+            let name = key.get_ref().as_ref();
+            let message = format!("`{}` has no key `{name}`", shape.name);
+            return Err(
+                ConfigError::new(source, span(key), message).with_near(name, known.iter().copied())
+            );
+        }
+        Ok(Self {
+            table,
+            source,
+            span: Span::default(),
+        })
+    }
+
+    /// The place of the table itself.
+    pub(super) fn whole(&self) -> Given<()> {
+        Given::new((), self.source, self.span)
+    }
+
+    /// The place of a value.
+    pub(super) fn given(&self, key: &str) -> Option<Given<()>> {
+        let value = self.table.get(key)?;
+        Some(Given::new((), self.source, span(value)))
+    }
+
+    /// The place of a value, or that of the table without it.
+    pub(super) fn given_or_whole(&self, key: &str) -> Given<()> {
+        self.given(key).unwrap_or_else(|| self.whole())
+    }
+
+    /// The keys with their places.
+    pub(super) fn names(&self) -> impl Iterator<Item = Given<&'a str>> {
+        self.table
+            .keys()
+            .map(|key| Given::new(key.get_ref().as_ref(), self.source, span(key)))
+    }
+
+    /// A table in this one.
+    pub(super) fn table(
+        &self,
+        key: &str,
+        shape: &Shape,
+    ) -> Result<Option<Section<'a>>, ConfigError> {
+        let Some(value) = self.table.get(key) else {
+            return Ok(None);
+        };
+        let Some(table) = value.get_ref().as_table() else {
+            return Err(self.expected(value, key, "a table"));
+        };
+        Ok(Some(self.section(value, table, shape)?))
+    }
+
+    /// The tables of an array, `[[axis]]`.
+    pub(super) fn tables(&self, key: &str, shape: &Shape) -> Result<Vec<Section<'a>>, ConfigError> {
+        let mut tables = Vec::new();
+        for value in self.array(key, "an array of tables")? {
+            let Some(table) = value.get_ref().as_table() else {
+                return Err(self.expected(value, key, "an array of tables"));
+            };
+            tables.push(self.section(value, table, shape)?);
+        }
+        Ok(tables)
+    }
+
+    /// A text.
+    pub(super) fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
+        let Some(value) = self.table.get(key) else {
+            return Ok(None);
+        };
+        match value.get_ref().as_str() {
+            Some(text) => Ok(Some(self.place(value, text.to_owned()))),
+            None => Err(self.expected(value, key, "a text in quotes")),
+        }
+    }
+
+    /// A list of texts; empty without the key.
+    pub(super) fn strings(&self, key: &str) -> Result<Vec<Given<String>>, ConfigError> {
+        let mut texts = Vec::new();
+        for value in self.array(key, "a list of texts")? {
+            match value.get_ref().as_str() {
+                Some(text) => texts.push(self.place(value, text.to_owned())),
+                None => return Err(self.expected(value, key, "a list of texts")),
+            }
+        }
+        Ok(texts)
+    }
+
+    /// Every key with its text.
+    pub(super) fn string_pairs(&self) -> Result<Vec<(String, String)>, ConfigError> {
+        let mut pairs = Vec::new();
+        for name in self.names() {
+            if let Some(text) = self.string(name.value)? {
+                pairs.push((name.value.to_owned(), text.value));
+            }
+        }
+        Ok(pairs)
+    }
+
+    /// A truth value, also as `0` or `1`.
+    pub(super) fn truth(&self, key: &str) -> Result<Option<Given<bool>>, ConfigError> {
+        let Some(value) = self.table.get(key) else {
+            return Ok(None);
+        };
+        let on = match (value.get_ref(), self.written(value).and_then(|w| w.number)) {
+            (DeValue::Boolean(on), _) => *on,
+            (_, Some(Number::Integer(0))) => false,
+            (_, Some(Number::Integer(1))) => true,
+            _ => return Err(self.expected(value, key, "`true` or `false`")),
+        };
+        Ok(Some(self.place(value, on)))
+    }
+
+    /// What stands where a number may stand; `None` without the key or for a value of another
+    /// type.
+    pub(super) fn number(&self, key: &str) -> Option<Given<Written>> {
+        let value = self.table.get(key)?;
+        Some(self.place(value, self.written(value)?))
+    }
+
+    /// A whole number from 0 to 65535.
+    pub(super) fn whole_number(&self, key: &str) -> Result<Option<Given<u32>>, ConfigError> {
+        let Some(value) = self.table.get(key) else {
+            return Ok(None);
+        };
+        let number = match self.written(value).and_then(|written| written.number) {
+            Some(Number::Integer(number)) => u16::try_from(number).ok(),
+            _ => None,
+        };
+        match number {
+            Some(number) => Ok(Some(self.place(value, u32::from(number)))),
+            None => Err(self.expected(value, key, "a whole number from 0 to 65535")),
+        }
+    }
+
+    /// A number above 0.
+    pub(super) fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
+        let Some(value) = self.table.get(key) else {
+            return Ok(None);
+        };
+        let number = self.written(value).and_then(|written| written.number);
+        match number.map(Number::to_f64).filter(|&number| number > 0.0) {
+            Some(number) => Ok(Some(number)),
+            None => Err(self.expected(value, key, "a number above 0")),
+        }
+    }
+
+    /// A list of pairs of numbers, `[[0, 12.0], [1800, 10.5]]`.
+    pub(super) fn number_pairs(
+        &self,
+        key: &str,
+    ) -> Result<Option<Vec<[Given<Written>; 2]>>, ConfigError> {
+        const WANTED: &str = "a list of pairs `[velocity, current]`";
+        if !self.table.contains_key(key) {
+            return Ok(None);
+        }
+        let mut pairs = Vec::new();
+        for value in self.array(key, WANTED)? {
+            let pair = match value.get_ref() {
+                DeValue::Array(pair) if pair.len() == 2 => {
+                    let number = |at: usize| {
+                        let value = pair.get(at)?;
+                        Some(self.place(value, self.written(value)?))
+                    };
+                    number(0).zip(number(1))
+                }
+                _ => None,
+            };
+            match pair {
+                Some((input, output)) => pairs.push([input, output]),
+                None => return Err(self.expected(value, key, WANTED)),
+            }
+        }
+        Ok(Some(pairs))
+    }
+
+    fn section(
+        &self,
+        value: &Spanned<DeValue<'a>>,
+        table: &'a DeTable<'a>,
+        shape: &Shape,
+    ) -> Result<Section<'a>, ConfigError> {
+        let mut section = Section::new(table, self.source, shape)?;
+        section.span = span(value);
+        Ok(section)
+    }
+
+    fn array(
+        &self,
+        key: &str,
+        wanted: &str,
+    ) -> Result<impl Iterator<Item = &'a Spanned<DeValue<'a>>> + use<'a>, ConfigError> {
+        let found = match self.table.get(key) {
+            None => None,
+            Some(value) => match value.get_ref() {
+                DeValue::Array(values) => Some(values),
+                _ => return Err(self.expected(value, key, wanted)),
+            },
+        };
+        Ok(found.into_iter().flat_map(|values| values.iter()))
+    }
+
+    /// A number with its text as it stands in the file.
+    fn written(&self, value: &Spanned<DeValue<'_>>) -> Option<Written> {
+        let text = || span(value).of(self.source.text()).to_owned();
+        match value.get_ref() {
+            DeValue::Integer(integer) => Some(Written {
+                text: text(),
+                number: i64::from_str_radix(integer.as_str(), integer.radix())
+                    .ok()
+                    .map(Number::Integer),
+            }),
+            DeValue::Float(float) => Some(Written {
+                text: text(),
+                number: float
+                    .as_str()
+                    .parse()
+                    .ok()
+                    .filter(|number: &f64| number.is_finite())
+                    .map(Number::Real),
+            }),
+            _ => None,
+        }
+    }
+
+    fn place<T>(&self, value: &Spanned<DeValue<'_>>, content: T) -> Given<T> {
+        Given::new(content, self.source, span(value))
+    }
+
+    fn expected(&self, value: &Spanned<DeValue<'_>>, key: &str, wanted: &str) -> ConfigError {
+        ConfigError::new(self.source, span(value), format!("`{key}` is {wanted}"))
+    }
+}
+
+fn span<T>(spanned: &Spanned<T>) -> Span {
+    let range = spanned.span();
+    Span::new(range.start, range.end)
+}

@@ -1,0 +1,82 @@
+//! The table of effective parameters, `lists --show`.
+
+use std::fmt;
+
+use crate::lists::{AxisType, Origin, Parameter};
+use crate::machine::AxisReport;
+
+/// Columns of the whole table at most; longer origins lose their beginning.
+const WIDTH: usize = 100;
+
+/// Columns that an origin has at least, however wide the others are.
+const MIN_ORIGIN: usize = 16;
+
+/// Writes one table an axis: number, key, value with unit, origin. Lines have at most 100 columns
+/// unless a value is longer than that by itself.
+///
+/// # Errors
+/// Only those of `out`.
+pub fn render_parameters(reports: &[AxisReport], out: &mut dyn fmt::Write) -> fmt::Result {
+    for (at, report) in reports.iter().enumerate() {
+        if at > 0 {
+            writeln!(out)?;
+        }
+        render_axis(report, out)?;
+    }
+    Ok(())
+}
+
+fn render_axis(report: &AxisReport, out: &mut dyn fmt::Write) -> fmt::Result {
+    let name = if report.axis.is_empty() {
+        "without a name"
+    } else {
+        &report.axis
+    };
+    let what = match report.axis_type {
+        AxisType::Linear => "linear",
+        AxisType::Rotary => "rotary",
+        AxisType::Spindle => "spindle",
+    };
+    writeln!(out, "axis {name} ({what})")?;
+    let rows: Vec<[String; 4]> = report.parameters.iter().map(cells).collect();
+    let width = |column: usize| rows.iter().map(|row| columns(&row[column])).max();
+    let [number, key, value] = [0, 1, 2].map(|column| width(column).unwrap_or_default());
+    let taken = 2 + number + 2 + key + 2 + value + 2;
+    let room = WIDTH.saturating_sub(taken).max(MIN_ORIGIN);
+    for [n, k, v, origin] in &rows {
+        let origin = shortened(origin, room);
+        let line = format!("  {n:number$}  {k:key$}  {v:value$}  {origin}");
+        writeln!(out, "{}", line.trim_end())?;
+    }
+    Ok(())
+}
+
+fn cells(row: &Parameter) -> [String; 4] {
+    let value = if row.unit.is_empty() {
+        row.value.clone()
+    } else if row.unit.starts_with(|first: char| first.is_ascii_digit()) {
+        format!("{} \u{d7} {}", row.value, row.unit)
+    } else {
+        format!("{} {}", row.value, row.unit)
+    };
+    let origin = match &row.origin {
+        Origin::Default => "default".to_owned(),
+        Origin::Assumed => "--enable".to_owned(),
+        Origin::File { file, line } => format!("{file}:{line}"),
+    };
+    [row.number.to_owned(), row.key.clone(), value, origin]
+}
+
+/// A text that fits into `room` columns; it loses its beginning, the end of a path says more.
+fn shortened(text: &str, room: usize) -> String {
+    let length = columns(text);
+    if length <= room {
+        return text.to_owned();
+    }
+    let kept: String = text.chars().skip(length + 1 - room).collect();
+    format!("\u{2026}{kept}")
+}
+
+fn columns(text: &str) -> usize {
+    text.chars().count()
+}

@@ -1,0 +1,3 @@
+//! From data to text: one file a format.
+
+pub mod lists;

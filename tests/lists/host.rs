@@ -1,0 +1,86 @@
+//! Lists in memory and on disk, and how tests look at diagnostics.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::lists::CncBuild;
+use frictcomp::machine::{
+    Configuration, ListFiles, ListsReport, NoLists, Parameterisation, check_list,
+};
+use frictcomp::source::SourceFile;
+
+/// Lists by their paths.
+pub(crate) struct Memory(pub(crate) BTreeMap<&'static str, &'static str>);
+
+impl ListFiles for Memory {
+    fn read(&mut self, path: &str) -> Option<SourceFile> {
+        let text = self.0.get(path)?;
+        Some(SourceFile::new(path, *text))
+    }
+}
+
+/// Lists below `programs/machines`.
+pub(crate) struct Disk;
+
+impl Disk {
+    pub(crate) fn root() -> PathBuf {
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("programs/machines")
+    }
+
+    pub(crate) fn open(path: &str) -> SourceFile {
+        Self.read(path).unwrap_or_else(|| panic!("{path} exists"))
+    }
+}
+
+impl ListFiles for Disk {
+    fn read(&mut self, path: &str) -> Option<SourceFile> {
+        let text = std::fs::read_to_string(Self::root().join(path)).ok()?;
+        Some(SourceFile::new(path, text))
+    }
+}
+
+/// A list judged by itself.
+pub(crate) fn judge(text: &str) -> ListsReport {
+    check_list(SourceFile::new("a.lis", text), None, &mut NoLists)
+}
+
+/// A list judged by itself for a kernel version.
+pub(crate) fn judge_for(build: &str, text: &str) -> ListsReport {
+    let build: CncBuild = build.parse().unwrap();
+    check_list(SourceFile::new("a.lis", text), Some(build), &mut NoLists)
+}
+
+/// `CODE line:column` of each diagnostic.
+pub(crate) fn codes(diagnostics: &[Diagnostic]) -> Vec<String> {
+    diagnostics
+        .iter()
+        .map(|d| format!("{} {}", d.code, d.place.start()))
+        .collect()
+}
+
+/// The text that a diagnostic points at.
+pub(crate) fn meant(diagnostic: &Diagnostic) -> &str {
+    diagnostic.place.span.of(&diagnostic.place.text)
+}
+
+/// The machine of lists whose start-up list is `hochlauf.lis`.
+pub(crate) fn start(files: &[(&'static str, &'static str)]) -> Configuration {
+    let mut memory = Memory(files.iter().copied().collect());
+    let startup = memory.read("hochlauf.lis").expect("a start-up list");
+    Configuration::from_startup(startup, &mut memory)
+}
+
+/// What the only axis of a machine says about its value list when `text` is that list and
+/// P-AXIS-00522 is 1.
+pub(crate) fn parameterise(text: &'static str) -> Parameterisation {
+    let files = [
+        ("hochlauf.lis", "achs_mds[0] x.lis\nachs_kw[0] c.lis\nEnde"),
+        (
+            "x.lis",
+            "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nEnde",
+        ),
+        ("c.lis", text),
+    ];
+    start(&files).machine.axes.remove(0).friction
+}

@@ -1,0 +1,200 @@
+//! Runs programs given as text and shows what happened in a few words a line.
+
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::ops::ControlFlow;
+
+use frictcomp::machine::{Machine, Setting};
+use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::source::SourceFile;
+use frictcomp::syntax::Kind;
+use frictcomp::timeline::{Record, Sink, StateView};
+
+/// X and Y configured with a value list, Z not configured, B configured without a list.
+pub const MACHINE: &str = r#"
+[[axis]]
+name = "X"
+frict_comp = true
+value = { mode = 3, table = [[0, 12], [1800, 10]] }
+[[axis]]
+name = "Y"
+frict_comp = true
+value = { mode = 3, table = [[0, 12], [1800, 10]] }
+[[axis]]
+name = "Z"
+[[axis]]
+name = "B"
+type = "R"
+frict_comp = true
+"#;
+
+/// A session to set up and run.
+pub struct Bench {
+    pub machine: Machine,
+    pub options: SessionOptions,
+    pub files: BTreeMap<String, String>,
+    pub kinds: Vec<Kind>,
+}
+
+impl Bench {
+    pub fn new() -> Self {
+        Self::on(MACHINE)
+    }
+
+    pub fn on(toml: &str) -> Self {
+        Self {
+            machine: Machine::from_toml(toml).expect("the test's machine"),
+            options: SessionOptions::default(),
+            files: BTreeMap::new(),
+            kinds: vec![Kind::Frict],
+        }
+    }
+
+    pub fn keep_going(mut self) -> Self {
+        self.options.stop = StopPolicy::KeepGoing;
+        self
+    }
+
+    pub fn check_all(mut self) -> Self {
+        self.options.stop = StopPolicy::CheckAll;
+        self
+    }
+
+    pub fn skip(mut self, levels: u16) -> Self {
+        self.options.skip = levels;
+        self
+    }
+
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.options.limits = limits;
+        self
+    }
+
+    pub fn set(mut self, name: &str, value: f64) -> Self {
+        let setting = (name.to_owned(), Setting::Number(value));
+        self.options.settings.push(setting);
+        self
+    }
+
+    pub fn file(mut self, name: &str, text: &str) -> Self {
+        self.files.insert(name.to_owned(), text.to_owned());
+        self
+    }
+
+    pub fn kinds(mut self, kinds: &[Kind]) -> Self {
+        self.kinds = kinds.to_vec();
+        self
+    }
+
+    pub fn session(&self) -> Session {
+        Session::new(self.machine.clone(), self.options.clone())
+    }
+
+    /// Runs programs in one session and shows the records.
+    pub fn run(&self, programs: &[&str]) -> String {
+        let mut session = self.session();
+        self.run_in(&mut session, programs)
+    }
+
+    pub fn run_in(&self, session: &mut Session, programs: &[&str]) -> String {
+        let mut transcript = Transcript {
+            text: String::new(),
+            kinds: self.kinds.clone(),
+        };
+        let _ = session.begin(&[], &mut transcript);
+        for (at, text) in programs.iter().enumerate() {
+            if session.is_stopped() && self.options.stop == StopPolicy::FirstError {
+                break;
+            }
+            let name = format!("{}.nc", char::from(b'a' + u8::try_from(at).expect("few programs")));
+            let program = Program::Whole(SourceFile::new(name.as_str(), *text));
+            let files = self.files.clone();
+            let mut find = move |name: &str, _: &str| {
+                let text = files.get(name)?;
+                Some(SourceFile::new(name, text.as_str()))
+            };
+            let _ = session.program(&name, program, &mut find, &mut transcript);
+        }
+        let _ = session.finish(&mut transcript);
+        transcript.text
+    }
+}
+
+struct Transcript {
+    text: String,
+    kinds: Vec<Kind>,
+}
+
+impl Transcript {
+    fn states(&self, view: StateView<'_>) -> String {
+        let mut words = Vec::new();
+        for (axis, name) in view.axes() {
+            for &kind in &self.kinds {
+                let word = view.state(axis, kind).word();
+                if self.kinds.len() == 1 {
+                    words.push(format!("{name}:{word}"));
+                } else {
+                    words.push(format!("{name}.{}:{word}", kind.keyword()));
+                }
+            }
+        }
+        words.join(" ")
+    }
+
+    fn diagnostic(&mut self, diagnostic: &frictcomp::diagnostic::Diagnostic) {
+        let place = &diagnostic.place;
+        let file = if place.file.len() > 4 { format!(" in {}", place.file) } else { String::new() };
+        let (start, end) = (place.start(), place.end());
+        let end = if end.line == start.line { end.column.to_string() } else { end.to_string() };
+        writeln!(self.text, "    {} {start}-{end}{file}", diagnostic.code).expect("text");
+    }
+}
+
+impl Sink for Transcript {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Session { state } => {
+                let states = self.states(state);
+                writeln!(self.text, "start {states}").expect("text");
+            }
+            Record::Machine(diagnostic) => self.diagnostic(diagnostic),
+            Record::Program { file, name, .. } => {
+                writeln!(self.text, "{file} {}", name.unwrap_or("-")).expect("text");
+            }
+            Record::Block(row) => {
+                let number = row.number.map_or("-".to_owned(), |number| format!("N{number}"));
+                let level = row.level.map_or(String::new(), |level| format!(" level {level}"));
+                write!(self.text, "  {} line {} {number}{level}", row.seq, row.line).expect("text");
+                for change in row.changes {
+                    if self.kinds.contains(&change.kind) {
+                        let axis = row.state.name(change.axis);
+                        let kind = if self.kinds.len() > 1 { change.kind.keyword() } else { "" };
+                        write!(self.text, " {axis}{kind}:{}>{}", change.from.word(), change.to.word()).expect("text");
+                    }
+                }
+                self.text.push('\n');
+                for diagnostic in row.diagnostics {
+                    self.diagnostic(diagnostic);
+                }
+            }
+            Record::End(end) => {
+                for note in end.notes {
+                    self.diagnostic(&note.diagnostic);
+                }
+                for repeat in end.repeated {
+                    writeln!(self.text, "    {} line {} {} times", repeat.code, repeat.line, repeat.times).expect("text");
+                }
+                let states = self.states(end.state);
+                writeln!(self.text, "  end {} {} {states}", end.seq, end.by.word()).expect("text");
+            }
+            Record::Summary(summary) => {
+                if !summary.opaque.is_empty() {
+                    writeln!(self.text, "opaque {:?}", summary.opaque).expect("text");
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}

@@ -1,10 +1,14 @@
 //! Dry runs of ISG and TwinCAT CNC programs with an eye on friction compensation.
 
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod codes;
 pub mod compensation;
 pub mod diagnostic;
 pub mod lists;
 pub mod machine;
+#[cfg(feature = "cli")]
+pub mod report;
 pub mod session;
 pub mod source;
 pub mod syntax;

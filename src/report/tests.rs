@@ -1,0 +1,488 @@
+//! Every format over one session made by hand.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use super::*;
+use crate::codes::Code;
+use crate::compensation::{Change, Compensation};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::machine::{AxisSet, Machine};
+use crate::source::{SourceFile, Span};
+use crate::syntax::Selection;
+use crate::timeline::{AxisSummary, ChangedBy, End, EndNote, EndedBy, Record, StateView, Summary};
+
+/// The documented example (1.5), with a loop behind it that changes nothing.
+const PROGRAM: &str = "\
+%DEMO
+; the documented example
+N15 X[COMP ON FRICT] ;Activates X axis
+N25 Y[COMP OFF FRICT] ;Deactivates \"Y\" axis
+N35 X22 Y33 Z44
+N45 X[COMP OFF FRICT] ;Deactivates X axis
+N55 M30 ;Program end";
+
+/// The machine of the example with more axes behind Z.
+fn machine(more: &[&str]) -> Machine {
+    let mut machine = Machine::enabled(["X", "Y"]);
+    machine.axes.truncate(3);
+    machine.axis_set = AxisSet::Configured;
+    machine
+        .axes
+        .extend(more.iter().map(|name| crate::machine::Axis::new(*name)));
+    for name in more {
+        machine.enable(name);
+    }
+    machine
+}
+
+/// The state of a player, borrowed field by field.
+macro_rules! state {
+    ($player:ident) => {
+        StateView {
+            machine: $player.machine,
+            compensation: &$player.comp,
+            listed: &$player.listed,
+            version: $player.version,
+        }
+    };
+}
+
+/// Plays the example into a sink, as an interpreter would.
+struct Player<'a> {
+    machine: &'a Machine,
+    comp: Compensation,
+    listed: Vec<bool>,
+    version: u64,
+    seq: u64,
+    sink: &'a mut dyn Sink,
+}
+
+impl<'a> Player<'a> {
+    fn new(machine: &'a Machine, sink: &'a mut dyn Sink) -> Self {
+        Self {
+            comp: Compensation::at_startup(machine),
+            listed: vec![true; machine.axes.len()],
+            version: 1,
+            seq: 0,
+            machine,
+            sink,
+        }
+    }
+
+    fn block(
+        &mut self,
+        line: u32,
+        command: Option<(&str, Selection)>,
+        said: &[Diagnostic],
+    ) -> ControlFlow<()> {
+        let text = PROGRAM.lines().nth(line as usize - 1).unwrap();
+        self.text(line, text, command, said)
+    }
+
+    fn text(
+        &mut self,
+        line: u32,
+        text: &str,
+        command: Option<(&str, Selection)>,
+        said: &[Diagnostic],
+    ) -> ControlFlow<()> {
+        let mut changes: Vec<Change> = Vec::new();
+        if let Some((axis, selection)) = command {
+            let axis = self.machine.find(axis).unwrap();
+            self.comp.switch(axis, selection, &mut changes).unwrap();
+        }
+        if !changes.is_empty() {
+            self.version += 1;
+        }
+        self.seq += 1;
+        let number = text
+            .strip_prefix('N')
+            .and_then(|rest| rest.split(' ').next()?.parse().ok());
+        let (seq, level) = (self.seq, (line > 100).then_some(1));
+        self.sink.record(Record::Block(Row {
+            program: 1,
+            seq,
+            file: if level.is_some() { "sub.nc" } else { "demo.nc" },
+            line,
+            number,
+            level,
+            text,
+            changes: &changes,
+            state: state!(self),
+            diagnostics: said,
+        }))
+    }
+
+    fn begin(&mut self) {
+        let _ = self.sink.record(Record::Session {
+            state: state!(self),
+        });
+        let _ = self.sink.record(Record::Program {
+            program: 1,
+            file: "demo.nc",
+            name: Some("DEMO"),
+            state: state!(self),
+        });
+    }
+
+    fn end(&mut self, notes: &[EndNote]) {
+        let seq = self.seq;
+        let _ = self.sink.record(Record::End(End {
+            program: 1,
+            seq,
+            by: EndedBy::M30,
+            notes,
+            changes: &[],
+            state: state!(self),
+        }));
+        let view = state!(self);
+        let start = Compensation::at_startup(self.machine);
+        let axes = view.axes().map(|(axis, name)| {
+            let (from, to) = (
+                start.state(axis, Kind::Frict),
+                view.state(axis, Kind::Frict),
+            );
+            let changed = from != to;
+            let (line, number) = if name == "X" { (6, 45) } else { (4, 25) };
+            AxisSummary {
+                axis,
+                start: from,
+                end: to,
+                changed_by: changed
+                    .then(|| ChangedBy {
+                        program: 1,
+                        file: "demo.nc".to_owned(),
+                        line,
+                        number: Some(number),
+                        to,
+                    })
+                    .into_iter()
+                    .collect(),
+                changes: u64::from(changed),
+            }
+        });
+        let opaque = BTreeMap::from([("#HSC".to_owned(), 3)]);
+        let summary = Summary {
+            programs: 1,
+            blocks: seq,
+            counts: BTreeMap::from([(Severity::Info, 1), (Severity::Warning, 2)]),
+            opaque: &opaque,
+            axes: axes.collect(),
+            state: view,
+        };
+        let _ = self.sink.record(Record::Summary(&summary));
+    }
+}
+
+const ON: Selection = Selection::On(KindSet::of(Kind::Frict));
+const OFF: Selection = Selection::Off(KindSet::of(Kind::Frict));
+
+fn about(code: Code, meant: &str, message: &str) -> Diagnostic {
+    let file = SourceFile::new("demo.nc", PROGRAM);
+    let start = PROGRAM.find(meant).unwrap();
+    let place = file.place(Span::new(start, start + meant.len()));
+    Diagnostic::new(code, place, message)
+}
+
+fn play(machine: &Machine, sink: &mut dyn Sink) {
+    let mut player = Player::new(machine, sink);
+    player.begin();
+    let nothing = about(
+        Code::Fc402,
+        "X[COMP ON FRICT]",
+        "`X[COMP ON FRICT]` changes nothing, friction compensation of `X` is active already",
+    )
+    .with_axis("X");
+    let _ = player.block(3, Some(("X", ON)), &[nothing]);
+    let _ = player.block(4, Some(("Y", OFF)), &[]);
+    let _ = player.block(5, None, &[]);
+    let _ = player.block(6, Some(("X", OFF)), &[]);
+    let _ = player.block(7, None, &[]);
+    let left = about(
+        Code::Fc401,
+        "Y[COMP OFF FRICT]",
+        "friction compensation of `Y` is left inactive",
+    )
+    .with_axis("Y")
+    .with_help("add `Y[COMP ON FRICT]` before M30");
+    player.end(&[EndNote {
+        seq: 2,
+        diagnostic: left,
+    }]);
+}
+
+/// Everything that a format writes.
+fn written<'a, R: Report + 'a>(
+    bytes: &'a mut Vec<u8>,
+    make: impl FnOnce(&'a mut Vec<u8>) -> R,
+    play: impl FnOnce(&mut dyn Sink),
+) {
+    let mut report = make(bytes);
+    play(&mut report);
+    report.finish().unwrap();
+}
+
+fn text(options: TextOptions, play: impl FnOnce(&mut dyn Sink)) -> String {
+    let mut bytes = Vec::new();
+    written(&mut bytes, |bytes| Text::new(bytes, options), play);
+    String::from_utf8(bytes).unwrap()
+}
+
+fn ndjson(view: View) -> String {
+    let mut bytes = Vec::new();
+    let machine = machine(&[]);
+    written(
+        &mut bytes,
+        |bytes| Ndjson::new(bytes, view),
+        |sink| {
+            play(&machine, sink);
+        },
+    );
+    String::from_utf8(bytes).unwrap()
+}
+
+fn csv(view: View) -> String {
+    let mut bytes = Vec::new();
+    let machine = machine(&[]);
+    written(
+        &mut bytes,
+        |bytes| Csv::new(bytes, view),
+        |sink| {
+            play(&machine, sink);
+        },
+    );
+    String::from_utf8(bytes).unwrap()
+}
+
+#[test]
+fn the_example_as_json_lines() {
+    // 9.2
+    insta::assert_snapshot!(ndjson(View::default()), @"");
+}
+
+#[test]
+fn other_kinds_come_in_an_object_of_their_own() {
+    // R9.12
+    let kinds = KindSet::of(Kind::Frict).union(KindSet::of(Kind::Lead));
+    let text = ndjson(View {
+        kinds,
+        ..View::default()
+    });
+    let first = text.lines().next().unwrap();
+    assert!(first.ends_with(
+        r#""friction":{"X":"active","Y":"active","Z":"unconfigured"},"compensation":{"X":{"LEAD":"unconfigured","FRICT":"active"},"Y":{"LEAD":"unconfigured","FRICT":"active"},"Z":{"LEAD":"unconfigured","FRICT":"unconfigured"}}}"#
+    ), "{first}");
+}
+
+#[test]
+fn only_changed_blocks() {
+    let view = View {
+        blocks: Blocks::Changed,
+        ..View::default()
+    };
+    let lines = ndjson(view);
+    assert_eq!(lines.matches("\"record\":\"block\"").count(), 3, "{lines}");
+    let rows = csv(view);
+    let lines: Vec<&str> = rows.lines().collect();
+    assert_eq!(lines.len(), 5, "{rows}");
+    assert!(lines[4].ends_with(",FC401"), "{rows}");
+}
+
+#[test]
+fn the_document_holds_the_same_records_as_the_lines() {
+    let machine = machine(&[]);
+    let mut bytes = Vec::new();
+    written(
+        &mut bytes,
+        |bytes| Json::new(bytes, View::default()),
+        |sink| {
+            play(&machine, sink);
+        },
+    );
+    let document: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+    let lines: Vec<serde_json::Value> = ndjson(View::default())
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(document["schema"], 1);
+    assert_eq!(document["records"], serde_json::Value::Array(lines));
+
+    let mut empty = Vec::new();
+    written(
+        &mut empty,
+        |bytes| Json::new(bytes, View::default()),
+        |_| {},
+    );
+    let document: serde_json::Value = serde_json::from_slice(&empty).unwrap();
+    assert_eq!(document["records"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn the_example_as_rows() {
+    // R9.15
+    insta::assert_snapshot!(csv(View::default()), @"");
+}
+
+#[test]
+fn rows_read_back() {
+    let rows = csv(View::default());
+    let mut reader = ::csv::Reader::from_reader(rows.as_bytes());
+    let header = reader.headers().unwrap().clone();
+    assert_eq!(header.iter().nth(6), Some("X"));
+    let records: Vec<_> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(
+        &records[1][5],
+        "N25 Y[COMP OFF FRICT] ;Deactivates \"Y\" axis"
+    );
+}
+
+#[test]
+fn the_example_as_text() {
+    let machine = machine(&[]);
+    let shown = text(TextOptions::default(), |sink| play(&machine, sink));
+    assert!(shown.lines().all(|line| line.chars().count() <= 80));
+    assert!(shown.lines().all(|line| !line.ends_with(' ')));
+    insta::assert_snapshot!(shown, @"");
+}
+
+#[test]
+fn eight_axes_stay_readable() {
+    let machine = machine(&["A", "B", "C", "U", "V"]);
+    let shown = text(TextOptions::default(), |sink| {
+        let mut player = Player::new(&machine, sink);
+        player.begin();
+        let _ = player.block(4, Some(("Y", OFF)), &[]);
+        for _ in 0..1204 {
+            let _ = player.block(5, None, &[]);
+        }
+        let _ = player.text(101, "N10 C[COMP OFF FRICT]", Some(("C", OFF)), &[]);
+        player.end(&[]);
+    });
+    assert!(
+        shown.lines().all(|line| line.chars().count() <= 80),
+        "{shown}"
+    );
+    insta::assert_snapshot!(shown, @"");
+}
+
+#[test]
+fn axes_are_listed_as_they_occur() {
+    // R2.20
+    let machine = Machine::enabled(["X"]);
+    let shown = text(TextOptions::default(), |sink| {
+        let mut player = Player::new(&machine, sink);
+        player.listed.fill(false);
+        player.begin();
+        let _ = player.text(1, "G90", None, &[]);
+        player.listed[0] = true;
+        player.version += 1;
+        let _ = player.text(2, "X[COMP OFF FRICT]", Some(("X", OFF)), &[]);
+        player.listed[2] = true;
+        player.version += 1;
+        let _ = player.text(3, "Z0", None, &[]);
+        player.end(&[]);
+    });
+    insta::assert_snapshot!(shown, @"");
+}
+
+#[test]
+fn every_block_has_its_line_when_asked() {
+    let machine = machine(&[]);
+    let options = TextOptions {
+        runs: Runs::Full,
+        ..TextOptions::default()
+    };
+    let shown = text(options, |sink| {
+        let mut player = Player::new(&machine, sink);
+        player.begin();
+        for _ in 0..3 {
+            let _ = player.block(5, None, &[]);
+        }
+        player.end(&[]);
+    });
+    assert_eq!(shown.matches("N35 X22 Y33 Z44").count(), 3, "{shown}");
+}
+
+#[test]
+fn colours_do_not_move_the_columns() {
+    let machine = machine(&[]);
+    let mut options = TextOptions::default();
+    let plain = text(options, |sink| play(&machine, sink));
+    options.look.paint = Paint::Styled;
+    let styled = text(options, |sink| play(&machine, sink));
+    assert!(styled.contains("\u{1b}["));
+    assert_eq!(anstream::adapter::strip_str(&styled).to_string(), plain);
+}
+
+/// A reader that went away.
+struct Closed;
+
+impl Write for Closed {
+    fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+        Err(io::ErrorKind::BrokenPipe.into())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_closed_pipe_ends_the_run_without_an_error() {
+    // R9.26
+    let machine = machine(&[]);
+    let mut report = Ndjson::new(Closed, View::default());
+    let mut player = Player::new(&machine, &mut report);
+    player.begin();
+    let mut blocks = 0;
+    while player.block(5, None, &[]).is_continue() {
+        blocks += 1;
+    }
+    assert!(blocks < 1000);
+    assert!(report.finish().is_ok());
+    assert!(report.is_closed());
+}
+
+fn listing(format: ListingFormat) -> String {
+    let mut bytes = Vec::new();
+    let mut listing = Listing::new(&mut bytes, format, Look::default());
+    listing.file();
+    let mut diagnostic = about(
+        Code::PErr70495,
+        "X[COMP ON FRICT]",
+        "50% is, \"not\" set:\nX",
+    )
+    .with_axis("X")
+    .with_help("use `--enable X`");
+    diagnostic.place.file = "a b,c.nc".into();
+    let _ = listing.diagnostic(&diagnostic);
+    let _ = listing.diagnostic(&about(Code::Fc402, "N35", "nothing"));
+    listing.finish().unwrap();
+    drop(listing);
+    String::from_utf8(bytes).unwrap()
+}
+
+#[test]
+fn diagnostics_in_every_format() {
+    // R9.25
+    insta::assert_snapshot!(listing(ListingFormat::Concise), @"");
+    insta::assert_snapshot!(listing(ListingFormat::Github), @"");
+    insta::assert_snapshot!(listing(ListingFormat::Ndjson), @"");
+    let document: serde_json::Value = serde_json::from_str(&listing(ListingFormat::Json)).unwrap();
+    assert_eq!(document["records"].as_array().unwrap().len(), 3);
+    assert!(listing(ListingFormat::Text).contains("error[P-ERR-70495]"));
+}
+
+#[test]
+fn sarif_names_the_rules_that_it_uses() {
+    let document: serde_json::Value = serde_json::from_str(&listing(ListingFormat::Sarif)).unwrap();
+    let run = &document["runs"][0];
+    assert_eq!(document["version"], "2.1.0");
+    assert_eq!(run["tool"]["driver"]["rules"].as_array().unwrap().len(), 2);
+    assert_eq!(run["results"][1]["level"], "note");
+    let place = &run["results"][0]["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], "a%20b%2Cc.nc");
+    assert_eq!(place["region"]["startColumn"], 5);
+    assert_eq!(place["region"]["endColumn"], 21);
+}

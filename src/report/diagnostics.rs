@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use unicode_width::UnicodeWidthStr;
 
 use crate::diagnostic::{Diagnostic, Label, Place, Severity};
 
@@ -45,7 +46,11 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
         Severity::Info => Level::INFO,
     };
     let title = level
-        .primary_title(diagnostic.message.as_str())
+        .primary_title(wrap(
+            &diagnostic.message,
+            look.width,
+            title_indent(diagnostic),
+        ))
         .id(diagnostic.code.text());
     let mut group = Group::with_title(title);
     let (inside, outside): (Vec<_>, Vec<_>) = diagnostic
@@ -61,7 +66,7 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
         group = element(group, &label.place, |shown| vec![annotate(shown, label)]);
     }
     for help in &diagnostic.help {
-        group = group.element(Level::HELP.message(help.as_str()));
+        group = group.element(Level::HELP.message(wrap(help, look.width, HELP_INDENT)));
     }
     let renderer = match look.paint {
         Paint::Plain => Renderer::plain(),
@@ -70,6 +75,34 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
     let mut text = renderer.term_width(look.width).render(&[group]);
     text.push('\n');
     text
+}
+
+/// Columns before the text of a help line, with a line number of up to four digits.
+const HELP_INDENT: usize = 13;
+
+/// Columns before the message: `error[P-ERR-70495]: `.
+fn title_indent(diagnostic: &Diagnostic) -> usize {
+    diagnostic.severity.word().len() + diagnostic.code.text().len() + 4
+}
+
+/// Breaks a text between words so that it fits behind an indent; the renderer aligns the lines.
+fn wrap(text: &str, width: usize, indent: usize) -> String {
+    let room = width.saturating_sub(indent).max(20);
+    let mut wrapped = String::with_capacity(text.len() + 8);
+    let mut column = 0;
+    for (count, word) in text.split(' ').enumerate() {
+        let columns = word.width();
+        if count > 0 && column + 1 + columns > room {
+            wrapped.push('\n');
+            column = 0;
+        } else if count > 0 {
+            wrapped.push(' ');
+            column += 1;
+        }
+        wrapped.push_str(word);
+        column += columns;
+    }
+    wrapped
 }
 
 /// The part of a place's text that is handed to the renderer: all of it, unless a line is so long

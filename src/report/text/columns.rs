@@ -13,8 +13,9 @@ use super::line::{BOLD, Line, MARK, style};
 /// The block text must keep so many columns, or states become symbols.
 const MIN_TEXT: usize = 24;
 
-/// How wide the block text is at most; beyond that a wide terminal only tears the line apart.
-const MAX_TEXT: usize = 72;
+/// The block text takes at most this share of the width, in tenths, so that few axes do not stand
+/// far away from it.
+const MAX_TEXT_TENTHS: usize = 6;
 
 /// Columns of the widest symbol with its mark.
 const SYMBOL: usize = 4;
@@ -55,19 +56,21 @@ impl Columns {
             .collect();
         let full: usize = widths.iter().map(|width| width + 2).sum();
         if full + MIN_TEXT <= room {
-            return Self::place(state, Words::Full, room - full, &widths);
+            let text = (room - full).min(width * MAX_TEXT_TENTHS / 10);
+            return Self::place(state, Words::Full, text, &widths);
         }
         let widths: Vec<usize> = state
             .axes()
             .map(|(_, name)| name.width().max(SYMBOL))
             .collect();
         let short: usize = widths.iter().map(|width| width + 1).sum::<usize>() + 1;
-        let text = room.saturating_sub(short).max(MIN_TEXT);
+        let text = room
+            .saturating_sub(short)
+            .clamp(MIN_TEXT, (width * MAX_TEXT_TENTHS / 10).max(MIN_TEXT));
         Self::place(state, Words::Short, text, &widths)
     }
 
     fn place(state: StateView<'_>, words: Words, text: usize, widths: &[usize]) -> Self {
-        let text = text.min(MAX_TEXT);
         let gap = match words {
             Words::Full => 2,
             Words::Short => 1,
@@ -97,7 +100,7 @@ impl Columns {
     /// What the symbols mean, when there are symbols.
     pub(super) fn legend(&self) -> Option<&'static str> {
         (self.words == Words::Short).then_some(
-            "on active · off inactive · on! ineffective · - unconfigured · ? unknown · ◄ new",
+            "on active, off inactive, on! ineffective, - unconfigured, ? unknown, ◄ changed",
         )
     }
 

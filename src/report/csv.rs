@@ -78,7 +78,7 @@ impl<W: Write> Csv<W> {
         for change in row.changes {
             if self.view.kinds.contains(change.kind) {
                 join(&mut self.changes, |list| {
-                    push_change(list, change, row.state);
+                    push_change(list, *change, row.state);
                 });
             }
         }
@@ -180,7 +180,7 @@ fn join(list: &mut String, append: impl FnOnce(&mut String)) {
     append(list);
 }
 
-fn push_change(list: &mut String, change: &Change, state: StateView<'_>) {
+fn push_change(list: &mut String, change: Change, state: StateView<'_>) {
     list.push_str(state.name(change.axis));
     list.push(':');
     list.push_str(change.kind.keyword());

@@ -43,7 +43,7 @@ struct Column {
 pub(super) struct Columns {
     words: Words,
     text: usize,
-    columns: Vec<Column>,
+    axes: Vec<Column>,
 }
 
 impl Columns {
@@ -88,13 +88,13 @@ impl Columns {
         Self {
             words,
             text,
-            columns,
+            axes: columns,
         }
     }
 
     /// How many axes there are.
     pub(super) fn len(&self) -> usize {
-        self.columns.len()
+        self.axes.len()
     }
 
     /// What the symbols mean, when there are symbols.
@@ -106,7 +106,7 @@ impl Columns {
 
     /// Appends the names of the axes.
     pub(super) fn names(&self, line: &mut Line<'_>) {
-        for column in &self.columns {
+        for column in &self.axes {
             line.go_to(column.start);
             line.styled(BOLD, &column.name);
         }
@@ -114,26 +114,26 @@ impl Columns {
 
     /// Appends the states.
     pub(super) fn states(&self, line: &mut Line<'_>, state: StateView<'_>, changes: &[Change]) {
-        for column in &self.columns {
+        for column in &self.axes {
             line.go_to(column.start);
             let now = state.state(column.axis, Kind::Frict);
-            let changed = changes
+            let marked = changes
                 .iter()
                 .any(|change| change.axis == column.axis && change.kind == Kind::Frict);
             let word = match self.words {
                 Words::Full => now.word(),
                 Words::Short => symbol(now),
             };
-            if !changed {
+            if !marked {
                 line.styled(style(now), word);
                 continue;
             }
-            let mut marked = [0; 4];
+            let mut mark = [0; 4];
             line.styled(style(now).bold(), word);
             if self.words == Words::Full {
                 line.plain(" ");
             }
-            line.styled(style(now).bold(), MARK.encode_utf8(&mut marked));
+            line.styled(style(now).bold(), MARK.encode_utf8(&mut mark));
         }
     }
 

@@ -32,10 +32,7 @@ impl<'a> Line<'a> {
 
     /// Fills with blanks up to a column; at least one when text has passed it.
     pub(super) fn go_to(&mut self, column: usize) {
-        let blanks = match column.checked_sub(self.column) {
-            Some(blanks) => blanks,
-            None => 1,
-        };
+        let blanks = column.checked_sub(self.column).unwrap_or(1);
         self.out.resize(self.out.len() + blanks, b' ');
         self.column += blanks;
     }

@@ -28,11 +28,11 @@ pub(super) struct CheckArgs {
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     #[command(flatten)]
+    listing: ListingArgs,
+    #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
-    #[command(flatten)]
-    listing: ListingArgs,
 }
 
 /// How diagnostics are listed.
@@ -109,10 +109,10 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         return Ok(super::exit::CLEAN);
     }
     for remark in machines.loaded().filter_map(LoadedMachine::remark) {
-        console.talk(&remark);
+        Console::talk(&remark);
     }
     if args.listing.format == Format::Text {
-        console.talk(&total(listing.tally()));
+        Console::talk(&total(listing.tally()));
     }
     Ok(args.listing.fail_on.status(listing.tally()))
 }

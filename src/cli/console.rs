@@ -90,7 +90,7 @@ impl Console {
     }
 
     /// Says a line on stderr. When nobody listens, nothing is lost.
-    pub(super) fn talk(self, line: &str) {
+    pub(super) fn talk(line: &str) {
         let _ = writeln!(io::stderr().lock(), "{line}");
     }
 
@@ -120,7 +120,7 @@ impl Console {
     }
 
     /// Whether a person watches stderr while data goes elsewhere.
-    pub(super) fn shows_progress(self) -> bool {
+    pub(super) fn shows_progress() -> bool {
         io::stderr().is_terminal() && !io::stdout().is_terminal()
     }
 

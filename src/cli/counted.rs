@@ -58,12 +58,12 @@ pub(super) struct Counted<'a> {
 }
 
 impl<'a> Counted<'a> {
-    pub(super) fn new(inner: &'a mut dyn Sink, console: Console) -> Self {
+    pub(super) fn new(inner: &'a mut dyn Sink) -> Self {
         Self {
             inner,
             tally: Tally::default(),
             blocks: 0,
-            progress: console.shows_progress().then(Instant::now),
+            progress: Console::shows_progress().then(Instant::now),
             shown: false,
         }
     }

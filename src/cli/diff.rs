@@ -29,13 +29,13 @@ pub(super) struct DiffArgs {
     /// The version now
     #[arg(value_name = "NEW")]
     new: PathBuf,
+    /// The kinds of compensation that are compared: `FRICT,LEAD` or `all`
+    #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
+    kinds: KindSet,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
-    /// The kinds of compensation that are compared: `FRICT,LEAD` or `all`
-    #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
-    kinds: KindSet,
 }
 
 /// One change of a state; the line is shown, but lines that moved make no difference.
@@ -120,8 +120,8 @@ impl Sink for Switches {
 
 /// Runs the command.
 pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
-    let old = switches(args, &Input::new(&args.old), console)?;
-    let new = switches(args, &Input::new(&args.new), console)?;
+    let old = switches(args, &Input::new(&args.old))?;
+    let new = switches(args, &Input::new(&args.new))?;
     let mut output = String::new();
     let same = append_difference(&mut output, &old, &new);
     if same {
@@ -136,7 +136,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     Ok(if same { exit::CLEAN } else { exit::FOUND })
 }
 
-fn switches(args: &DiffArgs, input: &Input, console: Console) -> Result<Vec<Switch>, Failure> {
+fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
     input.probe()?;
     let mut machines = Machines::new(&args.machine);
     let loaded = machines.for_folder(input.folder())?;
@@ -148,7 +148,7 @@ fn switches(args: &DiffArgs, input: &Input, console: Console) -> Result<Vec<Swit
     };
     run_alone(input, loaded, (options, Naming::AsGiven), &mut switches)?;
     if let Some(error) = &switches.error {
-        console.talk(error);
+        Console::talk(error);
     }
     Ok(switches.list)
 }

@@ -21,13 +21,13 @@ pub(super) struct GoldenArgs {
     /// Programs and folders of programs
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
+    /// Write the timelines instead of comparing them
+    #[arg(long)]
+    update: bool,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
-    /// Write the timelines instead of comparing them
-    #[arg(long)]
-    update: bool,
 }
 
 /// Runs the command.
@@ -60,14 +60,14 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
     console.print(&output)?;
     let all = inputs.len();
     if args.update {
-        console.talk(&format!("{drifted} of {all} timelines written"));
+        Console::talk(&format!("{drifted} of {all} timelines written"));
         return Ok(exit::CLEAN);
     }
     if drifted == 0 {
-        console.talk(&format!("{all} timelines are as agreed"));
+        Console::talk(&format!("{all} timelines are as agreed"));
         return Ok(exit::CLEAN);
     }
-    console.talk(&format!(
+    Console::talk(&format!(
         "{drifted} of {all} timelines drifted (`--update` writes them)"
     ));
     Ok(exit::FOUND)

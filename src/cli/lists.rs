@@ -47,7 +47,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
         return Ok(exit::CLEAN);
     }
     if args.listing.format == Format::Text {
-        console.talk(&total(listing.tally()));
+        Console::talk(&total(listing.tally()));
     }
     Ok(args.listing.fail_on.status(listing.tally()))
 }

@@ -30,10 +30,6 @@ pub(super) struct RunArgs {
     /// The programs, `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    #[command(flatten)]
-    machine: MachineArgs,
-    #[command(flatten)]
-    execution: ExecutionArgs,
     /// Start with the state that this file holds, and save the state in it at the end
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
@@ -58,6 +54,10 @@ pub(super) struct RunArgs {
     /// The severity from which on the exit status is 1
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     fail_on: FailOn,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
 }
 
 /// A format of the timeline.
@@ -124,7 +124,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let mut machines = Machines::new(&args.machine);
     let loaded = machines.for_folder(inputs[0].folder())?;
     if let Some(remark) = loaded.remark() {
-        console.talk(&remark);
+        Console::talk(&remark);
     }
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
@@ -142,18 +142,13 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         state,
     };
     let mut report = args.report(console.target(args.output.as_deref())?);
-    play(start, report.as_mut(), (args.fail_on, console))
+    play(start, report.as_mut(), args.fail_on)
 }
 
-fn play(
-    mut start: Start<'_>,
-    report: &mut dyn Report,
-    verdict: (FailOn, Console),
-) -> Result<u8, Failure> {
-    let (fail_on, console) = verdict;
+fn play(mut start: Start<'_>, report: &mut dyn Report, fail_on: FailOn) -> Result<u8, Failure> {
     let mut sink = Sinkhole(report);
-    let mut counted = Counted::new(&mut sink, console);
-    let flow = start.programs(&mut counted, console);
+    let mut counted = Counted::new(&mut sink);
+    let flow = start.programs(&mut counted);
     let tally = counted.finish();
     report.finish().map_err(|error| Failure::output(&error))?;
     if report.is_closed() {
@@ -169,11 +164,7 @@ fn play(
 }
 
 impl Start<'_> {
-    fn programs(
-        &mut self,
-        sink: &mut dyn Sink,
-        console: Console,
-    ) -> Result<ControlFlow<()>, Failure> {
+    fn programs(&mut self, sink: &mut dyn Sink) -> Result<ControlFlow<()>, Failure> {
         let mut flow = begin(&mut self.session, self.loaded, sink);
         for diagnostic in &self.said {
             if flow.is_continue() {
@@ -193,7 +184,7 @@ impl Start<'_> {
             flow = self.session.finish(sink);
             if left > 0 {
                 let programs = if left == 1 { "program" } else { "programs" };
-                console.talk(&format!(
+                Console::talk(&format!(
                     "the error stopped the session: {left} more {programs} did not run \
                      (`--keep-going` runs on)"
                 ));

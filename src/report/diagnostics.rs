@@ -238,7 +238,7 @@ error[P-ERR-70495]: not configured
         let text = render(&at(&line, "X[COMP ON]"), Look::default());
         assert!(text.contains("X[COMP ON]"), "{text}");
         assert!(
-            text.lines().all(|line| line.chars().count() <= 84),
+            text.lines().all(|line| line.chars().count() <= 80),
             "{text}"
         );
         assert!(text.contains("a.nc:1:"), "{text}");

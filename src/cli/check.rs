@@ -183,3 +183,25 @@ pub(super) fn total(tally: &Tally) -> String {
         count(tally.of(Severity::Info), "note"),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::{SourceFile, Span};
+
+    #[test]
+    fn a_diagnostic_is_kept_once_and_in_the_order_of_the_text() {
+        let file = SourceFile::new("a.nc", "N1 X\nN2 Y");
+        let at = |start| Diagnostic::new(Code::Fc402, file.place(Span::new(start, start + 1)), "x");
+        let mut found = Found::default();
+        for start in [5, 3, 5, 0, 3] {
+            found.add(&at(start));
+        }
+        let starts: Vec<String> = found
+            .diagnostics
+            .values()
+            .map(|diagnostic| diagnostic.place.start().to_string())
+            .collect();
+        assert_eq!(starts, ["1:1", "1:4", "2:1"]);
+    }
+}

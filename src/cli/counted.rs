@@ -110,3 +110,22 @@ impl Sink for Counted<'_> {
         self.inner.record(record)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_status_follows_the_severity_that_counts() {
+        // R9.26
+        let mut tally = Tally::default();
+        assert_eq!(FailOn::Info.status(&tally), 0);
+        tally.count(Severity::Warning);
+        assert_eq!(FailOn::Error.status(&tally), 0);
+        assert_eq!(FailOn::Warning.status(&tally), 1);
+        assert_eq!(FailOn::Info.status(&tally), 1);
+        tally.count(Severity::Error);
+        assert_eq!(FailOn::Error.status(&tally), 1);
+        assert_eq!(FailOn::Never.status(&tally), 0);
+    }
+}

@@ -131,6 +131,9 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
             output,
             "no difference: {count} change{plural} of state in both"
         );
+    } else {
+        let names = format!("--- {}\n+++ {}\n", args.old.display(), args.new.display());
+        output.insert_str(0, &names);
     }
     console.print(&output)?;
     Ok(if same { exit::CLEAN } else { exit::FOUND })

@@ -10,6 +10,9 @@ use crate::timeline::{Row, StateView};
 use super::GUTTER;
 use super::line::{BOLD, Line, MARK, style};
 
+/// The column behind the line number.
+const LINE_END: usize = 6;
+
 /// The block text must keep so many columns, or states become symbols.
 const MIN_TEXT: usize = 24;
 
@@ -139,7 +142,10 @@ impl Columns {
 
     /// Appends the line of a block.
     pub(super) fn block(&self, mut line: Line<'_>, row: &Row<'_>) {
-        line.plain(&format!("{:>6}", row.line));
+        let mut digits = itoa::Buffer::new();
+        let number = digits.format(row.line);
+        line.go_to(LINE_END.saturating_sub(number.len()));
+        line.plain(number);
         let depth = usize::try_from(row.level.unwrap_or_default()).unwrap_or(usize::MAX);
         let indent = depth.saturating_mul(2).min(self.text / 2);
         line.go_to(GUTTER + indent);

@@ -175,3 +175,53 @@ fn count(number: u64, noun: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {noun}{plural}", grouped(number))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::AxisIndex;
+
+    fn axis(start: State, end: State) -> AxisSummary {
+        AxisSummary {
+            axis: AxisIndex::new(0),
+            start,
+            end,
+            changed_by: Vec::new(),
+            changes: 0,
+        }
+    }
+
+    #[test]
+    fn advice_follows_what_is_left() {
+        // R1.27
+        let advice = |start, end| axis_advice(&axis(start, end), "X").unwrap_or_default();
+        assert_eq!(advice(State::Active, State::Active), "");
+        assert_eq!(advice(State::Inactive, State::Inactive), "");
+        assert_eq!(advice(State::Unconfigured, State::Unconfigured), "");
+        assert!(advice(State::Active, State::Inactive).ends_with("X[COMP ON FRICT]"));
+        assert!(advice(State::Inactive, State::Active).ends_with("X[COMP OFF FRICT]"));
+        assert!(advice(State::Active, State::Unknown).contains("not known offline"));
+        assert!(advice(State::Ineffective, State::Ineffective).contains("FC303"));
+    }
+
+    #[test]
+    fn as_many_blocks_are_named_as_have_room() {
+        let mut axis = axis(State::Active, State::Inactive);
+        assert_eq!(changed_by(&axis, 40), "-");
+        for line in 1..=100 {
+            axis.changed_by.push(ChangedBy {
+                program: 1,
+                file: "a.nc".to_owned(),
+                line,
+                number: (line == 1).then_some(10),
+                to: State::Inactive,
+            });
+        }
+        axis.changes = 2300;
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1), a.nc:2 and 2 298 more");
+        assert_eq!(changed_by(&axis, 0), "N10 (a.nc:1) and 2 299 more");
+        axis.changes = 1;
+        axis.changed_by.truncate(1);
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1)");
+    }
+}

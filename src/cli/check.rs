@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use super::console::Console;
 use super::counted::FailOn;
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
-use super::dry_run::{ExecutionArgs, run_alone};
+use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::failure::Failure;
 use super::files::{Input, Naming};
 use super::walk;
@@ -125,7 +125,15 @@ fn check_file(
 ) -> Result<Vec<Diagnostic>, Failure> {
     let options = execution.options(loaded, StopPolicy::KeepGoing);
     let mut found = Found::default();
-    run_alone(input, loaded, (options, Naming::AsGiven), &mut found)?;
+    run_alone(
+        input,
+        loaded,
+        Alone {
+            options,
+            naming: Naming::AsGiven,
+        },
+        &mut found,
+    )?;
     Ok(found.diagnostics.into_values().collect())
 }
 

@@ -10,7 +10,7 @@ use similar::{Algorithm, ChangeTag, capture_diff_slices};
 
 use super::console::Console;
 use super::discovery::{MachineArgs, Machines};
-use super::dry_run::{ExecutionArgs, run_alone};
+use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::exit;
 use super::failure::Failure;
 use super::files::{Input, Naming};
@@ -149,7 +149,15 @@ fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
         list: Vec::new(),
         error: None,
     };
-    run_alone(input, loaded, (options, Naming::AsGiven), &mut switches)?;
+    run_alone(
+        input,
+        loaded,
+        Alone {
+            options,
+            naming: Naming::AsGiven,
+        },
+        &mut switches,
+    )?;
     if let Some(error) = &switches.error {
         Console::talk(error);
     }

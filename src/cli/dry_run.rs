@@ -82,16 +82,21 @@ pub(super) fn run_program(
     })
 }
 
+/// How a program runs in a session of its own.
+pub(super) struct Alone {
+    pub(super) options: SessionOptions,
+    pub(super) naming: Naming,
+}
+
 /// Runs one program in a session of its own, from the start of the control to the summary.
 pub(super) fn run_alone(
     input: &Input,
     loaded: &LoadedMachine,
-    session: (SessionOptions, Naming),
+    alone: Alone,
     sink: &mut dyn Sink,
 ) -> Result<(), Failure> {
-    let (options, naming) = session;
-    let surroundings = Surroundings::new(loaded, naming);
-    let mut session = Session::new(loaded.machine.clone(), options);
+    let surroundings = Surroundings::new(loaded, alone.naming);
+    let mut session = Session::new(loaded.machine.clone(), alone.options);
     let mut flow = begin(&mut session, loaded, sink);
     if flow.is_continue() {
         flow = run_program(&mut session, input, &surroundings, sink)?;

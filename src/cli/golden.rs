@@ -8,7 +8,7 @@ use similar::TextDiff;
 
 use super::console::Console;
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
-use super::dry_run::{ExecutionArgs, run_alone};
+use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::failure::Failure;
 use super::files::{Input, Naming};
 use super::{exit, walk};
@@ -54,7 +54,7 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
             std::fs::write(&golden, &now).map_err(|error| Failure::writing(&golden, &error))?;
             let _ = writeln!(output, "wrote {}", golden.display());
         } else {
-            append_drift(&mut output, &golden, (before.as_deref(), &now));
+            append_drift(&mut output, &golden, before.as_deref(), &now);
         }
     }
     console.print(&output)?;
@@ -82,7 +82,15 @@ fn timeline(
     let mut bytes = Vec::new();
     let mut report = Text::new(&mut bytes, TextOptions::default());
     let options = execution.options(loaded, StopPolicy::FirstError);
-    run_alone(input, loaded, (options, Naming::FileName), &mut report)?;
+    run_alone(
+        input,
+        loaded,
+        Alone {
+            options,
+            naming: Naming::FileName,
+        },
+        &mut report,
+    )?;
     report.finish().map_err(|error| Failure::output(&error))?;
     drop(report);
     Ok(String::from_utf8_lossy(&bytes).into_owned())
@@ -107,9 +115,9 @@ fn read_golden(path: &Path) -> Result<Option<String>, Failure> {
     }
 }
 
-fn append_drift(output: &mut String, golden: &Path, texts: (Option<&str>, &str)) {
+fn append_drift(output: &mut String, golden: &Path, before: Option<&str>, now: &str) {
     let shown = golden.display();
-    let (Some(before), now) = texts else {
+    let Some(before) = before else {
         let _ = writeln!(output, "{shown} is missing\n");
         return;
     };
@@ -130,14 +138,15 @@ mod tests {
         append_drift(
             &mut output,
             Path::new("a.nc.timeline"),
-            (Some("one\ntwo\n"), "one\n2\n"),
+            Some("one\ntwo\n"),
+            "one\n2\n",
         );
         assert_eq!(
             output,
             "--- a.nc.timeline (agreed)\n+++ a.nc.timeline (now)\n@@ -1,2 +1,2 @@\n one\n-two\n+2\n\n"
         );
         output.clear();
-        append_drift(&mut output, Path::new("a.nc.timeline"), (None, "x"));
+        append_drift(&mut output, Path::new("a.nc.timeline"), None, "x");
         assert_eq!(output, "a.nc.timeline is missing\n\n");
     }
 }

@@ -126,6 +126,19 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if let Some(remark) = loaded.remark() {
         Console::talk(&remark);
     }
+    if args.format == Format::Csv {
+        // A row is a block: the lists have no row.
+        for error in loaded.errors() {
+            let place = &error.place;
+            Console::talk(&format!(
+                "{}:{}: error[{}] {}",
+                place.file,
+                place.start(),
+                error.code,
+                error.message
+            ));
+        }
+    }
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
     let options = args.execution.options(loaded, args.stop_policy());

@@ -186,8 +186,11 @@ pub trait LineSource {
     /// The line that [`advance`](Self::advance) went to.
     fn line(&self) -> PhysicalLine<'_>;
 
-    /// Where that line begins, in bytes from the start of the text.
-    fn offset(&self) -> usize;
+    /// Where that line begins, in bytes from the start of the text; 0 for a stream, to which
+    /// nobody goes back.
+    fn offset(&self) -> usize {
+        0
+    }
 }
 
 impl<S: LineSource + ?Sized> LineSource for &mut S {

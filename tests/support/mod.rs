@@ -108,7 +108,10 @@ impl Bench {
             if session.is_stopped() && self.options.stop == StopPolicy::FirstError {
                 break;
             }
-            let name = format!("{}.nc", char::from(b'a' + u8::try_from(at).expect("few programs")));
+            let name = format!(
+                "{}.nc",
+                char::from(b'a' + u8::try_from(at).expect("few programs"))
+            );
             let program = Program::Whole(SourceFile::new(name.as_str(), *text));
             let files = self.files.clone();
             let mut find = move |name: &str, _: &str| {
@@ -145,9 +148,17 @@ impl Transcript {
 
     fn diagnostic(&mut self, diagnostic: &frictcomp::diagnostic::Diagnostic) {
         let place = &diagnostic.place;
-        let file = if place.file.len() > 4 { format!(" in {}", place.file) } else { String::new() };
+        let file = if place.file.len() > 4 {
+            format!(" in {}", place.file)
+        } else {
+            String::new()
+        };
         let (start, end) = (place.start(), place.end());
-        let end = if end.line == start.line { end.column.to_string() } else { end.to_string() };
+        let end = if end.line == start.line {
+            end.column.to_string()
+        } else {
+            end.to_string()
+        };
         writeln!(self.text, "    {} {start}-{end}{file}", diagnostic.code).expect("text");
     }
 }
@@ -164,14 +175,28 @@ impl Sink for Transcript {
                 writeln!(self.text, "{file} {}", name.unwrap_or("-")).expect("text");
             }
             Record::Block(row) => {
-                let number = row.number.map_or("-".to_owned(), |number| format!("N{number}"));
-                let level = row.level.map_or(String::new(), |level| format!(" level {level}"));
+                let number = row
+                    .number
+                    .map_or("-".to_owned(), |number| format!("N{number}"));
+                let level = row
+                    .level
+                    .map_or(String::new(), |level| format!(" level {level}"));
                 write!(self.text, "  {} line {} {number}{level}", row.seq, row.line).expect("text");
                 for change in row.changes {
                     if self.kinds.contains(&change.kind) {
                         let axis = row.state.name(change.axis);
-                        let kind = if self.kinds.len() > 1 { change.kind.keyword() } else { "" };
-                        write!(self.text, " {axis}{kind}:{}>{}", change.from.word(), change.to.word()).expect("text");
+                        let kind = if self.kinds.len() > 1 {
+                            change.kind.keyword()
+                        } else {
+                            ""
+                        };
+                        write!(
+                            self.text,
+                            " {axis}{kind}:{}>{}",
+                            change.from.word(),
+                            change.to.word()
+                        )
+                        .expect("text");
                     }
                 }
                 self.text.push('\n');
@@ -184,7 +209,12 @@ impl Sink for Transcript {
                     self.diagnostic(&note.diagnostic);
                 }
                 for repeat in end.repeated {
-                    writeln!(self.text, "    {} line {} {} times", repeat.code, repeat.line, repeat.times).expect("text");
+                    writeln!(
+                        self.text,
+                        "    {} line {} {} times",
+                        repeat.code, repeat.line, repeat.times
+                    )
+                    .expect("text");
                 }
                 let states = self.states(end.state);
                 writeln!(self.text, "  end {} {} {states}", end.seq, end.by.word()).expect("text");

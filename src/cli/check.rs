@@ -1,0 +1,215 @@
+//! `frictcomp check`: every diagnostic of every program.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+
+use super::console::Console;
+use super::counted::FailOn;
+use super::discovery::{LoadedMachine, MachineArgs, Machines};
+use super::dry_run::{Alone, ExecutionArgs, run_alone};
+use super::failure::Failure;
+use super::files::{Input, Naming};
+use super::walk;
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::report::{Listing, ListingFormat, Tally};
+use crate::session::StopPolicy;
+use crate::source::Position;
+use crate::timeline::{Record, Sink};
+
+/// Prints every diagnostic of every program, each run from the start of the control
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// Programs and folders of programs, `-` for standard input
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    #[command(flatten)]
+    listing: ListingArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// How diagnostics are listed.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ListingArgs {
+    /// The format of the diagnostics
+    #[arg(long, default_value = "text")]
+    pub(super) format: Format,
+    /// Write the diagnostics into this file
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// The severity from which on the exit status is 1
+    #[arg(long, value_name = "SEVERITY", default_value = "error")]
+    pub(super) fail_on: FailOn,
+}
+
+/// A format of diagnostics (R9.25).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Format {
+    /// Source lines with carets, for people.
+    #[default]
+    Text,
+    /// One line a diagnostic.
+    Concise,
+    /// One JSON document.
+    Json,
+    /// One JSON object a line.
+    Ndjson,
+    /// Workflow commands of GitHub.
+    Github,
+    /// SARIF 2.1.0.
+    Sarif,
+}
+
+impl From<Format> for ListingFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Text => Self::Text,
+            Format::Concise => Self::Concise,
+            Format::Json => Self::Json,
+            Format::Ndjson => Self::Ndjson,
+            Format::Github => Self::Github,
+            Format::Sarif => Self::Sarif,
+        }
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
+    let inputs = walk::programs(&args.paths)?;
+    let mut machines = Machines::new(&args.machine);
+    let mut listed: Vec<Option<PathBuf>> = Vec::new();
+    let target = console.target(args.listing.output.as_deref())?;
+    let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
+    let mut flow = ControlFlow::Continue(());
+    for input in &inputs {
+        let loaded = machines.for_folder(input.folder())?;
+        if !listed.contains(&loaded.origin) {
+            listed.push(loaded.origin.clone());
+            for diagnostic in loaded.errors() {
+                flow = listing.diagnostic(diagnostic);
+            }
+        }
+        listing.file();
+        for diagnostic in check_file(input, loaded, &args.execution)? {
+            flow = listing.diagnostic(&diagnostic);
+        }
+        if flow.is_break() {
+            break;
+        }
+    }
+    listing.finish().map_err(|error| Failure::output(&error))?;
+    if listing.is_closed() {
+        return Ok(super::exit::CLEAN);
+    }
+    for remark in machines.loaded().filter_map(LoadedMachine::remark) {
+        Console::talk(&remark);
+    }
+    if args.listing.format == Format::Text {
+        Console::talk(&total(listing.tally()));
+    }
+    Ok(args.listing.fail_on.status(listing.tally()))
+}
+
+/// Every diagnostic of one program, in the order of the places, each once.
+fn check_file(
+    input: &Input,
+    loaded: &LoadedMachine,
+    execution: &ExecutionArgs,
+) -> Result<Vec<Diagnostic>, Failure> {
+    let options = execution.options(loaded, StopPolicy::CheckAll);
+    let mut found = Found::default();
+    run_alone(
+        input,
+        loaded,
+        Alone {
+            options,
+            naming: Naming::AsGiven,
+        },
+        &mut found,
+    )?;
+    Ok(found.diagnostics.into_values().collect())
+}
+
+/// What makes two diagnostics the same.
+type Key = (Arc<str>, Position, Position, Code, String);
+
+/// Keeps each diagnostic once, however often a loop brings it up.
+#[derive(Default)]
+struct Found {
+    diagnostics: BTreeMap<Key, Diagnostic>,
+}
+
+impl Found {
+    fn add(&mut self, diagnostic: &Diagnostic) {
+        let place = &diagnostic.place;
+        let key = (
+            place.file.clone(),
+            place.start(),
+            place.end(),
+            diagnostic.code,
+            diagnostic.message.clone(),
+        );
+        self.diagnostics
+            .entry(key)
+            .or_insert_with(|| diagnostic.clone());
+    }
+}
+
+impl Sink for Found {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Block(row) => row.diagnostics.iter().for_each(|said| self.add(said)),
+            Record::End(end) => end.notes.iter().for_each(|note| self.add(&note.diagnostic)),
+            // What the lists say is listed once a machine, not once a program.
+            Record::Machine(_)
+            | Record::Session { .. }
+            | Record::Program { .. }
+            | Record::Summary(_) => {}
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// What was found, in one line.
+pub(super) fn total(tally: &Tally) -> String {
+    let count = |number: u64, noun: &str| {
+        let plural = if number == 1 { "" } else { "s" };
+        format!("{number} {noun}{plural}")
+    };
+    format!(
+        "{} checked: {}, {}, {}",
+        count(tally.files, "file"),
+        count(tally.of(Severity::Error), "error"),
+        count(tally.of(Severity::Warning), "warning"),
+        count(tally.of(Severity::Info), "note"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::{SourceFile, Span};
+
+    #[test]
+    fn a_diagnostic_is_kept_once_and_in_the_order_of_the_text() {
+        let file = SourceFile::new("a.nc", "N1 X\nN2 Y");
+        let at = |start| Diagnostic::new(Code::Fc402, file.place(Span::new(start, start + 1)), "x");
+        let mut found = Found::default();
+        for start in [5, 3, 5, 0, 3] {
+            found.add(&at(start));
+        }
+        let starts: Vec<String> = found
+            .diagnostics
+            .values()
+            .map(|diagnostic| diagnostic.place.start().to_string())
+            .collect();
+        assert_eq!(starts, ["1:1", "1:4", "2:1"]);
+    }
+}

@@ -1,0 +1,63 @@
+//! `frictcomp codes`: every code with its severity and title.
+
+use std::fmt::Write as _;
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use super::console::Console;
+use super::exit;
+use super::failure::Failure;
+use crate::codes::Code;
+
+/// Lists every code with its severity and title
+#[derive(Debug, Args)]
+pub(super) struct CodesArgs {
+    /// The format of the list
+    #[arg(long, default_value = "text")]
+    format: Format,
+}
+
+/// A format of the list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// For people.
+    #[default]
+    Text,
+    /// One JSON document.
+    Json,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
+    let mut output = String::new();
+    match args.format {
+        Format::Text => {
+            for code in Code::ALL {
+                let severity = code.severity().word();
+                let _ = writeln!(
+                    output,
+                    "{:<12}  {severity:<7}  {}",
+                    code.text(),
+                    code.title()
+                );
+            }
+        }
+        Format::Json => {
+            let codes: Vec<_> = Code::ALL
+                .iter()
+                .map(|code| {
+                    json!({
+                        "code": code.text(),
+                        "severity": code.severity().word(),
+                        "title": code.title(),
+                    })
+                })
+                .collect();
+            let document = json!({ "schema": 1, "codes": codes });
+            let _ = writeln!(output, "{document:#}");
+        }
+    }
+    console.print(&output)?;
+    Ok(exit::CLEAN)
+}

@@ -1,0 +1,24 @@
+//! `frictcomp completions`: what a shell needs to complete the command line.
+
+use clap::Args;
+use clap_complete::Shell;
+
+use super::console::Console;
+use super::exit;
+use super::failure::Failure;
+
+/// Prints the completions for a shell
+#[derive(Debug, Args)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    shell: Shell,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &CompletionsArgs, console: Console) -> Result<u8, Failure> {
+    let mut script = Vec::new();
+    let mut command = super::description();
+    clap_complete::generate(args.shell, &mut command, "frictcomp", &mut script);
+    console.print(&String::from_utf8_lossy(&script))?;
+    Ok(exit::CLEAN)
+}

@@ -1,0 +1,98 @@
+//! `frictcomp config show`: which configuration counts and what it makes of the machine.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::console::Console;
+use super::discovery::{CONFIG_NAME, LoadedMachine, MachineArgs, Machines};
+use super::exit;
+use super::failure::Failure;
+use crate::compensation::Compensation;
+use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
+use crate::syntax::Kind;
+
+/// The configuration of the machine
+#[derive(Debug, Subcommand)]
+pub(super) enum ConfigCommand {
+    /// Prints the machine that a program in a folder would run on
+    Show(ShowArgs),
+}
+
+/// What `config show` is asked.
+#[derive(Debug, Args)]
+pub(super) struct ShowArgs {
+    /// The folder of the program
+    #[arg(value_name = "FOLDER", default_value = ".")]
+    folder: PathBuf,
+    #[command(flatten)]
+    machine: MachineArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failure> {
+    let ConfigCommand::Show(args) = command;
+    let mut machines = Machines::new(&args.machine);
+    let loaded = machines.for_folder(&args.folder)?;
+    let mut output = String::new();
+    append_machine(&mut output, loaded);
+    console.print(&output)?;
+    Ok(exit::CLEAN)
+}
+
+fn append_machine(output: &mut String, loaded: &LoadedMachine) {
+    let machine = &loaded.machine;
+    let _ = match (&loaded.origin, machine.axis_set) {
+        (Some(path), _) => writeln!(output, "configuration  {}", path.display()),
+        (None, _) => writeln!(
+            output,
+            "configuration  none, no {CONFIG_NAME} from here upwards"
+        ),
+    };
+    if let Some(build) = machine.build {
+        let _ = writeln!(output, "CNC build      {build}");
+    }
+    if let Some(cycle) = machine.cycle_time_ms {
+        let _ = writeln!(output, "cycle time     {cycle} ms");
+    }
+    for folder in &loaded.program_dirs {
+        let _ = writeln!(output, "programs in    {}", folder.display());
+    }
+    let _ = writeln!(
+        output,
+        "\naxis      type  at start      P-AXIS-00522  value list"
+    );
+    let comp = Compensation::at_startup(machine);
+    for (position, axis) in machine.axes.iter().enumerate() {
+        let state = comp.state(AxisIndex::new(position), Kind::Frict);
+        let kind = match axis.axis_type {
+            AxisType::Linear => "T",
+            AxisType::Rotary => "R",
+            AxisType::Spindle => "S",
+        };
+        let value = u8::from(axis.configured.contains(Kind::Frict));
+        let origin = match &axis.frict_comp_origin {
+            Origin::Default => "default".to_owned(),
+            Origin::Assumed => "--enable".to_owned(),
+            Origin::File { file, line } => format!("{file}:{line}"),
+        };
+        let list = match &axis.friction {
+            Parameterisation::Missing => "none".to_owned(),
+            Parameterisation::Off => "mode 0, off".to_owned(),
+            Parameterisation::Rejected { file, code } => format!("{file} rejected, {code}"),
+            Parameterisation::Assumed => "assumed".to_owned(),
+            Parameterisation::Accepted(list) => format!("{} points", list.table.len()),
+        };
+        let _ = writeln!(
+            output,
+            "{:<8}  {kind:<4}  {:<12}  {:<12}  {list}",
+            axis.name,
+            state.word(),
+            format!("{value} {origin}"),
+        );
+    }
+    if machine.axis_set == AxisSet::AsTheyOccur {
+        output.push_str("\nWithout a configuration these axes are taken as they occur.\n");
+    }
+}

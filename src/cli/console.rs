@@ -1,0 +1,141 @@
+//! Where data and talk go: stdout is data, stderr is talk (R9.27).
+
+use std::fs::File;
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
+
+use anstream::{AutoStream, ColorChoice};
+use clap::ValueEnum;
+
+use super::failure::Failure;
+use crate::report::{DEFAULT_WIDTH, Look, Paint, render};
+
+/// When output is coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Color {
+    /// On a terminal, unless `NO_COLOR` is set.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// The user's terminal, or what stands in its place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Console {
+    color: Color,
+}
+
+/// A place for data and how text looks there.
+pub(super) struct Target {
+    pub(super) writer: Box<dyn Write>,
+    pub(super) look: Look,
+}
+
+impl Console {
+    pub(super) fn new(color: Color) -> Self {
+        Self { color }
+    }
+
+    /// The file that the user named for the output, or stdout.
+    pub(super) fn target(self, file: Option<&Path>) -> Result<Target, Failure> {
+        let Some(path) = file else {
+            return Ok(self.stdout());
+        };
+        let created = File::create(path).map_err(|error| Failure::writing(path, &error))?;
+        let paint = match self.color {
+            Color::Always => Paint::Styled,
+            Color::Auto | Color::Never => Paint::Plain,
+        };
+        Ok(Target {
+            writer: Box::new(created),
+            look: Look {
+                paint,
+                width: DEFAULT_WIDTH,
+            },
+        })
+    }
+
+    /// Standard output.
+    pub(super) fn stdout(self) -> Target {
+        let stdout = io::stdout();
+        let choice = self.choice(AutoStream::choice(&stdout));
+        let width = terminal_size::terminal_size_of(&stdout)
+            .map_or(DEFAULT_WIDTH, |(width, _)| usize::from(width.0));
+        Target {
+            look: Look {
+                paint: paint(choice),
+                width,
+            },
+            // Old Windows consoles need their own calls; elsewhere nothing stands between.
+            writer: match paint(choice) {
+                Paint::Plain => Box::new(stdout.lock()),
+                Paint::Styled => Box::new(AutoStream::new(stdout.lock(), choice)),
+            },
+        }
+    }
+
+    /// Writes a text to stdout; a closed pipe is no failure.
+    pub(super) fn print(self, text: &str) -> Result<(), Failure> {
+        let mut writer = self.stdout().writer;
+        let written = writer
+            .write_all(text.as_bytes())
+            .and_then(|()| writer.flush());
+        match written {
+            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::output(&error)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Says a line on stderr. When nobody listens, nothing is lost.
+    pub(super) fn talk(line: &str) {
+        let _ = writeln!(io::stderr().lock(), "{line}");
+    }
+
+    /// Says on stderr why the tool could not do its work.
+    pub(super) fn explain(self, failure: &Failure) {
+        let stderr = io::stderr();
+        let choice = self.choice(AutoStream::choice(&stderr));
+        let look = Look {
+            paint: paint(choice),
+            width: DEFAULT_WIDTH,
+        };
+        let mut writer = AutoStream::new(stderr.lock(), choice);
+        for diagnostic in &failure.diagnostics {
+            let _ = writeln!(writer, "{}", render(diagnostic, look));
+        }
+        let (bold, plain) = match look.paint {
+            Paint::Plain => (anstyle::Style::new(), anstyle::Style::new()),
+            Paint::Styled => (
+                anstyle::AnsiColor::Red.on_default().bold(),
+                anstyle::AnsiColor::Cyan.on_default(),
+            ),
+        };
+        let _ = writeln!(writer, "{bold}error{bold:#}: {}", failure.message);
+        for help in &failure.help {
+            let _ = writeln!(writer, "{plain}help{plain:#}: {help}");
+        }
+    }
+
+    /// Whether a person watches stderr while data goes elsewhere.
+    pub(super) fn shows_progress() -> bool {
+        io::stderr().is_terminal() && !io::stdout().is_terminal()
+    }
+
+    fn choice(self, automatic: ColorChoice) -> ColorChoice {
+        match self.color {
+            Color::Auto => automatic,
+            Color::Always => ColorChoice::Always,
+            Color::Never => ColorChoice::Never,
+        }
+    }
+}
+
+fn paint(choice: ColorChoice) -> Paint {
+    match choice {
+        ColorChoice::Never => Paint::Plain,
+        ColorChoice::Auto | ColorChoice::Always | ColorChoice::AlwaysAnsi => Paint::Styled,
+    }
+}

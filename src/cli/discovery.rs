@@ -1,0 +1,306 @@
+//! Which machine a program runs on: `frictcomp.toml`, a start-up list, or none.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::files::read_text;
+use super::settings::{self, SetVariable};
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
+use crate::machine::{Configuration, ListFiles, Machine, Setting};
+use crate::source::SourceFile;
+
+/// The name of the configuration file.
+pub(super) const CONFIG_NAME: &str = "frictcomp.toml";
+
+/// The machine, as the user gives it on the command line.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Machine")]
+pub(super) struct MachineArgs {
+    /// Use this configuration instead of the nearest `frictcomp.toml`
+    #[arg(long, value_name = "FILE", conflicts_with = "isolated")]
+    pub(super) config: Option<PathBuf>,
+    /// Look for no configuration
+    #[arg(long)]
+    pub(super) isolated: bool,
+    /// Take the axes from this start-up list, whatever the configuration says
+    #[arg(long, value_name = "LIST")]
+    pub(super) startup: Option<PathBuf>,
+    /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes
+    #[arg(long, value_name = "AXES", value_delimiter = ',')]
+    pub(super) enable: Vec<String>,
+    /// Give a value to a variable that only the machine knows
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = settings::parse_setting)]
+    pub(super) settings: Vec<SetVariable>,
+}
+
+/// A machine and what else its configuration says.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LoadedMachine {
+    /// The machine.
+    pub(super) machine: Machine,
+    /// Values of variables that only the machine knows.
+    pub(super) settings: Vec<(String, Setting)>,
+    /// The user's severities.
+    pub(super) levels: Levels,
+    /// Folders in which called programs are looked for.
+    pub(super) program_dirs: Vec<PathBuf>,
+    /// What there is to say about the lists.
+    pub(super) diagnostics: Vec<Diagnostic>,
+    /// The configuration or the start-up list that was read.
+    pub(super) origin: Option<PathBuf>,
+}
+
+impl LoadedMachine {
+    fn new(configuration: Configuration, path: &Path) -> Self {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let folders = configuration.program_dirs.iter();
+        Self {
+            machine: configuration.machine,
+            settings: configuration.settings,
+            levels: configuration.levels,
+            program_dirs: folders.map(|written| folder.join(written)).collect(),
+            diagnostics: configuration.diagnostics,
+            origin: Some(path.to_owned()),
+        }
+    }
+
+    /// The machine without a configuration.
+    fn unconfigured() -> Self {
+        Self {
+            machine: Machine::unconfigured(),
+            ..Self::default()
+        }
+    }
+
+    /// What stops the control at start-up or keeps it from taking a list.
+    pub(super) fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics
+            .iter()
+            .filter(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    /// One line about what `lists` would say beyond the errors.
+    pub(super) fn remark(&self) -> Option<String> {
+        let count = |severity| {
+            self.diagnostics
+                .iter()
+                .filter(|diagnostic| diagnostic.severity == severity)
+                .count()
+        };
+        let mut parts = Vec::new();
+        for (severity, noun) in [(Severity::Warning, "warning"), (Severity::Info, "note")] {
+            match count(severity) {
+                0 => {}
+                1 => parts.push(format!("1 {noun}")),
+                several => parts.push(format!("{several} {noun}s")),
+            }
+        }
+        let origin = self.origin.as_ref()?.display();
+        (!parts.is_empty()).then(|| {
+            let parts = parts.join(", ");
+            format!("lists: {parts} (`frictcomp lists {origin}` shows them)")
+        })
+    }
+}
+
+/// The machines of the programs of one command; each configuration is read once.
+pub(super) struct Machines<'a> {
+    args: &'a MachineArgs,
+    loaded: BTreeMap<Option<PathBuf>, LoadedMachine>,
+}
+
+impl<'a> Machines<'a> {
+    pub(super) fn new(args: &'a MachineArgs) -> Self {
+        Self {
+            args,
+            loaded: BTreeMap::new(),
+        }
+    }
+
+    /// The machine of a program in a folder.
+    pub(super) fn for_folder(&mut self, folder: &Path) -> Result<&LoadedMachine, Failure> {
+        let config = match (&self.args.config, self.args.isolated) {
+            (Some(path), _) => Some(path.clone()),
+            (None, true) => None,
+            (None, false) => nearest_config(folder),
+        };
+        if !self.loaded.contains_key(&config) {
+            let loaded = load_machine(config.as_deref(), self.args)?;
+            self.loaded.insert(config.clone(), loaded);
+        }
+        Ok(self.loaded.entry(config).or_default())
+    }
+
+    /// Every machine that was asked for, in the order of its configuration's path.
+    pub(super) fn loaded(&self) -> impl Iterator<Item = &LoadedMachine> {
+        self.loaded.values()
+    }
+}
+
+/// Reads the configuration and applies what the command line says about the machine.
+fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachine, Failure> {
+    let mut loaded = match config {
+        Some(path) => read_config(path)?,
+        None => LoadedMachine::unconfigured(),
+    };
+    if let Some(path) = &args.startup {
+        let axes = read_startup(path)?;
+        loaded.machine = axes.machine;
+        loaded.diagnostics = axes.diagnostics;
+        loaded.origin = axes.origin;
+    }
+    for name in &args.enable {
+        enable(&mut loaded.machine, name.trim())?;
+        // What is assumed need not be found missing.
+        loaded.diagnostics.retain(|said| {
+            let assumed = matches!(said.code, Code::Fc135 | Code::Fc303);
+            !(assumed && said.axis.as_deref() == Some(name.trim()))
+        });
+    }
+    let given = args.settings.iter();
+    loaded
+        .settings
+        .extend(given.map(|set| (set.name.clone(), set.value.clone())));
+    Ok(loaded)
+}
+
+/// Reads a `frictcomp.toml` and the lists that it names.
+fn read_config(path: &Path) -> Result<LoadedMachine, Failure> {
+    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+    match Configuration::from_toml(source, &mut Lists) {
+        Ok(configuration) => Ok(LoadedMachine::new(configuration, path)),
+        Err(error) => Err(Failure {
+            message: format!("the configuration `{}` cannot be used", path.display()),
+            diagnostics: vec![*error.diagnostic],
+            ..Failure::default()
+        }),
+    }
+}
+
+/// Reads a start-up list and the lists that it names.
+fn read_startup(path: &Path) -> Result<LoadedMachine, Failure> {
+    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+    Ok(LoadedMachine::new(
+        Configuration::from_startup(source, &mut Lists),
+        path,
+    ))
+}
+
+/// The list files of the disk.
+pub(super) struct Lists;
+
+impl ListFiles for Lists {
+    fn read(&mut self, path: &str) -> Option<SourceFile> {
+        let text = read_text(Path::new(path)).ok()?;
+        Some(SourceFile::new(path, text))
+    }
+}
+
+fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {
+    let word = name.starts_with(|letter: char| letter.is_ascii_alphabetic())
+        && name
+            .chars()
+            .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if !word {
+        return Err(Failure::new(format!("`{name}` is no name of an axis"))
+            .with_help("write `--enable X,Y`"));
+    }
+    if machine.enable(name) {
+        return Ok(());
+    }
+    let names: Vec<&str> = machine.axes.iter().map(|axis| axis.name.as_str()).collect();
+    let failure = Failure::new(format!("the machine has no axis `{name}`"));
+    Err(match did_you_mean(name, names.iter().copied()) {
+        Some(near) => failure.with_help(format!("did you mean `{near}`?")),
+        None => failure.with_help(format!("its axes are {}", names.join(", "))),
+    })
+}
+
+/// The nearest configuration from a folder upwards, as a path from the current folder.
+fn nearest_config(folder: &Path) -> Option<PathBuf> {
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let absolute = normal(&std::path::absolute(folder).ok()?);
+    let found = absolute
+        .ancestors()
+        .map(|ancestor| ancestor.join(CONFIG_NAME))
+        .find(|candidate| candidate.is_file())?;
+    let here = std::env::current_dir().ok()?;
+    Some(relative(&found, &here))
+}
+
+/// The path without `.` and with `..` resolved by name.
+fn normal(path: &Path) -> PathBuf {
+    let mut normal = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                normal.pop();
+            }
+            part => normal.push(part),
+        }
+    }
+    normal
+}
+
+/// A path seen from a folder, so that no output holds an absolute path (R9.16).
+fn relative(path: &Path, folder: &Path) -> PathBuf {
+    let shared = path
+        .components()
+        .zip(folder.components())
+        .take_while(|(one, other)| one == other)
+        .count();
+    if shared == 0 {
+        return path.to_owned();
+    }
+    let up = folder
+        .components()
+        .skip(shared)
+        .map(|_| Component::ParentDir);
+    up.chain(path.components().skip(shared)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::AxisSet;
+
+    #[test]
+    fn the_nearest_configuration_counts() {
+        let root = tempfile::tempdir().unwrap();
+        let deep = root.path().join("a/b");
+        std::fs::create_dir_all(&deep).unwrap();
+        std::fs::write(root.path().join(CONFIG_NAME), "").unwrap();
+        let far = nearest_config(&deep).unwrap();
+        assert!(far.ends_with(CONFIG_NAME) && !far.ends_with("a/frictcomp.toml"));
+        std::fs::write(root.path().join("a").join(CONFIG_NAME), "").unwrap();
+        assert!(nearest_config(&deep).unwrap().ends_with("a/frictcomp.toml"));
+    }
+
+    #[test]
+    fn paths_are_seen_from_the_current_folder() {
+        let seen = |path, folder| relative(Path::new(path), Path::new(folder));
+        assert_eq!(seen("/a/b/c.toml", "/a/b"), Path::new("c.toml"));
+        assert_eq!(seen("/a/c.toml", "/a/b/d"), Path::new("../../c.toml"));
+        assert_eq!(seen("/a/b/c.toml", "/a"), Path::new("b/c.toml"));
+    }
+
+    #[test]
+    fn an_axis_that_the_machine_lacks_is_not_enabled() {
+        let mut machine = Machine::unconfigured();
+        machine.axis_set = AxisSet::Configured;
+        assert!(enable(&mut machine, "X").is_ok());
+        let failure = enable(&mut machine, "XX").unwrap_err();
+        assert_eq!(failure.message, "the machine has no axis `XX`");
+        assert_eq!(failure.help, ["did you mean `X`?"]);
+        assert!(enable(&mut machine, "X[").is_err());
+    }
+}

@@ -1,0 +1,118 @@
+//! Programs on their way through a session.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::discovery::LoadedMachine;
+use super::failure::Failure;
+use super::files::{Input, Naming, Opened, ProgramFinder};
+use super::settings::{self, SkipLevels};
+use crate::session::{Limits, Program, Session, SessionOptions, StopPolicy};
+use crate::timeline::Sink;
+
+/// What a dry run skips and where it ends.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Execution")]
+pub(super) struct ExecutionArgs {
+    /// Skip blocks behind `/`, by level: `1,3-5` or `all`
+    #[arg(long, value_name = "LEVELS", value_parser = settings::parse_levels)]
+    skip: Option<SkipLevels>,
+    /// End after so many executed blocks
+    #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    max_blocks: u64,
+}
+
+impl ExecutionArgs {
+    /// The options of a session on a machine.
+    pub(super) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
+        SessionOptions {
+            stop,
+            skip: self.skip.unwrap_or_default().0,
+            limits: Limits {
+                blocks: self.max_blocks,
+                ..Limits::default()
+            },
+            levels: loaded.levels.clone(),
+            settings: loaded.settings.clone(),
+        }
+    }
+}
+
+/// Where called programs are looked for, and how files are named.
+#[derive(Debug, Clone)]
+pub(super) struct Surroundings {
+    pub(super) program_dirs: Vec<PathBuf>,
+    pub(super) naming: Naming,
+}
+
+impl Surroundings {
+    pub(super) fn new(loaded: &LoadedMachine, naming: Naming) -> Self {
+        Self {
+            program_dirs: loaded.program_dirs.clone(),
+            naming,
+        }
+    }
+}
+
+/// Runs one program in a session. `Break` when the sink wants no more.
+pub(super) fn run_program(
+    session: &mut Session,
+    input: &Input,
+    surroundings: &Surroundings,
+    sink: &mut dyn Sink,
+) -> Result<ControlFlow<()>, Failure> {
+    let name = input.name(surroundings.naming);
+    let mut finder = ProgramFinder::new(input, &surroundings.program_dirs, surroundings.naming);
+    let flow = match input.open(surroundings.naming)? {
+        Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
+        Opened::Lines(mut lines) => {
+            let flow = session.program(&name, Program::Lines(&mut lines), &mut finder, sink);
+            if let Some(error) = lines.take_failure() {
+                return Err(Failure::reading(Path::new(&name), &error));
+            }
+            flow
+        }
+    };
+    Ok(match flow {
+        ControlFlow::Break(()) => ControlFlow::Break(()),
+        ControlFlow::Continue(_) => ControlFlow::Continue(()),
+    })
+}
+
+/// How a program runs in a session of its own.
+pub(super) struct Alone {
+    pub(super) options: SessionOptions,
+    pub(super) naming: Naming,
+}
+
+/// Runs one program in a session of its own, from the start of the control to the summary.
+pub(super) fn run_alone(
+    input: &Input,
+    loaded: &LoadedMachine,
+    alone: Alone,
+    sink: &mut dyn Sink,
+) -> Result<(), Failure> {
+    let surroundings = Surroundings::new(loaded, alone.naming);
+    let mut session = Session::new(loaded.machine.clone(), alone.options);
+    let mut flow = begin(&mut session, loaded, sink);
+    if flow.is_continue() {
+        flow = run_program(&mut session, input, &surroundings, sink)?;
+    }
+    if flow.is_continue() {
+        let _ = session.finish(sink);
+    }
+    Ok(())
+}
+
+/// Says what the session starts with, and what keeps the control from taking its lists.
+pub(super) fn begin(
+    session: &mut Session,
+    loaded: &LoadedMachine,
+    sink: &mut dyn Sink,
+) -> ControlFlow<()> {
+    let errors: Vec<_> = loaded.errors().cloned().collect();
+    session.begin(&errors, sink)
+}

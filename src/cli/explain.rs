@@ -1,0 +1,118 @@
+//! `frictcomp explain`: the page of a code or a parameter.
+
+use clap::Args;
+
+use super::console::Console;
+use super::exit;
+use super::failure::Failure;
+use crate::codes::Code;
+use crate::diagnostic::did_you_mean;
+
+/// Prints the page of a diagnostic or a parameter
+#[derive(Debug, Args)]
+pub(super) struct ExplainArgs {
+    /// `P-ERR-70495`, `70495`, `FC201`, `P-COMP-00043`, `frict_comp.mode`
+    code: String,
+}
+
+/// A parameter of the lists.
+struct Parameter {
+    number: &'static str,
+    key: &'static str,
+    page: &'static str,
+}
+
+macro_rules! parameters {
+    ($($number:literal $key:literal;)+) => {
+        [$(Parameter {
+            number: $number,
+            key: $key,
+            page: include_str!(concat!("../../docs/codes/", $number, ".md")),
+        },)+]
+    };
+}
+
+/// The parameters that have a page (chapter 3).
+static PARAMETERS: [Parameter; 11] = parameters! {
+    "P-AXIS-00465" "lr_param.prog_movement_requires_compensations";
+    "P-AXIS-00522" "lr_param.frict_comp";
+    "P-COMP-00041" "frict_comp.mode";
+    "P-COMP-00042" "frict_comp.table_entries";
+    "P-COMP-00043" "frict_comp.position_delay";
+    "P-COMP-00044" "frict_comp.reversal_lookahead";
+    "P-COMP-00045" "frict_comp.scaling_factor";
+    "P-COMP-00046" "frict_comp.table[i].in";
+    "P-COMP-00047" "frict_comp.table[i].out";
+    "P-COMP-00058" "frict_comp.delay_cycles";
+    "P-COMP-00062" "frict_comp.max_points";
+};
+
+/// Runs the command.
+pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
+    let page = find(args.code.trim()).ok_or_else(|| unknown(&args.code))?;
+    console.print(page.trim_end())?;
+    console.print("\n")?;
+    Ok(exit::CLEAN)
+}
+
+/// The page of a code, of a parameter's number or of its key.
+fn find(text: &str) -> Option<&'static str> {
+    if let Some(code) = Code::find(text) {
+        return Some(code.page());
+    }
+    let key = general_key(text);
+    PARAMETERS
+        .iter()
+        .find(|parameter| {
+            parameter.number.eq_ignore_ascii_case(text) || parameter.key.eq_ignore_ascii_case(&key)
+        })
+        .map(|parameter| parameter.page)
+}
+
+/// `frict_comp.table[3].in` is `frict_comp.table[i].in`.
+fn general_key(text: &str) -> String {
+    let Some((before, rest)) = text.split_once('[') else {
+        return text.to_owned();
+    };
+    match rest.split_once(']') {
+        Some((index, behind)) if index.bytes().all(|byte| byte.is_ascii_digit()) => {
+            format!("{before}[i]{behind}")
+        }
+        _ => text.to_owned(),
+    }
+}
+
+fn unknown(text: &str) -> Failure {
+    let codes = Code::ALL.iter().map(|code| code.text());
+    let parameters = PARAMETERS
+        .iter()
+        .flat_map(|parameter| [parameter.number, parameter.key]);
+    let failure = Failure::new(format!("there is no page about `{text}`"));
+    match did_you_mean(text, codes.chain(parameters)) {
+        Some(near) => failure.with_help(format!("did you mean `{near}`?")),
+        None => failure.with_help("`frictcomp codes` lists every code"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_are_found_by_every_name() {
+        for name in [
+            "P-ERR-70495",
+            "70495",
+            "fc201",
+            "P-COMP-00043",
+            "p-axis-00522",
+            "frict_comp.mode",
+            "frict_comp.table[7].in",
+            "frict_comp.table[i].out",
+        ] {
+            assert!(find(name).is_some(), "{name}");
+        }
+        assert!(find("P-ERR-1").is_none());
+        assert_eq!(unknown("FC20l").help, ["did you mean `FC201`?"]);
+    }
+}

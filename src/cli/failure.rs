@@ -1,0 +1,64 @@
+//! Why the tool could not do its work.
+
+use std::io;
+use std::path::Path;
+
+use crate::diagnostic::Diagnostic;
+
+/// One clear sentence, what to do, and where the reason stands in a file of the user.
+#[derive(Debug, Default)]
+pub(super) struct Failure {
+    /// One sentence in lower case.
+    pub(super) message: String,
+    /// What to do.
+    pub(super) help: Vec<String>,
+    /// The lines of a configuration or list that are the reason.
+    pub(super) diagnostics: Vec<Diagnostic>,
+}
+
+impl Failure {
+    /// A failure without advice.
+    pub(super) fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            ..Self::default()
+        }
+    }
+
+    /// The same with one more piece of advice.
+    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help.push(help.into());
+        self
+    }
+
+    /// A file that cannot be read.
+    pub(super) fn reading(path: &Path, error: &io::Error) -> Self {
+        let shown = path.display();
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::new(format!("there is no file `{shown}`"))
+                .with_help("check the path; it is taken from the current folder"),
+            io::ErrorKind::PermissionDenied => Self::new(format!("`{shown}` may not be read"))
+                .with_help("give yourself the right to read it"),
+            io::ErrorKind::IsADirectory => Self::directory(path),
+            _ => Self::new(format!("`{shown}` cannot be read: {error}")),
+        }
+    }
+
+    /// A folder in the place of a program.
+    pub(super) fn directory(path: &Path) -> Self {
+        let shown = path.display();
+        Self::new(format!("`{shown}` is a folder, not a program")).with_help(format!(
+            "name its programs, or use `frictcomp check {shown}`, which walks through folders"
+        ))
+    }
+
+    /// A file that cannot be written.
+    pub(super) fn writing(path: &Path, error: &io::Error) -> Self {
+        Self::new(format!("`{}` cannot be written: {error}", path.display()))
+    }
+
+    /// Output that cannot be written.
+    pub(super) fn output(error: &io::Error) -> Self {
+        Self::new(format!("the output cannot be written: {error}"))
+    }
+}

@@ -1,0 +1,313 @@
+//! The programs that the user names, and the programs that those call.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, Read, Seek};
+use std::path::{Path, PathBuf};
+
+use encoding_rs::WINDOWS_1252;
+
+use super::failure::Failure;
+use super::lines::LineReader;
+use crate::session::Finder;
+use crate::source::{FlowScan, SourceFile};
+
+/// The name of standard input in records and diagnostics.
+const STDIN: &str = "<stdin>";
+
+/// How files are named in records and diagnostics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// As the user named them.
+    AsGiven,
+    /// By their last part only, so that the folder does not matter.
+    FileName,
+}
+
+impl Naming {
+    fn name(self, path: &Path) -> String {
+        match (self, path.file_name()) {
+            (Self::FileName, Some(name)) => name.to_string_lossy().into_owned(),
+            _ => path.display().to_string(),
+        }
+    }
+}
+
+/// A program that the user named.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Input {
+    /// A file.
+    File(PathBuf),
+    /// Standard input, `-`.
+    Stdin,
+}
+
+/// A program that is ready to run.
+pub(super) enum Opened {
+    /// A file without flow: its lines come one after another.
+    Lines(LineReader<File>),
+    /// A program with flow, or one that can be read only once.
+    Whole(SourceFile),
+}
+
+impl Input {
+    /// What the user means by an argument.
+    pub(super) fn new(argument: &Path) -> Self {
+        if argument == Path::new("-") {
+            Self::Stdin
+        } else {
+            Self::File(argument.to_owned())
+        }
+    }
+
+    /// Its name in records and diagnostics.
+    pub(super) fn name(&self, naming: Naming) -> String {
+        match self {
+            Self::File(path) => naming.name(path),
+            Self::Stdin => STDIN.to_owned(),
+        }
+    }
+
+    /// The folder in which the search for a configuration begins.
+    pub(super) fn folder(&self) -> &Path {
+        match self {
+            Self::File(path) => path.parent().unwrap_or(path),
+            Self::Stdin => Path::new(""),
+        }
+    }
+
+    /// Says why the program cannot be run, as far as that is known before it runs.
+    pub(super) fn probe(&self) -> Result<(), Failure> {
+        let Self::File(path) = self else {
+            return Ok(());
+        };
+        let metadata = std::fs::metadata(path).map_err(|error| Failure::reading(path, &error))?;
+        if metadata.is_dir() {
+            return Err(Failure::directory(path));
+        }
+        if metadata.is_file() {
+            File::open(path).map_err(|error| Failure::reading(path, &error))?;
+        }
+        Ok(())
+    }
+
+    /// Opens the program.
+    pub(super) fn open(&self, naming: Naming) -> Result<Opened, Failure> {
+        match self {
+            Self::File(path) => {
+                open_file(path, self.name(naming)).map_err(|error| Failure::reading(path, &error))
+            }
+            Self::Stdin => {
+                let mut bytes = Vec::new();
+                io::stdin()
+                    .lock()
+                    .read_to_end(&mut bytes)
+                    .map_err(|error| Failure::reading(Path::new(STDIN), &error))?;
+                Ok(Opened::Whole(SourceFile::new(STDIN, decode(bytes))))
+            }
+        }
+    }
+}
+
+fn open_file(path: &Path, name: String) -> io::Result<Opened> {
+    let mut file = File::open(path)?;
+    let metadata = file.metadata()?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if metadata.is_file() && !needs_whole_text(&mut file)? {
+        file.rewind()?;
+        return Ok(Opened::Lines(LineReader::new(file)));
+    }
+    if metadata.is_file() {
+        file.rewind()?;
+    }
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
+}
+
+fn needs_whole_text(file: &mut File) -> io::Result<bool> {
+    let mut scan = FlowScan::default();
+    let mut piece = vec![0; 256 * 1024];
+    loop {
+        match file.read(&mut piece) {
+            Ok(0) => return Ok(false),
+            Ok(count) => scan.feed(&piece[..count]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+        if scan.needs_whole_text() {
+            return Ok(true);
+        }
+    }
+}
+
+/// The text of a file: UTF-8 when it is valid, else code page 1252. A byte order mark is passed
+/// over.
+pub(super) fn decode(bytes: Vec<u8>) -> String {
+    let mut text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let (text, _) = WINDOWS_1252.decode_without_bom_handling(error.as_bytes());
+            text.into_owned()
+        }
+    };
+    if text.starts_with('\u{feff}') {
+        text.drain(..'\u{feff}'.len_utf8());
+    }
+    text
+}
+
+/// Reads and decodes a whole file.
+pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        if path.is_dir() {
+            Failure::reading(path, &io::ErrorKind::IsADirectory.into())
+        } else {
+            Failure::reading(path, &error)
+        }
+    })?;
+    Ok(decode(bytes))
+}
+
+/// Finds called programs beside the caller and in the configured folders.
+pub(super) struct ProgramFinder {
+    folders: Vec<PathBuf>,
+    naming: Naming,
+    /// Where the files lie that were named so far.
+    known: HashMap<String, PathBuf>,
+}
+
+impl ProgramFinder {
+    /// A finder for the programs that `main` calls.
+    pub(super) fn new(main: &Input, folders: &[PathBuf], naming: Naming) -> Self {
+        let mut known = HashMap::new();
+        if let Input::File(path) = main {
+            known.insert(naming.name(path), path.clone());
+        }
+        Self {
+            folders: folders.to_vec(),
+            naming,
+            known,
+        }
+    }
+
+    fn locate(&self, name: &str, caller: &str) -> Option<PathBuf> {
+        let beside = self
+            .known
+            .get(caller)
+            .and_then(|path| path.parent())
+            .unwrap_or(Path::new(""));
+        // A path of the control's own disk means nothing here, its last part does.
+        let last = name.rsplit(['\\', '/']).next().unwrap_or(name);
+        let slashed = name.replace('\\', "/");
+        let names = [slashed.as_str(), last];
+        let folders = std::iter::once(beside).chain(self.folders.iter().map(PathBuf::as_path));
+        folders
+            .flat_map(|folder| names.map(|name| (folder, name)))
+            .find_map(|(folder, name)| existing(folder, name))
+    }
+}
+
+impl Finder for ProgramFinder {
+    fn find(&mut self, name: &str, caller: &str) -> Option<SourceFile> {
+        let path = self.locate(name, caller)?;
+        let text = read_text(&path).ok()?;
+        let shown = self.naming.name(&path);
+        self.known.insert(shown.clone(), path);
+        Some(SourceFile::new(shown, text))
+    }
+}
+
+/// The file of that name in a folder; the control's disk does not tell upper from lower case.
+fn existing(folder: &Path, name: &str) -> Option<PathBuf> {
+    if name.is_empty() {
+        return None;
+    }
+    let exact = folder.join(name);
+    if exact.is_file() {
+        return Some(exact);
+    }
+    let parent = exact.parent()?;
+    let listed = if parent.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        parent
+    };
+    let wanted = exact.file_name()?.to_str()?;
+    let mut alike: Vec<PathBuf> = std::fs::read_dir(listed)
+        .ok()?
+        .filter_map(Result::ok)
+        .filter(|entry| {
+            let name = entry.file_name();
+            name.to_str()
+                .is_some_and(|name| name.eq_ignore_ascii_case(wanted))
+        })
+        .map(|entry| parent.join(entry.file_name()))
+        .filter(|path| path.is_file())
+        .collect();
+    alike.sort();
+    alike.into_iter().next()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::LineSource;
+
+    #[test]
+    fn called_programs_are_found_beside_the_caller_and_in_the_folders() {
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir_all(path("cycles/deep")).unwrap();
+        std::fs::write(path("main.nc"), "L SUB.nc").unwrap();
+        std::fs::write(path("sub.nc"), "beside").unwrap();
+        std::fs::write(path("cycles/drill.nc"), "folder").unwrap();
+        std::fs::write(path("cycles/deep/x.nc"), "deep").unwrap();
+        let main = Input::File(path("main.nc"));
+        for naming in [Naming::AsGiven, Naming::FileName] {
+            let mut finder = ProgramFinder::new(&main, &[path("cycles")], naming);
+            let caller = main.name(naming);
+            let mut find = |name: &str| {
+                finder
+                    .find(name, &caller)
+                    .map(|file| file.text().to_owned())
+            };
+            assert_eq!(find("SUB.NC").as_deref(), Some("beside"));
+            assert_eq!(find(r"C:\CNC\prg\sub.nc").as_deref(), Some("beside"));
+            assert_eq!(find("drill.nc").as_deref(), Some("folder"));
+            assert_eq!(find(r"deep\x.nc").as_deref(), Some("deep"));
+            assert_eq!(find("missing.nc"), None);
+            assert_eq!(find(""), None);
+            let shown = finder.find("sub.nc", &caller).unwrap();
+            assert_eq!(naming == Naming::FileName, &**shown.name() == "sub.nc");
+        }
+    }
+
+    #[test]
+    fn only_programs_with_flow_are_read_whole() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("a.nc");
+        std::fs::write(&path, "N10 X1\nN20 M30").unwrap();
+        let input = Input::new(&path);
+        match input.open(Naming::FileName).unwrap() {
+            Opened::Lines(mut lines) => assert_eq!(lines.next_line().unwrap().text, "N10 X1"),
+            Opened::Whole(_) => panic!("a straight program is streamed"),
+        }
+        std::fs::write(&path, b"$IF 1\n(\xdc)").unwrap();
+        match input.open(Naming::FileName).unwrap() {
+            Opened::Whole(file) => assert_eq!(file.text(), "$IF 1\n(Ü)"),
+            Opened::Lines(_) => panic!("flow needs the whole text"),
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_run_is_said_before() {
+        let root = tempfile::tempdir().unwrap();
+        let failure = Input::new(root.path()).probe().unwrap_err();
+        assert!(failure.message.contains("is a folder"));
+        let failure = Input::new(&root.path().join("no.nc")).probe().unwrap_err();
+        assert!(failure.message.starts_with("there is no file"));
+    }
+}

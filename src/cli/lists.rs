@@ -1,0 +1,80 @@
+//! `frictcomp lists`: axis, value, channel and start-up lists.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::check::{Format, ListingArgs, total};
+use super::console::Console;
+use super::discovery::Lists;
+use super::exit;
+use super::failure::Failure;
+use super::files::read_text;
+use crate::codes::Code;
+use crate::diagnostic::Severity;
+use crate::machine::{CncBuild, check_list};
+use crate::report::Listing;
+use crate::report::lists::render_parameters;
+use crate::source::SourceFile;
+
+/// Reads and checks axis, value, channel and start-up lists
+///
+/// A start-up list is checked with every list that it names, any other list by itself.
+#[derive(Debug, Args)]
+pub(super) struct ListsArgs {
+    /// The lists
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Print the effective parameters of every axis and where each came from
+    #[arg(long)]
+    show: bool,
+    /// The CNC build that the lists are for, `3.1.3132.0`
+    #[arg(long, value_name = "BUILD")]
+    cnc_build: Option<CncBuild>,
+    /// Take warnings about documented ranges (FC132) as errors
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    listing: ListingArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
+    let mut reports = Vec::new();
+    for path in &args.files {
+        let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+        let mut report = check_list(source, args.cnc_build, &mut Lists);
+        for diagnostic in &mut report.diagnostics {
+            if args.strict && diagnostic.code == Code::Fc132 {
+                diagnostic.severity = Severity::Error;
+            }
+        }
+        reports.push(report);
+    }
+    let mut table = String::new();
+    if args.show && args.listing.format == Format::Text {
+        for report in &reports {
+            render_parameters(&report.reports, &mut table)
+                .map_err(|_| Failure::new("the table of the parameters cannot be written"))?;
+        }
+    }
+    let target = console.target(args.listing.output.as_deref())?;
+    let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
+    for report in &reports {
+        listing.file();
+        for diagnostic in &report.diagnostics {
+            if listing.diagnostic(diagnostic).is_break() {
+                break;
+            }
+        }
+    }
+    listing.finish().map_err(|error| Failure::output(&error))?;
+    if listing.is_closed() {
+        return Ok(exit::CLEAN);
+    }
+    console.print(&table)?;
+    if args.listing.format == Format::Text {
+        Console::talk(&total(listing.tally()));
+    }
+    Ok(args.listing.fail_on.status(listing.tally()))
+}

@@ -1,0 +1,113 @@
+//! The command line: files, arguments, exit status. One file a command.
+
+mod check;
+mod codes;
+mod completions;
+mod config;
+mod console;
+mod counted;
+mod diff;
+mod discovery;
+mod dry_run;
+mod exit;
+mod explain;
+mod failure;
+mod files;
+mod golden;
+mod lines;
+mod lists;
+mod man;
+mod run;
+mod settings;
+mod state;
+mod walk;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use console::{Color, Console};
+use failure::Failure;
+
+/// Dry-runs ISG and TwinCAT CNC programs and shows, block by block, which axis has friction
+/// compensation active.
+#[derive(Debug, Parser)]
+#[command(name = "frictcomp", version, max_term_width = 100)]
+#[command(
+    after_help = "Exit status: 0 nothing at or above --fail-on, 1 something was, \
+                        2 the tool could not do its work."
+)]
+struct Arguments {
+    /// When output is coloured
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    color: Color,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::RunArgs),
+    Check(check::CheckArgs),
+    Golden(golden::GoldenArgs),
+    Diff(diff::DiffArgs),
+    Lists(lists::ListsArgs),
+    Explain(explain::ExplainArgs),
+    Codes(codes::CodesArgs),
+    #[command(subcommand)]
+    Config(config::ConfigCommand),
+    Completions(completions::CompletionsArgs),
+    /// Prints the manual page
+    Man,
+}
+
+/// Runs the tool with its arguments, the name of the program first.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let _ = error.print();
+            let status = if error.use_stderr() {
+                exit::FAILED
+            } else {
+                exit::CLEAN
+            };
+            return ExitCode::from(status);
+        }
+    };
+    let console = Console::new(arguments.color);
+    let status = dispatch(&arguments.command, console).unwrap_or_else(|failure| {
+        console.explain(&failure);
+        exit::FAILED
+    });
+    ExitCode::from(status)
+}
+
+fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
+    match command {
+        Command::Run(args) => run::run(args, console),
+        Command::Check(args) => check::run(args, console),
+        Command::Golden(args) => golden::run(args, console),
+        Command::Diff(args) => diff::run(args, console),
+        Command::Lists(args) => lists::run(args, console),
+        Command::Explain(args) => explain::run(args, console),
+        Command::Codes(args) => codes::run(args, console),
+        Command::Config(command) => config::run(command, console),
+        Command::Completions(args) => completions::run(args, console),
+        Command::Man => man::run(console),
+    }
+}
+
+/// The description of the command line, for completions and the manual page.
+fn description() -> clap::Command {
+    <Arguments as clap::CommandFactory>::command()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_description_holds_together() {
+        super::description().debug_assert();
+    }
+}

@@ -1,0 +1,213 @@
+//! `frictcomp run`: programs one after the other in one session of the control.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::console::{Console, Target};
+use super::counted::{Counted, FailOn};
+use super::discovery::{LoadedMachine, MachineArgs, Machines};
+use super::dry_run::{ExecutionArgs, Surroundings, run_program};
+use super::failure::Failure;
+use super::files::{Input, Naming};
+use super::settings;
+use super::state::StateFile;
+use crate::diagnostic::Diagnostic;
+use crate::report::{Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View};
+use crate::session::{Session, StopPolicy};
+use crate::syntax::KindSet;
+use crate::timeline::{Record, Sink};
+
+/// Runs programs one after the other in one controller session and prints the activation
+/// timeline
+///
+/// The state that one program leaves is the state that the next one starts with.
+#[derive(Debug, Args)]
+// Each is a switch of its own on the command line.
+#[allow(clippy::struct_excessive_bools)]
+pub(super) struct RunArgs {
+    /// The programs, `-` for standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Start with the state that this file holds, and save the state in it at the end
+    #[arg(long, value_name = "FILE")]
+    state: Option<PathBuf>,
+    /// Treat a failing command as if it were not there, and go on
+    #[arg(long)]
+    keep_going: bool,
+    /// Print only blocks with a change or a diagnostic
+    #[arg(long)]
+    changes: bool,
+    /// Do not fold runs of blocks without a change
+    #[arg(long)]
+    full: bool,
+    /// The kinds of compensation whose changes are shown: `FRICT,LEAD` or `all`
+    #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
+    kinds: KindSet,
+    /// The format of the timeline
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Write the timeline into this file
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The severity from which on the exit status is 1
+    #[arg(long, value_name = "SEVERITY", default_value = "error")]
+    fail_on: FailOn,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// A format of the timeline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// For people.
+    #[default]
+    Text,
+    /// One JSON object a line.
+    Ndjson,
+    /// One JSON document.
+    Json,
+    /// One row a block.
+    Csv,
+}
+
+impl RunArgs {
+    fn report(&self, target: Target) -> Box<dyn Report> {
+        let view = View {
+            kinds: self.kinds,
+            blocks: if self.changes {
+                Blocks::Changed
+            } else {
+                Blocks::All
+            },
+        };
+        let Target { writer, look } = target;
+        match self.format {
+            Format::Text => {
+                let runs = if self.full { Runs::Full } else { Runs::Folded };
+                Box::new(Text::new(writer, TextOptions { view, runs, look }))
+            }
+            Format::Ndjson => Box::new(Ndjson::new(writer, view)),
+            Format::Json => Box::new(Json::new(writer, view)),
+            Format::Csv => Box::new(Csv::new(writer, view)),
+        }
+    }
+
+    fn stop_policy(&self) -> StopPolicy {
+        if self.keep_going {
+            StopPolicy::KeepGoing
+        } else {
+            StopPolicy::FirstError
+        }
+    }
+}
+
+/// What is set up before the first program runs.
+struct Start<'a> {
+    inputs: Vec<Input>,
+    loaded: &'a LoadedMachine,
+    session: Session,
+    /// What the control says about lists that changed since the state was saved.
+    said: Vec<Diagnostic>,
+    state: Option<StateFile>,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
+    let inputs: Vec<Input> = args.files.iter().map(|path| Input::new(path)).collect();
+    for input in &inputs {
+        input.probe()?;
+    }
+    let mut machines = Machines::new(&args.machine);
+    let loaded = machines.for_folder(inputs[0].folder())?;
+    if let Some(remark) = loaded.remark() {
+        Console::talk(&remark);
+    }
+    if args.format == Format::Csv {
+        // A row is a block: the lists have no row.
+        for error in loaded.errors() {
+            let place = &error.place;
+            Console::talk(&format!(
+                "{}:{}: error[{}] {}",
+                place.file,
+                place.start(),
+                error.code,
+                error.message
+            ));
+        }
+    }
+    let state = args.state.as_deref().map(StateFile::lock).transpose()?;
+    let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
+    let options = args.execution.options(loaded, args.stop_policy());
+    let (session, said) = match (saved, &state) {
+        (Some(saved), Some(file)) => Session::resume(loaded.machine.clone(), options, saved)
+            .map_err(|error| file.refused(&error))?,
+        _ => (Session::new(loaded.machine.clone(), options), Vec::new()),
+    };
+    let start = Start {
+        inputs,
+        loaded,
+        session,
+        said,
+        state,
+    };
+    let mut report = args.report(console.target(args.output.as_deref())?);
+    play(start, report.as_mut(), args.fail_on)
+}
+
+fn play(mut start: Start<'_>, report: &mut dyn Report, fail_on: FailOn) -> Result<u8, Failure> {
+    let mut sink = Sinkhole(report);
+    let mut counted = Counted::new(&mut sink);
+    let flow = start.programs(&mut counted);
+    let tally = counted.finish();
+    report.finish().map_err(|error| Failure::output(&error))?;
+    if report.is_closed() {
+        // The reader has seen enough; a run that was cut short leaves no state.
+        return Ok(super::exit::CLEAN);
+    }
+    if flow?.is_continue()
+        && let Some(file) = start.state
+    {
+        file.save(&start.session.save())?;
+    }
+    Ok(fail_on.status(&tally))
+}
+
+impl Start<'_> {
+    fn programs(&mut self, sink: &mut dyn Sink) -> Result<ControlFlow<()>, Failure> {
+        let lists: Vec<Diagnostic> = self.loaded.errors().chain(&self.said).cloned().collect();
+        let mut flow = self.session.begin(&lists, sink);
+        let surroundings = Surroundings::new(self.loaded, Naming::AsGiven);
+        let mut left = self.inputs.len();
+        for input in &self.inputs {
+            if flow.is_break() || self.session.is_stopped() {
+                break;
+            }
+            left -= 1;
+            flow = run_program(&mut self.session, input, &surroundings, sink)?;
+        }
+        if flow.is_continue() {
+            flow = self.session.finish(sink);
+            if left > 0 {
+                let programs = if left == 1 { "program" } else { "programs" };
+                Console::talk(&format!(
+                    "the error stopped the session: {left} more {programs} did not run \
+                     (`--keep-going` runs on)"
+                ));
+            }
+        }
+        Ok(flow)
+    }
+}
+
+/// A report as a sink.
+struct Sinkhole<'a>(&'a mut dyn Report);
+
+impl Sink for Sinkhole<'_> {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        self.0.record(record)
+    }
+}

@@ -1,0 +1,118 @@
+//! Small languages of the options: `NAME=VALUE`, `1,3-5`, `FRICT,LEAD`.
+
+use crate::diagnostic::did_you_mean;
+use crate::machine::Setting;
+use crate::syntax::{Kind, KindSet};
+
+/// A variable and its value, from `--set`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SetVariable {
+    pub(super) name: String,
+    pub(super) value: Setting,
+}
+
+/// Levels of blocks that are skipped; bit 1 is level 1 (R2.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct SkipLevels(pub(super) u16);
+
+/// The highest level of skipped blocks.
+const LEVELS: u16 = 10;
+
+/// Parses `V.E.PART=3`; a value that is no number is a text.
+pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
+    let Some((name, value)) = text.split_once('=') else {
+        return Err("write it as NAME=VALUE, for instance V.E.PART=3".to_owned());
+    };
+    let (name, value) = (name.trim(), value.trim());
+    if name.is_empty() {
+        return Err("there is no name before `=`".to_owned());
+    }
+    let number = value
+        .parse::<f64>()
+        .ok()
+        .filter(|number| number.is_finite());
+    let unquoted = value
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'))
+        .unwrap_or(value);
+    Ok(SetVariable {
+        name: name.to_owned(),
+        value: number.map_or_else(|| Setting::Text(unquoted.to_owned()), Setting::Number),
+    })
+}
+
+/// Parses `1,3-5` or `all`.
+pub(super) fn parse_levels(text: &str) -> Result<SkipLevels, String> {
+    let mut levels = SkipLevels::default();
+    if text.eq_ignore_ascii_case("all") {
+        (1..=LEVELS).for_each(|level| levels.0 |= 1 << level);
+        return Ok(levels);
+    }
+    for part in text.split(',') {
+        let (first, last) = part.split_once('-').unwrap_or((part, part));
+        let (first, last) = (parse_level(first)?, parse_level(last)?);
+        if first > last {
+            return Err(format!("`{part}` runs backwards"));
+        }
+        (first..=last).for_each(|level| levels.0 |= 1 << level);
+    }
+    Ok(levels)
+}
+
+fn parse_level(text: &str) -> Result<u16, String> {
+    let level = text.trim().parse().ok();
+    level
+        .filter(|level| (1..=LEVELS).contains(level))
+        .ok_or_else(|| format!("`{text}` is no level from 1 to {LEVELS}; write `1,3-5` or `all`"))
+}
+
+/// Parses `FRICT,LEAD` or `all`.
+pub(super) fn parse_kinds(text: &str) -> Result<KindSet, String> {
+    if text.eq_ignore_ascii_case("all") {
+        return Ok(KindSet::ALL);
+    }
+    text.split(',')
+        .map(|word| {
+            let word = word.trim();
+            Kind::from_keyword(word).ok_or_else(|| {
+                let near = did_you_mean(word, Kind::ALL.map(Kind::keyword));
+                match near {
+                    Some(near) => format!("`{word}` is no kind, did you mean `{near}`?"),
+                    None => format!("`{word}` is no kind; write `FRICT,LEAD` or `all`"),
+                }
+            })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_numbers_or_texts() {
+        let value = |text| parse_setting(text).unwrap().value;
+        assert_eq!(value("V.E.PART=3"), Setting::Number(3.0));
+        assert_eq!(value("V.E.NAME = nan"), Setting::Text("nan".to_owned()));
+        assert_eq!(value("V.E.NAME=\"3\""), Setting::Text("3".to_owned()));
+        assert_eq!(value("A=b=c"), Setting::Text("b=c".to_owned()));
+        assert!(parse_setting("V.E.PART").is_err());
+        assert!(parse_setting("=3").is_err());
+    }
+
+    #[test]
+    fn levels_are_numbers_and_ranges() {
+        assert_eq!(parse_levels("1,3-5").unwrap().0, 0b11_1010);
+        assert_eq!(parse_levels("ALL").unwrap().0, 0b111_1111_1110);
+        for wrong in ["", "0", "11", "5-3", "1,,2", "-1", "x"] {
+            assert!(parse_levels(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn kinds_are_keywords() {
+        assert_eq!(parse_kinds("frict").unwrap(), KindSet::of(Kind::Frict));
+        assert_eq!(parse_kinds("all").unwrap(), KindSet::ALL);
+        assert!(parse_kinds("FRIKT").unwrap_err().contains("`FRICT`"));
+    }
+}

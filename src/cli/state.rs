@@ -1,0 +1,182 @@
+//! The state file: what one run leaves and the next one starts with (9.4).
+
+use std::fs::{File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use super::failure::Failure;
+use crate::session::{SavedState, StateError};
+
+/// How long a second run waits for the first (R9.31).
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// How often it looks.
+const PAUSE: Duration = Duration::from_millis(25);
+
+/// A state file that no other run touches until this is dropped.
+#[derive(Debug)]
+pub(super) struct StateFile {
+    path: PathBuf,
+    /// Holds the lock; the file itself stays, since removing it would let two runs lock two files.
+    _lock: File,
+}
+
+impl StateFile {
+    /// Locks the state file, whether it exists already or not.
+    pub(super) fn lock(path: &Path) -> Result<Self, Failure> {
+        Self::lock_within(path, PATIENCE)
+    }
+
+    fn lock_within(path: &Path, patience: Duration) -> Result<Self, Failure> {
+        // A link stays a link: the file that it names is replaced.
+        let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        if path.is_dir() {
+            return Err(Failure::new(format!(
+                "`{}` is a folder, not a state file",
+                path.display()
+            )));
+        }
+        let beside = suffixed(&path, ".lock");
+        let lock = File::options()
+            .create(true)
+            .truncate(false)
+            .write(true)
+            .open(&beside)
+            .map_err(|error| Failure::writing(&beside, &error))?;
+        let start = Instant::now();
+        loop {
+            match lock.try_lock() {
+                Ok(()) => return Ok(Self { path, _lock: lock }),
+                Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
+                    std::thread::sleep(PAUSE);
+                }
+                Err(TryLockError::WouldBlock) => {
+                    return Err(Failure::new(format!(
+                        "another run uses the state file `{}`",
+                        path.display()
+                    ))
+                    .with_help("wait until it has ended, or give each run a state file"));
+                }
+                Err(TryLockError::Error(error)) => return Err(Failure::writing(&beside, &error)),
+            }
+        }
+    }
+
+    /// What the last run left; `None` before the first.
+    pub(super) fn load(&self) -> Result<Option<SavedState>, Failure> {
+        let text = match std::fs::read(&self.path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(Failure::reading(&self.path, &error)),
+        };
+        serde_json::from_slice(&text)
+            .map(Some)
+            .map_err(|error| self.unusable(&format!("it is damaged ({error})")))
+    }
+
+    /// The failure for a state that the session does not take. The file stays as it is.
+    pub(super) fn refused(&self, error: &StateError) -> Failure {
+        self.unusable(&error.to_string())
+    }
+
+    fn unusable(&self, reason: &str) -> Failure {
+        Failure::new(format!(
+            "the state file `{}` cannot be used: {reason}",
+            self.path.display()
+        ))
+        .with_help("name another file, or remove this one to begin at a start of the control")
+    }
+
+    /// Replaces the state. Whenever the tool is killed, the old or the new file is there, whole.
+    pub(super) fn save(self, state: &SavedState) -> Result<(), Failure> {
+        self.write(state)
+            .map_err(|error| Failure::writing(&self.path, &error))
+    }
+
+    fn write(&self, state: &SavedState) -> io::Result<()> {
+        let folder = match self.path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".frictcomp-").suffix(".tmp");
+        let old = std::fs::metadata(&self.path).ok();
+        #[cfg(unix)]
+        builder.permissions(new_file_permissions());
+        let mut file = builder.tempfile_in(folder)?;
+        if let Some(old) = old {
+            file.as_file().set_permissions(old.permissions())?;
+        }
+        let mut text = serde_json::to_vec_pretty(state)?;
+        text.push(b'\n');
+        file.write_all(&text)?;
+        file.as_file().sync_all()?;
+        file.persist(&self.path).map_err(|error| error.error)?;
+        #[cfg(unix)]
+        File::open(folder)?.sync_all()?;
+        Ok(())
+    }
+}
+
+/// What a new file gets; the user's mask takes away from it.
+#[cfg(unix)]
+fn new_file_permissions() -> std::fs::Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::Permissions::from_mode(0o666)
+}
+
+fn suffixed(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state() -> SavedState {
+        serde_json::from_str("{\"schema\":1}").unwrap()
+    }
+
+    #[test]
+    fn a_state_is_replaced_in_one_step() {
+        // R9.31
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.json");
+        let file = StateFile::lock(&path).unwrap();
+        assert!(file.load().unwrap().is_none());
+        file.save(&state()).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.ends_with("}\n"), "{text}");
+        let file = StateFile::lock(&path).unwrap();
+        assert_eq!(file.load().unwrap(), Some(state()));
+        drop(file);
+        let names = std::fs::read_dir(folder.path()).unwrap().count();
+        assert_eq!(names, 2, "the state and its lock");
+    }
+
+    #[test]
+    fn a_damaged_file_stays_as_it_is() {
+        // R9.30
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.json");
+        std::fs::write(&path, "{\"schema\":").unwrap();
+        let failure = StateFile::lock(&path).unwrap().load().unwrap_err();
+        assert!(failure.message.contains("damaged"), "{}", failure.message);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "{\"schema\":");
+    }
+
+    #[test]
+    fn two_runs_are_kept_apart() {
+        // R9.31
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.json");
+        let first = StateFile::lock(&path).unwrap();
+        let second = StateFile::lock_within(&path, Duration::from_millis(60));
+        assert!(second.unwrap_err().message.contains("another run"));
+        drop(first);
+        assert!(StateFile::lock_within(&path, Duration::ZERO).is_ok());
+    }
+}

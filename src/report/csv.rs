@@ -1,0 +1,191 @@
+//! One row a block, for spreadsheets (R9.15), quoted as RFC 4180 says.
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use crate::compensation::Change;
+use crate::syntax::Kind;
+use crate::timeline::{End, Record, Row, Sink, StateView};
+
+use super::strings::integer;
+use super::{Output, Report, View};
+
+/// The last row: what is said at program end joins its codes.
+#[derive(Debug, Default)]
+struct Held {
+    row: Vec<u8>,
+    codes: String,
+    /// Whether it is written even if nothing more is said about it.
+    wanted: bool,
+}
+
+/// Writes one row a block.
+#[derive(Debug)]
+pub struct Csv<W> {
+    output: Output<W>,
+    view: View,
+    held: Held,
+    states: Vec<u8>,
+    version: Option<u64>,
+    changes: String,
+}
+
+impl<W: Write> Csv<W> {
+    /// A timeline of comma-separated values.
+    pub fn new(writer: W, view: View) -> Self {
+        Self {
+            output: Output::new(writer),
+            view,
+            held: Held::default(),
+            states: Vec::new(),
+            version: None,
+            changes: String::new(),
+        }
+    }
+
+    /// The columns: every axis of the machine, whether it occurred or not.
+    fn header(&mut self, state: StateView<'_>) {
+        let out = &mut self.output.bytes;
+        out.extend_from_slice(b"program,seq,file,line,n,text,");
+        for axis in &state.machine.axes {
+            field(out, &axis.name);
+            out.push(b',');
+        }
+        out.extend_from_slice(b"changes,codes\n");
+    }
+
+    fn block(&mut self, row: &Row<'_>) {
+        self.release();
+        self.held.wanted = self.view.shows(row);
+        self.keep_states(row.state);
+        let out = &mut self.held.row;
+        integer(out, row.program);
+        out.push(b',');
+        integer(out, row.seq);
+        out.push(b',');
+        field(out, row.file);
+        out.push(b',');
+        integer(out, row.line);
+        out.push(b',');
+        if let Some(number) = row.number {
+            integer(out, number);
+        }
+        out.push(b',');
+        field(out, row.text);
+        out.push(b',');
+        out.extend_from_slice(&self.states);
+        self.changes.clear();
+        for change in row.changes {
+            if self.view.kinds.contains(change.kind) {
+                join(&mut self.changes, |list| {
+                    push_change(list, *change, row.state);
+                });
+            }
+        }
+        field(out, &self.changes);
+        out.push(b',');
+        for diagnostic in row.diagnostics {
+            join(&mut self.held.codes, |list| {
+                list.push_str(diagnostic.code.text());
+            });
+        }
+    }
+
+    fn end(&mut self, end: &End<'_>) {
+        for note in end.notes {
+            join(&mut self.held.codes, |list| {
+                list.push_str(note.diagnostic.code.text());
+            });
+            self.held.wanted = true;
+        }
+        self.release();
+    }
+
+    fn keep_states(&mut self, state: StateView<'_>) {
+        if self.version == Some(state.version) {
+            return;
+        }
+        self.version = Some(state.version);
+        self.states.clear();
+        for (index, _) in state.machine.axes.iter().enumerate() {
+            let axis = crate::machine::AxisIndex::new(index);
+            let word = state.state(axis, Kind::Frict).word();
+            self.states.extend_from_slice(word.as_bytes());
+            self.states.push(b',');
+        }
+    }
+
+    /// Writes the row that was held back.
+    fn release(&mut self) {
+        if self.held.wanted && !self.held.row.is_empty() {
+            self.output.bytes.extend_from_slice(&self.held.row);
+            field(&mut self.output.bytes, &self.held.codes);
+            self.output.bytes.push(b'\n');
+        }
+        self.held.row.clear();
+        self.held.codes.clear();
+        self.held.wanted = false;
+    }
+}
+
+impl<W: Write> Sink for Csv<W> {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Session { state } => self.header(state),
+            Record::Block(row) => self.block(&row),
+            Record::End(end) => {
+                self.end(&end);
+                return self.output.flush();
+            }
+            Record::Machine(_) | Record::Program { .. } | Record::Summary(_) => {}
+        }
+        self.output.settle()
+    }
+}
+
+impl<W: Write> Report for Csv<W> {
+    fn finish(&mut self) -> io::Result<()> {
+        self.release();
+        self.output.finish()
+    }
+
+    fn is_closed(&self) -> bool {
+        self.output.is_closed()
+    }
+}
+
+/// Appends a field, quoted where it must be.
+fn field(out: &mut Vec<u8>, text: &str) {
+    let bytes = text.as_bytes();
+    let special = |byte: &u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
+    if !bytes.iter().any(special) {
+        out.extend_from_slice(bytes);
+        return;
+    }
+    out.push(b'"');
+    for &byte in bytes {
+        if byte == b'"' {
+            out.push(b'"');
+        }
+        out.push(byte);
+    }
+    out.push(b'"');
+}
+
+/// Appends an item to a list with `;` between its items.
+fn join(list: &mut String, append: impl FnOnce(&mut String)) {
+    if !list.is_empty() {
+        list.push(';');
+    }
+    append(list);
+}
+
+fn push_change(list: &mut String, change: Change, state: StateView<'_>) {
+    list.push_str(state.name(change.axis));
+    list.push(':');
+    list.push_str(change.kind.keyword());
+    list.push(':');
+    list.push_str(change.from.word());
+    list.push('>');
+    list.push_str(change.to.word());
+}

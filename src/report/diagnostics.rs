@@ -1,0 +1,279 @@
+//! One diagnostic with its source line and carets, in the manner of rustc.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use unicode_width::UnicodeWidthStr;
+
+use crate::diagnostic::{Diagnostic, Label, Place, Severity};
+
+use super::DEFAULT_WIDTH;
+
+/// Whether text output carries colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Paint {
+    /// It does not.
+    #[default]
+    Plain,
+    /// It carries ANSI sequences.
+    Styled,
+}
+
+/// How text output looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// Colours.
+    pub paint: Paint,
+    /// Columns that may be used.
+    pub width: usize,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            paint: Paint::Plain,
+            width: DEFAULT_WIDTH,
+        }
+    }
+}
+
+/// Renders a diagnostic, with a line end behind its last line.
+pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+        Severity::Info => Level::INFO,
+    };
+    let title = level
+        .primary_title(wrap(
+            &diagnostic.message,
+            look.width,
+            title_indent(diagnostic),
+        ))
+        .id(diagnostic.code.text());
+    let mut group = Group::with_title(title);
+    let (inside, outside): (Vec<_>, Vec<_>) = diagnostic
+        .labels
+        .iter()
+        .partition(|label| shares_lines(&label.place, &diagnostic.place));
+    group = element(group, &diagnostic.place, |shown| {
+        let mut annotations = vec![AnnotationKind::Primary.span(shown.span(&diagnostic.place))];
+        annotations.extend(inside.iter().map(|label| annotate(shown, label)));
+        annotations
+    });
+    for label in outside {
+        group = element(group, &label.place, |shown| vec![annotate(shown, label)]);
+    }
+    for help in &diagnostic.help {
+        group = group.element(Level::HELP.message(wrap(help, look.width, HELP_INDENT)));
+    }
+    let renderer = match look.paint {
+        Paint::Plain => Renderer::plain(),
+        Paint::Styled => Renderer::styled(),
+    };
+    let mut text = renderer.term_width(look.width).render(&[group]);
+    text.push('\n');
+    text
+}
+
+/// Columns before the text of a help line, with a line number of up to four digits.
+const HELP_INDENT: usize = 13;
+
+/// Columns before the message: `error[P-ERR-70495]: `.
+fn title_indent(diagnostic: &Diagnostic) -> usize {
+    diagnostic.severity.word().len() + diagnostic.code.text().len() + 4
+}
+
+/// Breaks a text between words so that it fits behind an indent; the renderer aligns the lines.
+fn wrap(text: &str, width: usize, indent: usize) -> String {
+    let room = width.saturating_sub(indent).max(20);
+    let mut wrapped = String::with_capacity(text.len() + 8);
+    let mut column = 0;
+    for (count, word) in text.split(' ').enumerate() {
+        let columns = word.width();
+        if count > 0 && column + 1 + columns > room {
+            wrapped.push('\n');
+            column = 0;
+        } else if count > 0 {
+            wrapped.push(' ');
+            column += 1;
+        }
+        wrapped.push_str(word);
+        column += columns;
+    }
+    wrapped
+}
+
+/// The part of a place's text that is handed to the renderer: all of it, unless a line is so long
+/// that only the surroundings of the span make sense.
+struct Shown<'a> {
+    text: Cow<'a, str>,
+    /// How many bytes of the place's text were left out at its start.
+    skipped: usize,
+    /// How many bytes stand in the shown text for what was left out.
+    mark: usize,
+}
+
+impl Shown<'_> {
+    fn span(&self, place: &Place) -> Range<usize> {
+        let shift = |offset: u32| {
+            let offset = usize::try_from(offset).unwrap_or(usize::MAX);
+            let moved = offset.saturating_sub(self.skipped) + self.mark;
+            floor(&self.text, moved)
+        };
+        let start = shift(place.span.start);
+        start..shift(place.span.end).max(start)
+    }
+}
+
+/// How many characters of a long line are shown on either side of the span.
+const SURROUNDINGS: usize = 160;
+
+fn shown(place: &Place) -> Shown<'_> {
+    let text = &*place.text;
+    if text.contains('\n') || text.len() <= 4 * SURROUNDINGS {
+        return Shown {
+            text: Cow::Borrowed(text),
+            skipped: 0,
+            mark: 0,
+        };
+    }
+    let at = |offset: u32| floor(text, usize::try_from(offset).unwrap_or(usize::MAX));
+    let first = at(place.span.start);
+    let last = at(place.span.end).min(floor(text, first + SURROUNDINGS));
+    let start = floor(text, first.saturating_sub(SURROUNDINGS));
+    let end = floor(text, last.max(first) + SURROUNDINGS);
+    let before = if start > 0 { "…" } else { "" };
+    let behind = if end < text.len() { "…" } else { "" };
+    Shown {
+        text: Cow::Owned(format!("{before}{}{behind}", &text[start..end])),
+        skipped: start,
+        mark: before.len(),
+    }
+}
+
+/// The nearest character boundary at or before an offset.
+fn floor(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+fn element<'a>(
+    group: Group<'a>,
+    place: &'a Place,
+    annotations: impl FnOnce(&Shown<'a>) -> Vec<Annotation<'a>>,
+) -> Group<'a> {
+    if place.text.is_empty() {
+        return group.element(Origin::path(&*place.file));
+    }
+    let shown = shown(place);
+    let annotations = annotations(&shown);
+    group.element(
+        Snippet::source(shown.text)
+            .line_start(usize::try_from(place.first_line).unwrap_or(usize::MAX))
+            .path(&*place.file)
+            .annotations(annotations),
+    )
+}
+
+fn annotate<'a>(shown: &Shown<'_>, label: &'a Label) -> Annotation<'a> {
+    AnnotationKind::Context
+        .span(shown.span(&label.place))
+        .label(label.text.as_str())
+}
+
+fn shares_lines(one: &Place, other: &Place) -> bool {
+    one.file == other.file && one.first_line == other.first_line && one.text == other.text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::codes::Code;
+    use crate::source::{SourceFile, Span};
+
+    fn at(text: &str, meant: &str) -> Diagnostic {
+        let file = SourceFile::new("a.nc", text);
+        let start = text.find(meant).expect("the text holds it");
+        let place = file.place(Span::new(start, start + meant.len()));
+        Diagnostic::new(Code::PErr70495, place, "not configured").with_help("use `--enable X`")
+    }
+
+    #[test]
+    fn carets_stand_under_what_is_meant() {
+        // R9.21
+        let text = render(
+            &at("G0\nN15 X[COMP ON FRICT] ;on", "X[COMP ON FRICT]"),
+            Look::default(),
+        );
+        assert_eq!(
+            text,
+            "\
+error[P-ERR-70495]: not configured
+ --> a.nc:2:5
+  |
+2 | N15 X[COMP ON FRICT] ;on
+  |     ^^^^^^^^^^^^^^^^
+  |
+  = help: use `--enable X`
+"
+        );
+    }
+
+    #[test]
+    fn tabs_and_wide_characters_keep_the_carets_in_place() {
+        let text = render(&at("\t(軸) X[COMP ON]", "X[COMP ON]"), Look::default());
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[3], "1 |     (軸) X[COMP ON]");
+        assert_eq!(lines[4], "  |          ^^^^^^^^^^");
+    }
+
+    #[test]
+    fn a_long_line_is_trimmed_around_the_span() {
+        let line = format!("{}X[COMP ON]{}", "Ü ".repeat(1000), " Y1".repeat(700));
+        let text = render(&at(&line, "X[COMP ON]"), Look::default());
+        assert!(text.contains("X[COMP ON]"), "{text}");
+        assert!(
+            text.lines().all(|line| line.chars().count() <= 80),
+            "{text}"
+        );
+        assert!(text.contains("a.nc:1:"), "{text}");
+        let lines: Vec<&str> = text.lines().collect();
+        let column = |line: &str, part: &str| line[..line.find(part).unwrap()].chars().count();
+        assert_eq!(column(lines[3], "X["), column(lines[4], "^"), "{text}");
+    }
+
+    #[test]
+    fn a_long_span_of_a_long_line_stays_readable() {
+        let line = "X1 ".repeat(1300);
+        let text = render(&at(&line, &line), Look::default());
+        assert!(text.len() < 2000, "{text}");
+    }
+
+    #[test]
+    fn an_empty_text_and_an_empty_span_are_no_trouble() {
+        let mut diagnostic = at("X[COMP", "X[COMP");
+        diagnostic.place.span = Span::new(6, 6);
+        assert!(render(&diagnostic, Look::default()).contains("1 | X[COMP\n  |       ^"));
+        diagnostic.place.text = "".into();
+        diagnostic.place.span = Span::new(0, 0);
+        assert!(render(&diagnostic, Look::default()).contains("--> a.nc"));
+        diagnostic.place.span = Span::new(7, 9);
+        assert!(render(&diagnostic, Look::default()).contains("--> a.nc"));
+    }
+
+    #[test]
+    fn labels_explain_from_their_own_lines() {
+        let file = SourceFile::new("a.nc", "N1 X[COMP OFF FRICT]\nN2 M30");
+        let near = file.place(Span::new(0, 2));
+        let diagnostic =
+            at("N1 X[COMP OFF FRICT]\nN2 M30", "M30").with_label(near, "switched off here");
+        let text = render(&diagnostic, Look::default());
+        assert!(text.contains("-- switched off here"), "{text}");
+        assert!(text.contains("2 | N2 M30"), "{text}");
+    }
+}

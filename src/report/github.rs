@@ -1,0 +1,50 @@
+//! Workflow commands that GitHub shows beside the changed lines of a pull request.
+
+use crate::diagnostic::{Diagnostic, Severity};
+
+use super::strings::integer;
+
+/// Appends a diagnostic as a workflow command.
+pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
+    let (start, end) = (diagnostic.place.start(), diagnostic.place.end());
+    let command: &[u8] = match diagnostic.severity {
+        Severity::Error => b"::error",
+        Severity::Warning => b"::warning",
+        Severity::Info => b"::notice",
+    };
+    out.extend_from_slice(command);
+    out.extend_from_slice(b" file=");
+    escape(out, &diagnostic.place.file.replace('\\', "/"), b"%\r\n:,");
+    out.extend_from_slice(b",line=");
+    integer(out, start.line);
+    // GitHub takes columns only of annotations within one line.
+    if start.line == end.line {
+        out.extend_from_slice(b",col=");
+        integer(out, start.column);
+        out.extend_from_slice(b",endColumn=");
+        integer(out, end.column);
+    } else {
+        out.extend_from_slice(b",endLine=");
+        integer(out, end.line);
+    }
+    out.extend_from_slice(b",title=");
+    escape(out, diagnostic.code.text(), b"%\r\n:,");
+    out.extend_from_slice(b"::");
+    escape(out, &diagnostic.message, b"%\r\n");
+    for help in &diagnostic.help {
+        out.extend_from_slice(b"%0Ahelp: ");
+        escape(out, help, b"%\r\n");
+    }
+    out.push(b'\n');
+}
+
+/// Appends a text with the special bytes as `%` and two digits.
+fn escape(out: &mut Vec<u8>, text: &str, special: &[u8]) {
+    for byte in text.bytes() {
+        if special.contains(&byte) {
+            out.extend_from_slice(format!("%{byte:02X}").as_bytes());
+        } else {
+            out.push(byte);
+        }
+    }
+}

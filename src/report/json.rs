@@ -1,0 +1,66 @@
+//! The records of a session as one JSON document.
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use crate::timeline::{Record, Sink};
+
+use super::records::{Encoder, Frame};
+use super::{Output, Report, View};
+
+/// What stands before the first record.
+pub(super) const OPENING: &[u8] = b"{\"schema\":1,\"records\":[";
+
+/// Writes records as one document, `{"schema":1,"records":[…]}`, a record a line.
+#[derive(Debug)]
+pub struct Json<W> {
+    output: Output<W>,
+    encoder: Encoder,
+    /// Where the records begin in the bytes of the first chunk; `None` once one was written.
+    start: Option<usize>,
+}
+
+impl<W: Write> Json<W> {
+    /// A timeline in one document.
+    pub fn new(writer: W, view: View) -> Self {
+        let frame = Frame {
+            before: b",\n",
+            behind: b"",
+        };
+        let mut output = Output::new(writer);
+        output.bytes.extend_from_slice(OPENING);
+        Self {
+            start: Some(OPENING.len()),
+            output,
+            encoder: Encoder::new(view, frame),
+        }
+    }
+}
+
+impl<W: Write> Sink for Json<W> {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        self.encoder.append(&mut self.output.bytes, record);
+        if let Some(start) = self.start
+            && self.output.bytes.len() > start
+        {
+            // The first record has no comma before it.
+            self.output.bytes.remove(start);
+            self.start = None;
+        }
+        match record {
+            Record::End(_) | Record::Summary(_) => self.output.flush(),
+            _ => self.output.settle(),
+        }
+    }
+}
+
+impl<W: Write> Report for Json<W> {
+    fn finish(&mut self) -> io::Result<()> {
+        self.output.bytes.extend_from_slice(b"\n]}\n");
+        self.output.finish()
+    }
+
+    fn is_closed(&self) -> bool {
+        self.output.is_closed()
+    }
+}

@@ -1,0 +1,50 @@
+//! One JSON object a line.
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use crate::timeline::{Record, Sink};
+
+use super::records::{Encoder, Frame};
+use super::{Output, Report, View};
+
+/// Writes records as newline-delimited JSON.
+#[derive(Debug)]
+pub struct Ndjson<W> {
+    output: Output<W>,
+    encoder: Encoder,
+}
+
+impl<W: Write> Ndjson<W> {
+    /// A timeline of JSON lines.
+    pub fn new(writer: W, view: View) -> Self {
+        let frame = Frame {
+            before: b"",
+            behind: b"\n",
+        };
+        Self {
+            output: Output::new(writer),
+            encoder: Encoder::new(view, frame),
+        }
+    }
+}
+
+impl<W: Write> Sink for Ndjson<W> {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        self.encoder.append(&mut self.output.bytes, record);
+        match record {
+            Record::End(_) | Record::Summary(_) => self.output.flush(),
+            _ => self.output.settle(),
+        }
+    }
+}
+
+impl<W: Write> Report for Ndjson<W> {
+    fn finish(&mut self) -> io::Result<()> {
+        self.output.finish()
+    }
+
+    fn is_closed(&self) -> bool {
+        self.output.is_closed()
+    }
+}

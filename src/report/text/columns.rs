@@ -1,0 +1,179 @@
+//! Where the columns of the axes stand, and what stands in them.
+
+use unicode_width::UnicodeWidthStr;
+
+use crate::compensation::{Change, State};
+use crate::machine::AxisIndex;
+use crate::syntax::Kind;
+use crate::timeline::{Row, StateView};
+
+use super::GUTTER;
+use super::line::{BOLD, Line, MARK, style};
+
+/// The column behind the line number.
+const LINE_END: usize = 6;
+
+/// The block text must keep so many columns, or states become symbols.
+const MIN_TEXT: usize = 24;
+
+/// The block text takes at most this share of the width, in tenths, so that few axes do not stand
+/// far away from it.
+const MAX_TEXT_TENTHS: usize = 6;
+
+/// Columns of the widest symbol with its mark.
+const SYMBOL: usize = 4;
+
+/// How a state is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Words {
+    /// `active`, `inactive`, …
+    #[default]
+    Full,
+    /// `on`, `off`, …
+    Short,
+}
+
+/// One axis.
+#[derive(Debug)]
+struct Column {
+    axis: AxisIndex,
+    name: String,
+    start: usize,
+}
+
+/// The columns of the listed axes.
+#[derive(Debug, Default)]
+pub(super) struct Columns {
+    words: Words,
+    text: usize,
+    axes: Vec<Column>,
+}
+
+impl Columns {
+    /// Columns for the axes that are listed now, within a width.
+    pub(super) fn new(state: StateView<'_>, width: usize) -> Self {
+        let room = width.saturating_sub(GUTTER);
+        let widths: Vec<usize> = state
+            .axes()
+            .map(|(axis, name)| word_width(state, axis).max(name.width()))
+            .collect();
+        let full: usize = widths.iter().map(|width| width + 2).sum();
+        if full + MIN_TEXT <= room {
+            let text = (room - full).min(width * MAX_TEXT_TENTHS / 10);
+            return Self::place(state, Words::Full, text, &widths);
+        }
+        let widths: Vec<usize> = state
+            .axes()
+            .map(|(_, name)| name.width().max(SYMBOL))
+            .collect();
+        let short: usize = widths.iter().map(|width| width + 1).sum::<usize>() + 1;
+        let text = room
+            .saturating_sub(short)
+            .clamp(MIN_TEXT, (width * MAX_TEXT_TENTHS / 10).max(MIN_TEXT));
+        Self::place(state, Words::Short, text, &widths)
+    }
+
+    fn place(state: StateView<'_>, words: Words, text: usize, widths: &[usize]) -> Self {
+        let gap = match words {
+            Words::Full => 2,
+            Words::Short => 1,
+        };
+        let mut start = GUTTER + text + 2;
+        let mut columns = Vec::with_capacity(widths.len());
+        for ((axis, name), width) in state.axes().zip(widths) {
+            columns.push(Column {
+                axis,
+                name: name.to_owned(),
+                start,
+            });
+            start += width + gap;
+        }
+        Self {
+            words,
+            text,
+            axes: columns,
+        }
+    }
+
+    /// How many axes there are.
+    pub(super) fn len(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// What the symbols mean, when there are symbols.
+    pub(super) fn legend(&self) -> Option<&'static str> {
+        (self.words == Words::Short).then_some(
+            "on active, off inactive, on! ineffective, - unconfigured, ? unknown, ◄ changed",
+        )
+    }
+
+    /// Appends the names of the axes.
+    pub(super) fn names(&self, line: &mut Line<'_>) {
+        for column in &self.axes {
+            line.go_to(column.start);
+            line.styled(BOLD, &column.name);
+        }
+    }
+
+    /// Appends the states.
+    pub(super) fn states(&self, line: &mut Line<'_>, state: StateView<'_>, changes: &[Change]) {
+        for column in &self.axes {
+            line.go_to(column.start);
+            let now = state.state(column.axis, Kind::Frict);
+            let marked = changes
+                .iter()
+                .any(|change| change.axis == column.axis && change.kind == Kind::Frict);
+            let word = match self.words {
+                Words::Full => now.word(),
+                Words::Short => symbol(now),
+            };
+            if !marked {
+                line.styled(style(now), word);
+                continue;
+            }
+            let mut mark = [0; 4];
+            line.styled(style(now).bold(), word);
+            if self.words == Words::Full {
+                line.plain(" ");
+            }
+            line.styled(style(now).bold(), MARK.encode_utf8(&mut mark));
+        }
+    }
+
+    /// Appends the line of a block.
+    pub(super) fn block(&self, mut line: Line<'_>, row: &Row<'_>) {
+        let mut digits = itoa::Buffer::new();
+        let number = digits.format(row.line);
+        line.go_to(LINE_END.saturating_sub(number.len()));
+        line.plain(number);
+        let depth = usize::try_from(row.level.unwrap_or_default()).unwrap_or(usize::MAX);
+        let indent = depth.saturating_mul(2).min(self.text / 2);
+        line.go_to(GUTTER + indent);
+        line.source(row.text, self.text - indent);
+        self.states(&mut line, row.state, row.changes);
+        line.end();
+    }
+}
+
+/// Columns of the widest word that an axis may show, with the mark of a change.
+fn word_width(state: StateView<'_>, axis: AxisIndex) -> usize {
+    let parameterised = state.machine.axis(axis).parameterised();
+    match state.state(axis, Kind::Frict) {
+        // P-AXIS-00522 is fixed while the control runs: the word stays and has no mark.
+        State::Unconfigured => State::Unconfigured.word().len(),
+        now if parameterised.contains(Kind::Frict) && now != State::Ineffective => {
+            State::Inactive.word().len() + 2
+        }
+        _ => State::Ineffective.word().len() + 2,
+    }
+}
+
+fn symbol(state: State) -> &'static str {
+    match state {
+        State::Active => "on",
+        State::Ineffective => "on!",
+        State::Inactive => "off",
+        State::Unconfigured => "-",
+        State::Unknown => "?",
+    }
+}

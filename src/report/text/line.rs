@@ -1,0 +1,166 @@
+//! One line of text output: columns by position, colours, no blanks at its end.
+
+use std::fmt::Write as _;
+
+use anstyle::{AnsiColor, Style};
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+
+use crate::compensation::State;
+use crate::report::Paint;
+
+/// Stands behind a state that the block changed.
+pub(super) const MARK: char = '◄';
+
+pub(super) const BOLD: Style = Style::new().bold();
+pub(super) const DIM: Style = Style::new().dimmed();
+
+/// A line that is being written.
+pub(super) struct Line<'a> {
+    out: &'a mut Vec<u8>,
+    paint: Paint,
+    column: usize,
+}
+
+impl<'a> Line<'a> {
+    pub(super) fn new(out: &'a mut Vec<u8>, paint: Paint) -> Self {
+        Self {
+            out,
+            paint,
+            column: 0,
+        }
+    }
+
+    /// Fills with blanks up to a column; at least one when text has passed it.
+    pub(super) fn go_to(&mut self, column: usize) {
+        let blanks = column.checked_sub(self.column).unwrap_or(1);
+        self.out.resize(self.out.len() + blanks, b' ');
+        self.column += blanks;
+    }
+
+    /// Appends text without a style.
+    pub(super) fn plain(&mut self, text: &str) {
+        self.out.extend_from_slice(text.as_bytes());
+        self.column += text.width();
+    }
+
+    /// Appends text with a style.
+    pub(super) fn styled(&mut self, style: Style, text: &str) {
+        match self.paint {
+            Paint::Plain => self.out.extend_from_slice(text.as_bytes()),
+            Paint::Styled => {
+                let mut painted = String::new();
+                let _ = write!(painted, "{style}{text}{style:#}");
+                self.out.extend_from_slice(painted.as_bytes());
+            }
+        }
+        self.column += text.width();
+    }
+
+    /// Appends a source text on one line, cut to a width.
+    pub(super) fn source(&mut self, text: &str, width: usize) {
+        let mut left = width;
+        let mut cut = Cut {
+            length: self.out.len(),
+            column: self.column,
+        };
+        let mut buffer = [0; 4];
+        let mut blank = false;
+        for letter in text.trim_end().chars() {
+            let shown = match letter {
+                '\n' | '\r' | '\t' | ' ' if blank && letter != ' ' => continue,
+                '\n' | '\r' | '\t' => ' ',
+                letter if letter.is_control() => '·',
+                letter => letter,
+            };
+            blank = shown == ' ';
+            let columns = shown.width().unwrap_or(0);
+            if columns > left {
+                self.out.truncate(cut.length);
+                self.column = cut.column;
+                self.plain("…");
+                return;
+            }
+            self.out
+                .extend_from_slice(shown.encode_utf8(&mut buffer).as_bytes());
+            self.column += columns;
+            left -= columns;
+            if left >= 1 {
+                cut = Cut {
+                    length: self.out.len(),
+                    column: self.column,
+                };
+            }
+        }
+    }
+
+    /// Ends the line.
+    pub(super) fn end(self) {
+        while self.out.last() == Some(&b' ') {
+            self.out.pop();
+        }
+        self.out.push(b'\n');
+    }
+}
+
+/// The last place of a line behind which `…` has room.
+struct Cut {
+    length: usize,
+    column: usize,
+}
+
+/// The colour of a state.
+pub(super) fn style(state: State) -> Style {
+    match state {
+        State::Active => AnsiColor::Green.on_default(),
+        State::Inactive => AnsiColor::Yellow.on_default(),
+        State::Ineffective => AnsiColor::Magenta.on_default(),
+        State::Unknown => AnsiColor::Cyan.on_default(),
+        State::Unconfigured => DIM,
+    }
+}
+
+/// A number with a blank between its thousands.
+pub(super) fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(text: &str, width: usize) -> String {
+        let mut out = Vec::new();
+        Line::new(&mut out, Paint::Plain).source(text, width);
+        String::from_utf8(out).expect("whole characters")
+    }
+
+    #[test]
+    fn a_text_is_cut_to_its_width() {
+        assert_eq!(source("N10 X1", 6), "N10 X1");
+        assert_eq!(source("N10 X12", 6), "N10 X…");
+        assert_eq!(source("軸軸軸", 5), "軸軸…");
+        assert_eq!(source("軸軸軸", 6), "軸軸軸");
+        assert_eq!(source("軸軸軸", 4), "軸…");
+        assert_eq!(
+            source("X[COMP ON \\\n  FRICT]", 30),
+            "X[COMP ON \\   FRICT]"
+        );
+        assert_eq!(source("A\tB\u{7}", 30), "A B·");
+    }
+
+    #[test]
+    fn thousands_stand_apart() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1204), "1 204");
+        assert_eq!(grouped(12_345_678), "12 345 678");
+    }
+}

@@ -1,0 +1,227 @@
+//! The end of the timeline: what happened to each axis and what is left to do.
+
+use unicode_width::UnicodeWidthStr;
+
+use crate::compensation::State;
+use crate::diagnostic::Severity;
+use crate::report::Look;
+use crate::timeline::{AxisSummary, ChangedBy, Summary};
+
+use super::line::{BOLD, DIM, Line, grouped, style};
+
+/// Columns of a state in the summary.
+const STATE: usize = 14;
+
+/// Appends the summary.
+pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+    let mut line = Line::new(out, look.paint);
+    line.styled(BOLD, "Summary");
+    line.plain(&format!(
+        "  {}, {}, {}, {}",
+        count(u64::from(summary.programs), "program"),
+        count(summary.blocks, "block"),
+        count(summary.count(Severity::Error), "error"),
+        count(summary.count(Severity::Warning), "warning"),
+    ));
+    line.end();
+    table(out, summary, look);
+    opaque(out, summary, look);
+    advice(out, summary, look);
+}
+
+fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+    if summary.axes.is_empty() {
+        return;
+    }
+    out.push(b'\n');
+    let name = |axis: &AxisSummary| summary.state.name(axis.axis);
+    let names = summary.axes.iter().map(|axis| name(axis).width());
+    let first = 4 + names.max().unwrap_or_default().max("axis".len());
+    let mut line = Line::new(out, look.paint);
+    line.go_to(2);
+    line.styled(BOLD, "axis");
+    for (at, title) in [(0, "at start"), (1, "at end"), (2, "changed by")] {
+        line.go_to(first + at * STATE);
+        line.styled(BOLD, title);
+    }
+    line.end();
+    for axis in &summary.axes {
+        let mut line = Line::new(out, look.paint);
+        line.go_to(2);
+        line.plain(name(axis));
+        line.go_to(first);
+        line.styled(style(axis.start), axis.start.word());
+        line.go_to(first + STATE);
+        line.styled(style(axis.end), axis.end.word());
+        let column = first + 2 * STATE;
+        line.go_to(column);
+        line.plain(&changed_by(axis, look.width.saturating_sub(column)));
+        line.end();
+    }
+}
+
+/// The blocks that changed an axis, as many as have room.
+fn changed_by(axis: &AxisSummary, room: usize) -> String {
+    if axis.changes == 0 {
+        return "-".to_owned();
+    }
+    let mut text = String::new();
+    let mut named = 0;
+    for block in &axis.changed_by {
+        let name = block_name(block);
+        let separator = if named == 0 { "" } else { ", " };
+        let left = axis.changes.saturating_sub(named + 1);
+        let more = if left == 0 { 0 } else { more(left).width() };
+        let width = text.width() + separator.len() + name.width() + more;
+        if named > 0 && width > room {
+            break;
+        }
+        text.push_str(separator);
+        text.push_str(&name);
+        named += 1;
+    }
+    let left = axis.changes.saturating_sub(named);
+    if left > 0 {
+        text.push_str(&more(left));
+    }
+    text
+}
+
+fn more(left: u64) -> String {
+    format!(" and {} more", grouped(left))
+}
+
+fn block_name(block: &ChangedBy) -> String {
+    match block.number {
+        Some(number) => format!("N{number} ({}:{})", block.file, block.line),
+        None => format!("{}:{}", block.file, block.line),
+    }
+}
+
+fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+    if summary.opaque.is_empty() {
+        return;
+    }
+    out.push(b'\n');
+    let lead = "Passed over without effect on the states:";
+    let mut line = Line::new(out, look.paint);
+    line.plain(lead);
+    let mut column = lead.width();
+    for (at, (word, count)) in summary.opaque.iter().enumerate() {
+        let comma = if at + 1 < summary.opaque.len() {
+            ","
+        } else {
+            ""
+        };
+        let item = format!(" {word} ×{}{comma}", grouped(*count));
+        if column + item.width() > look.width {
+            line.end();
+            line = Line::new(out, look.paint);
+            line.plain(" ");
+            column = 1;
+        }
+        column += item.width();
+        line.plain(&item);
+    }
+    line.end();
+}
+
+fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+    if summary.axes.is_empty() {
+        return;
+    }
+    out.push(b'\n');
+    let mut said = false;
+    for axis in &summary.axes {
+        let name = summary.state.name(axis.axis);
+        let Some(text) = axis_advice(axis, name) else {
+            continue;
+        };
+        said = true;
+        // R1.27: the state outlives the program.
+        let mut line = Line::new(out, look.paint);
+        line.styled(style(axis.end).bold(), name);
+        line.plain(&text);
+        line.end();
+    }
+    if !said {
+        let mut line = Line::new(out, look.paint);
+        line.styled(DIM, "Nothing to do: every axis is left as it was found.");
+        line.end();
+    }
+}
+
+/// What the operator has to know or to do, behind the name of the axis.
+fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
+    let changed = axis.start != axis.end;
+    match axis.end {
+        State::Inactive if changed => Some(format!(
+            " stays inactive for the next program: switch it on with {name}[COMP ON FRICT]"
+        )),
+        State::Active if changed => Some(format!(
+            " stays active for the next program: switch it off with {name}[COMP OFF FRICT]"
+        )),
+        State::Ineffective => Some(
+            " is selected without effect, it has no accepted value list (explain FC303)".to_owned(),
+        ),
+        State::Unknown => Some(format!(
+            " is not known offline: begin the next program with {name}[COMP ON FRICT] or OFF"
+        )),
+        State::Active | State::Inactive | State::Unconfigured => None,
+    }
+}
+
+fn count(number: u64, noun: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{} {noun}{plural}", grouped(number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::AxisIndex;
+
+    fn axis(start: State, end: State) -> AxisSummary {
+        AxisSummary {
+            axis: AxisIndex::new(0),
+            start,
+            end,
+            changed_by: Vec::new(),
+            changes: 0,
+        }
+    }
+
+    #[test]
+    fn advice_follows_what_is_left() {
+        // R1.27
+        let advice = |start, end| axis_advice(&axis(start, end), "X").unwrap_or_default();
+        assert_eq!(advice(State::Active, State::Active), "");
+        assert_eq!(advice(State::Inactive, State::Inactive), "");
+        assert_eq!(advice(State::Unconfigured, State::Unconfigured), "");
+        assert!(advice(State::Active, State::Inactive).ends_with("X[COMP ON FRICT]"));
+        assert!(advice(State::Inactive, State::Active).ends_with("X[COMP OFF FRICT]"));
+        assert!(advice(State::Active, State::Unknown).contains("not known offline"));
+        assert!(advice(State::Ineffective, State::Ineffective).contains("FC303"));
+    }
+
+    #[test]
+    fn as_many_blocks_are_named_as_have_room() {
+        let mut axis = axis(State::Active, State::Inactive);
+        assert_eq!(changed_by(&axis, 40), "-");
+        for line in 1..=100 {
+            axis.changed_by.push(ChangedBy {
+                program: 1,
+                file: "a.nc".to_owned(),
+                line,
+                number: (line == 1).then_some(10),
+                to: State::Inactive,
+            });
+        }
+        axis.changes = 2300;
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1), a.nc:2 and 2 298 more");
+        assert_eq!(changed_by(&axis, 0), "N10 (a.nc:1) and 2 299 more");
+        axis.changes = 1;
+        axis.changed_by.truncate(1);
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1)");
+    }
+}

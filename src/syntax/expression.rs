@@ -10,7 +10,7 @@ use crate::source::Span;
 /// How tightly operators bind, loosest first.
 const PRECEDENCE: &[&[BinaryOperator]] = {
     use BinaryOperator::{
-        Add, And, BitAnd, BitOr, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
+        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
         Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
     &[
@@ -18,6 +18,7 @@ const PRECEDENCE: &[&[BinaryOperator]] = {
         &[Xor],
         &[And],
         &[BitOr],
+        &[BitXor],
         &[BitAnd],
         &[Equal, NotEqual],
         &[Less, Greater, LessOrEqual, GreaterOrEqual],
@@ -54,6 +55,14 @@ pub(super) fn lower(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Opera
     let from = block.nodes.len();
     Lowering { base, block }.expression(pair);
     operand(from, block)
+}
+
+/// Lowers a text that is an expression and nothing else, as the code of a macro may be.
+pub(super) fn lower_text(text: &str, block: &mut Block) -> Option<Operand> {
+    use pest::Parser;
+    let mut pairs = super::grammar::NcParser::parse(Rule::lone_expression, text).ok()?;
+    let pair = pairs.next()?.into_inner().next()?;
+    Some(lower(pair, 0, block))
 }
 
 /// Lowers a single value.
@@ -307,7 +316,7 @@ fn constant(text: &str) -> f64 {
 
 fn operator(text: &str) -> Option<BinaryOperator> {
     use BinaryOperator::{
-        Add, And, BitAnd, BitOr, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
+        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
         Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
     Some(match text.trim().to_ascii_uppercase().as_str() {
@@ -325,8 +334,9 @@ fn operator(text: &str) -> Option<BinaryOperator> {
         ">" => Greater,
         "&" => BitAnd,
         "|" => BitOr,
-        "&&" => And,
-        "||" => Or,
+        "^" => BitXor,
+        "&&" | "AND" => And,
+        "||" | "OR" => Or,
         "XOR" => Xor,
         _ => return None,
     })
@@ -334,8 +344,9 @@ fn operator(text: &str) -> Option<BinaryOperator> {
 
 fn function(name: &str) -> Option<Function> {
     use Function::{
-        Abs, Acos, Acot, Asin, Atan, Atan2, Ceil, Cos, Cot, Dexp, Exist, Exp, Find, Floor, Fract,
-        Int, Inv, Left, Len, Ln, Log, Mid, Not, Ord, Right, Round, Sin, Sizeof, Sqr, Sqrt, Tan,
+        Abs, Acos, Acot, Asin, Atan, Atan2, Ceil, Cos, Cot, Delete, Dexp, Exist, Exp, Find, Floor,
+        Fract, Insert, Int, IntToStr, Inv, Left, Len, Ln, Log, Max, Mid, Min, Not, Ord, RealToStr,
+        Replace, Right, Round, Sign, Sin, Sizeof, Sqr, Sqrt, StrToInt, StrToReal, Tan,
     };
     Some(match name.to_ascii_uppercase().as_str() {
         "ABS" => Abs,
@@ -369,6 +380,16 @@ fn function(name: &str) -> Option<Function> {
         "LEN" => Len,
         "FIND" => Find,
         "ORD" => Ord,
+        "MIN" => Min,
+        "MAX" => Max,
+        "SIGN" => Sign,
+        "INSERT" => Insert,
+        "DELETE" => Delete,
+        "REPLACE" => Replace,
+        "INT_TO_STR" => IntToStr,
+        "REAL_TO_STR" => RealToStr,
+        "STR_TO_INT" => StrToInt,
+        "STR_TO_REAL" => StrToReal,
         _ => return None,
     })
 }

@@ -142,7 +142,6 @@ fn commands_are_continued() {
     a.nc -
       1 line 1 N10
         FC205 1:6-7
-        FC205 1:6-7
       end 1 error X:active Y:active Z:unconfigured B:ineffective
     ");
 }
@@ -345,7 +344,6 @@ fn on_without_configuration_stops_the_control() {
     a.nc -
       1 line 1 N10 X:active>inactive
         P-ERR-70495 1:23-39
-        P-ERR-70495 1:23-39
       end 1 error X:inactive Y:active Z:unconfigured B:ineffective
     ");
     assert_snapshot!(Bench::new().keep_going().run(&[program]), @"
@@ -466,10 +464,21 @@ fn commands_act_when_they_are_executed() {
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-        FC208 5:1-7
-        FC208 6:1-8
-        FC208 9:1-7
-      end 0 error X:active Y:active Z:unconfigured B:ineffective
+      1 line 1 -
+      2 line 2 - X:active>inactive
+      3 line 3 -
+      4 line 5 -
+      5 line 6 -
+      6 line 2 -
+        FC402 2:1-18
+      7 line 3 -
+      8 line 4 - X:inactive>active
+      9 line 5 -
+      10 line 6 -
+      11 line 7 -
+      12 line 9 -
+      13 line 10 -
+      end 13 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
 }
 
@@ -497,8 +506,11 @@ fn the_unknown_state_ends_with_the_next_command() {
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-        FC208 4:1-7
-      end 0 error X:active Y:active Z:unconfigured B:ineffective
+      1 line 1 - X:active>unknown
+        FC901 1:1-13
+      2 line 5 - X:unknown>active
+      3 line 6 -
+      end 3 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
 }
 
@@ -514,17 +526,28 @@ fn programs_read_the_state() {
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-        FC208 8:1-7
-      end 0 error X:active Y:active Z:unconfigured B:ineffective
+      1 line 1 N1
+      2 line 2 N2
+      3 line 3 N3 X:active>inactive
+      4 line 4 N4
+      5 line 5 N5
+      6 line 6 -
+      7 line 7 N100 X:inactive>active
+      8 line 8 -
+      9 line 9 -
+      end 9 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
     // Of a state that is unknown nothing is known.
     let program = "$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.A.FRICT_COMP_ACTIVE.X\nY[COMP OFF FRICT]\n$ENDIF\nM30";
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-        FC208 3:1-7
-        FC208 6:1-7
-      end 0 error X:active Y:active Z:unconfigured B:ineffective
+      1 line 1 - X:active>unknown
+        FC901 1:1-10
+      2 line 4 - Y:active>unknown
+        FC901 4:1-28
+      3 line 7 -
+      end 3 M30 X:unknown Y:unknown Z:unconfigured B:ineffective
     ");
 }
 
@@ -540,9 +563,7 @@ fn motion_may_require_compensations() {
       2 line 2 - X:active>inactive
       3 line 3 -
       4 line 4 -
-        P-ERR-70435 4:4-8
       5 line 5 -
-        P-ERR-70435 5:5-7
       6 line 6 -
         P-ERR-70435 6:7-10
       7 line 7 - X:inactive>active
@@ -557,9 +578,10 @@ fn motion_may_require_compensations() {
       2 line 2 - X:active>inactive
       3 line 3 -
       4 line 4 -
-        P-ERR-70435 4:4-8
-        P-ERR-70435 4:4-8
-      end 4 error X:inactive Y:unconfigured
+      5 line 5 -
+      6 line 6 -
+        P-ERR-70435 6:7-10
+      end 6 error X:inactive Y:unconfigured
     ");
 }
 
@@ -594,20 +616,26 @@ fn lints_on_use() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
-        FC207 1:1-14
       2 line 2 -
         FC402 2:1-17
       3 line 3 - X:active>inactive
         FC405 3:1-24
         FC406 3:18-23
       4 line 4 -
-      5 line 5 -
+      5 line 2 - X:inactive>active
+      6 line 3 - X:active>inactive
+      7 line 4 -
+      8 line 2 - X:inactive>active
+      9 line 3 - X:active>inactive
+      10 line 4 -
+      11 line 5 -
         P-ERR-21947 5:1-2
         FC404 5:3-7
-      6 line 6 -
-        FC208 4:1-8
+      12 line 6 -
         FC401 3:1-24
-      end 6 M30 X:inactive Y:active Z:unconfigured B:ineffective
+        FC405 line 3 3 times
+        FC406 line 3 3 times
+      end 12 M30 X:inactive Y:active Z:unconfigured B:ineffective
     b.nc -
       1 line 1 -
       2 line 2 - Y:active>inactive

@@ -3,6 +3,8 @@
 //! Names are spans into the block's text. Expressions stand in one vector per block, each operand
 //! in front of its operator, so that they are evaluated with a stack and without recursion.
 
+use serde::{Deserialize, Serialize};
+
 use super::{CompCommand, Fault};
 use crate::source::Span;
 
@@ -296,7 +298,7 @@ pub enum CallScope {
 }
 
 /// Whether a call is one of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum CallForm {
     /// `L file.nc`, `LL NAME`.
     #[default]

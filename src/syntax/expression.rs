@@ -10,8 +10,8 @@ use crate::source::Span;
 /// How tightly operators bind, loosest first.
 const PRECEDENCE: &[&[BinaryOperator]] = {
     use BinaryOperator::{
-        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
-        Multiply, NotEqual, Or, Power, Subtract, Xor,
+        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
+        Modulo, Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
     &[
         &[Or],
@@ -316,8 +316,8 @@ fn constant(text: &str) -> f64 {
 
 fn operator(text: &str) -> Option<BinaryOperator> {
     use BinaryOperator::{
-        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
-        Multiply, NotEqual, Or, Power, Subtract, Xor,
+        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
+        Modulo, Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
     Some(match text.trim().to_ascii_uppercase().as_str() {
         "+" => Add,

@@ -4,8 +4,8 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::ast::{
-    Address, Assignment, Block, Call, CallForm, CallName, CallScope, Declaration, Flow, GCall, Hash, Item,
-    JumpTarget, Number, Operand, Repetition, Target, Word,
+    Address, Assignment, Block, Call, CallForm, CallName, CallScope, Declaration, Flow, GCall,
+    Hash, Item, JumpTarget, Number, Operand, Repetition, Target, Word,
 };
 use super::comp::CompWords;
 use super::expression;

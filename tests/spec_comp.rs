@@ -4,13 +4,12 @@ mod support;
 
 use frictcomp::compensation::{Compensation, State};
 use frictcomp::machine::Machine;
-use frictcomp::session::{Program, Session, SessionOptions};
-use frictcomp::source::SourceFile;
+use frictcomp::session::{Session, SessionOptions};
 use frictcomp::syntax::{Kind, KindSet, Selection, parse_comp};
 use insta::assert_snapshot;
 use support::{Bench, MACHINE};
 
-/// Every kind is configured; what may have manual activation has it on Y.
+/// Every kind is configured.
 const ALL_KINDS: &str = r#"
 [[axis]]
 name = "X"
@@ -665,5 +664,4 @@ fn a_saved_state_is_what_the_next_session_starts_with() {
       2 line 2 -
       end 2 M30 X:inactive Y:active Z:unconfigured B:ineffective
     ");
-    let _: Option<Program<'_>> = Some(Program::Whole(SourceFile::new("a", "")));
 }

@@ -351,5 +351,5 @@ impl Interpreter {
 }
 
 fn unquoted<'a>(span: Span, at: &At<'a>) -> &'a str {
-    span.of(at.text).trim_matches('"')
+    super::expression::unquoted(span.of(at.text))
 }

@@ -62,7 +62,7 @@ impl Interpreter {
         let name = match call.name {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
-                let name = span.of(at.text).trim_matches('"');
+                let name = super::expression::unquoted(span.of(at.text));
                 Value::Text(self.state.memory.macro_code(name).unwrap_or(name).into())
             }
             CallName::Variable(place) => self.value(Operand::Expression(place), block, at)?,

@@ -99,7 +99,7 @@ impl Evaluator<'_> {
             let at = at as usize;
             let span = self.block.spans[at];
             let slot = match self.block.nodes[at] {
-                Node::Number(number) if number.is_nan() => {
+                Node::Number(number) if !number.is_finite() => {
                     Err(fault(Code::Fc312, span, "this is no number"))
                 }
                 Node::Number(number) => Ok(Value::Number(number)),
@@ -423,8 +423,10 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
     )
 }
 
-fn unquoted(text: &str) -> &str {
-    text.trim_matches('"')
+/// A text without its quotes.
+pub(super) fn unquoted(text: &str) -> &str {
+    let inner = text.strip_prefix('"').unwrap_or(text);
+    inner.strip_suffix('"').unwrap_or(inner)
 }
 
 /// `V.P.`, `V.L.`, `V.S.`: what only programs write.

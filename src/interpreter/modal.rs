@@ -220,11 +220,16 @@ impl Modal {
     }
 
     /// Enters or leaves a transformation.
+    /// The coordinates before and behind are those of different systems, except with cutter radius
+    /// compensation, which leaves the program's coordinates as they are.
     fn transform(&mut self, name: &str, on: bool) {
-        if on {
-            self.transformed.insert(name.to_owned());
+        let changed = if on {
+            self.transformed.insert(name.to_owned())
         } else {
-            self.transformed.remove(name);
+            self.transformed.remove(name)
+        };
+        if changed && name != "G41" {
+            self.forget_positions();
         }
     }
 
@@ -242,7 +247,10 @@ impl Modal {
     pub(super) fn forget_hash(&mut self, name: &str) {
         let mut after = self.clone();
         after.hash(name);
-        self.transformed.extend(after.transformed);
+        if after.transformed != self.transformed {
+            self.transformed.extend(after.transformed);
+            self.forget_positions();
+        }
     }
 
     fn metric(&self) -> Option<f64> {

@@ -131,7 +131,11 @@ impl Interpreter {
                     self.forget_call(call, (span.of(at.text), unit), cause);
                 }
                 CallName::Quoted(span) => {
-                    self.forget_call(call, (span.of(at.text).trim_matches('"'), unit), cause);
+                    self.forget_call(
+                        call,
+                        (super::expression::unquoted(span.of(at.text)), unit),
+                        cause,
+                    );
                 }
                 CallName::Variable(_) => self.forget_all(),
             },
@@ -171,7 +175,7 @@ impl Interpreter {
 
     /// The code of a macro is scanned as a block of its own.
     fn forget_macro(&mut self, (span, unit): (Span, usize), at: &At<'_>, cause: &Arc<str>) {
-        let name = span.of(at.text).trim_matches('"');
+        let name = super::expression::unquoted(span.of(at.text));
         let Some(code) = self.state.memory.macro_code(name).map(str::to_owned) else {
             return;
         };
@@ -185,7 +189,7 @@ impl Interpreter {
             ..*at
         };
         // A macro that uses itself several times would be scanned without end.
-        let uses = |item: &&Item| !matches!(item, Item::MacroUse(inner) if inner.of(&code).trim_matches('"') == name);
+        let uses = |item: &&Item| !matches!(item, Item::MacroUse(inner) if super::expression::unquoted(inner.of(&code)) == name);
         for item in block.items.iter().filter(uses) {
             self.forget_item(item, (&block, unit), &inner, cause);
         }

@@ -97,13 +97,23 @@ fn range(from: usize, block: &Block) -> Expression {
 /// A plain number stays out of the nodes.
 fn operand(from: usize, block: &mut Block) -> Operand {
     match block.nodes[from..] {
-        [Node::Number(value)] => {
+        // What is no number, or too large for one, is said when it is evaluated.
+        [Node::Number(value)] if value.is_finite() => {
             block.nodes.truncate(from);
             block.spans.truncate(from);
             Operand::Number(value)
         }
         _ => Operand::Expression(range(from, block)),
     }
+}
+
+/// What waits while an expression is lowered.
+#[derive(Default)]
+struct Stacks {
+    /// Operators, each with the place of its sign.
+    waiting: Vec<(Waiting, u32)>,
+    /// The source of each operand.
+    operands: Vec<Span>,
 }
 
 struct Lowering<'a> {
@@ -126,36 +136,38 @@ impl Lowering<'_> {
     /// Precedence over the flat list: operators wait until one that binds less tightly follows,
     /// so nothing recurses but brackets.
     fn expression(&mut self, pair: Pair<'_, Rule>) {
-        let start = self.span(&pair).start;
-        let mut waiting: Vec<Waiting> = Vec::new();
-        let mut negative = false;
+        let mut stacks = Stacks::default();
+        let mut signs = None;
         for part in pair.into_inner() {
-            let end = self.span(&part).end;
+            let span = self.span(&part);
             match part.as_rule() {
-                Rule::sign => negative ^= part.as_str() == "-",
+                Rule::sign => {
+                    let (start, negative) = signs.unwrap_or((span.start, false));
+                    signs = Some((start, negative ^ (part.as_str() == "-")));
+                }
                 Rule::infix => {
                     let Some(operator) = operator(part.as_str()) else {
                         continue;
                     };
                     let operator = Waiting::Binary(operator);
-                    self.reduce(&mut waiting, Some(operator), Span { start, end });
-                    waiting.push(operator);
+                    self.reduce(&mut stacks, Some(operator));
+                    stacks.waiting.push((operator, span.start));
                 }
                 _ => {
-                    if std::mem::take(&mut negative) {
-                        waiting.push(Waiting::Negate);
+                    if let Some((start, true)) = signs.take() {
+                        stacks.waiting.push((Waiting::Negate, start));
                     }
                     self.primary(part);
+                    stacks.operands.push(span);
                 }
             }
         }
-        let end = self.block.spans.last().map_or(start, |span| span.end);
-        self.reduce(&mut waiting, None, Span { start, end });
+        self.reduce(&mut stacks, None);
     }
 
     /// Writes the waiting operators that bind at least as tightly as the next one.
-    fn reduce(&mut self, waiting: &mut Vec<Waiting>, next: Option<Waiting>, span: Span) {
-        while let Some(&last) = waiting.last() {
+    fn reduce(&mut self, stacks: &mut Stacks, next: Option<Waiting>) {
+        while let Some(&(last, start)) = stacks.waiting.last() {
             let goes_first = next.is_none_or(|next| {
                 let rightwards = next == Waiting::Binary(BinaryOperator::Power);
                 last.binding() > next.binding() || (last.binding() == next.binding() && !rightwards)
@@ -163,7 +175,16 @@ impl Lowering<'_> {
             if !goes_first {
                 return;
             }
-            waiting.pop();
+            stacks.waiting.pop();
+            let right = stacks.operands.pop().unwrap_or_default();
+            let span = match last {
+                Waiting::Binary(_) => stacks.operands.pop().unwrap_or(right).to(right),
+                Waiting::Negate => Span {
+                    start,
+                    end: right.end,
+                },
+            };
+            stacks.operands.push(span);
             match last {
                 Waiting::Binary(operator) => self.push(Node::Binary(operator), span),
                 Waiting::Negate => self.negate(span),

@@ -272,17 +272,33 @@ fn budgets() {
       2 line 2 -
       3 line 3 -
       4 line 4 -
-        FC207 4:1-4
-      end 4 error X:active Y:active Z:unconfigured B:ineffective
+      5 line 5 -
+        FC914 5:1-4
+      end 5 budget X:active Y:active Z:unconfigured B:ineffective
     ");
     // A macro that uses itself many times is no way to hang.
     for program in [
         "\"A\"=\"\\\"A\\\" \\\"A\\\" \\\"A\\\" \\\"A\\\"\"\n\"A\"\nM30",
         "\"A\"=\"\\\"A\\\"+\\\"A\\\"+\\\"A\\\"\"\nP1=\"A\"\nM30",
     ] {
-        assert!(
-            Bench::new().keep_going().run(&[program]).contains("FC914"),
-            "{program}"
-        );
+        let said = Bench::new().keep_going().run(&[program]);
+        assert!(said.contains("FC914"), "{program}\n{said}");
     }
+}
+
+#[test]
+fn budgets_name_the_loop_that_used_them_up() {
+    // R2.60
+    let limits = Limits {
+        blocks: 5,
+        ..Limits::default()
+    };
+    let said = Bench::new()
+        .limits(limits)
+        .said("X1\n$WHILE 1\n$IF 1\nX2\n$ENDIF\n$ENDWHILE\nM30");
+    assert_snapshot!(said, @"
+    FC910 6:1 more than 5 blocks were executed
+      help: look for a loop that does not end, or raise the budget with `--max-blocks`
+      2:1: in this loop
+    ");
 }

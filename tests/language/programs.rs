@@ -221,7 +221,7 @@ fn a_cycle_gives_back_g_functions_and_feed() {
 fn implicit_calls() {
     // R2.14
     let machine = format!(
-        "{MACHINE}[programs]\nG80 = \"drill.nc\"\nG800 = \"drill.nc\"\nM6 = \"tool.nc\"\nT = \"tool.nc\"\n"
+        "[machine.programs]\nG80 = \"drill.nc\"\nG800 = \"drill.nc\"\nM6 = \"tool.nc\"\nT = \"tool.nc\"\n{MACHINE}"
     );
     let bench = Bench::on(&machine)
         .file(
@@ -231,8 +231,23 @@ fn implicit_calls() {
         .file("tool.nc", "Y[COMP OFF FRICT]\nY[COMP ON FRICT]\nM17");
     let program = "N10 G800[1, 2, , 4]\nN20 G80 X5\nN30 T5 M6\nN40 G81[1,2]\nN50 G82\nM30";
     let mut session = bench.session();
-    assert_snapshot!(bench.run_in(&mut session, &[program]), @"");
-    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @"");
+    assert_snapshot!(bench.run_in(&mut session, &[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+      2 line 1 - level 1
+      3 line 3 - level 1
+      4 line 4 - level 1
+      5 line 5 - level 1
+      6 line 6 - level 1
+      7 line 2 N20
+      8 line 1 - level 1
+      9 line 3 - level 1
+      10 line 4 - level 1
+        FC311 4:9-12 in drill.nc
+      end 10 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.R": Number(124.0)}"#);
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! 2.1: text.
 
-use frictcomp::source::SourceFile;
 use frictcomp::syntax::ast::{Item, Operand};
 use frictcomp::syntax::parse_block;
 use insta::assert_snapshot;
@@ -33,7 +32,6 @@ fn text_of_any_editor() {
       3 line 3 N30
       end 3 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
-    let _ = SourceFile::new("a", "");
 }
 
 #[test]
@@ -168,8 +166,6 @@ fn comments() {
 fn continued_lines() {
     // R2.7
     let bench = Bench::new().file("c.cyc", "N1 X[COMP OFF FRICT]\nN2 P9=@P1+@P2\nM17");
-    let program = "N10 X[P1=1] \\\nM30";
-    let _ = program;
     let program = "N10 G1 X10 \\\nN11 Y20 \\ ; comment\n\
         (a comment line)\n\nF1000\n\
         N20 L CYCLE [NAME=c.cyc \\\n; a comment line\nN21 @P1=1 \\\n(another)\n@P2=2]\n\

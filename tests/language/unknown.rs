@@ -123,7 +123,7 @@ fn unknown_switches_and_loops() {
 #[test]
 fn unknown_regions_reach_through_calls() {
     // R2.51: calls by name, local calls of called files, cycles, configured words, macros.
-    let machine = format!("{MACHINE}[programs]\nG80 = \"g80.nc\"\n");
+    let machine = format!("[machine.programs]\nG80 = \"g80.nc\"\n{MACHINE}");
     let bench = Bench::on(&machine)
         .file(
             "sub.nc",
@@ -133,10 +133,29 @@ fn unknown_regions_reach_through_calls() {
         .file("c.cyc", "B[COMP OFF FRICT] P5=1\nM17");
     let program = "P5=2\n\"M\" = \"P6=1\"\nP6=2\n$IF V.E.A\nL sub.nc\nG80\nL CYCLE [NAME=c.cyc]\n\"M\"\n$ENDIF\nV.S.R=P5\nV.S.Q=P6\nM30";
     let mut session = bench.session();
-    assert_snapshot!(bench.run_in(&mut session, &[program]), @"");
-    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @"");
+    assert_snapshot!(bench.run_in(&mut session, &[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 - B:ineffective>unknown Y:active>unknown X:active>unknown
+        FC901 4:1-10
+      5 line 10 -
+      6 line 11 -
+      7 line 12 -
+      end 7 M30 X:unknown Y:unknown Z:unconfigured B:unknown
+    ");
+    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.Q": Unknown("V.E.A"), "V.S.R": Unknown("V.E.A")}"#);
     // A call by a name that nobody knows could do anything.
-    assert_snapshot!(run("$IF V.E.A\nL V.E.NAME\n$ENDIF\nM30"), @"");
+    assert_snapshot!(run("$IF V.E.A\nL V.E.NAME\n$ENDIF\nM30"), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 - X:active>unknown Y:active>unknown B:ineffective>unknown
+        FC901 1:1-10
+      2 line 4 -
+      end 2 M30 X:unknown Y:unknown Z:unconfigured B:unknown
+    ");
 }
 
 #[test]
@@ -145,16 +164,16 @@ fn unknown_modal_words() {
     let program = "X1 Y1\n$IF V.E.A\nG91\n#TRAFO ON\n$ENDIF\nX1\nG90 X1\n$IF V.E.A\n#TRAFO OFF\n$ENDIF\n#TRAFO OFF\n$IF V.E.A\nG92 X5\n$ENDIF\nX5\nG92 X0\nX6\n$IF V.E.A\n#VAR\nV.L.N = 1\n#ENDVAR\n$ENDIF\nYV.L.N\nM30";
     assert_snapshot!(Bench::new().positions(program), @"
     X1 Y1 X:1 Y:1 Z:? B:?
-    $IF V.E.A X:1* Y:1* Z:?* B:?*
-    X1 X:?* Y:1* Z:?* B:?*
-    G90 X1 X:1* Y:1* Z:?* B:?*
-    $IF V.E.A X:1* Y:1* Z:?* B:?*
-    #TRAFO OFF X:1 Y:1 Z:? B:?
-    $IF V.E.A X:1 Y:1 Z:? B:?
-    X5 X:? Y:1 Z:? B:?
-    G92 X0 X:? Y:1 Z:? B:?
-    X6 X:6 Y:1 Z:? B:?
-    $IF V.E.A X:6 Y:1 Z:? B:?
+    $IF V.E.A X:?* Y:?* Z:?* B:?*
+    X1 X:?* Y:?* Z:?* B:?*
+    G90 X1 X:1* Y:?* Z:?* B:?*
+    $IF V.E.A X:?* Y:?* Z:?* B:?*
+    #TRAFO OFF X:? Y:? Z:? B:?
+    $IF V.E.A X:? Y:? Z:? B:?
+    X5 X:? Y:? Z:? B:?
+    G92 X0 X:? Y:? Z:? B:?
+    X6 X:6 Y:? Z:? B:?
+    $IF V.E.A X:6 Y:? Z:? B:?
     YV.L.N X:6 Y:? Z:? B:?
     M30 X:6 Y:? Z:? B:?
     ");

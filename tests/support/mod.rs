@@ -119,6 +119,43 @@ impl Bench {
         lines
     }
 
+    /// What is said about a program, with advice and labels.
+    pub(crate) fn said(&self, program: &str) -> String {
+        struct Said(String);
+        impl Sink for Said {
+            fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+                let (mut said, mut noted) = (Vec::new(), Vec::new());
+                match record {
+                    Record::Block(row) => said.extend(row.diagnostics),
+                    Record::End(end) => noted.extend(end.notes.iter().map(|note| &note.diagnostic)),
+                    _ => {}
+                }
+                for diagnostic in said.into_iter().chain(noted) {
+                    let place = diagnostic.place.start();
+                    writeln!(self.0, "{} {place} {}", diagnostic.code, diagnostic.message)
+                        .expect("text");
+                    for help in &diagnostic.help {
+                        writeln!(self.0, "  help: {help}").expect("text");
+                    }
+                    for label in &diagnostic.labels {
+                        writeln!(self.0, "  {}: {}", label.place.start(), label.text)
+                            .expect("text");
+                    }
+                }
+                ControlFlow::Continue(())
+            }
+        }
+        let mut said = Said(String::new());
+        let files = self.files.clone();
+        let mut find = move |name: &str, _: &str| {
+            let text = files.get(name)?;
+            Some(SourceFile::new(name, text.as_str()))
+        };
+        let source = Program::Whole(SourceFile::new("a.nc", program));
+        let _ = self.session().program("a.nc", source, &mut find, &mut said);
+        said.0
+    }
+
     /// Where the axes stand after each block.
     pub(crate) fn positions(&self, program: &str) -> String {
         let compensation = Compensation::at_startup(&self.machine);

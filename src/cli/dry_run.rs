@@ -23,6 +23,15 @@ pub(super) struct ExecutionArgs {
     #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_blocks: u64,
+    /// The deepest call of subprograms
+    #[arg(long, value_name = "N", default_value_t = Limits::default().calls)]
+    max_calls: u32,
+    /// The deepest nesting of `$` blocks
+    #[arg(long, value_name = "N", default_value_t = Limits::default().nesting)]
+    max_nesting: u32,
+    /// The deepest expansion of macros in macros
+    #[arg(long, value_name = "N", default_value_t = Limits::default().macros)]
+    max_macros: u32,
 }
 
 impl ExecutionArgs {
@@ -33,7 +42,9 @@ impl ExecutionArgs {
             skip: self.skip.unwrap_or_default().0,
             limits: Limits {
                 blocks: self.max_blocks,
-                ..Limits::default()
+                calls: self.max_calls,
+                nesting: self.max_nesting,
+                macros: self.max_macros,
             },
             levels: loaded.levels.clone(),
             settings: loaded.settings.clone(),

@@ -4,6 +4,7 @@
 pub mod cli;
 pub mod codes;
 pub mod compensation;
+pub mod current;
 pub mod diagnostic;
 pub mod interpreter;
 mod lint;

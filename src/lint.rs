@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use crate::codes::Code;
-use crate::compensation::{Change, Compensation, State};
+use crate::compensation::{Compensation, State};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::interpreter::{EndedBy, Executed};
 use crate::machine::{AxisIndex, Machine};
@@ -91,8 +91,9 @@ impl<'m> Linter<'m> {
                 }
             }
         }
-        for change in executed.changes {
-            let span = command_of(executed, change).map_or(whole(executed), |command| command.span);
+        for (position, change) in executed.changes.iter().enumerate() {
+            let command = command_of(executed, position);
+            let span = command.map_or(whole(executed), |command| command.span);
             self.axes[change.axis.get()].changed[change.kind as usize] = Some(site(executed, span));
         }
         for &(axis, span) in executed.moved {
@@ -139,15 +140,15 @@ fn whole(executed: &Executed<'_>) -> Span {
     Span::new(0, executed.text.len())
 }
 
-/// The command that made a change, the last one that names the axis and kind.
-fn command_of<'a>(executed: &'a Executed<'_>, change: &Change) -> Option<&'a CompCommand> {
+/// The command that made the change at a position; `None` for what an unknown condition changed.
+fn command_of<'a>(executed: &'a Executed<'_>, position: usize) -> Option<&'a CompCommand> {
+    let mut made = 0;
     executed
         .outcomes
         .iter()
-        .rev()
         .find(|outcome| {
-            outcome.result == Ok(change.axis)
-                && outcome.command.selection.kinds().contains(change.kind)
+            made += outcome.changes;
+            position < made
         })
         .map(|outcome| &outcome.command)
 }

@@ -6,6 +6,7 @@ mod completions;
 mod config;
 mod console;
 mod counted;
+mod current;
 mod diff;
 mod discovery;
 mod dry_run;
@@ -53,6 +54,7 @@ enum Command {
     Golden(golden::GoldenArgs),
     Diff(diff::DiffArgs),
     Lists(lists::ListsArgs),
+    Current(current::CurrentArgs),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     #[command(subcommand)]
@@ -91,6 +93,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Golden(args) => golden::run(args, console),
         Command::Diff(args) => diff::run(args, console),
         Command::Lists(args) => lists::run(args, console),
+        Command::Current(args) => current::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Config(command) => config::run(command, console),

@@ -531,6 +531,9 @@ impl Lowering<'_> {
                 }
                 continue;
             }
+            if part.as_rule() == Rule::cycle_word {
+                continue;
+            }
             let Some(argument) = part.into_inner().next() else {
                 continue;
             };

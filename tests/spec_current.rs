@@ -1,0 +1,219 @@
+//! Chapter 4: the additive current, rule by rule, against values computed by hand.
+
+use frictcomp::current::{AdditiveCurrent, Below, Delay, Reading, Standstill, Switched};
+use frictcomp::lists::{FrictionList, TablePoint};
+
+/// 12 drive units at rest, falling to 10 at 1000 µm/s, then held.
+fn list() -> FrictionList {
+    FrictionList {
+        position_delay: 0,
+        reversal_lookahead: 0,
+        scaling_factor: 1000,
+        delay_cycles: 0,
+        max_points: 20,
+        table: vec![
+            TablePoint {
+                input: 100.0,
+                output: 12.0,
+            },
+            TablePoint {
+                input: 1000.0,
+                output: 10.0,
+            },
+        ],
+    }
+}
+
+/// Positions in 0.1 µm of velocities in µm/s at 1 ms: 10 µm/s make 0.1 units a cycle.
+fn positions(velocities: &[f64]) -> Vec<f64> {
+    let mut x = 0.0;
+    velocities
+        .iter()
+        .map(|v| {
+            x += v * 0.01;
+            x
+        })
+        .collect()
+}
+
+fn currents(list: &FrictionList, reading: Reading, velocities: &[f64]) -> Vec<f64> {
+    let cycles = AdditiveCurrent::new(list, reading).trace(&positions(velocities), velocities);
+    cycles.iter().map(|cycle| cycle.current).collect()
+}
+
+fn close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
+    }
+}
+
+#[test]
+fn the_current_has_the_sign_and_value_of_the_commanded_velocity() {
+    // R4.1 R4.4 R4.7 R4.9
+    let v = [550.0, 1000.0, 5000.0, 50.0, -550.0, 550.0];
+    // Half way between the points: 11; at and above the last: 10; below the first: held.
+    close(
+        &currents(&list(), Reading::default(), &v),
+        &[11.0, 10.0, 10.0, 12.0, -11.0, 11.0],
+    );
+    let origin = Reading {
+        below: Below::Origin,
+        ..Reading::default()
+    };
+    close(&currents(&list(), origin, &[50.0, 25.0]), &[6.0, 3.0]);
+    let against = FrictionList {
+        scaling_factor: -500,
+        ..list()
+    };
+    close(
+        &currents(&against, Reading::default(), &[1000.0, -1000.0]),
+        &[-5.0, 5.0],
+    );
+}
+
+#[test]
+fn standstill_holds_the_value_or_adds_nothing() {
+    // R4.6
+    let v = [0.0, 1000.0, 0.0, 0.0, -1000.0, 0.0];
+    // No direction before the first motion; at rest the first value of the list is held.
+    close(
+        &currents(&list(), Reading::default(), &v),
+        &[0.0, 10.0, 12.0, 12.0, -10.0, -12.0],
+    );
+    let zero = Reading {
+        standstill: Standstill::Zero,
+        ..Reading::default()
+    };
+    close(
+        &currents(&list(), zero, &v),
+        &[0.0, 10.0, 0.0, 0.0, -10.0, 0.0],
+    );
+}
+
+#[test]
+fn the_current_decays_over_the_cycles_before_a_reversal() {
+    // R4.2: with 4 cycles the weights are 3/4, 2/4, 1/4, 0, whatever the velocity does.
+    let list = FrictionList {
+        reversal_lookahead: 4,
+        ..list()
+    };
+    let v = [
+        1000.0, 1000.0, 1000.0, 1000.0, 1000.0, 0.0, -1000.0, -1000.0,
+    ];
+    // Cycle 5 stands still, its weight is 0; cycle 1 lies 5 cycles before: not yet weighted.
+    close(
+        &currents(&list, Reading::default(), &v),
+        &[10.0, 10.0, 7.5, 5.0, 2.5, 0.0, -10.0, -10.0],
+    );
+}
+
+#[test]
+fn slowing_down_without_a_reversal_is_not_weighted() {
+    // R4.4
+    let list = FrictionList {
+        reversal_lookahead: 4,
+        position_delay: 100,
+        ..list()
+    };
+    let v = [1000.0; 30];
+    let settled = currents(&list, Reading::default(), &v)[29];
+    let mut slowed = v.to_vec();
+    slowed.extend([500.0, 100.0, 0.0, 100.0, 1000.0]);
+    let after = currents(&list, Reading::default(), &slowed);
+    assert!((settled - 10.0).abs() < 1e-9);
+    close(&after[30..], &[10.0 + 10.0 / 9.0, 12.0, 12.0, 12.0, 10.0]);
+}
+
+#[test]
+fn the_current_builds_up_over_the_distance_after_a_reversal() {
+    // R4.3: 1000 µm/s are 10 units of 0.1 µm a cycle; 40 units take four cycles.
+    let list = FrictionList {
+        position_delay: 40,
+        ..list()
+    };
+    let v = [1000.0, 1000.0, 1000.0, 1000.0, 1000.0, -1000.0, -1000.0];
+    // The first cycle has no position before it: the build-up begins where the axis is.
+    close(
+        &currents(&list, Reading::default(), &v),
+        &[0.0, 2.5, 5.0, 7.5, 10.0, -2.5, -5.0],
+    );
+}
+
+#[test]
+fn overlapping_weights_take_the_smaller_one() {
+    // R4.8: build-up 1/4, 2/4, 3/4, 1 meets decay 3/4, 2/4, 1/4, 0.
+    let list = FrictionList {
+        position_delay: 40,
+        reversal_lookahead: 4,
+        ..list()
+    };
+    let v = [-1000.0, -1000.0, 1000.0, 1000.0, 1000.0, 1000.0, -1000.0];
+    let found = currents(&list, Reading::default(), &v);
+    close(&found[2..6], &[2.5, 5.0, 2.5, 0.0]);
+}
+
+#[test]
+fn delay_cycles_are_a_dead_time_on_the_whole_output() {
+    // R4.5
+    let delayed = FrictionList {
+        delay_cycles: 2,
+        ..list()
+    };
+    let v = [1000.0, 1000.0, 1000.0, -1000.0, -1000.0, -1000.0];
+    close(
+        &currents(&delayed, Reading::default(), &v),
+        &[0.0, 0.0, 10.0, 10.0, 10.0, -10.0],
+    );
+    // Postponing only the build-up: two cycles of nothing after each turn, then at once.
+    let reading = Reading {
+        delay: Delay::Reversal,
+        ..Reading::default()
+    };
+    close(
+        &currents(&delayed, reading, &v),
+        &[0.0, 0.0, 10.0, 0.0, 0.0, -10.0],
+    );
+}
+
+#[test]
+fn comp_off_empties_the_delay_line_and_comp_on_is_a_first_start() {
+    // R4.10
+    let list = FrictionList {
+        delay_cycles: 1,
+        position_delay: 20,
+        ..list()
+    };
+    let mut current = AdditiveCurrent::new(&list, Reading::default());
+    let step = |current: &mut AdditiveCurrent, at: u32| {
+        current.step(f64::from(at) * 10.0, 1000.0, &[]).current
+    };
+    let on: Vec<f64> = (0..4).map(|at| step(&mut current, at)).collect();
+    close(&on, &[0.0, 0.0, 5.0, 10.0]);
+    current.switch(Switched::Off);
+    assert_eq!(step(&mut current, 4), 0.0);
+    current.switch(Switched::On);
+    let again: Vec<f64> = (5..9).map(|at| step(&mut current, at)).collect();
+    close(&again, &[0.0, 5.0, 10.0, 10.0]);
+}
+
+#[test]
+fn the_drive_gets_whole_numbers_of_16_bit() {
+    // R4.11
+    let outputs = |scaling_factor, outs: [f64; 2]| {
+        let mut list = FrictionList {
+            scaling_factor,
+            ..list()
+        };
+        list.table[0].output = outs[0];
+        list.table[1].output = outs[1];
+        let mut current = AdditiveCurrent::new(&list, Reading::default());
+        let forth = current.step(1.0, 1000.0, &[]).output;
+        let back = current.step(0.0, -1000.0, &[]).output;
+        (forth, back, current.saturated())
+    };
+    assert_eq!(outputs(100, [0.0, 25.0]), (3, -3, 0));
+    assert_eq!(outputs(1000, [0.0, 40_000.0]), (32_767, -32_768, 2));
+    // The manual's sample: 3722 at 1 % are 37.22 drive units.
+    assert_eq!(outputs(10, [0.0, 3722.0]), (37, -37, 0));
+}

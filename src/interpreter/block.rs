@@ -31,7 +31,7 @@ struct Intent {
     /// A call.
     call: Option<Wanted>,
     /// The G functions of the block, to find two of one group.
-    groups: Vec<(Group, u32)>,
+    groups: [Option<u32>; Group::COUNT],
     /// G04, G92 …: axis words are no motion.
     no_motion: bool,
     /// G92: axis words set the reference.
@@ -52,10 +52,6 @@ impl Interpreter {
         self.work.clear();
         self.state.seq += 1;
         self.state.blocks += 1;
-        let version = (
-            self.version,
-            self.state.occurred.iter().filter(|seen| **seen).count(),
-        );
         let mut intent = Intent::default();
         let limit = self.first_refusal(block);
         self.items(block, at, &mut intent, limit);
@@ -77,9 +73,7 @@ impl Interpreter {
             self.move_axes(&intent);
         }
         let number = self.block_number(block, at);
-        if !self.work.changes.is_empty()
-            || version.1 != self.state.occurred.iter().filter(|seen| **seen).count()
-        {
+        if !self.work.changes.is_empty() || self.work.new_axes {
             self.version += 1;
         }
         self.remember_last(at);
@@ -364,11 +358,11 @@ impl Interpreter {
         at: &At<'_>,
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
-        let value = match word.value {
+        let number = match word.value {
             None => None,
-            Some(operand) => Some(self.value(operand, block, at)?),
+            Some(Operand::Number(number)) => Some(number),
+            Some(operand) => self.value(operand, block, at)?.number(),
         };
-        let number = value.as_ref().and_then(Value::number);
         match word.address {
             Address::Letter(letter @ b'A'..=b'Z') => {
                 if let Some(axis) = self.letters[usize::from(letter - b'A')] {
@@ -394,6 +388,11 @@ impl Interpreter {
         }
     }
 
+    /// An axis occurs.
+    pub(super) fn see(&mut self, axis: AxisIndex) {
+        self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
+    }
+
     fn axis_word(
         &mut self,
         axis: AxisIndex,
@@ -401,10 +400,14 @@ impl Interpreter {
         number: Option<f64>,
         at: &At<'_>,
     ) -> Result<(), Box<Fault>> {
-        self.state.occurred[axis.get()] = true;
+        self.see(axis);
         self.work.coordinates.push((axis, number));
         self.work.moved.push((axis, word.span));
-        let missing = self.machine.axis(axis).required.iter().find(|kind| {
+        let required = self.machine.axis(axis).required;
+        if required.is_empty() {
+            return Ok(());
+        }
+        let missing = required.iter().find(|kind| {
             !matches!(
                 self.state.compensation.state(axis, *kind),
                 State::Active | State::Unknown
@@ -435,7 +438,10 @@ impl Interpreter {
         word: &Word,
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
-        let whole = number.and_then(rounded);
+        let whole = match letter {
+            b'G' | b'M' | b'T' => number.and_then(rounded),
+            _ => None,
+        };
         match (letter, whole) {
             (b'G', Some(number)) => return self.g_word(number, word, intent),
             (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
@@ -462,8 +468,8 @@ impl Interpreter {
             return Ok(());
         };
         if let Some(group) = Group::of(number) {
-            let first = intent.groups.iter().find(|(other, _)| *other == group);
-            if let Some((_, first)) = first.filter(|(_, first)| *first != number) {
+            let first = *intent.groups[group as usize].get_or_insert(number);
+            if first != number {
                 return Err(Box::new(
                     Fault::new(
                         Code::Fc313,
@@ -473,7 +479,6 @@ impl Interpreter {
                     .with_help("a block takes one G function of each group"),
                 ));
             }
-            intent.groups.push((group, number));
         }
         match number {
             4 => intent.no_motion = true,
@@ -516,7 +521,7 @@ impl Interpreter {
         let before = self.work.changes.len();
         let axis = self.find_axis(command);
         let result = axis.and_then(|axis| {
-            self.state.occurred[axis.get()] = true;
+            self.see(axis);
             self.warn_opposite(command, axis, at);
             self.state
                 .compensation

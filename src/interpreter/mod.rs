@@ -270,6 +270,8 @@ struct Work {
     stack: Vec<Result<Value, Box<Fault>>>,
     /// Axis words of the block with their values.
     coordinates: Vec<(AxisIndex, Option<f64>)>,
+    /// Whether an axis occurred for the first time.
+    new_axes: bool,
 }
 
 impl Work {
@@ -279,6 +281,7 @@ impl Work {
         self.moved.clear();
         self.diagnostics.clear();
         self.coordinates.clear();
+        self.new_axes = false;
     }
 }
 

@@ -78,7 +78,7 @@ impl Interpreter {
         match item {
             Item::Comp(command) => {
                 if let Ok(axis) = self.state.compensation.resolve(&command.axis) {
-                    self.state.occurred[axis.get()] = true;
+                    self.see(axis);
                     let kinds = command.selection.kinds();
                     self.state
                         .compensation
@@ -162,7 +162,7 @@ impl Interpreter {
     }
 
     fn forget_axis(&mut self, axis: AxisIndex) {
-        self.state.occurred[axis.get()] = true;
+        self.see(axis);
         self.state.modal.forget_position(axis);
     }
 

@@ -32,7 +32,11 @@ impl Shape {
         for block in 1..=blocks {
             let number = u64::from(block) * 10;
             if block % COMP_EVERY == 0 {
-                let word = if block / COMP_EVERY % 2 == 1 { "OFF" } else { "ON" };
+                let word = if block / COMP_EVERY % 2 == 1 {
+                    "OFF"
+                } else {
+                    "ON"
+                };
                 writeln!(out, "N{number} X[COMP {word} FRICT]")?;
             } else if self == Self::Damaged && block % DAMAGED_EVERY == 50 {
                 writeln!(out, "N{number} G01 X{} Y[ Z1.5 F1500", path.coordinate())?;

@@ -105,6 +105,8 @@ impl Interpreter {
             occurred: &self.state.occurred,
             version: self.version,
         }));
+        // They are said; what is left at program end belongs to no executed block.
+        self.work.diagnostics.clear();
         match flow {
             ControlFlow::Continue(()) => ControlFlow::Continue(step),
             ControlFlow::Break(()) => {

@@ -579,10 +579,10 @@ impl Interpreter {
         if !announced && self.announce(None, observer).is_break() {
             return Outlook::Paused;
         }
-        let by = by.unwrap_or_else(|| {
-            notes.extend(self.missing_end());
-            EndedBy::EndOfFile
-        });
+        let by = by.unwrap_or(EndedBy::EndOfFile);
+        if by == EndedBy::EndOfFile {
+            notes.splice(0..0, self.missing_end());
+        }
         self.ended(by, notes, observer)
     }
 

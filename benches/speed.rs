@@ -82,7 +82,7 @@ fn main() -> Outcome<()> {
         runs: setting("FRICTCOMP_BENCH_RUNS", 5)?,
     };
     println!(
-        "{:<34}{:>9}{:>12}{:>10}   goal",
+        "{:<44}{:>9}{:>12}{:>10}   goal",
         "job", "ratio", "speed", "peak"
     );
     for shape in [Shape::ThreeAxes, Shape::FiveAxes] {
@@ -156,20 +156,19 @@ impl Bench {
             ..Line::default()
         };
         line("line splitter", base).print();
-        for (name, fast_path, goal) in [
-            ("grammar only", FastPath::Off, "35 x"),
-            ("parse with fast path", FastPath::On, ""),
-        ] {
-            let time = self.median(|| {
-                parse(&text, fast_path);
-                Ok(())
-            })?;
-            Line {
-                goal: goal.to_owned(),
-                ..line(name, time)
-            }
-            .print();
+        let fast = self.median(|| {
+            parse(&text, FastPath::On);
+            Ok(())
+        })?;
+        line("parse with fast path", fast).print();
+        // The grammar takes its time; once is enough.
+        let start = Instant::now();
+        parse(&text, FastPath::Off);
+        Line {
+            goal: "35 x".to_owned(),
+            ..line("grammar only", start.elapsed())
         }
+        .print();
         for job in &JOBS {
             Line {
                 peak: peak(job, &file),
@@ -262,7 +261,7 @@ impl Line {
     fn print(&self) {
         let ratio = self.ratio.map(|ratio| format!("{ratio:.2} x"));
         println!(
-            "{:<34}{:>9}{:>12}{:>10}   {}",
+            "{:<44}{:>9}{:>12}{:>10}   {}",
             self.name,
             ratio.unwrap_or_default(),
             self.speed,

@@ -10,7 +10,7 @@ const DAMAGED_EVERY: u32 = 100;
 
 /// What a program looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shape {
+pub(crate) enum Shape {
     /// Plain motion of X, Y and Z, with a COMP command every 1000 blocks.
     ThreeAxes,
     /// The same with the rotary axes A and B.
@@ -23,7 +23,7 @@ pub enum Shape {
 
 impl Shape {
     /// Writes a program; a loop counts its passes as blocks.
-    pub fn write(self, blocks: u32, out: &mut dyn Write) -> io::Result<()> {
+    pub(crate) fn write(self, blocks: u32, out: &mut dyn Write) -> io::Result<()> {
         if self == Self::Loop {
             return write_loop(blocks / 4, out);
         }

@@ -151,9 +151,8 @@ impl<R: Read> LineReader<R> {
             let at = memchr::memchr2(b'\n', b'\r', bytes).unwrap_or(bytes.len());
             let end = match &bytes[at..] {
                 [b'\r', b'\n', ..] => Some(2),
-                [b'\r'] => None,
+                [b'\r'] | [] => None,
                 [_, ..] => Some(1),
-                [] => None,
             };
             self.unread.start += at;
             if let Some(end) = end {

@@ -290,3 +290,13 @@ fn an_observer_may_stop_at_any_block() {
         assert_eq!(seen, stop_at);
     }
 }
+
+#[test]
+fn a_whole_program_says_what_a_streamed_one_says() {
+    // An error was said again at the end; M17 in the main program hid the missing M30.
+    for text in ["D\n", "M17\n", "N10 X[COMP ON FRIKT]\nN20 M30\n"] {
+        for stop in POLICIES {
+            assert_eq!(streamed(text, stop), whole(text, stop), "{text:?}");
+        }
+    }
+}

@@ -64,11 +64,11 @@ pub(super) fn rounded(number: f64) -> Option<i64> {
         return None;
     }
     // Most numbers are whole; they do without a call of the mathematics library.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)] // below 2^53
+    #[allow(clippy::cast_possible_truncation)] // below 2^53
     let whole = number as i64;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)]
+    #[allow(clippy::cast_precision_loss, clippy::float_cmp)] // both are exact
     let is_whole = whole as f64 == number;
-    #[allow(clippy::cast_possible_truncation)]
+    #[allow(clippy::cast_possible_truncation)] // below 2^53
     Some(if is_whole {
         whole
     } else {

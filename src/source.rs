@@ -18,6 +18,7 @@ pub struct Span {
 
 impl Span {
     /// A span from byte offsets. Offsets beyond 4 GiB are clamped, no text of that size is kept.
+    #[inline]
     pub fn new(start: usize, end: usize) -> Self {
         let clamp = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX);
         Self {

@@ -292,7 +292,10 @@ mod tests {
         std::fs::write(&path, "N10 X1\nN20 M30").unwrap();
         let input = Input::new(&path);
         match input.open(Naming::FileName).unwrap() {
-            Opened::Lines(mut lines) => assert_eq!(lines.next_line().unwrap().text, "N10 X1"),
+            Opened::Lines(mut lines) => {
+                assert!(lines.advance());
+                assert_eq!(lines.line().text, "N10 X1");
+            }
             Opened::Whole(_) => panic!("a straight program is streamed"),
         }
         std::fs::write(&path, b"$IF 1\n(\xdc)").unwrap();

@@ -1,13 +1,14 @@
 //! The lines of a file of any size, in a buffer of one size.
 
 use std::io::{self, Read};
+use std::ops::Range;
 
 use encoding_rs::WINDOWS_1252;
 
 use crate::source::{LineSource, PhysicalLine};
 
 /// Bytes that are read at once.
-const BUFFER: usize = 256 * 1024;
+const BUFFER: usize = 128 * 1024;
 
 /// A block is at most so long (R2.4 takes a line up to here); one more shows that it is longer.
 const LONGEST: usize = 4000;
@@ -17,34 +18,26 @@ const KEPT: usize = 4 * (LONGEST + 1);
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Reads lines without keeping them.
+/// Reads lines without keeping them: as many whole lines as the buffer holds are decoded at once.
 ///
 /// A line that is not UTF-8 is taken as code page 1252, and so is every later line of the same
 /// file that is not ASCII.
 pub(super) struct LineReader<R> {
     reader: R,
     buffer: Vec<u8>,
-    /// The bytes that were read and not given yet.
-    start: usize,
-    end: usize,
+    /// The bytes that were read and not decoded yet.
+    unread: Range<usize>,
     at_end: bool,
-    /// The last line ended in CR; an LF that follows belongs to it.
-    after_cr: bool,
     legacy: bool,
-    decoded: String,
-    /// The line that was given last stands in `decoded`.
-    is_decoded: bool,
-    /// The line that was given last.
-    found: Found,
-    failure: Option<io::Error>,
-}
-
-/// Where a line lies in the buffer.
-#[derive(Debug, Clone, Copy, Default)]
-struct Found {
-    start: usize,
-    end: usize,
+    /// Whole lines, decoded.
+    text: String,
+    /// The line that was given last, in `text`.
+    line: Range<usize>,
+    /// Whether that line is longer than what is given of it.
     cut: bool,
+    /// Where the next line begins, in `text`.
+    next: usize,
+    failure: Option<io::Error>,
 }
 
 impl<R: Read> LineReader<R> {
@@ -53,19 +46,20 @@ impl<R: Read> LineReader<R> {
         let mut lines = Self {
             reader,
             buffer: vec![0; BUFFER],
-            start: 0,
-            end: 0,
+            unread: 0..0,
             at_end: false,
-            after_cr: false,
             legacy: false,
-            decoded: String::new(),
-            is_decoded: false,
-            found: Found::default(),
+            text: String::with_capacity(BUFFER),
+            line: 0..0,
+            cut: false,
+            next: 0,
             failure: None,
         };
-        while lines.end < BYTE_ORDER_MARK.len() && lines.fill() {}
-        if lines.buffer[..lines.end].starts_with(BYTE_ORDER_MARK) {
-            lines.start = BYTE_ORDER_MARK.len();
+        while lines.unread.len() < BYTE_ORDER_MARK.len() && !lines.at_end {
+            lines.fill();
+        }
+        if lines.buffer[lines.unread.clone()].starts_with(BYTE_ORDER_MARK) {
+            lines.unread.start += BYTE_ORDER_MARK.len();
         }
         lines
     }
@@ -75,170 +69,139 @@ impl<R: Read> LineReader<R> {
         self.failure.take()
     }
 
-    /// Reads more behind what is there. `false` when there is no more, or no room.
-    fn fill(&mut self) -> bool {
-        if self.at_end {
-            return false;
-        }
-        if self.start > 0 && self.end == self.buffer.len() {
-            self.buffer.copy_within(self.start..self.end, 0);
-            self.end -= self.start;
-            self.start = 0;
-        }
+    /// Reads more behind what is there, once; there must be room.
+    fn fill(&mut self) {
+        self.buffer.copy_within(self.unread.clone(), 0);
+        self.unread = 0..self.unread.len();
         loop {
-            match self.reader.read(&mut self.buffer[self.end..]) {
-                Ok(0) => {
-                    self.at_end = self.end < self.buffer.len();
-                    return false;
-                }
-                Ok(count) => {
-                    self.end += count;
-                    return true;
-                }
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            match self.reader.read(&mut self.buffer[self.unread.end..]) {
+                Ok(0) => self.at_end = true,
+                Ok(count) => self.unread.end += count,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
                 Err(error) => {
                     self.failure = Some(error);
                     self.at_end = true;
-                    return false;
                 }
             }
-        }
-    }
-
-    fn skip_line_feed(&mut self) {
-        if !self.after_cr {
             return;
         }
-        if self.start < self.end || self.fill() {
-            self.after_cr = false;
-            if self.buffer[self.start] == b'\n' {
-                self.start += 1;
-            }
-        }
     }
 
-    fn find(&mut self) -> Option<Found> {
-        self.skip_line_feed();
-        let mut searched = 0;
+    /// Decodes the next whole lines into `text`. `false` when there are none.
+    fn refill(&mut self) -> bool {
+        self.text.clear();
+        self.next = 0;
         loop {
-            let rest = &self.buffer[self.start + searched..self.end];
-            if let Some(at) = memchr::memchr2(b'\n', b'\r', rest) {
-                let found = Found {
-                    start: self.start,
-                    end: self.start + searched + at,
-                    cut: false,
-                };
-                self.after_cr = self.buffer[found.end] == b'\r';
-                self.start = found.end + 1;
-                return Some(found);
+            let whole = self.whole_lines();
+            if whole > 0 {
+                self.decode(whole);
+                return true;
             }
-            searched = self.end - self.start;
-            if searched >= BUFFER / 2 {
-                return Some(self.cut());
+            if self.at_end {
+                return false;
             }
-            if !self.fill() {
-                break;
+            if self.unread.len() == self.buffer.len() {
+                // The beginning of a line that has no end in sight.
+                self.decode(whole_characters(&self.buffer[..KEPT]).len());
+                self.skip_line();
+                return true;
             }
-        }
-        if self.failure.is_some() || self.start == self.end {
-            return None;
-        }
-        let found = Found {
-            start: self.start,
-            end: self.end,
-            cut: false,
-        };
-        self.start = self.end;
-        Some(found)
-    }
-
-    /// Keeps the beginning of a line that has no end in sight, and passes over the rest.
-    fn cut(&mut self) -> Found {
-        self.buffer.copy_within(self.start..self.start + KEPT, 0);
-        self.end = KEPT;
-        loop {
-            self.start = KEPT;
-            self.end = KEPT;
-            if !self.fill() {
-                break;
-            }
-            let rest = &self.buffer[self.start..self.end];
-            if let Some(at) = memchr::memchr2(b'\n', b'\r', rest) {
-                self.after_cr = rest[at] == b'\r';
-                self.start += at + 1;
-                break;
-            }
-        }
-        Found {
-            start: 0,
-            end: KEPT,
-            cut: true,
+            self.fill();
         }
     }
 
-    /// Decodes the line into `decoded` where it is not UTF-8, and cuts it where it is too long.
-    fn decode(&mut self, mut found: Found) {
-        if found.end - found.start > KEPT {
-            found.end = found.start + KEPT;
-            found.cut = true;
+    /// How many of the unread bytes are whole lines. The last line of a file needs no end; what
+    /// was read of a line before an error is none.
+    fn whole_lines(&self) -> usize {
+        let bytes = &self.buffer[self.unread.clone()];
+        if self.at_end && self.failure.is_none() {
+            return bytes.len();
         }
-        if found.cut {
-            found.end = found.start + whole_characters(&self.buffer[found.start..found.end]).len();
-        }
-        let bytes = &self.buffer[found.start..found.end];
-        self.is_decoded = match std::str::from_utf8(bytes) {
-            Ok(text) => self.legacy && !text.is_ascii(),
-            Err(_) => true,
-        };
-        if self.is_decoded {
-            self.legacy = true;
-            self.decoded.clear();
-            // A byte of this code page has at most three bytes in UTF-8.
-            self.decoded.reserve(bytes.len() * 3 + 16);
-            let mut decoder = WINDOWS_1252.new_decoder_without_bom_handling();
-            let _ = decoder.decode_to_string(bytes, &mut self.decoded, true);
-        }
-        self.found = found;
-        let text = self.text();
-        if text.len() > LONGEST {
-            let end = text.char_indices().nth(LONGEST + 1).map(|(end, _)| end);
-            let cut = end.is_some() || text.chars().count() > LONGEST;
-            if let Some(end) = end {
-                if self.is_decoded {
-                    self.decoded.truncate(end);
-                } else {
-                    self.found.end = self.found.start + end;
+        // An LF that has not been read yet may belong to a CR at the end.
+        let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+        memchr::memrchr2(b'\n', b'\r', bytes).map_or(0, |at| at + 1)
+    }
+
+    /// Appends the next unread bytes to `text`.
+    fn decode(&mut self, length: usize) {
+        let end = self.unread.start + length;
+        let bytes = &self.buffer[self.unread.start..end];
+        self.unread.start = end;
+        match std::str::from_utf8(bytes) {
+            Ok(text) if !self.legacy || text.is_ascii() => self.text.push_str(text),
+            _ => {
+                for line in bytes.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
+                    match std::str::from_utf8(line) {
+                        Ok(text) if !self.legacy || text.is_ascii() => self.text.push_str(text),
+                        _ => {
+                            self.legacy = true;
+                            let (text, _) = WINDOWS_1252.decode_without_bom_handling(line);
+                            self.text.push_str(&text);
+                        }
+                    }
                 }
             }
-            self.found.cut |= cut;
         }
     }
 
-    fn text(&self) -> &str {
-        if self.is_decoded {
-            &self.decoded
-        } else {
-            let bytes = &self.buffer[self.found.start..self.found.end];
-            std::str::from_utf8(bytes).unwrap_or_default()
+    /// Passes over the rest of a line and its end.
+    fn skip_line(&mut self) {
+        loop {
+            let bytes = &self.buffer[self.unread.clone()];
+            let at = memchr::memchr2(b'\n', b'\r', bytes).unwrap_or(bytes.len());
+            let end = match &bytes[at..] {
+                [b'\r', b'\n', ..] => Some(2),
+                [b'\r'] | [] => None,
+                [_, ..] => Some(1),
+            };
+            self.unread.start += at;
+            if let Some(end) = end {
+                self.unread.start += end;
+                return;
+            }
+            if self.at_end {
+                self.unread.start = self.unread.end;
+                return;
+            }
+            self.fill();
+        }
+    }
+
+    /// Shortens a line that may have too many characters to one more than it may have.
+    fn shorten(&mut self) {
+        let text = &self.text[self.line.clone()];
+        self.cut = text.chars().nth(LONGEST).is_some();
+        if let Some((end, _)) = text.char_indices().nth(LONGEST + 1) {
+            self.line.end = self.line.start + end;
         }
     }
 }
 
 impl<R: Read> LineSource for LineReader<R> {
     fn advance(&mut self) -> bool {
-        match self.find() {
-            Some(found) => {
-                self.decode(found);
-                true
-            }
-            None => false,
+        if self.next == self.text.len() && !self.refill() {
+            return false;
         }
+        let rest = &self.text.as_bytes()[self.next..];
+        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let end = match &rest[length..] {
+            [b'\r', b'\n', ..] => 2,
+            [_, ..] => 1,
+            [] => 0,
+        };
+        self.line = self.next..self.next + length;
+        self.next = self.line.end + end;
+        self.cut = false;
+        if length > LONGEST {
+            self.shorten();
+        }
+        true
     }
 
     fn line(&self) -> PhysicalLine<'_> {
         PhysicalLine {
-            text: self.text(),
-            cut: self.found.cut,
+            text: &self.text[self.line.clone()],
+            cut: self.cut,
         }
     }
 }
@@ -272,7 +235,8 @@ mod tests {
 
     fn lines(source: &mut dyn LineSource) -> Vec<(String, bool)> {
         let mut found = Vec::new();
-        while let Some(line) = source.next_line() {
+        while source.advance() {
+            let line = source.line();
             found.push((line.text.to_owned(), line.cut));
         }
         found
@@ -297,8 +261,8 @@ mod tests {
         let text = format!("{line}\r\n").repeat(40_000);
         let mut reader = LineReader::new(Pieces(text.as_bytes(), 100_003));
         let mut count = 0;
-        while let Some(found) = reader.next_line() {
-            assert_eq!(found.text, line);
+        while reader.advance() {
+            assert_eq!(reader.line().text, line);
             count += 1;
         }
         assert_eq!(count, 40_000);

@@ -26,7 +26,7 @@ pub(super) struct Intent {
     /// A call.
     pub(super) call: Option<Wanted>,
     /// The G functions of the block, to find two of one group.
-    pub(super) groups: Vec<(Group, u32)>,
+    pub(super) groups: [Option<u32>; Group::COUNT],
     /// What axis words are: G04, G92 … make them something else than coordinates.
     pub(super) axis_words: AxisWords,
     /// F, which may be unknown.
@@ -47,10 +47,6 @@ impl Interpreter {
         self.work.clear();
         self.state.seq += 1;
         self.state.blocks += 1;
-        let version = (
-            self.version,
-            self.state.occurred.iter().filter(|seen| **seen).count(),
-        );
         let mut intent = Intent::default();
         let limit = self.first_refusal(block);
         self.items(block, at, &mut intent, limit);
@@ -75,9 +71,7 @@ impl Interpreter {
             self.move_axes(&intent);
         }
         let number = self.block_number(block, at);
-        if !self.work.changes.is_empty()
-            || version.1 != self.state.occurred.iter().filter(|seen| **seen).count()
-        {
+        if !self.work.changes.is_empty() || self.work.new_axes {
             self.version += 1;
         }
         self.remember_last(at);
@@ -111,6 +105,8 @@ impl Interpreter {
             occurred: &self.state.occurred,
             version: self.version,
         }));
+        // They are said; what is left at program end belongs to no executed block.
+        self.work.diagnostics.clear();
         match flow {
             ControlFlow::Continue(()) => ControlFlow::Continue(step),
             ControlFlow::Break(()) => {

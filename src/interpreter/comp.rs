@@ -13,7 +13,7 @@ impl Interpreter {
         let before = self.work.changes.len();
         let axis = self.find_axis(command);
         let result = axis.and_then(|axis| {
-            self.state.occurred[axis.get()] = true;
+            self.see(axis);
             self.warn_opposite(command, axis, at);
             self.state
                 .compensation

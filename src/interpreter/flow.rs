@@ -93,7 +93,11 @@ impl Interpreter {
             Step::Call(request) => self.push_call(*request),
             Step::Return => match self.state.frames.last() {
                 Some(frame) if frame.level > 0 => self.leave(),
-                _ => return ControlFlow::Break(EndedBy::EndOfFile),
+                _ => {
+                    // A subprogram run by itself ends as it should.
+                    self.state.last = None;
+                    return ControlFlow::Break(EndedBy::EndOfFile);
+                }
             },
             Step::End(by) => return ControlFlow::Break(by),
         }

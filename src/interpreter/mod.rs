@@ -279,6 +279,8 @@ struct Work {
     expansions: Cell<u32>,
     /// The budget that ended the run.
     over: Option<Diagnostic>,
+    /// Whether an axis occurred for the first time.
+    new_axes: bool,
 }
 
 impl Work {
@@ -290,6 +292,7 @@ impl Work {
         self.coordinates.clear();
         self.notes.get_mut().clear();
         self.expansions.set(0);
+        self.new_axes = false;
     }
 }
 

@@ -28,6 +28,9 @@ pub enum Group {
 }
 
 impl Group {
+    /// How many groups there are.
+    pub(super) const COUNT: usize = Self::CircleCentre as usize + 1;
+
     /// The group of a G number; `None` for one that is not modal or not modelled.
     pub fn of(number: u32) -> Option<Self> {
         Some(match number {

@@ -109,7 +109,7 @@ impl Interpreter {
         match item {
             Item::Comp(command) => {
                 if let Ok(axis) = self.state.compensation.resolve(&command.axis) {
-                    self.state.occurred[axis.get()] = true;
+                    self.see(axis);
                     let kinds = command.selection.kinds();
                     self.state
                         .compensation
@@ -246,7 +246,7 @@ impl Interpreter {
     }
 
     fn forget_axis(&mut self, axis: AxisIndex, block: &Block) {
-        self.state.occurred[axis.get()] = true;
+        self.see(axis);
         let reference = |item: &Item| {
             matches!(item, Item::Word(word)
                 if word.address == Address::Letter(b'G') && word.value == Some(Operand::Number(92.0)))

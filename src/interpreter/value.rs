@@ -58,8 +58,20 @@ impl From<&crate::machine::Setting> for Value {
 
 /// A number as a whole one, rounded half away from zero; out of range is `None`.
 pub(super) fn rounded(number: f64) -> Option<i64> {
-    let rounded = number.round();
     // 2^53: beyond it a number of the language is no whole number any more.
-    #[allow(clippy::cast_possible_truncation)]
-    (rounded.abs() <= 9_007_199_254_740_992.0).then_some(rounded as i64)
+    const LIMIT: f64 = 9_007_199_254_740_992.0;
+    if number.is_nan() || number.abs() > LIMIT {
+        return None;
+    }
+    // Most numbers are whole; they do without a call of the mathematics library.
+    #[allow(clippy::cast_possible_truncation)] // below 2^53
+    let whole = number as i64;
+    #[allow(clippy::cast_precision_loss, clippy::float_cmp)] // both are exact
+    let is_whole = whole as f64 == number;
+    #[allow(clippy::cast_possible_truncation)] // below 2^53
+    Some(if is_whole {
+        whole
+    } else {
+        number.round() as i64
+    })
 }

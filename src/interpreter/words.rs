@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use super::block::Intent;
 use super::value::rounded;
-use super::{At, EndedBy, Group, Interpreter, Value};
+use super::{At, EndedBy, Group, Interpreter};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Address, Block, GCall, Word};
+use crate::syntax::ast::{Address, Block, GCall, Operand, Word};
 
 /// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
 /// ramp time and jerk, feedforward (TF5200 channel parameters, P-CHAN-00210, names examples).
@@ -43,11 +43,11 @@ impl Interpreter {
         at: &At<'_>,
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
-        let value = match word.value {
+        let number = match word.value {
             None => None,
-            Some(operand) => Some(self.value(operand, block, at)?),
+            Some(Operand::Number(number)) => Some(number),
+            Some(operand) => self.value(operand, block, at)?.number(),
         };
-        let number = value.as_ref().and_then(Value::number);
         let (letter, name) = match word.address {
             Address::Name(name) => {
                 let name = name.of(at.text);
@@ -89,8 +89,13 @@ impl Interpreter {
         self.letters[usize::from(letter - b'A')]
     }
 
+    /// An axis occurs.
+    pub(super) fn see(&mut self, axis: AxisIndex) {
+        self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
+    }
+
     fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
-        self.state.occurred[axis.get()] = true;
+        self.see(axis);
         self.work.coordinates.push((axis, number));
         self.work.moved.push((axis, span));
     }
@@ -99,6 +104,10 @@ impl Interpreter {
     /// block took effect before the motion (R1.9).
     pub(super) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
         if matches!(words, AxisWords::Reference | AxisWords::Other) {
+            return;
+        }
+        let requires = |axis: AxisIndex| !self.machine.axis(axis).required.is_empty();
+        if !self.work.moved.iter().any(|&(axis, _)| requires(axis)) {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);
@@ -134,7 +143,10 @@ impl Interpreter {
         at: &At<'_>,
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
-        let whole = number.and_then(rounded);
+        let whole = match letter {
+            b'G' | b'M' | b'T' => number.and_then(rounded),
+            _ => None,
+        };
         match (letter, whole) {
             (b'G', Some(number)) => return self.g_word(number, word.span, at, intent),
             (b'G', None) => self.state.modal.forget_g(None),
@@ -168,8 +180,8 @@ impl Interpreter {
             return Ok(());
         };
         if let Some(group) = Group::of(number) {
-            let first = intent.groups.iter().find(|(other, _)| *other == group);
-            if let Some((_, first)) = first.filter(|(_, first)| *first != number) {
+            let first = *intent.groups[group as usize].get_or_insert(number);
+            if first != number {
                 return Err(Box::new(
                     Fault::new(
                         Code::Fc313,
@@ -179,7 +191,6 @@ impl Interpreter {
                     .with_help("a block takes one G function of each group"),
                 ));
             }
-            intent.groups.push((group, number));
         }
         match number {
             4 => intent.axis_words = AxisWords::Other,

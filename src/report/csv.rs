@@ -207,8 +207,9 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
 /// Appends a field, quoted where it must be.
 fn field(out: &mut Vec<u8>, text: &str) {
     let bytes = text.as_bytes();
-    let special = |byte: &u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
-    if !bytes.iter().any(special) {
+    let special = |byte: u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
+    // Without an early end the whole field is looked through at once.
+    if !bytes.iter().fold(false, |any, &byte| any | special(byte)) {
         out.extend_from_slice(bytes);
         return;
     }

@@ -22,8 +22,22 @@ const HEX: [u8; 16] = *b"0123456789abcdef";
 
 /// Appends a text as a JSON string with its quotes.
 pub(super) fn string(out: &mut Vec<u8>, text: &str) {
+    let bytes = text.as_bytes();
+    let is_special = |byte: u8| byte < 0x20 || byte == b'"' || byte == b'\\';
     out.push(b'"');
-    let mut rest = text.as_bytes();
+    // Most texts stay as they are; without an early end they are looked through at once.
+    if bytes
+        .iter()
+        .fold(false, |any, &byte| any | is_special(byte))
+    {
+        escape(out, bytes);
+    } else {
+        out.extend_from_slice(bytes);
+    }
+    out.push(b'"');
+}
+
+fn escape(out: &mut Vec<u8>, mut rest: &[u8]) {
     while let Some(at) = rest
         .iter()
         .position(|&byte| ESCAPES[usize::from(byte)] != 0)
@@ -40,7 +54,6 @@ pub(super) fn string(out: &mut Vec<u8>, text: &str) {
         rest = &rest[at + 1..];
     }
     out.extend_from_slice(rest);
-    out.push(b'"');
 }
 
 /// Appends a text as a JSON string, or `null`.

@@ -178,6 +178,7 @@ impl Lowering<'_> {
             Rule::axis_bracket => self.axis_bracket(pair, span),
             Rule::named_word => self.named_word(pair, span),
             Rule::g_call => self.g_call(pair, span),
+            Rule::plain_word => self.plain_word(pair.as_str(), span),
             Rule::word => self.word(pair, span),
             Rule::bare_number => {
                 if let Some(value) = pair.into_inner().next() {
@@ -256,6 +257,18 @@ impl Lowering<'_> {
             }
             _ => self.unknown = Some(self.unknown.map_or(span, |so_far| so_far.to(span))),
         }
+    }
+
+    fn plain_word(&mut self, text: &str, span: Span) {
+        let (letter, number) = text.split_at(1);
+        let value = number.parse().map(Operand::Number).ok();
+        self.block.items.extend(letter.bytes().map(|letter| {
+            Item::Word(Word {
+                address: address(letter),
+                value,
+                span,
+            })
+        }));
     }
 
     fn word(&mut self, pair: Pair<'_, Rule>, span: Span) {

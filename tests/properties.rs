@@ -1,0 +1,302 @@
+//! What holds for any text: nothing panics, spans fit, and the hand-written path is the grammar's.
+
+use std::ops::ControlFlow;
+
+use frictcomp::compensation::Compensation;
+use frictcomp::interpreter::{Event, Interpreter, Limits, NoFiles, Options, StopPolicy};
+use frictcomp::machine::Machine;
+use frictcomp::session::{Program, Session, SessionOptions};
+use frictcomp::source::{FlowScan, SourceFile, Span, TextLines};
+use frictcomp::syntax::ast::{Block, Item};
+use frictcomp::syntax::{BlockReader, FastPath, Stretch};
+use frictcomp::timeline::{Record, Sink};
+use proptest::prelude::*;
+
+/// A block as it came from its reader.
+#[derive(Debug, Clone, PartialEq)]
+struct Read {
+    stretch: Stretch,
+    text: String,
+    line: u32,
+    offset: usize,
+    block: Block,
+}
+
+fn blocks(text: &str, fast_path: FastPath) -> Vec<Read> {
+    let mut reader = BlockReader::new(TextLines::new(text), 1, fast_path);
+    let mut block = Block::default();
+    let mut found = Vec::new();
+    while let Some(raw) = reader.next(&mut block) {
+        found.push(Read {
+            stretch: raw.stretch,
+            text: raw.text.to_owned(),
+            line: raw.line,
+            offset: raw.offset,
+            block: block.clone(),
+        });
+    }
+    found
+}
+
+/// What a mutation puts into a line, or what a line is made of.
+fn piece() -> impl Strategy<Value = String> {
+    prop_oneof![
+        4 => "[A-Z]-?[0-9]{0,4}(\\.[0-9]{0,4})?",
+        3 => "[ \t]{1,2}",
+        2 => "N[0-9]{1,5}:?",
+        2 => "G[0-9]{1,3}",
+        1 => "[a-z][0-9]{0,3}",
+        2 => prop::sample::select(vec![
+            "X[COMP ON FRICT]", "Y[COMP OFF FRICT]", "X[COMP OFF_ALL]", "X[COMP ON FRIKT]",
+            "P1=3", "P2 = P1 * 2", "V.E.A = 1", "X[P1+1]", "X1=7", "M30", "M17", "#TIME 1",
+            "[LABEL]", "\"M\"=\"X1\"", "\"M\"", "L SUB.nc", "LL A", "G800[1,,2]", "/1", "MOD", "XOR",
+            "X=-5", "X+.5", "X5.", "; frictcomp: allow FC402", "(a (b) c)", "X1 MOD 2", "\\", "%A",
+            "+", "-", "*", "=", "[", "]", "(", ")", "\"", ";", ",", ".", "@", "Ü", "軸", "\u{0}",
+        ]).prop_map(str::to_owned),
+        1 => prop::sample::select(vec![
+            "$IF P1 > 2", "$ELSE", "$ENDIF", "$FOR P1 = 1, 3, 1", "$ENDFOR", "$WHILE P1 < 3",
+            "$ENDWHILE", "$GOTO N10", "$BREAK", "$REPEAT", "$UNTIL P1 > 3", "%L SUB",
+        ]).prop_map(str::to_owned),
+    ]
+}
+
+fn program() -> impl Strategy<Value = String> {
+    let line = prop::collection::vec(piece(), 0..8).prop_map(|pieces| pieces.concat());
+    let end = prop::sample::select(vec!["\n", "\n", "\r\n", "\r"]);
+    prop::collection::vec((line, end), 0..12).prop_map(|lines| {
+        lines
+            .into_iter()
+            .map(|(line, end)| line + end)
+            .collect::<String>()
+    })
+}
+
+/// Plain blocks, most of them with one character changed.
+fn plain() -> impl Strategy<Value = String> {
+    let word = "[A-Z][+-]?[0-9]{1,5}(\\.[0-9]{0,4})?[ ]?";
+    let change = (any::<prop::sample::Index>(), "[ -~\t]?");
+    (prop::collection::vec(word, 1..6), change).prop_map(|(words, (at, change))| {
+        let mut line = words.concat();
+        let at = at.index(line.len());
+        line.replace_range(at..at + 1, &change);
+        line
+    })
+}
+
+fn assert_inside(span: Span, text: &str) -> Result<(), TestCaseError> {
+    prop_assert!(span.start <= span.end, "{span:?} in {text:?}");
+    prop_assert!(text.get(span.range()).is_some(), "{span:?} in {text:?}");
+    Ok(())
+}
+
+fn assert_spans(read: &Read) -> Result<(), TestCaseError> {
+    let block = &read.block;
+    for fault in &block.faults {
+        assert_inside(fault.span, &read.text)?;
+    }
+    for item in &block.items {
+        assert_inside(item.span(), &read.text)?;
+        if let Item::Comp(command) = item {
+            assert_inside(command.span, &read.text)?;
+        }
+    }
+    for span in block
+        .spans
+        .iter()
+        .chain(block.number.iter().map(|n| &n.span))
+    {
+        assert_inside(*span, &read.text)?;
+    }
+    if let Stretch::Program { name, .. } = read.stretch {
+        assert_inside(name, &read.text)?;
+    }
+    prop_assert_eq!(block.nodes.len(), block.spans.len());
+    Ok(())
+}
+
+/// The records as text, without what differs on purpose.
+#[derive(Default)]
+struct Said(Vec<String>);
+
+impl Sink for Said {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        self.0.push(match record {
+            Record::Block(row) => format!(
+                "{} {} {:?} {} {:?} {:?}",
+                row.seq, row.line, row.number, row.text, row.changes, row.diagnostics
+            ),
+            Record::End(end) => {
+                format!("{} {:?} {:?} {:?}", end.seq, end.by, end.notes, end.changes)
+            }
+            Record::Program { name, .. } => format!("{name:?}"),
+            _ => return ControlFlow::Continue(()),
+        });
+        ControlFlow::Continue(())
+    }
+}
+
+fn options(stop: StopPolicy) -> SessionOptions {
+    SessionOptions {
+        stop,
+        limits: Limits {
+            blocks: 200,
+            calls: 5,
+            nesting: 5,
+            macros: 4,
+        },
+        ..SessionOptions::default()
+    }
+}
+
+fn run(stop: StopPolicy, program: impl FnOnce(&mut Session, &mut Said)) -> Vec<String> {
+    let mut session = Session::new(Machine::enabled(["X", "Y"]), options(stop));
+    let mut said = Said::default();
+    program(&mut session, &mut said);
+    said.0
+}
+
+fn whole(text: &str, stop: StopPolicy) -> Vec<String> {
+    run(stop, |session, said| {
+        let source = SourceFile::new("a.nc", text);
+        let _ = session.program("a.nc", Program::Whole(source), &mut NoFiles, said);
+    })
+}
+
+fn streamed(text: &str, stop: StopPolicy) -> Vec<String> {
+    run(stop, |session, said| {
+        let mut lines = TextLines::new(text);
+        let _ = session.program("a.nc", Program::Lines(&mut lines), &mut NoFiles, said);
+    })
+}
+
+/// Whether the whole text counts. Jump labels without a jump count only where the text is in
+/// memory: a stream does not remember them, so that one given twice (FC209) passes.
+fn has_flow(text: &str) -> bool {
+    if text.contains(':') || text.contains("[LABEL]") {
+        return true;
+    }
+    let mut scan = FlowScan::default();
+    scan.feed(text.as_bytes());
+    scan.needs_whole_text()
+}
+
+const POLICIES: [StopPolicy; 3] = [
+    StopPolicy::FirstError,
+    StopPolicy::KeepGoing,
+    StopPolicy::CheckAll,
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn any_text_is_parsed(text in any::<String>()) {
+        for fast_path in [FastPath::On, FastPath::Off] {
+            for read in blocks(&text, fast_path) {
+                assert_spans(&read)?;
+            }
+        }
+    }
+
+    #[test]
+    fn any_program_is_parsed_with_spans_that_fit(text in program()) {
+        let by_grammar = blocks(&text, FastPath::Off);
+        for read in &by_grammar {
+            assert_spans(read)?;
+        }
+        prop_assert_eq!(blocks(&text, FastPath::On), by_grammar);
+    }
+
+    #[test]
+    fn the_fast_path_is_the_grammar_or_declines(line in plain()) {
+        prop_assert_eq!(blocks(&line, FastPath::On), blocks(&line, FastPath::Off));
+    }
+
+    #[test]
+    fn blocks_on_their_own_are_the_same_blocks(text in program()) {
+        for read in blocks(&text, FastPath::On) {
+            let alone = blocks(&read.text, FastPath::On);
+            prop_assert_eq!(alone.len(), 1);
+            prop_assert_eq!(&alone[0].block, &read.block);
+        }
+    }
+
+    #[test]
+    fn any_program_runs_to_its_end(text in program()) {
+        for stop in POLICIES {
+            whole(&text, stop);
+            streamed(&text, stop);
+        }
+    }
+
+    #[test]
+    fn any_text_runs_to_its_end(text in any::<String>()) {
+        for stop in POLICIES {
+            whole(&text, stop);
+            streamed(&text, stop);
+        }
+    }
+
+    #[test]
+    fn a_program_without_flow_may_be_streamed(text in program()) {
+        for stop in POLICIES.into_iter().filter(|_| !has_flow(&text)) {
+            prop_assert_eq!(streamed(&text, stop), whole(&text, stop));
+        }
+    }
+}
+
+#[test]
+fn brackets_and_parentheses_may_nest_as_deep_as_they_like() {
+    for text in [
+        format!("X{}", "[".repeat(3990)),
+        format!("X[COMP {}", "[".repeat(3900)),
+        format!("P1={}1{}", "[".repeat(1900), "]".repeat(1900)),
+        format!("P1={}1", "-".repeat(3900)),
+        format!("P1=1{}", "**1".repeat(1200)),
+        format!("{}X1{}", "(".repeat(1900), ")".repeat(1900)),
+        format!("P{}1", "P".repeat(3900)),
+        format!("$IF {}", "NOT[".repeat(900)),
+        "\\\n(".repeat(20_000),
+        "X[\n".repeat(100_000),
+        "[".repeat(100_000),
+        "(".repeat(100_000),
+    ] {
+        for read in blocks(&text, FastPath::On) {
+            assert!(read.text.len() <= text.len());
+        }
+        whole(&text, StopPolicy::CheckAll);
+    }
+}
+
+#[test]
+fn an_observer_may_stop_at_any_block() {
+    let text = "N10 X1\nN20 X[COMP OFF FRICT]\nN30 Y2\nN40 M30\n";
+    for stop_at in 1..=4 {
+        let machine = Machine::enabled(["X", "Y"]);
+        let compensation = Compensation::at_startup(&machine);
+        let mut run = Interpreter::new(machine, compensation, Options::default());
+        let mut seen = 0;
+        let source = SourceFile::new("a.nc", text);
+        let _ = run.program(source, &mut NoFiles, &mut |event: Event<'_>| {
+            if let Event::Executed(executed) = event {
+                seen = executed.seq;
+            }
+            if seen == stop_at {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        assert_eq!(seen, stop_at);
+    }
+}
+
+#[test]
+fn a_whole_program_says_what_a_streamed_one_says() {
+    // An error was said again at the end; M17 in the main program hid the missing M30.
+    for text in ["D\n", "M17\n", "N10 X[COMP ON FRIKT]\nN20 M30\n"] {
+        for stop in POLICIES {
+            assert_eq!(streamed(text, stop), whole(text, stop), "{text:?}");
+        }
+    }
+}

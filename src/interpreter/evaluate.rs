@@ -1,7 +1,5 @@
 //! Values of operands, system variables, and what assignments write.
 
-use std::collections::BTreeMap;
-
 use super::event::{Note, NoteKind, Notes};
 use super::expression::{Evaluator, Macros, Place, Scope};
 use super::{At, Interpreter, PositionFrame, Value};
@@ -35,12 +33,11 @@ impl Interpreter {
         at: &At<'_>,
         work: impl FnOnce(&Evaluator<'_>) -> T,
     ) -> T {
-        static NO_CALL: BTreeMap<u32, Value> = BTreeMap::new();
-        let own = self
-            .state
-            .frames
-            .last()
-            .map_or(&NO_CALL, |frame| &frame.own);
+        // A main program may write some, too.
+        let frame = self.state.frames.last();
+        let own = frame
+            .filter(|frame| frame.level > 0 || !frame.own.is_empty())
+            .map(|frame| &frame.own);
         let taken = self.options.notes == Notes::Taken;
         work(&Evaluator {
             block,

@@ -22,8 +22,8 @@ pub(super) const MAX_EXPANSIONS: u32 = 4096;
 #[derive(Clone, Copy)]
 pub(super) struct Scope<'a> {
     pub(super) memory: &'a Memory,
-    /// Own parameters of the call.
-    pub(super) own: &'a BTreeMap<u32, Value>,
+    /// Own parameters of the call; `None` in the main program.
+    pub(super) own: Option<&'a BTreeMap<u32, Value>>,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
     pub(super) system: &'a dyn Fn(&str) -> Option<Value>,
     /// Hears of every value that only the machine knows.
@@ -148,7 +148,15 @@ impl Evaluator<'_> {
     fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
-            Owner::Call => self.scope.own.get(&index),
+            Owner::Call => match self.scope.own {
+                Some(own) => own.get(&index),
+                // A cycle that runs without a call: only a call gives it values.
+                None => {
+                    let name = format!("@P{index}");
+                    (self.scope.unknown)(&name, self.shown.unwrap_or(span));
+                    return Ok(Value::Unknown(name.into()));
+                }
+            },
         };
         found.cloned().ok_or_else(|| never_written(span, self.text))
     }

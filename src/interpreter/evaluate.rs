@@ -85,18 +85,15 @@ impl Interpreter {
     /// What the dry run knows of the machine's own variables (R1.35, R2.36).
     fn system_variable(&self, name: &str) -> Option<Value> {
         let rest = name.strip_prefix("V.A.")?;
-        let (variable, axis) = match rest.split_once('[') {
-            Some((variable, index)) => {
-                let position = index.trim_end_matches(']').parse().ok()?;
-                (
-                    variable,
-                    (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
-                )
-            }
-            None => {
-                let (variable, axis) = rest.rsplit_once('.')?;
-                (variable, self.machine.find(axis)?)
-            }
+        let (variable, axis) = if let Some((variable, index)) = rest.split_once('[') {
+            let position = index.trim_end_matches(']').parse().ok()?;
+            (
+                variable,
+                (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
+            )
+        } else {
+            let (variable, axis) = rest.rsplit_once('.')?;
+            (variable, self.machine.find(axis)?)
         };
         if let Some(kind) = variable
             .strip_suffix("_COMP_ACTIVE")

@@ -11,7 +11,15 @@ use crate::interpreter::{EndedBy, Executed};
 use crate::machine::{AxisIndex, Machine};
 use crate::source::Span;
 use crate::syntax::{CompCommand, Kind, Selection};
-use crate::timeline::EndNote;
+
+/// A diagnostic at the end of a program, with the executed block that it is about.
+#[derive(Debug, Clone)]
+pub struct EndNote {
+    /// The executed block that it is about.
+    pub seq: u64,
+    /// What there is to say.
+    pub diagnostic: Diagnostic,
+}
 
 /// The lints on an executed block.
 const ON_BLOCK: [fn(&Linter<'_>, &Executed<'_>, &mut Vec<Diagnostic>); 2] =

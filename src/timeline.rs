@@ -12,6 +12,7 @@ use crate::compensation::{Change, Compensation, State};
 use crate::diagnostic::{Diagnostic, Severity};
 pub use crate::interpreter::EndedBy;
 use crate::interpreter::Modal;
+pub use crate::lint::EndNote;
 use crate::machine::{AxisIndex, Machine};
 use crate::syntax::Kind;
 
@@ -80,15 +81,6 @@ pub struct Row<'a> {
     pub modal: &'a Modal,
     /// What there is to say about the block; written right behind it.
     pub diagnostics: &'a [Diagnostic],
-}
-
-/// A diagnostic at the end of a program, with the executed block that it is about.
-#[derive(Debug, Clone)]
-pub struct EndNote {
-    /// The executed block that it is about.
-    pub seq: u64,
-    /// What there is to say.
-    pub diagnostic: Diagnostic,
 }
 
 /// How often a remark came true that was made once.

@@ -1,6 +1,6 @@
 //! `frictcomp lists`: axis, value, channel and start-up lists.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -12,17 +12,18 @@ use super::failure::Failure;
 use super::files::read_text;
 use crate::codes::Code;
 use crate::diagnostic::Severity;
-use crate::machine::{CncBuild, check_list};
+use crate::machine::{CncBuild, Configuration, ListsReport, check_list};
 use crate::report::Listing;
 use crate::report::lists::render_parameters;
 use crate::source::SourceFile;
 
 /// Reads and checks axis, value, channel and start-up lists
 ///
-/// A start-up list is checked with every list that it names, any other list by itself.
+/// A start-up list and a `frictcomp.toml` are checked with every list that they name, any other
+/// list by itself.
 #[derive(Debug, Args)]
 pub(super) struct ListsArgs {
-    /// The lists
+    /// The lists, or the `frictcomp.toml` that names them
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print the effective parameters of every axis and where each came from
@@ -38,12 +39,41 @@ pub(super) struct ListsArgs {
     listing: ListingArgs,
 }
 
+/// Checks a list, or every list that a configuration names.
+fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
+    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+    if path.extension().is_none_or(|extension| extension != "toml") {
+        return Ok(check_list(source, build, &mut Lists));
+    }
+    if build.is_some() {
+        let message = format!(
+            "the build of `{}` stands in the file itself",
+            path.display()
+        );
+        return Err(Failure::new(message).with_help("leave `--cnc-build` out"));
+    }
+    let name = source.name().clone();
+    Ok(match Configuration::from_toml(source, &mut Lists) {
+        Ok(configuration) => ListsReport {
+            kind: None,
+            diagnostics: configuration.diagnostics,
+            reports: configuration.reports,
+            files: configuration.files,
+        },
+        Err(error) => ListsReport {
+            kind: None,
+            diagnostics: vec![*error.diagnostic],
+            reports: Vec::new(),
+            files: vec![name],
+        },
+    })
+}
+
 /// Runs the command.
 pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let mut reports = Vec::new();
     for path in &args.files {
-        let source = SourceFile::new(path.display().to_string(), read_text(path)?);
-        let mut report = check_list(source, args.cnc_build, &mut Lists);
+        let mut report = check(path, args.cnc_build)?;
         for diagnostic in &mut report.diagnostics {
             if args.strict && diagnostic.code == Code::Fc132 {
                 diagnostic.severity = Severity::Error;

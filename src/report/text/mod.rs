@@ -62,6 +62,8 @@ pub struct Text<W> {
     quiet: Quiet,
     /// The file of the block that was printed last.
     file: String,
+    /// How the last program ended.
+    ended: Option<EndedBy>,
 }
 
 impl<W: Write> Text<W> {
@@ -76,6 +78,7 @@ impl<W: Write> Text<W> {
             version: None,
             quiet: Quiet::default(),
             file: String::new(),
+            ended: None,
         }
     }
 
@@ -243,6 +246,7 @@ impl<W: Write> Text<W> {
 
     fn end(&mut self, end: &End<'_>) {
         self.release();
+        self.ended = Some(end.by);
         let label = match end.by {
             EndedBy::M30 => "end by M30",
             EndedBy::M02 => "end by M02",
@@ -281,7 +285,8 @@ impl<W: Write> Sink for Text<W> {
                 return self.output.flush();
             }
             Record::Summary(summary) => {
-                summary::append(&mut self.output.bytes, summary, self.options.look);
+                let look = self.options.look;
+                summary::append(&mut self.output.bytes, summary, self.ended, look);
                 return self.output.flush();
             }
         }

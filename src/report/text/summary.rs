@@ -5,15 +5,15 @@ use unicode_width::UnicodeWidthStr;
 use crate::compensation::State;
 use crate::diagnostic::Severity;
 use crate::report::Look;
-use crate::timeline::{AxisSummary, ChangedBy, Summary};
+use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
 use super::line::{BOLD, DIM, Line, grouped, style};
 
 /// Columns of a state in the summary.
 const STATE: usize = 14;
 
-/// Appends the summary.
-pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+/// Appends the summary of a session whose last program ended so.
+pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
     let mut line = Line::new(out, look.paint);
     line.styled(BOLD, "Summary");
     line.plain(&format!(
@@ -26,7 +26,7 @@ pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     line.end();
     table(out, summary, look);
     opaque(out, summary, look);
-    advice(out, summary, look);
+    advice(out, summary, by, look);
 }
 
 fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
@@ -126,7 +126,7 @@ fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     line.end();
 }
 
-fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
     if summary.axes.is_empty() {
         return;
     }
@@ -144,10 +144,30 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
         line.plain(&text);
         line.end();
     }
-    if !said {
+    if let Some(text) = error_advice(summary, by) {
+        let mut line = Line::new(out, look.paint);
+        line.plain(text);
+        line.end();
+    } else if !said {
         let mut line = Line::new(out, look.paint);
         line.styled(DIM, "Nothing to do: every axis is left as it was found.");
         line.end();
+    }
+}
+
+/// What an error means for the states above.
+fn error_advice(summary: &Summary<'_>, by: Option<EndedBy>) -> Option<&'static str> {
+    match by {
+        Some(EndedBy::Error) => {
+            Some("Stopped by an error: these are the states at the stop, the rest did not run.")
+        }
+        Some(EndedBy::Budget) => {
+            Some("Stopped at a bound: these are the states at the stop, the rest did not run.")
+        }
+        _ if summary.count(Severity::Error) > 0 => {
+            Some("The control stops at the first error: mend it, then look at the states again.")
+        }
+        _ => None,
     }
 }
 

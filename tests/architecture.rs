@@ -1,0 +1,271 @@
+//! The direction of imports, and what the rooms must not know.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What each room may import. Rooms stand in the order of the data; an import never goes down.
+const ROOMS: [(&str, &[&str]); 13] = [
+    // These three are plain data about text and know each other.
+    ("source", &["diagnostic", "codes"]),
+    ("diagnostic", &["source", "codes"]),
+    ("codes", &["diagnostic"]),
+    ("syntax", &["source", "diagnostic", "codes"]),
+    ("lists", &["source", "diagnostic", "codes", "syntax"]),
+    (
+        "machine",
+        &["source", "diagnostic", "codes", "syntax", "lists"],
+    ),
+    (
+        "compensation",
+        &["diagnostic", "codes", "syntax", "lists", "machine"],
+    ),
+    (
+        "interpreter",
+        &[
+            "source",
+            "diagnostic",
+            "codes",
+            "syntax",
+            "lists",
+            "machine",
+            "compensation",
+        ],
+    ),
+    (
+        "lint",
+        &[
+            "source",
+            "diagnostic",
+            "codes",
+            "syntax",
+            "machine",
+            "compensation",
+            "interpreter",
+        ],
+    ),
+    (
+        "timeline",
+        &[
+            "diagnostic",
+            "codes",
+            "syntax",
+            "machine",
+            "compensation",
+            "interpreter",
+            "lint",
+        ],
+    ),
+    (
+        "session",
+        &[
+            "source",
+            "diagnostic",
+            "codes",
+            "syntax",
+            "lists",
+            "machine",
+            "compensation",
+            "interpreter",
+            "lint",
+            "timeline",
+        ],
+    ),
+    (
+        "report",
+        &[
+            "source",
+            "diagnostic",
+            "codes",
+            "syntax",
+            "lists",
+            "machine",
+            "compensation",
+            "timeline",
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "source",
+            "diagnostic",
+            "codes",
+            "syntax",
+            "machine",
+            "compensation",
+            "timeline",
+            "session",
+            "report",
+        ],
+    ),
+];
+
+/// Rooms that may touch files, the terminal and the environment.
+const OUTER: [&str; 3] = ["cli", "report", "main"];
+
+/// A file above this many lines is split.
+const MAX_LINES: usize = 800;
+
+/// Files that are too long today, to be split by whoever works in them next.
+const TOO_LONG: [&str; 2] = ["interpreter/block.rs", "interpreter/mod.rs"];
+
+/// A source file: its path below `src`, its room, its text.
+struct File {
+    path: String,
+    room: String,
+    text: String,
+}
+
+fn sources() -> Vec<File> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut folders = vec![root.clone()];
+    let mut paths: Vec<PathBuf> = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                paths.push(path);
+            }
+        }
+    }
+    paths.sort();
+    let files = paths.into_iter().map(|path| {
+        let below = path.strip_prefix(&root).expect("below src");
+        let path_below = below.to_string_lossy().replace('\\', "/");
+        let room = path_below.split('/').next().expect("a name");
+        File {
+            room: room.trim_end_matches(".rs").to_owned(),
+            text: fs::read_to_string(&path).expect("text"),
+            path: path_below,
+        }
+    });
+    files.collect()
+}
+
+/// The lines of code with their numbers: no comments, and nothing behind the first
+/// `#[cfg(test)]`, by which files of this crate end.
+fn code(file: &File) -> impl Iterator<Item = (usize, &str)> {
+    let all_tests = file.path.contains("/tests/");
+    file.text
+        .lines()
+        .enumerate()
+        .take_while(move |(_, line)| !all_tests && line.trim() != "#[cfg(test)]")
+        .map(|(number, line)| (number + 1, line.split("//").next().unwrap_or_default()))
+}
+
+/// The rooms that a line of code names behind `crate::`.
+fn named_rooms(line: &str) -> Vec<&str> {
+    line.match_indices("crate::")
+        .filter_map(|(at, found)| {
+            let rest = &line[at + found.len()..];
+            let end = rest.find(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
+            let word = &rest[..end.unwrap_or(rest.len())];
+            (!word.is_empty() && !line[..at].ends_with('$')).then_some(word)
+        })
+        .collect()
+}
+
+/// Complains about every line of code in which a forbidden word stands.
+fn assert_absent(words: &[&str], concerned: impl Fn(&File) -> bool) {
+    let mut found = Vec::new();
+    for file in sources().iter().filter(|file| concerned(file)) {
+        for (number, line) in code(file) {
+            for word in words.iter().filter(|word| line.contains(**word)) {
+                found.push(format!("src/{}:{number}: `{word}`", file.path));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn the_table_itself_never_turns_round() {
+    let position = |name: &str| ROOMS.iter().position(|(room, _)| *room == name);
+    for (at, (room, imports)) in ROOMS.iter().enumerate() {
+        for import in *imports {
+            let other = position(import).expect("a room of the table");
+            assert!(other < at || at < 3 && other < 3, "{room} imports {import}");
+        }
+    }
+}
+
+#[test]
+fn imports_go_one_way() {
+    let table: BTreeMap<_, _> = ROOMS.into_iter().collect();
+    let mut wrong = Vec::new();
+    for file in sources() {
+        if ["lib", "main"].contains(&file.room.as_str()) {
+            continue;
+        }
+        let Some(allowed) = table.get(file.room.as_str()) else {
+            wrong.push(format!("src/{}: the room has no row in ROOMS", file.path));
+            continue;
+        };
+        for (number, line) in code(&file) {
+            for import in named_rooms(line) {
+                let macros_and_features = !table.contains_key(import);
+                if import != file.room && !macros_and_features && !allowed.contains(&import) {
+                    wrong.push(format!("src/{}:{number}: imports `{import}`", file.path));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn only_syntax_knows_the_parser() {
+    assert_absent(&["pest", "Pairs"], |file| file.room != "syntax");
+}
+
+#[test]
+fn the_slice_knows_no_interpreter_and_no_files() {
+    let strangers = ["interpreter", "pest", "std::fs", "std::io", "std::path"];
+    assert_absent(&strangers, |file| file.room == "compensation");
+}
+
+#[test]
+fn the_library_touches_nothing_outside() {
+    let outside = [
+        "std::fs",
+        "std::env",
+        "std::io",
+        "std::net",
+        "std::process",
+        "std::thread",
+        "SystemTime",
+        "Instant",
+        "print!",
+        "println!",
+        "dbg!",
+    ];
+    assert_absent(&outside, |file| !OUTER.contains(&file.room.as_str()));
+}
+
+#[test]
+fn reports_compute_nothing_and_open_nothing() {
+    assert_absent(
+        &["std::fs", "std::env", "Interpreter::", "Session::"],
+        |file| file.room == "report",
+    );
+}
+
+#[test]
+fn files_stay_short() {
+    let long: Vec<String> = sources()
+        .iter()
+        .map(|file| (file, file.text.lines().count()))
+        .filter(|(file, lines)| *lines > MAX_LINES && !TOO_LONG.contains(&file.path.as_str()))
+        .map(|(file, lines)| format!("src/{}: {lines} lines", file.path))
+        .collect();
+    assert!(long.is_empty(), "{}", long.join("\n"));
+}
+
+#[test]
+fn a_crate_path_is_found_in_a_line() {
+    assert_eq!(named_rooms("use crate::codes::Code;"), ["codes"]);
+    assert_eq!(named_rooms("f(crate::a::B, crate::c_d)"), ["a", "c_d"]);
+    assert_eq!(named_rooms("let krate = 1;"), [""; 0]);
+}

@@ -14,6 +14,16 @@ use crate::source::Span;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
 use crate::syntax::{FastPath, Fault};
 
+/// The F word of a block.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) enum Feed {
+    /// There is none.
+    #[default]
+    Absent,
+    /// Its value, where it is known.
+    Given(Option<f64>),
+}
+
 /// What a block does after its words.
 #[derive(Default)]
 pub(super) struct Intent {
@@ -30,9 +40,9 @@ pub(super) struct Intent {
     /// What axis words are: G04, G92 … make them something else than coordinates.
     pub(super) axis_words: AxisWords,
     /// F, which may be unknown.
-    pub(super) feed: Option<Option<f64>>,
+    pub(super) feed: Feed,
     /// The condition of an `$IF` in a block with `$GOTO`.
-    condition: Option<Option<bool>>,
+    condition: Option<bool>,
 }
 
 impl Interpreter {
@@ -261,7 +271,7 @@ impl Interpreter {
                     intent.condition = Some(condition);
                     return Ok(());
                 }
-                if intent.condition == Some(Some(false)) {
+                if intent.condition == Some(false) {
                     return Ok(());
                 }
                 intent.step = self.flow(flow, *span, block, at)?;

@@ -227,7 +227,7 @@ impl Interpreter {
     }
 
     /// Calls the configured program that runs before every main program (R2.15).
-    pub(super) fn start_program(&mut self, finder: &mut dyn Finder) -> Result<(), Diagnostic> {
+    pub(super) fn start_program(&mut self, finder: &mut dyn Finder) -> Result<(), Box<Diagnostic>> {
         let Some(name) = self.machine.programs.start.clone() else {
             return Ok(());
         };
@@ -252,7 +252,7 @@ impl Interpreter {
             Err(fault) => {
                 let mut diagnostic = Diagnostic::new(fault.code, place, fault.message);
                 diagnostic.help = fault.help;
-                Err(diagnostic)
+                Err(Box::new(diagnostic))
             }
         }
     }

@@ -1,7 +1,5 @@
 //! Values of operands, system variables, and what assignments write.
 
-use std::collections::BTreeMap;
-
 use super::event::{Note, NoteKind, Notes};
 use super::expression::{Evaluator, Macros, Place, Scope};
 use super::{At, Interpreter, PositionFrame, Value};
@@ -35,12 +33,11 @@ impl Interpreter {
         at: &At<'_>,
         work: impl FnOnce(&Evaluator<'_>) -> T,
     ) -> T {
-        static NO_CALL: BTreeMap<u32, Value> = BTreeMap::new();
-        let own = self
-            .state
-            .frames
-            .last()
-            .map_or(&NO_CALL, |frame| &frame.own);
+        // A main program may write some, too.
+        let frame = self.state.frames.last();
+        let own = frame
+            .filter(|frame| frame.level > 0 || !frame.own.is_empty())
+            .map(|frame| &frame.own);
         let taken = self.options.notes == Notes::Taken;
         work(&Evaluator {
             block,
@@ -88,18 +85,15 @@ impl Interpreter {
     /// What the dry run knows of the machine's own variables (R1.35, R2.36).
     fn system_variable(&self, name: &str) -> Option<Value> {
         let rest = name.strip_prefix("V.A.")?;
-        let (variable, axis) = match rest.split_once('[') {
-            Some((variable, index)) => {
-                let position = index.trim_end_matches(']').parse().ok()?;
-                (
-                    variable,
-                    (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
-                )
-            }
-            None => {
-                let (variable, axis) = rest.rsplit_once('.')?;
-                (variable, self.machine.find(axis)?)
-            }
+        let (variable, axis) = if let Some((variable, index)) = rest.split_once('[') {
+            let position = index.trim_end_matches(']').parse().ok()?;
+            (
+                variable,
+                (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
+            )
+        } else {
+            let (variable, axis) = rest.rsplit_once('.')?;
+            (variable, self.machine.find(axis)?)
         };
         if let Some(kind) = variable
             .strip_suffix("_COMP_ACTIVE")

@@ -22,8 +22,8 @@ pub(super) const MAX_EXPANSIONS: u32 = 4096;
 #[derive(Clone, Copy)]
 pub(super) struct Scope<'a> {
     pub(super) memory: &'a Memory,
-    /// Own parameters of the call.
-    pub(super) own: &'a BTreeMap<u32, Value>,
+    /// Own parameters of the call; `None` in the main program.
+    pub(super) own: Option<&'a BTreeMap<u32, Value>>,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
     pub(super) system: &'a dyn Fn(&str) -> Option<Value>,
     /// Hears of every value that only the machine knows.
@@ -87,7 +87,7 @@ impl Evaluator<'_> {
             Operand::Expression(expression) => {
                 let bottom = stack.len();
                 self.run(expression, stack);
-                let value = stack.pop().unwrap_or_else(|| Ok(Value::Number(0.0)));
+                let value = stack.pop().unwrap_or(Ok(Value::Number(0.0)));
                 stack.truncate(bottom);
                 value
             }
@@ -105,9 +105,10 @@ impl Evaluator<'_> {
                 Node::Number(number) => Ok(Value::Number(number)),
                 Node::Text => self.text(span),
                 Node::Parameter { owner, index } => self.parameter(owner, index, span),
-                Node::IndexedParameter { owner, subscripts } => self
-                    .parameter_key(owner, usize::from(subscripts), stack)
-                    .and_then(|key| self.keyed_parameter(&key, span)),
+                Node::IndexedParameter { owner, subscripts } => {
+                    Self::parameter_key(owner, usize::from(subscripts), stack)
+                        .and_then(|key| self.keyed_parameter(&key, span))
+                }
                 Node::Variable { subscripts: 0 } => {
                     self.variable(variable_name(span, self.text).as_ref(), span)
                 }
@@ -148,7 +149,15 @@ impl Evaluator<'_> {
     fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
-            Owner::Call => self.scope.own.get(&index),
+            Owner::Call => {
+                let Some(own) = self.scope.own else {
+                    // A cycle that runs without a call: only a call gives it values.
+                    let name = format!("@P{index}");
+                    (self.scope.unknown)(&name, self.shown.unwrap_or(span));
+                    return Ok(Value::Unknown(name.into()));
+                };
+                own.get(&index)
+            }
         };
         found.cloned().ok_or_else(|| never_written(span, self.text))
     }
@@ -194,7 +203,6 @@ impl Evaluator<'_> {
 
     /// Pops the number and the subscripts of a parameter.
     fn parameter_key(
-        &self,
         owner: Owner,
         subscripts: usize,
         stack: &mut Vec<Slot>,
@@ -324,9 +332,8 @@ impl Evaluator<'_> {
         let span = self.block.spans[root];
         let found = match self.block.nodes[root] {
             Node::Parameter { owner, index } => Ok(Place::Parameter(owner, index)),
-            Node::IndexedParameter { owner, subscripts } => self
-                .parameter_key(owner, usize::from(subscripts), stack)
-                .map(|key| match key {
+            Node::IndexedParameter { owner, subscripts } => {
+                Self::parameter_key(owner, usize::from(subscripts), stack).map(|key| match key {
                     ParameterKey::Plain(owner, index) => Place::Parameter(owner, index),
                     ParameterKey::Element(name) => Place::Variable(name),
                     ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
@@ -334,7 +341,8 @@ impl Evaluator<'_> {
                         None => Place::Parameters(cause),
                     },
                     ParameterKey::Unknown(..) => Place::Nowhere,
-                }),
+                })
+            }
             Node::Variable { subscripts: 0 } => {
                 Ok(Place::Variable(variable_name(span, self.text).into_owned()))
             }
@@ -365,7 +373,8 @@ impl Evaluator<'_> {
             Some(Node::IndexedParameter { .. }) => 1,
             _ => 0,
         };
-        let dimensions = stack
+
+        stack
             .drain(bottom..)
             .skip(skip)
             .map(|slot| {
@@ -374,8 +383,7 @@ impl Evaluator<'_> {
                     .and_then(|number| u32::try_from(number).ok())
                     .unwrap_or_default()
             })
-            .collect();
-        dimensions
+            .collect()
     }
 }
 
@@ -406,7 +414,7 @@ enum VariableKey {
 }
 
 fn pop(stack: &mut Vec<Slot>) -> Slot {
-    stack.pop().unwrap_or_else(|| Ok(Value::Number(0.0)))
+    stack.pop().unwrap_or(Ok(Value::Number(0.0)))
 }
 
 fn never_written(span: Span, text: &str) -> Box<Fault> {

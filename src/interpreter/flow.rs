@@ -82,14 +82,13 @@ impl Interpreter {
     /// Does what a block asked for. `Break` when the program ends.
     pub(super) fn follow(&mut self, step: Step) -> ControlFlow<EndedBy> {
         match step {
-            Step::Next => {}
+            // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
+            Step::Next | Step::Begin => {}
             Step::Jump(entry) => {
                 if let Some(frame) = self.state.frames.last_mut() {
                     frame.next = entry;
                 }
             }
-            // Only a run that has not begun is parked so; `go_on` begins it.
-            Step::Begin => {}
             Step::Call(request) => self.push_call(*request),
             Step::Return => match self.state.frames.last() {
                 Some(frame) if frame.level > 0 => self.leave(),
@@ -131,12 +130,12 @@ impl Interpreter {
         let mut block = Block::default();
         let mut text = String::new();
         let mut remark = None;
-        if let Some(mut reader) = unit.index.reader(entry) {
-            if let Some(raw) = reader.next(&mut block) {
-                debug_assert_eq!(raw.stretch, Stretch::Block);
-                raw.text.clone_into(&mut text);
-                remark = raw.remark.map(|(text, line)| (text.to_owned(), line));
-            }
+        if let Some(mut reader) = unit.index.reader(entry)
+            && let Some(raw) = reader.next(&mut block)
+        {
+            debug_assert_eq!(raw.stretch, Stretch::Block);
+            raw.text.clone_into(&mut text);
+            remark = raw.remark.map(|(text, line)| (text.to_owned(), line));
         }
         let remark = remark.or_else(|| unit.index.remark(entry));
         let parsed = Rc::new(Parsed {
@@ -172,7 +171,7 @@ impl Interpreter {
                 continue;
             };
             if let Some(raw) = reader.next(&mut block) {
-                self.check_unexecuted(&file, (raw.line, raw.text), &block, notes);
+                Self::check_unexecuted(&file, (raw.line, raw.text), &block, notes);
             }
         }
     }
@@ -183,7 +182,7 @@ impl Interpreter {
         flow: &Flow,
         block: &Block,
         at: &At<'_>,
-    ) -> Result<Option<Option<bool>>, Box<Fault>> {
+    ) -> Result<Option<bool>, Box<Fault>> {
         let Flow::If(condition) = flow else {
             return Ok(None);
         };
@@ -199,9 +198,12 @@ impl Interpreter {
             )
             .with_help(how_to_set(cause));
             self.work.diagnostics.push(at.diagnostic(fault));
-            return Ok(Some(Some(false)));
+            return Ok(Some(false));
         }
-        Ok(Some(value.truth()))
+        let truth = value.truth();
+        truth
+            .map(Some)
+            .ok_or_else(|| no_condition(flow_span(block)))
     }
 
     /// Executes a `$` statement.
@@ -271,10 +273,7 @@ impl Interpreter {
                 self.pass((&start, *end, *step), entry, (block, at, span))?
             }
             Flow::EndFor => return self.next_pass(links.opener, span, at),
-            Flow::While(condition) => {
-                self.loop_while(*condition, (block, at, span), (entry, links.end))?
-            }
-            Flow::Do(Some(condition)) => {
+            Flow::While(condition) | Flow::Do(Some(condition)) => {
                 self.loop_while(*condition, (block, at, span), (entry, links.end))?
             }
             Flow::EndWhile | Flow::EndDo(None) => Some(Step::Jump(links.opener)),

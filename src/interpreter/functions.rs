@@ -209,6 +209,7 @@ fn number_function(function: Function, x: f64, span: Span) -> Slot {
 }
 
 /// Multiples of a quarter turn come out exact.
+#[allow(clippy::float_cmp, reason = "exact quarter turns are meant")]
 fn degrees(x: f64, function: fn(f64) -> f64) -> f64 {
     let turn = x.rem_euclid(360.0);
     if turn == 0.0 || turn == 180.0 {

@@ -4,6 +4,11 @@
 //! programs, and listens with an [`Observer`]. Everything that a run depends on is data, so it
 //! can be stopped, saved and resumed at any block of a program that is held in memory.
 
+#![allow(
+    clippy::unnecessary_box_returns,
+    reason = "faults travel boxed in results; what makes one boxes it"
+)]
+
 mod block;
 mod call;
 mod comp;
@@ -496,13 +501,13 @@ impl Interpreter {
     fn begin(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
         let refused = self.refused();
         if !refused.is_empty() && self.options.stop == StopPolicy::FirstError {
-            return self.ended(EndedBy::Error, refused, observer);
+            return self.ended(EndedBy::Error, &refused, observer);
         }
         if let Some(section) = self.units[0].index.main() {
             self.enter(0, section);
         }
         if let Err(missing) = self.start_program(finder) {
-            return self.ended(EndedBy::Error, vec![missing], observer);
+            return self.ended(EndedBy::Error, &[*missing], observer);
         }
         let outlook = self.run(finder, observer);
         self.close(outlook, refused, observer)
@@ -584,7 +589,7 @@ impl Interpreter {
         if self.options.stop == StopPolicy::CheckAll {
             self.check_all_unexecuted(&mut notes);
         }
-        self.ended(by, notes, observer)
+        self.ended(by, &notes, observer)
     }
 
     /// FC310 at the last executed block; a program without any block needs no M30 (R2.8).
@@ -603,7 +608,7 @@ impl Interpreter {
     fn ended(
         &mut self,
         by: EndedBy,
-        diagnostics: Vec<Diagnostic>,
+        diagnostics: &[Diagnostic],
         observer: &mut dyn Observer,
     ) -> Outlook {
         let changes = self.state.compensation.program_end();
@@ -617,7 +622,7 @@ impl Interpreter {
             seq: self.state.seq,
             by,
             changes: &changes,
-            diagnostics: &diagnostics,
+            diagnostics,
             compensation: &self.state.compensation,
             occurred: &self.state.occurred,
             version: self.version,
@@ -649,7 +654,6 @@ impl Interpreter {
     }
 
     fn check_unexecuted(
-        &self,
         file: &Arc<str>,
         (line, text): (u32, &str),
         block: &Block,

@@ -313,11 +313,11 @@ impl Builder {
     }
 
     fn block(&mut self, entry: EntryIndex, block: &Block, text: &str) {
-        if let Some(number) = block.number.filter(|number| number.label) {
-            if let Operand::Number(value) = number.value {
-                let name = LabelName::Number(rounded(value).unwrap_or_default());
-                self.label(entry, name, number.span);
-            }
+        if let Some(number) = block.number.filter(|number| number.label)
+            && let Operand::Number(value) = number.value
+        {
+            let name = LabelName::Number(rounded(value).unwrap_or_default());
+            self.label(entry, name, number.span);
         }
         let jumps = block.jumps();
         for item in &block.items {
@@ -434,17 +434,16 @@ impl Builder {
     }
 
     fn leaves(&mut self, entry: EntryIndex, (span, text): (Span, &str), left: fn(Kind) -> bool) {
-        match self.open.iter().rfind(|open| left(open.kind)) {
-            Some(open) => self.inner.push((entry, open.opener)),
-            None => {
-                let word = span.of(text).trim();
-                let fault = Fault::new(
-                    Code::Fc208,
-                    span,
-                    format!("`{word}` stands outside any loop that it could leave"),
-                );
-                self.refuse(entry, fault);
-            }
+        if let Some(open) = self.open.iter().rfind(|open| left(open.kind)) {
+            self.inner.push((entry, open.opener));
+        } else {
+            let word = span.of(text).trim();
+            let fault = Fault::new(
+                Code::Fc208,
+                span,
+                format!("`{word}` stands outside any loop that it could leave"),
+            );
+            self.refuse(entry, fault);
         }
     }
 

@@ -42,7 +42,7 @@ impl Interpreter {
                 continue;
             }
             if beyond || by.is_some() {
-                self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
+                Self::check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
                 continue;
             }
             if !announced {
@@ -51,7 +51,7 @@ impl Interpreter {
                     return Outlook::Paused;
                 }
                 if let Err(missing) = self.start_program(finder) {
-                    return self.ended(EndedBy::Error, vec![missing], observer);
+                    return self.ended(EndedBy::Error, &[*missing], observer);
                 }
                 if let Some(outlook) = self.run_called(finder, observer) {
                     return outlook;
@@ -67,7 +67,7 @@ impl Interpreter {
                 macro_depth: 0,
             };
             if let Some(over) = self.over_budget(&at) {
-                return self.ended(EndedBy::Budget, vec![over], observer);
+                return self.ended(EndedBy::Budget, &[over], observer);
             }
             if self.is_skipped(&block) {
                 continue;
@@ -97,7 +97,7 @@ impl Interpreter {
             notes.extend(self.missing_end());
             EndedBy::EndOfFile
         });
-        self.ended(by, notes, observer)
+        self.ended(by, &notes, observer)
     }
 
     /// Runs called programs until the one that called them goes on; `None` when it does.
@@ -112,8 +112,8 @@ impl Interpreter {
         match self.run(finder, observer) {
             Outlook::Ended(EndedBy::EndOfFile) => None,
             Outlook::Ended(by) => {
-                let notes = self.work.over.take().into_iter().collect();
-                Some(self.ended(by, notes, observer))
+                let notes: Vec<_> = self.work.over.take().into_iter().collect();
+                Some(self.ended(by, &notes, observer))
             }
             Outlook::Paused => Some(Outlook::Paused),
         }

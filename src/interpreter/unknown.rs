@@ -59,10 +59,10 @@ impl Interpreter {
         for entry in region {
             let mut block = Block::default();
             let mut text = String::new();
-            if let Some(mut reader) = self.units[unit].index.reader(entry) {
-                if let Some(raw) = reader.next(&mut block) {
-                    raw.text.clone_into(&mut text);
-                }
+            if let Some(mut reader) = self.units[unit].index.reader(entry)
+                && let Some(raw) = reader.next(&mut block)
+            {
+                raw.text.clone_into(&mut text);
             }
             let file = self.units[unit].index.source.name().clone();
             let at = At {

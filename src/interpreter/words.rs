@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::block::Intent;
+use super::block::{Feed, Intent};
 use super::value::rounded;
 use super::{At, EndedBy, Group, Interpreter};
 use crate::codes::Code;
@@ -153,7 +153,7 @@ impl Interpreter {
             (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
             (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
             (b'M', Some(17 | 29)) => intent.returns = true,
-            (b'F', _) => intent.feed = Some(number),
+            (b'F', _) => intent.feed = Feed::Given(number),
             (b'M' | b'T', Some(number)) => {
                 if !self.machine.programs.words.is_empty() {
                     let letter = char::from(letter).to_string();
@@ -240,7 +240,7 @@ impl Interpreter {
     /// Axis words become positions when the whole block is known: G90, G91, G70 and G92 count
     /// wherever they stand, and F belongs to the feed mode of its block.
     pub(super) fn move_axes(&mut self, intent: &Intent) {
-        if let Some(feed) = intent.feed {
+        if let Feed::Given(feed) = intent.feed {
             self.state.modal.set_feed(feed);
         }
         for &(axis, value) in &self.work.coordinates {

@@ -165,7 +165,7 @@ impl<S: LineSource> BlockReader<S> {
             Some(word) if word == "#RT CYCLE" => self.take_region("#RT CYCLE END", block),
             _ => {}
         }
-        if cut || self.text.lines().any(|line| too_long(line)) {
+        if cut || self.text.lines().any(too_long) {
             block.faults.push(
                 Fault::new(
                     Code::Fc206,

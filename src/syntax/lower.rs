@@ -188,7 +188,7 @@ impl Lowering<'_> {
             }
             Rule::bare_word => self.bare_word(span),
             Rule::unknown => {
-                self.unknown = Some(self.unknown.map_or(span, |so_far| so_far.to(span)))
+                self.unknown = Some(self.unknown.map_or(span, |so_far| so_far.to(span)));
             }
             _ => {}
         }
@@ -455,20 +455,17 @@ impl Lowering<'_> {
             if code.is_empty() || super::lines::hash_word(line).is_some() {
                 continue;
             }
-            match NcParser::parse(Rule::declaration_line, line) {
-                Ok(pairs) => {
-                    let parts = pairs
-                        .flat_map(Pair::into_inner)
-                        .flat_map(|part| (part.as_rule() == Rule::declaration).then_some(part));
-                    for part in parts {
-                        declarations.extend(self.declaration(part, span.start));
-                    }
+            if let Ok(pairs) = NcParser::parse(Rule::declaration_line, line) {
+                let parts = pairs
+                    .flat_map(Pair::into_inner)
+                    .filter_map(|part| (part.as_rule() == Rule::declaration).then_some(part));
+                for part in parts {
+                    declarations.extend(self.declaration(part, span.start));
                 }
-                Err(_) => {
-                    let fault = not_understood(trimmed(span, self.code), self.code)
-                        .with_help("declare as in `V.P.COUNT : UNS32 = 3`");
-                    self.block.faults.push(fault);
-                }
+            } else {
+                let fault = not_understood(trimmed(span, self.code), self.code)
+                    .with_help("declare as in `V.P.COUNT : UNS32 = 3`");
+                self.block.faults.push(fault);
             }
         }
         declarations

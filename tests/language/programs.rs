@@ -224,6 +224,7 @@ fn implicit_calls() {
         "[machine.programs]\nG80 = \"drill.nc\"\nG800 = \"drill.nc\"\nM6 = \"tool.nc\"\nT = \"tool.nc\"\n{MACHINE}"
     );
     let bench = Bench::on(&machine)
+        .keep_going()
         .file(
             "drill.nc",
             "$IF EXIST[@P3]\nX[COMP OFF FRICT]\n$ELSE\nV.S.R = @P1*100 + @P2*10 + @P4\n$ENDIF\nM17",
@@ -231,7 +232,7 @@ fn implicit_calls() {
         .file("tool.nc", "Y[COMP OFF FRICT]\nY[COMP ON FRICT]\nM17");
     let program = "N10 G800[1, 2, , 4]\nN20 G80 X5\nN30 T5 M6\nN40 G81[1,2]\nN50 G82\nM30";
     let mut session = bench.session();
-    assert_snapshot!(bench.run_in(&mut session, &[program]), @"
+    assert_snapshot!(bench.run_in(&mut session, &[program]), @r#"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 N10
@@ -245,8 +246,18 @@ fn implicit_calls() {
       9 line 3 - level 1
       10 line 4 - level 1
         FC311 4:9-12 in drill.nc
-      end 10 error X:active Y:active Z:unconfigured B:ineffective
-    ");
+      11 line 5 - level 1
+      12 line 6 - level 1
+      13 line 3 N30
+      14 line 1 - level 1 Y:active>inactive
+      15 line 2 - level 1 Y:inactive>active
+      16 line 3 - level 1
+      17 line 4 N40
+      18 line 5 N50
+      19 line 6 -
+      end 19 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {"G81": 1, "G82": 1}
+    "#);
     assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.R": Number(124.0)}"#);
 }
 

@@ -308,7 +308,7 @@ fn hash_commands() {
 #[test]
 fn transformations_mark_positions() {
     // R2.47
-    let program = "X1\n#TRAFO ON\nX2\nP1=V.A.PROG.X\n#TRAFO OFF\nX3\n#CS ON [0,0,0,0,0,45]\n#CS OFF\nG41\nG40\nG21\nG20\n#ROTATION ON [ANGLE 5]\n#ROTATION OFF\n#SCALE ON [X2]\n#SCALE OFF\n#KIN ID [9]\nM30";
+    let program = "X1\n#TRAFO ON\nX2\nP1=V.A.PROG.X\n#TRAFO OFF\nX3\n#CS ON [0,0,0,0,0,45]\n#CS OFF\nX4\nG41\nG40\nG21\nG20\n#ROTATION ON [ANGLE 5]\n#ROTATION OFF\n#SCALE ON [X2]\n#SCALE OFF\n#KIN ID [9]\nM30";
     assert_snapshot!(Bench::new().positions(program), @"
     X1 X:1 Y:? Z:? B:?
     #TRAFO ON X:?* Y:?* Z:?* B:?*
@@ -318,8 +318,9 @@ fn transformations_mark_positions() {
     X3 X:3 Y:? Z:? B:?
     #CS ON [0,0,0,0,0,45] X:?* Y:?* Z:?* B:?*
     #CS OFF X:? Y:? Z:? B:?
-    G41 X:?* Y:?* Z:?* B:?*
-    G40 X:? Y:? Z:? B:?
+    X4 X:4 Y:? Z:? B:?
+    G41 X:4* Y:?* Z:?* B:?*
+    G40 X:4 Y:? Z:? B:?
     G21 X:?* Y:?* Z:?* B:?*
     G20 X:? Y:? Z:? B:?
     #ROTATION ON [ANGLE 5] X:?* Y:?* Z:?* B:?*

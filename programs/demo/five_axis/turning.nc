@@ -1,0 +1,101 @@
+; Drive shaft 0815: face, rough and fine contour, three grooves, thread undercut.
+; Diameters are programmed; the plane is Z, X.
+
+%L TURRET
+; P1: station
+N1 G53 G0 X300
+N2 Z200
+N3 TP1 DP1 M6
+N4 G54
+N5 M17
+
+%L FINE_CONTOUR
+N1 G42 G1 X16 Z0 FP5
+N2 X20 Z-2
+N3 Z-25
+N4 G2 X30 Z-30 R5
+N5 G1 X38
+N6 G3 X42 Z-32 R2
+N7 G1 Z-60
+N8 X50
+N9 G40 X54
+N10 M17
+
+%SHAFT
+N10 G18 G71 G90 G40
+N20 "FINE"  = "X[COMP ON FRICT] Z[COMP ON FRICT]"
+N30 "ROUGH" = "X[COMP OFF FRICT] Z[COMP OFF FRICT]"
+N40 "ROUGH"
+N50 S1[M4 REV1800]
+
+; --- face
+N100 P1=1
+N110 LL TURRET
+N120 G0 X56 Z0 M8
+N130 G95 G1 X-1.6 F0.18
+N140 G0 Z2
+
+; --- rough the steps from 50 mm
+N200 P1=2
+N210 LL TURRET
+N220 G95 F0.3
+N230 $FOR P2 = 48, 44, -2
+N240   G0 XP2 Z2
+N250   G1 Z-59.8 F0.3
+N260   X[P2 + 2]
+N270   G0 Z2
+N280 $ENDFOR
+N290 $FOR P2 = 40, 22, -3
+N300   G0 XP2 Z2
+N310   G1 Z-29.6 F0.3
+N320   X[P2 + 2]
+N330   G0 Z2
+N340 $ENDFOR
+
+; --- fine contour: the shoulders reverse X and Z, so both are compensated
+N400 P1=3
+N410 LL TURRET
+N420 P5=0.1
+N430 G0 X16 Z2
+N440 "FINE"
+N450 LL FINE_CONTOUR
+N460 "ROUGH"
+N470 G0 X60 Z5
+
+; --- grooves for circlips, and one wide one
+N500 P1=5
+N510 LL TURRET
+N520 $FOR P3 = 1, 3, 1
+N530   $SWITCH P3
+N540   $CASE 1
+N550     P10=20 P11=18.5 P12=-8 P13=3
+N560     $BREAK
+N570   $CASE 2
+N580     P10=20 P11=18.5 P12=-20 P13=3
+N590     $BREAK
+N600   $DEFAULT
+N610     P10=42 P11=36 P12=-52 P13=9
+N620   $ENDSWITCH
+N630   L CYCLE [NAME=groove.cyc @P1=P10 @P2=P11 @P3=P12 \
+N631            @P4=P13 @P5=3 @P6=0.08 @P7=1]
+N640 $ENDFOR
+
+; --- flat on the live tool: C turns, X feeds
+N700 P1=8
+N710 LL TURRET
+N720 S1[M5]
+N730 C[COMP ON FRICT]
+N740 G94 G0 X60 Z-45 C0
+N750 $FOR P4 = 0, 180, 180
+N760   CP4
+N770   G1 X39 F120
+N780   Y-15 F200
+N790   Y15
+N800   G0 X60 Y0
+N810 $ENDFOR
+
+N900 M9
+N910 G53 G0 X300
+N920 Z200
+N930 "FINE" ;X and Z as they were found
+N940 M30

@@ -1,0 +1,7 @@
+%CYCLES
+N10 P2=40
+N20 L CYCLE [NAME=pocket.cyc @P1=10 @P2=P2 @P3=2]
+N30 L CYCLE [NAME=pocket.cyc \
+N31   @P1=20 \
+N32   @P2=[P2+10] @P3=1]
+N40 M30

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     // These three are plain data about text and know each other.
     ("source", &["diagnostic", "codes"]),
     ("diagnostic", &["source", "codes"]),
@@ -71,6 +71,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
             "timeline",
         ],
     ),
+    ("current", &["codes", "diagnostic", "lists", "machine"]),
     (
         "report",
         &[
@@ -91,10 +92,12 @@ const ROOMS: [(&str, &[&str]); 13] = [
             "diagnostic",
             "codes",
             "syntax",
+            "lists",
             "machine",
             "compensation",
             "timeline",
             "session",
+            "current",
             "report",
         ],
     ),

@@ -15,11 +15,11 @@ use crate::codes::Code;
 use crate::compensation::{Compensation, State};
 use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
 use crate::interpreter::{Ended, Event, Executed, Interpreter, Options, Outlook, Value};
-pub use crate::interpreter::{Finder, Limits, NoFiles, StopPolicy};
+pub use crate::interpreter::{Finder, Limits, NoFiles, NoteKind, Notes, StopPolicy};
 use crate::lint::Linter;
 use crate::lists::FrictionList;
 use crate::machine::{AxisIndex, Machine, Parameterisation, Setting};
-use crate::source::{LineSource, SourceFile, Span};
+use crate::source::{LineSource, Position, SourceFile, Span};
 use crate::syntax::{Kind, KindSet, allow};
 use crate::timeline::{
     AxisSummary, ChangedBy, End, EndNote, EndedBy, Record, Repeat, Row, Sink, StateView, Summary,
@@ -38,6 +38,8 @@ pub struct SessionOptions {
     pub levels: Levels,
     /// Values of variables that only the machine knows.
     pub settings: Vec<(String, Setting)>,
+    /// Whether notes are taken, for [`Session::notes`].
+    pub notes: Notes,
 }
 
 /// The text of a program.
@@ -133,7 +135,11 @@ pub struct Session {
     programs: u32,
     stopped: bool,
     tally: Tally,
+    notes: NoteBook,
 }
+
+/// Notes by kind, name and place, each once.
+type NoteBook = BTreeMap<(NoteKind, String, Arc<str>, Position), Place>;
 
 /// What the summary says.
 struct Tally {
@@ -158,6 +164,7 @@ impl Session {
             stop: options.stop,
             skip: options.skip,
             limits: options.limits,
+            notes: options.notes,
             ..Options::default()
         };
         let mut interpreter = Interpreter::new(Arc::clone(&machine), compensation.clone(), run);
@@ -178,6 +185,7 @@ impl Session {
                 changed_by: vec![Vec::new(); axes],
                 changes: vec![0; axes],
             },
+            notes: NoteBook::new(),
         }
     }
 
@@ -234,6 +242,15 @@ impl Session {
         }
     }
 
+    /// What the programs needed from the machine, or what was passed over: names with their places,
+    /// sorted, each once. Empty unless [`SessionOptions::notes`] asks for them.
+    pub fn notes(&self, kind: NoteKind) -> impl Iterator<Item = (&str, &Place)> {
+        self.notes
+            .iter()
+            .filter(move |((of, ..), _)| *of == kind)
+            .map(|((_, name, ..), place)| (name.as_str(), place))
+    }
+
     /// The interpreter, for positions and modal state.
     pub fn interpreter(&self) -> &Interpreter {
         &self.interpreter
@@ -266,6 +283,7 @@ impl Session {
             levels: &self.levels,
             linter: Linter::new(&machine, self.interpreter.compensation(), &self.start),
             tally: &mut self.tally,
+            notes: &mut self.notes,
             sink,
             program: self.programs,
             file,
@@ -412,6 +430,7 @@ struct Desk<'a> {
     levels: &'a Levels,
     linter: Linter<'a>,
     tally: &'a mut Tally,
+    notes: &'a mut NoteBook,
     sink: &'a mut dyn Sink,
     program: u32,
     file: &'a str,
@@ -450,6 +469,16 @@ impl Desk<'_> {
 
     fn executed(&mut self, executed: &Executed<'_>) -> ControlFlow<()> {
         self.tally.blocks += 1;
+        for note in executed.notes {
+            let place = &note.place;
+            let key = (
+                note.kind,
+                note.name.clone(),
+                Arc::clone(&place.file),
+                place.start(),
+            );
+            self.notes.entry(key).or_insert_with(|| place.clone());
+        }
         self.said.clear();
         self.said.extend_from_slice(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
@@ -480,6 +509,7 @@ impl Desk<'_> {
                 listed: executed.occurred,
                 version: executed.version,
             },
+            modal: executed.modal,
             diagnostics: &self.said,
         }))
     }

@@ -11,6 +11,7 @@ use crate::codes::Code;
 use crate::compensation::{Change, Compensation, State};
 use crate::diagnostic::{Diagnostic, Severity};
 pub use crate::interpreter::EndedBy;
+use crate::interpreter::Modal;
 pub use crate::lint::EndNote;
 use crate::machine::{AxisIndex, Machine};
 use crate::syntax::Kind;
@@ -76,6 +77,8 @@ pub struct Row<'a> {
     pub changes: &'a [Change],
     /// The state after the block.
     pub state: StateView<'a>,
+    /// G functions and positions after the block.
+    pub modal: &'a Modal,
     /// What there is to say about the block; written right behind it.
     pub diagnostics: &'a [Diagnostic],
 }

@@ -1,6 +1,7 @@
 //! `frictcomp check`: every diagnostic of every program.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,7 +18,7 @@ use super::walk;
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::{Listing, ListingFormat, Tally};
-use crate::session::StopPolicy;
+use crate::session::{NoteKind, Notes, StopPolicy};
 use crate::source::Position;
 use crate::timeline::{Record, Sink};
 
@@ -27,6 +28,13 @@ pub(super) struct CheckArgs {
     /// Programs and folders of programs, `-` for standard input
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
+    /// List the values that the programs need from the machine, with their places, in place of the
+    /// diagnostics
+    #[arg(long, conflicts_with = "opaque")]
+    unknowns: bool,
+    /// List what was accepted and passed over, with its places, in place of the diagnostics
+    #[arg(long)]
+    opaque: bool,
     #[command(flatten)]
     listing: ListingArgs,
     #[command(flatten)]
@@ -83,6 +91,12 @@ impl From<Format> for ListingFormat {
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let inputs = walk::programs(&args.paths)?;
+    if args.unknowns {
+        return list_notes(args, &inputs, console, NoteKind::Unknown);
+    }
+    if args.opaque {
+        return list_notes(args, &inputs, console, NoteKind::Opaque);
+    }
     let mut machines = Machines::new(&args.machine);
     let mut listed: Vec<Option<PathBuf>> = Vec::new();
     let target = console.target(args.listing.output.as_deref())?;
@@ -115,6 +129,46 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         Console::talk(&total(listing.tally()));
     }
     Ok(args.listing.fail_on.status(listing.tally()))
+}
+
+/// Lists names with their places, one a line: `V.E.PART mill.nc:12:5`.
+fn list_notes(
+    args: &CheckArgs,
+    inputs: &[Input],
+    console: Console,
+    kind: NoteKind,
+) -> Result<u8, Failure> {
+    let mut machines = Machines::new(&args.machine);
+    let mut lines = BTreeSet::new();
+    for input in inputs {
+        let loaded = machines.for_folder(input.folder())?;
+        let mut options = args.execution.options(loaded, StopPolicy::CheckAll);
+        options.notes = Notes::Taken;
+        let alone = Alone {
+            options,
+            naming: Naming::AsGiven,
+        };
+        let session = run_alone(input, loaded, alone, &mut Found::default())?;
+        for (name, place) in session.notes(kind) {
+            lines.insert((name.to_owned(), place.file.to_string(), place.start()));
+        }
+    }
+    let mut text = String::new();
+    for (name, file, start) in lines {
+        for part in [&name, " ", &file, ":", &start.to_string(), "\n"] {
+            text.push_str(part);
+        }
+    }
+    let mut writer = console.target(args.listing.output.as_deref())?.writer;
+    match writer
+        .write_all(text.as_bytes())
+        .and_then(|()| writer.flush())
+    {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::output(&error))
+        }
+        _ => Ok(super::exit::CLEAN),
+    }
 }
 
 /// Every diagnostic of one program, in the order of the places, each once.

@@ -9,7 +9,7 @@ use super::discovery::LoadedMachine;
 use super::failure::Failure;
 use super::files::{Input, Naming, Opened, ProgramFinder};
 use super::settings::{self, SkipLevels};
-use crate::session::{Limits, Program, Session, SessionOptions, StopPolicy};
+use crate::session::{Limits, Notes, Program, Session, SessionOptions, StopPolicy};
 use crate::timeline::Sink;
 
 /// What a dry run skips and where it ends.
@@ -23,14 +23,17 @@ pub(super) struct ExecutionArgs {
     #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_blocks: u64,
-    /// The deepest call of subprograms
+    /// Let subprograms call each other so deep
     #[arg(long, value_name = "N", default_value_t = Limits::default().calls)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     max_calls: u32,
-    /// The deepest nesting of `$` blocks
+    /// Let `$` control blocks stand in each other so deep
     #[arg(long, value_name = "N", default_value_t = Limits::default().nesting)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     max_nesting: u32,
-    /// The deepest expansion of macros in macros
+    /// Let macros expand into each other so deep, at most 64
     #[arg(long, value_name = "N", default_value_t = Limits::default().macros)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
     max_macros: u32,
 }
 
@@ -48,6 +51,7 @@ impl ExecutionArgs {
             },
             levels: loaded.levels.clone(),
             settings: loaded.settings.clone(),
+            notes: Notes::None,
         }
     }
 }
@@ -99,13 +103,14 @@ pub(super) struct Alone {
     pub(super) naming: Naming,
 }
 
-/// Runs one program in a session of its own, from the start of the control to the summary.
+/// Runs one program in a session of its own, from the start of the control to the summary, and
+/// returns the session.
 pub(super) fn run_alone(
     input: &Input,
     loaded: &LoadedMachine,
     alone: Alone,
     sink: &mut dyn Sink,
-) -> Result<(), Failure> {
+) -> Result<Session, Failure> {
     let surroundings = Surroundings::new(loaded, alone.naming);
     let mut session = Session::new(loaded.machine.clone(), alone.options);
     let mut flow = begin(&mut session, loaded, sink);
@@ -115,7 +120,7 @@ pub(super) fn run_alone(
     if flow.is_continue() {
         let _ = session.finish(sink);
     }
-    Ok(())
+    Ok(session)
 }
 
 /// Says what the session starts with, and what keeps the control from taking its lists.

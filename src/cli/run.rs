@@ -48,6 +48,9 @@ pub(super) struct RunArgs {
     /// The format of the timeline
     #[arg(long, default_value = "text")]
     format: Format,
+    /// More columns of the CSV timeline
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    columns: Vec<Column>,
     /// Write the timeline into this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -74,6 +77,13 @@ enum Format {
     Csv,
 }
 
+/// Columns that a CSV timeline has only where they are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Column {
+    /// Where each axis stands after the block.
+    Position,
+}
+
 impl RunArgs {
     fn report(&self, target: Target) -> Box<dyn Report> {
         let view = View {
@@ -92,6 +102,9 @@ impl RunArgs {
             }
             Format::Ndjson => Box::new(Ndjson::new(writer, view)),
             Format::Json => Box::new(Json::new(writer, view)),
+            Format::Csv if self.columns.contains(&Column::Position) => {
+                Box::new(Csv::new(writer, view).with_positions())
+            }
             Format::Csv => Box::new(Csv::new(writer, view)),
         }
     }
@@ -117,6 +130,10 @@ struct Start<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
+    if !args.columns.is_empty() && args.format != Format::Csv {
+        let failure = Failure::new("`--columns` belongs to `--format csv`");
+        return Err(failure);
+    }
     let inputs: Vec<Input> = args.files.iter().map(|path| Input::new(path)).collect();
     for input in &inputs {
         input.probe()?;

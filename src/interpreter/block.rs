@@ -3,39 +3,34 @@
 use std::ops::ControlFlow;
 
 use super::call::Wanted;
-use super::expression::{Evaluator, Place, Scope};
 use super::value::rounded;
+use super::words::AxisWords;
 use super::{
-    At, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Outcome, Step,
-    StopPolicy, Value, stops,
+    At, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Step, StopPolicy,
+    Value, stops,
 };
 use crate::codes::Code;
-use crate::compensation::{CompensationError, Coupling, State};
-use crate::diagnostic::did_you_mean;
-use crate::machine::{AxisIndex, AxisSet, CncBuild, Origin, Parameterisation};
 use crate::source::Span;
-use crate::syntax::ast::{
-    Address, Assignment, Block, CallScope, Declaration, GCall, Hash, Item, Operand, Owner, Word,
-};
-use crate::syntax::{CompCommand, FastPath, Fault, Kind, KindSet, Selection};
+use crate::syntax::ast::{Block, CallScope, Item, Operand};
+use crate::syntax::{FastPath, Fault};
 
 /// What a block does after its words.
 #[derive(Default)]
-struct Intent {
+pub(super) struct Intent {
     /// M02, M30.
-    end: Option<EndedBy>,
+    pub(super) end: Option<EndedBy>,
     /// M17, M29.
-    returns: bool,
+    pub(super) returns: bool,
     /// A jump, or a control block's business.
     step: Option<Step>,
     /// A call.
-    call: Option<Wanted>,
+    pub(super) call: Option<Wanted>,
     /// The G functions of the block, to find two of one group.
-    groups: Vec<(Group, u32)>,
-    /// G04, G92 …: axis words are no motion.
-    no_motion: bool,
-    /// G92: axis words set the reference.
-    reference: bool,
+    pub(super) groups: Vec<(Group, u32)>,
+    /// What axis words are: G04, G92 … make them something else than coordinates.
+    pub(super) axis_words: AxisWords,
+    /// F, which may be unknown.
+    pub(super) feed: Option<Option<f64>>,
     /// The condition of an `$IF` in a block with `$GOTO`.
     condition: Option<Option<bool>>,
 }
@@ -59,8 +54,11 @@ impl Interpreter {
         let mut intent = Intent::default();
         let limit = self.first_refusal(block);
         self.items(block, at, &mut intent, limit);
+        if !self.work.diagnostics.iter().any(stops) || self.options.stop != StopPolicy::FirstError {
+            self.check_required(intent.axis_words, at);
+        }
         if !self.pending.is_empty() {
-            self.forget_called(at, finder);
+            self.forget_called(finder);
         }
         let call = intent.call.take();
         let call = call.and_then(|wanted| self.resolve(wanted, at, finder));
@@ -105,9 +103,11 @@ impl Interpreter {
             outcomes: &self.work.outcomes,
             changes: &self.work.changes,
             moved: if stopped { &[] } else { &self.work.moved },
+            notes: &self.work.notes.take(),
             diagnostics: &self.work.diagnostics,
             stopped,
             compensation: &self.state.compensation,
+            modal: &self.state.modal,
             occurred: &self.state.occurred,
             version: self.version,
         }));
@@ -197,13 +197,7 @@ impl Interpreter {
                 self.work.diagnostics.push(at.diagnostic(fault));
             }
             if let (None, Some(name)) = (self.state.ending, self.machine.programs.end.clone()) {
-                let wanted = Wanted {
-                    scope: CallScope::Global,
-                    name,
-                    own: std::collections::BTreeMap::new(),
-                    span: Span::new(0, at.text.len()),
-                    repeat: None,
-                };
+                let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
                 self.state.frames.clear();
                 if let Some(step) = self.resolve(wanted, at, finder) {
                     self.state.ending = Some(by);
@@ -233,14 +227,18 @@ impl Interpreter {
                 self.comp(command, at);
                 Ok(())
             }
-            Item::Bracket { axis, keyword, .. } => {
+            Item::Bracket {
+                axis,
+                keyword,
+                span,
+            } => {
                 let word = format!("{}[{}]", axis.of(at.text), keyword.of(at.text));
-                self.pass_over(&word);
+                self.pass_over(&word, *span, at);
                 Ok(())
             }
             Item::BareNumber(operand, span) => {
                 self.value(*operand, block, at)?;
-                if intent.no_motion {
+                if intent.axis_words != AxisWords::Motion {
                     return Ok(());
                 }
                 let found = span.of(at.text);
@@ -278,616 +276,6 @@ impl Interpreter {
         }
     }
 
-    /// The value of an operand.
-    pub(super) fn value(
-        &mut self,
-        operand: Operand,
-        block: &Block,
-        at: &At<'_>,
-    ) -> Result<Value, Box<Fault>> {
-        if let Operand::Number(number) = operand {
-            return Ok(Value::Number(number));
-        }
-        let mut stack = std::mem::take(&mut self.work.stack);
-        let value =
-            self.with_evaluator(block, at, |evaluator| evaluator.value(operand, &mut stack));
-        self.work.stack = stack;
-        value
-    }
-
-    fn with_evaluator<T>(
-        &self,
-        block: &Block,
-        at: &At<'_>,
-        work: impl FnOnce(&Evaluator<'_>) -> T,
-    ) -> T {
-        static NO_CALL: std::collections::BTreeMap<u32, Value> = std::collections::BTreeMap::new();
-        let own = self
-            .state
-            .frames
-            .last()
-            .map_or(&NO_CALL, |frame| &frame.own);
-        work(&Evaluator {
-            block,
-            text: at.text,
-            scope: Scope {
-                memory: &self.state.memory,
-                own,
-                system: &|name| self.system_variable(name),
-            },
-        })
-    }
-
-    /// What the dry run knows of the machine's own variables (R1.35, R2.36).
-    fn system_variable(&self, name: &str) -> Option<Value> {
-        let rest = name.strip_prefix("V.A.")?;
-        let (variable, axis) = match rest.split_once('[') {
-            Some((variable, index)) => {
-                let position = index.trim_end_matches(']').parse().ok()?;
-                (
-                    variable,
-                    (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
-                )
-            }
-            None => {
-                let (variable, axis) = rest.rsplit_once('.')?;
-                (variable, self.machine.find(axis)?)
-            }
-        };
-        if let Some(kind) = variable
-            .strip_suffix("_COMP_ACTIVE")
-            .and_then(compensation_kind)
-        {
-            return match self.state.compensation.state(axis, kind) {
-                State::Unknown => None,
-                state => Some((state == State::Active).into()),
-            };
-        }
-        if let Some(kind) = variable
-            .strip_suffix("_COMP_INIT")
-            .and_then(compensation_kind)
-        {
-            let machine = self.machine.axis(axis);
-            let ready = machine.configured.contains(kind) && machine.parameterised().contains(kind);
-            return Some(ready.into());
-        }
-        match variable {
-            "ABS" | "PROG" => self.state.modal.position(axis).value.map(Value::Number),
-            _ => None,
-        }
-    }
-
-    fn word(
-        &mut self,
-        word: &Word,
-        block: &Block,
-        at: &At<'_>,
-        intent: &mut Intent,
-    ) -> Result<(), Box<Fault>> {
-        let value = match word.value {
-            None => None,
-            Some(operand) => Some(self.value(operand, block, at)?),
-        };
-        let number = value.as_ref().and_then(Value::number);
-        match word.address {
-            Address::Letter(letter @ b'A'..=b'Z') => {
-                if let Some(axis) = self.letters[usize::from(letter - b'A')] {
-                    self.axis_word(axis, word, number, at)
-                } else {
-                    self.letter(letter, number, word, intent)
-                }
-            }
-            Address::Name(name) => match self.names.get(name.of(at.text)).copied() {
-                Some(axis) => self.axis_word(axis, word, number, at),
-                None => {
-                    if !name.of(at.text).starts_with('S') {
-                        let name = name.of(at.text).to_owned();
-                        self.pass_over(&name);
-                    }
-                    Ok(())
-                }
-            },
-            Address::Lower(letter) | Address::Letter(letter) => {
-                self.pass_over(&char::from(letter).to_string());
-                Ok(())
-            }
-        }
-    }
-
-    fn axis_word(
-        &mut self,
-        axis: AxisIndex,
-        word: &Word,
-        number: Option<f64>,
-        at: &At<'_>,
-    ) -> Result<(), Box<Fault>> {
-        self.state.occurred[axis.get()] = true;
-        self.work.coordinates.push((axis, number));
-        self.work.moved.push((axis, word.span));
-        let missing = self.machine.axis(axis).required.iter().find(|kind| {
-            !matches!(
-                self.state.compensation.state(axis, *kind),
-                State::Active | State::Unknown
-            )
-        });
-        let Some(kind) = missing else {
-            return Ok(());
-        };
-        let name = &self.machine.axis(axis).name;
-        let keyword = kind.keyword();
-        let fault = Fault::new(
-            Code::PErr70435,
-            word.span,
-            format!("axis `{name}` moves without `{keyword}`, which P-AXIS-00465 requires"),
-        )
-        .with_help(format!(
-            "switch it on before, with `{name}[COMP ON {keyword}]`"
-        ));
-        let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-        self.work.diagnostics.push(diagnostic);
-        Ok(())
-    }
-
-    fn letter(
-        &mut self,
-        letter: u8,
-        number: Option<f64>,
-        word: &Word,
-        intent: &mut Intent,
-    ) -> Result<(), Box<Fault>> {
-        let whole = number.and_then(rounded);
-        match (letter, whole) {
-            (b'G', Some(number)) => return self.g_word(number, word, intent),
-            (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
-            (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
-            (b'M', Some(17 | 29)) => intent.returns = true,
-            (b'F', _) => self.state.modal.set_feed(number),
-            (b'M' | b'T', Some(number)) => {
-                if !self.machine.programs.words.is_empty() {
-                    let letter = char::from(letter).to_string();
-                    let wanted =
-                        self.configured([&format!("{letter}{number}"), &letter], word.span);
-                    intent.call = intent.call.take().or(wanted);
-                }
-            }
-            (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'I' | b'J' | b'K' | b'R' | b'N', _) => {}
-            _ => self.pass_over(&char::from(letter).to_string()),
-        }
-        Ok(())
-    }
-
-    fn g_word(&mut self, number: i64, word: &Word, intent: &mut Intent) -> Result<(), Box<Fault>> {
-        let Ok(number) = u32::try_from(number) else {
-            self.pass_over(&format!("G{number}"));
-            return Ok(());
-        };
-        if let Some(group) = Group::of(number) {
-            let first = intent.groups.iter().find(|(other, _)| *other == group);
-            if let Some((_, first)) = first.filter(|(_, first)| *first != number) {
-                return Err(Box::new(
-                    Fault::new(
-                        Code::Fc313,
-                        word.span,
-                        format!("`G{number}` and `G{first:02}` belong to one group"),
-                    )
-                    .with_help("a block takes one G function of each group"),
-                ));
-            }
-            intent.groups.push((group, number));
-        }
-        match number {
-            4 => intent.no_motion = true,
-            92 => {
-                intent.no_motion = true;
-                intent.reference = true;
-            }
-            _ if self.state.modal.set(number) => {}
-            // G60, G61 and the like have no bearing on the compensation; a configured cycle has.
-            _ => {
-                let name = format!("G{number}");
-                match self.configured([&name, &name], word.span) {
-                    Some(wanted) => intent.call = Some(wanted),
-                    None => self.pass_over(&name),
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Axis words become positions when the whole block is known: G90, G91, G70 and G92 count
-    /// wherever they stand.
-    fn move_axes(&mut self, intent: &Intent) {
-        if intent.no_motion {
-            self.work.moved.clear();
-        }
-        if intent.no_motion && !intent.reference {
-            return;
-        }
-        for &(axis, value) in &self.work.coordinates {
-            if intent.reference {
-                self.state.modal.set_reference(axis, value);
-            } else {
-                self.state.modal.move_axis(axis, value);
-            }
-        }
-    }
-
-    fn comp(&mut self, command: &CompCommand, at: &At<'_>) {
-        let before = self.work.changes.len();
-        let axis = self.find_axis(command);
-        let result = axis.and_then(|axis| {
-            self.state.occurred[axis.get()] = true;
-            self.warn_opposite(command, axis, at);
-            self.state
-                .compensation
-                .switch(axis, command.selection, &mut self.work.changes)
-                .map(|()| axis)
-        });
-        match &result {
-            Ok(axis) => {
-                self.warn_build(command, at);
-                self.warn_ineffective(command, *axis, at);
-            }
-            Err(error) => {
-                let diagnostic = self.refusal(error, command, at);
-                self.work.diagnostics.push(diagnostic);
-            }
-        }
-        self.work.outcomes.push(Outcome {
-            command: command.clone(),
-            result,
-            changes: self.work.changes.len() - before,
-        });
-    }
-
-    fn find_axis(&self, command: &CompCommand) -> Result<AxisIndex, CompensationError> {
-        let axis = self.state.compensation.resolve(&command.axis)?;
-        let nameless = self.machine.axis_set == AxisSet::AsTheyOccur;
-        debug_assert!(nameless || self.state.occurred[axis.get()]);
-        Ok(axis)
-    }
-
-    /// FC301: the same axis and kind twice in one block with opposite states.
-    fn warn_opposite(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
-        let on = |selection| matches!(selection, Selection::On(_));
-        let opposite = self.work.outcomes.iter().find_map(|earlier| {
-            let same_axis = earlier.result.as_ref().ok() == Some(&axis);
-            let kinds = earlier
-                .command
-                .selection
-                .kinds()
-                .intersection(command.selection.kinds());
-            (same_axis
-                && !kinds.is_empty()
-                && on(earlier.command.selection) != on(command.selection))
-            .then_some((earlier.command.span, kinds))
-        });
-        if let Some((first, kinds)) = opposite {
-            let keywords: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
-            let name = &command.axis;
-            let fault = Fault::new(
-                Code::Fc301,
-                command.span,
-                format!(
-                    "`{}` of axis `{name}` is switched both on and off in this block; this command wins",
-                    keywords.join(" ")
-                ),
-            );
-            let diagnostic = at
-                .diagnostic(fault)
-                .with_axis(name.clone())
-                .with_label(at.place(first), "the opposite stands here");
-            self.work.diagnostics.push(diagnostic);
-        }
-    }
-
-    /// FC305: a kind that the configured build does not know (R1.10).
-    fn warn_build(&mut self, command: &CompCommand, at: &At<'_>) {
-        let Some(build) = self.machine.build else {
-            return;
-        };
-        let named = match command.selection {
-            Selection::On(kinds) | Selection::Off(kinds) => kinds,
-            Selection::OffAll => KindSet::NONE,
-        };
-        for kind in named.iter() {
-            let since: CncBuild = kind.facts().since;
-            if build < since {
-                let keyword = kind.keyword();
-                let fault = Fault::new(
-                    Code::Fc305,
-                    command.span,
-                    format!("`{keyword}` exists since CNC build {since}, the machine has {build}"),
-                );
-                self.work
-                    .diagnostics
-                    .push(at.diagnostic(fault).with_axis(command.axis.clone()));
-            }
-        }
-    }
-
-    /// FC303: selected, but nothing to work with (R1.26).
-    fn warn_ineffective(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
-        let selects =
-            matches!(command.selection, Selection::On(kinds) if kinds.contains(Kind::Frict));
-        if !selects || self.state.compensation.state(axis, Kind::Frict) != State::Ineffective {
-            return;
-        }
-        let name = &command.axis;
-        let (missing, help) = match &self.machine.axis(axis).friction {
-            Parameterisation::Missing => (
-                "the axis has no value list".to_owned(),
-                format!("give axis `{name}` a list with `frict_comp.mode 3` and table values"),
-            ),
-            Parameterisation::Off => (
-                "the value list says `frict_comp.mode 0`".to_owned(),
-                "set P-COMP-00041 to 3".to_owned(),
-            ),
-            Parameterisation::Rejected { file, code } => (
-                format!("the value list `{file}` was rejected with {code}"),
-                format!("`frictcomp explain {code}` says why"),
-            ),
-            Parameterisation::Assumed | Parameterisation::Accepted(_) => return,
-        };
-        let fault = Fault::new(
-            Code::Fc303,
-            command.span,
-            format!("friction compensation of axis `{name}` is selected without effect: {missing}"),
-        )
-        .with_help(help);
-        self.work
-            .diagnostics
-            .push(at.diagnostic(fault).with_axis(name.clone()));
-    }
-
-    fn refusal(
-        &self,
-        error: &CompensationError,
-        command: &CompCommand,
-        at: &At<'_>,
-    ) -> crate::diagnostic::Diagnostic {
-        let name = &command.axis;
-        let axis_span = Span::new(
-            command.span.start as usize,
-            command.span.start as usize + name.len(),
-        );
-        let span = match error {
-            CompensationError::UnknownAxis { .. } => axis_span,
-            _ => command.span,
-        };
-        let fault = Fault::new(error.code(), span, error.to_string());
-        let mut diagnostic = at.diagnostic(fault).with_axis(name.clone());
-        match error {
-            CompensationError::NotConfigured { .. } => {
-                let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
-                diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
-                    Some(Origin::File { file, line }) => {
-                        format!("{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control")
-                    }
-                    _ => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control"),
-                });
-                diagnostic = diagnostic.with_help(format!(
-                    "to go on as if it were set, run with `--enable {name}`"
-                ));
-            }
-            CompensationError::UnknownAxis { .. } => {
-                let known = self.machine.axes.iter().map(|axis| axis.name.as_str());
-                diagnostic = match did_you_mean(name, known.clone()) {
-                    Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
-                    None => diagnostic.with_help(format!(
-                        "the machine has {}",
-                        known.collect::<Vec<_>>().join(", ")
-                    )),
-                };
-            }
-            CompensationError::Coupled { .. } => {
-                diagnostic =
-                    diagnostic.with_help("release the coupling before, with `#DISABLE AX LINK`");
-            }
-            CompensationError::Spindle { .. } => {}
-        }
-        diagnostic
-    }
-
-    /// Counts something that was accepted and passed over.
-    pub(super) fn pass_over(&mut self, word: &str) {
-        match self.state.opaque.get_mut(word) {
-            Some(count) => *count += 1,
-            None => {
-                self.state.opaque.insert(word.to_owned(), 1);
-            }
-        }
-    }
-
-    fn assign(
-        &mut self,
-        assignment: Assignment,
-        block: &Block,
-        at: &At<'_>,
-    ) -> Result<(), Box<Fault>> {
-        let value = self.value(assignment.value, block, at)?;
-        let place = self.target_place(assignment.target.place, block, at)?;
-        self.write(place, value);
-        Ok(())
-    }
-
-    pub(super) fn target_place(
-        &mut self,
-        place: crate::syntax::ast::Expression,
-        block: &Block,
-        at: &At<'_>,
-    ) -> Result<Place, Box<Fault>> {
-        let mut stack = std::mem::take(&mut self.work.stack);
-        let found = self.with_evaluator(block, at, |evaluator| evaluator.place(place, &mut stack));
-        self.work.stack = stack;
-        found
-    }
-
-    pub(super) fn write(&mut self, place: Place, value: Value) {
-        match place {
-            Place::Parameter(Owner::Program, index) => {
-                self.state.memory.set_parameter(index, value)
-            }
-            Place::Parameter(Owner::Call, index) => {
-                if let Some(frame) = self.state.frames.last_mut() {
-                    frame.own.insert(index, value);
-                }
-            }
-            Place::Variable(name) => self.state.memory.set_variable(&name, value),
-            Place::Nowhere => {}
-        }
-    }
-
-    fn hash(
-        &mut self,
-        hash: &Hash,
-        block: &Block,
-        at: &At<'_>,
-        intent: &mut Intent,
-    ) -> Result<(), Box<Fault>> {
-        match hash.name.as_str() {
-            "#VAR" => return self.declare(&hash.declarations, block, at),
-            "#DELETE" => self.delete(hash, block, at)?,
-            "#TIME" => {
-                intent.no_motion = true;
-                if let Some(time) = hash.argument {
-                    self.value(time, block, at)?;
-                }
-            }
-            "#SET AX LINK" => self.define_coupling(hash.rest.of(at.text)),
-            "#ENABLE AX LINK" => self.couple(hash.rest.of(at.text), Coupling::Active),
-            "#DISABLE AX LINK" | "#DISABLE AX LINK ALL" => {
-                self.couple(hash.rest.of(at.text), Coupling::None)
-            }
-            "#DISABLE MODAL CYCLE" => self.state.repeated = None,
-            "#COMMENT END" | "#ENDVAR" => {}
-            name => {
-                self.state.modal.hash(name);
-                let word = name
-                    .trim_end_matches(" OFF")
-                    .trim_end_matches(" ON")
-                    .to_owned();
-                self.pass_over(&word);
-                let rest = hash.rest.of(at.text);
-                if name.starts_with("#MACHINE DATA") && names_friction(rest) {
-                    return Err(Box::new(
-                        Fault::new(
-                            Code::Fc314,
-                            hash.span,
-                            "the program writes friction parameters into the machine data",
-                        )
-                        .with_help("from here on the machine may differ from its lists; this run goes on with the lists"),
-                    ));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn define_coupling(&mut self, rest: &str) {
-        let axes = self.axes_in(rest);
-        self.state.couplings.insert(group_of(rest), axes);
-    }
-
-    fn couple(&mut self, rest: &str, coupling: Coupling) {
-        let group = group_of(rest);
-        let named = self.axes_in(rest);
-        let axes = match self.state.couplings.get(&group) {
-            Some(axes) => axes.clone(),
-            None if !named.is_empty() => named,
-            // Without a group every coupling ends; what an unknown group couples is not known.
-            None if coupling == Coupling::None => {
-                (0..self.machine.axes.len()).map(AxisIndex::new).collect()
-            }
-            None => {
-                self.pass_over("#ENABLE AX LINK");
-                return;
-            }
-        };
-        for axis in axes {
-            self.state.compensation.set_coupled(axis, coupling);
-        }
-    }
-
-    fn axes_in(&self, text: &str) -> Vec<AxisIndex> {
-        text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
-            .filter_map(|word| self.machine.find(word))
-            .collect()
-    }
-
-    fn delete(&mut self, hash: &Hash, block: &Block, at: &At<'_>) -> Result<(), Box<Fault>> {
-        let Some(Operand::Expression(place)) = hash.argument else {
-            return Ok(());
-        };
-        match self.target_place(place, block, at)? {
-            Place::Parameter(_, index) => self.state.memory.delete_parameter(index),
-            Place::Variable(name) => self.state.memory.delete(&name),
-            Place::Nowhere => {}
-        }
-        Ok(())
-    }
-
-    fn declare(
-        &mut self,
-        declarations: &[Declaration],
-        block: &Block,
-        at: &At<'_>,
-    ) -> Result<(), Box<Fault>> {
-        for declaration in declarations {
-            let mut stack = std::mem::take(&mut self.work.stack);
-            let dimensions = self.with_evaluator(block, at, |evaluator| {
-                evaluator.dimensions(declaration.target.place, &mut stack)
-            });
-            self.work.stack = stack;
-            let text = declaration.target.span.of(at.text);
-            let name = text.split('[').next().unwrap_or_default().trim().to_owned();
-            let mut values = Vec::with_capacity(declaration.initial.len());
-            for operand in &declaration.initial {
-                values.push(self.value(*operand, block, at)?);
-            }
-            if dimensions.is_empty() {
-                let is_text = declaration.kind.as_deref() == Some("STRING");
-                let default = if is_text {
-                    Value::Text("".into())
-                } else {
-                    Value::Number(0.0)
-                };
-                self.state
-                    .memory
-                    .declare(&name, values.into_iter().next().unwrap_or(default));
-                continue;
-            }
-            for (at, value) in values.into_iter().enumerate() {
-                let element = element(&name, &dimensions, at);
-                self.state.memory.declare(&element, value);
-            }
-            self.state.memory.declare_array(&name, dimensions);
-        }
-        Ok(())
-    }
-
-    fn g_call(
-        &mut self,
-        call: &GCall,
-        block: &Block,
-        at: &At<'_>,
-        intent: &mut Intent,
-    ) -> Result<(), Box<Fault>> {
-        let mut own = std::collections::BTreeMap::new();
-        for (place, operand) in (1..).zip(&call.arguments) {
-            if let Some(operand) = operand {
-                own.insert(place, self.value(*operand, block, at)?);
-            }
-        }
-        let word = format!("G{}", call.number);
-        match self.configured([&word, &word], call.span) {
-            Some(wanted) => intent.call = Some(Wanted { own, ..wanted }),
-            None => self.pass_over(&word),
-        }
-        let _ = at;
-        Ok(())
-    }
-
     /// A macro in place of words: its code is a block of its own, executed here (R2.35).
     fn expand(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) -> Result<(), Box<Fault>> {
         let name = unquoted(span, at);
@@ -897,26 +285,19 @@ impl Interpreter {
                 "define it before, with `\"{name}\" = \"code\"`"
             ))));
         };
-        let depth = self.options.limits.macros;
-        if at.macro_depth >= depth {
-            let fault = Fault::new(
-                Code::Fc914,
-                span,
-                format!("macros expand into each other more than {depth} deep"),
-            );
-            return Err(Box::new(
-                fault.with_help("a deeper expansion is allowed with `--max-macros`"),
-            ));
-        }
+        let macros = self.with_evaluator(&Block::default(), at, |evaluator| {
+            evaluator.macros.expand(span).map(|macros| macros.depth)
+        })?;
         let mut block = Block::default();
         let lines = crate::source::TextLines::new(&code);
         let _ = crate::syntax::BlockReader::new(lines, 1, FastPath::On).next(&mut block);
         let inner = At {
             text: &code,
-            macro_depth: at.macro_depth + 1,
+            macro_depth: macros,
             ..*at
         };
         let (said, moved) = (self.work.diagnostics.len(), self.work.moved.len());
+        let (switched, noted) = (self.work.outcomes.len(), self.work.notes.borrow().len());
         let limit = self.first_refusal(&block);
         self.items(&block, &inner, intent, limit);
         self.take_faults(&block, &inner, limit.is_some());
@@ -926,6 +307,12 @@ impl Interpreter {
         }
         for (_, word) in &mut self.work.moved[moved..] {
             *word = span;
+        }
+        for outcome in &mut self.work.outcomes[switched..] {
+            outcome.command.span = span;
+        }
+        for note in &mut self.work.notes.borrow_mut()[noted..] {
+            note.place = at.place(span);
         }
         Ok(())
     }
@@ -963,36 +350,6 @@ impl Interpreter {
     }
 }
 
-fn compensation_kind(name: &str) -> Option<Kind> {
-    Kind::from_keyword(name).filter(|kind| *kind != Kind::Backlash)
-}
-
 fn unquoted<'a>(span: Span, at: &At<'a>) -> &'a str {
-    span.of(at.text).trim_matches('"')
-}
-
-fn names_friction(text: &str) -> bool {
-    text.contains("lr_param.frict_comp") || text.contains("frict_comp.")
-}
-
-/// The coupling group that `[1]` names.
-fn group_of(rest: &str) -> String {
-    let digits = rest.trim_start_matches(|c: char| !c.is_ascii_digit() && !c.is_ascii_alphabetic());
-    digits.chars().take_while(char::is_ascii_digit).collect()
-}
-
-/// The name of the element at a place in row order.
-fn element(name: &str, dimensions: &[u32], place: usize) -> String {
-    let mut subscripts = Vec::with_capacity(dimensions.len());
-    let mut rest = place;
-    for size in dimensions.iter().rev() {
-        let size = (*size).max(1) as usize;
-        subscripts.push(rest % size);
-        rest /= size;
-    }
-    let mut element = name.to_owned();
-    for subscript in subscripts.iter().rev() {
-        element.push_str(&format!("[{subscript}]"));
-    }
-    element
+    super::expression::unquoted(span.of(at.text))
 }

@@ -14,7 +14,7 @@ use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
 use crate::machine::AxisIndex;
 use crate::source::Span;
-use crate::syntax::ast::{Block, Call, CallName, CallScope, Operand};
+use crate::syntax::ast::{Block, Call, CallForm, CallName, CallScope, Operand};
 use crate::syntax::{Fault, KindSet};
 
 /// A call whose program has not been looked for yet.
@@ -24,8 +24,24 @@ pub(super) struct Wanted {
     pub(super) name: String,
     pub(super) own: BTreeMap<u32, Value>,
     pub(super) span: Span,
+    /// Whether it is a cycle.
+    pub(super) form: CallForm,
     /// Set for a modal cycle: whether it waits for motion.
     pub(super) repeat: Option<bool>,
+}
+
+impl Wanted {
+    /// A call of a program without parameters.
+    pub(super) fn program(scope: CallScope, name: String, span: Span) -> Self {
+        Self {
+            scope,
+            name,
+            own: BTreeMap::new(),
+            span,
+            form: CallForm::Plain,
+            repeat: None,
+        }
+    }
 }
 
 /// A program that was found.
@@ -46,7 +62,7 @@ impl Interpreter {
         let name = match call.name {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
-                let name = span.of(at.text).trim_matches('"');
+                let name = super::expression::unquoted(span.of(at.text));
                 Value::Text(self.state.memory.macro_code(name).unwrap_or(name).into())
             }
             CallName::Variable(place) => self.value(Operand::Expression(place), block, at)?,
@@ -61,6 +77,7 @@ impl Interpreter {
                 name: name.trim().to_owned(),
                 own,
                 span: call.span,
+                form: call.form,
                 repeat: after_motion_only(call),
             })),
             Value::Unknown(cause) => {
@@ -90,13 +107,7 @@ impl Interpreter {
                 .iter()
                 .find(|(configured, _)| configured.eq_ignore_ascii_case(word))
         });
-        found.map(|(_, program)| Wanted {
-            scope: CallScope::Global,
-            name: program.clone(),
-            own: BTreeMap::new(),
-            span,
-            repeat: None,
-        })
+        found.map(|(_, program)| Wanted::program(CallScope::Global, program.clone(), span))
     }
 
     /// Looks for the wanted program and makes the step that calls it.
@@ -106,7 +117,8 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
-        let found = match self.find(&wanted, at.file, finder) {
+        let unit = self.state.frames.last().map_or(0, |frame| frame.unit);
+        let found = match self.find(&wanted, (unit, at.file), finder) {
             Ok(found) => found?,
             Err(fault) => {
                 self.work.diagnostics.push(at.diagnostic(*fault));
@@ -146,6 +158,7 @@ impl Interpreter {
         Some(Step::Call(Box::new(Request {
             found,
             own: wanted.own,
+            form: wanted.form,
             called_from: at.place(wanted.span),
         })))
     }
@@ -163,6 +176,7 @@ impl Interpreter {
             Step::Call(Box::new(Request {
                 found: repeated.found,
                 own: repeated.own.clone(),
+                form: CallForm::Cycle,
                 called_from: at.place(Span::new(0, at.text.len())),
             }))
         })
@@ -171,12 +185,11 @@ impl Interpreter {
     fn find(
         &mut self,
         wanted: &Wanted,
-        caller: &str,
+        (unit, caller): (usize, &str),
         finder: &mut dyn Finder,
     ) -> Result<Option<Found>, Box<Fault>> {
         let name = wanted.name.as_str();
         if wanted.scope == CallScope::Local {
-            let unit = self.state.frames.last().map_or(0, |frame| frame.unit);
             let index = self.units.get(unit).map(|unit| &unit.index);
             return match index.and_then(|index| index.local(name)) {
                 Some(section) => Ok(Some(Found { unit, section })),
@@ -224,16 +237,15 @@ impl Interpreter {
             first_line: 1,
             span: Span::default(),
         };
-        let wanted = Wanted {
-            scope: CallScope::Global,
-            name,
-            own: BTreeMap::new(),
-            span: Span::default(),
-            repeat: None,
-        };
-        match self.find(&wanted, "", finder) {
+        let wanted = Wanted::program(CallScope::Global, name, Span::default());
+        match self.find(&wanted, (0, ""), finder) {
             Ok(Some(found)) => {
-                self.push_call(found, BTreeMap::new(), place);
+                self.push_call(Request {
+                    found,
+                    own: BTreeMap::new(),
+                    form: CallForm::Plain,
+                    called_from: place,
+                });
                 Ok(())
             }
             Ok(None) => Ok(()),
@@ -245,27 +257,30 @@ impl Interpreter {
         }
     }
 
-    pub(super) fn push_call(
-        &mut self,
-        found: Found,
-        own: BTreeMap<u32, Value>,
-        called_from: Place,
-    ) {
+    pub(super) fn push_call(&mut self, request: Request) {
+        let Found { unit, section } = request.found;
         let level = self.state.frames.last().map_or(0, |frame| frame.level) + 1;
-        self.state.memory.enter_call(level as usize);
+        self.state
+            .memory
+            .enter_call(usize::try_from(level).unwrap_or(usize::MAX));
+        let restores = match request.form {
+            CallForm::Plain => None,
+            CallForm::Cycle => Some(Box::new(self.state.modal.save())),
+        };
         self.state.frames.push(Frame {
-            unit: found.unit,
-            section: found.section,
-            next: self.units[found.unit].index.sections[found.section].start,
+            unit,
+            section,
+            next: self.units[unit].index.sections[section].start,
             level,
-            own,
+            own: request.own,
             seeking: None,
-            called_from: Some(called_from),
+            called_from: Some(request.called_from),
+            restores,
         });
     }
 
     /// Every kind of every axis becomes unknown, and all positions (R2.52).
-    fn forget_all(&mut self) {
+    pub(super) fn forget_all(&mut self) {
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);
             self.state
@@ -276,11 +291,13 @@ impl Interpreter {
     }
 
     /// What called programs of a region could change becomes unknown too (R2.51).
-    pub(super) fn forget_called(&mut self, at: &At<'_>, finder: &mut dyn Finder) {
+    pub(super) fn forget_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
         let mut seen = Vec::new();
-        while let Some(Scan { call, cause }) = pending.pop() {
-            let Ok(Some(found)) = self.find(&call, at.file, finder) else {
+        while let Some(Scan { call, cause, unit }) = pending.pop() {
+            let caller = self.units.get(unit).map(|unit| unit.index.source.name());
+            let caller = caller.cloned().unwrap_or_default();
+            let Ok(Some(found)) = self.find(&call, (unit, &caller), finder) else {
                 continue;
             };
             if seen.contains(&found) {

@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::modal::Modal;
 use crate::compensation::{Change, Compensation, CompensationError};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Place};
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::CompCommand;
@@ -51,6 +52,36 @@ pub struct Outcome {
     pub changes: usize,
 }
 
+/// What a run came across that a user may want to look at.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// Why.
+    pub kind: NoteKind,
+    /// The value's name, or the word that was passed over.
+    pub name: String,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Why a [`Note`] is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NoteKind {
+    /// A value that only the machine knows was read (R2.50).
+    Unknown,
+    /// A word or command was accepted and passed over.
+    Opaque,
+}
+
+/// Whether notes are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Notes {
+    /// They are not.
+    #[default]
+    None,
+    /// They are, with the places.
+    Taken,
+}
+
 /// A block that was executed.
 #[derive(Debug, Clone, Copy)]
 pub struct Executed<'a> {
@@ -76,12 +107,16 @@ pub struct Executed<'a> {
     pub changes: &'a [Change],
     /// The axes that it moves, each with its word.
     pub moved: &'a [(AxisIndex, Span)],
+    /// The notes on it, where they are taken.
+    pub notes: &'a [Note],
     /// What is to be said about it, in no order.
     pub diagnostics: &'a [Diagnostic],
     /// Whether an error stopped the program in this block.
     pub stopped: bool,
     /// The state after it.
     pub compensation: &'a Compensation,
+    /// G functions and positions after it.
+    pub modal: &'a Modal,
     /// The axes that occurred so far.
     pub occurred: &'a [bool],
     /// Rises whenever the state or the axes that occurred change.

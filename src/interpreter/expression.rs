@@ -3,32 +3,79 @@
 //! The nodes of an expression stand in postfix order, so a stack is all it takes: no recursion,
 //! whatever a program writes.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
+use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
-use super::value::{Value, is_true, rounded};
+use super::value::{Value, rounded};
 use crate::codes::Code;
 use crate::source::Span;
 use crate::syntax::Fault;
-use crate::syntax::ast::{BinaryOperator, Block, Expression, Function, Node, Operand, Owner};
+use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
+
+/// Macros that one block may expand, whatever their depth: each may use others several times.
+pub(super) const MAX_EXPANSIONS: u32 = 4096;
 
 /// What an expression reads: the memory of the run and what the machine offers.
+#[derive(Clone, Copy)]
 pub(super) struct Scope<'a> {
     pub(super) memory: &'a Memory,
     /// Own parameters of the call.
     pub(super) own: &'a BTreeMap<u32, Value>,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
     pub(super) system: &'a dyn Fn(&str) -> Option<Value>,
+    /// Hears of every value that only the machine knows.
+    pub(super) unknown: &'a dyn Fn(&str, Span),
+}
+
+/// How far macros have been expanded.
+#[derive(Clone, Copy)]
+pub(super) struct Macros<'a> {
+    pub(super) depth: u32,
+    pub(super) limit: u32,
+    /// How many the block has expanded.
+    pub(super) expansions: &'a Cell<u32>,
+}
+
+impl Macros<'_> {
+    /// One macro more; FC914 past the budget.
+    pub(super) fn expand(self, span: Span) -> Result<Self, Box<Fault>> {
+        let expansions = self.expansions.get() + 1;
+        self.expansions.set(expansions);
+        if self.depth >= self.limit {
+            let message = format!(
+                "macros expand into each other more than {} deep",
+                self.limit
+            );
+            return Err(Box::new(
+                Fault::new(Code::Fc914, span, message)
+                    .with_help("a deeper expansion is allowed with `--max-macros`"),
+            ));
+        }
+        if expansions > MAX_EXPANSIONS {
+            let message = format!("this block expands more than {MAX_EXPANSIONS} macros");
+            return Err(fault(Code::Fc914, span, message));
+        }
+        Ok(Self {
+            depth: self.depth + 1,
+            ..self
+        })
+    }
 }
 
 /// One operand on the stack. A failure waits until something needs its value, so that `EXIST` and
 /// the second operand of `&&` and `||` may fail without harm.
-type Slot = Result<Value, Box<Fault>>;
+pub(super) type Slot = Result<Value, Box<Fault>>;
 
 /// Evaluates expressions of one block.
 pub(super) struct Evaluator<'a> {
     pub(super) block: &'a Block,
     pub(super) text: &'a str,
+    /// Where the macro stands whose code is evaluated.
+    pub(super) shown: Option<Span>,
+    pub(super) macros: Macros<'a>,
     pub(super) scope: Scope<'a>,
 }
 
@@ -52,11 +99,11 @@ impl Evaluator<'_> {
             let at = at as usize;
             let span = self.block.spans[at];
             let slot = match self.block.nodes[at] {
-                Node::Number(number) if number.is_nan() => {
+                Node::Number(number) if !number.is_finite() => {
                     Err(fault(Code::Fc312, span, "this is no number"))
                 }
                 Node::Number(number) => Ok(Value::Number(number)),
-                Node::Text => Ok(Value::Text(unquoted(span.of(self.text)).into())),
+                Node::Text => self.text(span),
                 Node::Parameter { owner, index } => self.parameter(owner, index, span),
                 Node::IndexedParameter { owner, subscripts } => self
                     .parameter_key(owner, usize::from(subscripts), stack)
@@ -66,7 +113,7 @@ impl Evaluator<'_> {
                 }
                 Node::Variable { subscripts } => self
                     .variable_key(at, usize::from(subscripts), stack)
-                    .and_then(|name| self.variable(&name, span)),
+                    .and_then(|key| self.keyed_variable(key, span)),
                 Node::Negate => pop(stack).and_then(|value| match value {
                     Value::Number(number) => Ok(Value::Number(-number)),
                     Value::Text(_) => Err(wrong_type(span, "a text has no sign")),
@@ -81,8 +128,9 @@ impl Evaluator<'_> {
                     function: Function::Sizeof,
                     arguments,
                 } => {
-                    stack.truncate(stack.len().saturating_sub(usize::from(arguments)));
-                    self.sizeof(at, span)
+                    let from = stack.len().saturating_sub(usize::from(arguments));
+                    let dimension = stack.drain(from..).nth(1);
+                    self.sizeof(span, dimension)
                 }
                 Node::Call {
                     function,
@@ -113,8 +161,35 @@ impl Evaluator<'_> {
                 .memory
                 .variable(name)
                 .ok_or_else(|| never_written(span, self.text)),
-            ParameterKey::Unknown(cause) => Ok(cause.clone()),
+            ParameterKey::Unknown(_, cause) => Ok(cause.clone()),
         }
+    }
+
+    /// A text: the name of a macro whose code is an expression stands for its value
+    /// (PM/206014219), any other text for itself.
+    fn text(&self, span: Span) -> Slot {
+        let name = unquoted(span.of(self.text));
+        let plain = || Ok(Value::Text(name.replace("\\\"", "\"").into()));
+        let Some(code) = self.scope.memory.macro_code(name) else {
+            return plain();
+        };
+        let macros = self.macros.expand(span)?;
+        let mut block = Block::default();
+        let Some(operand) = crate::syntax::parse_expression(code, &mut block) else {
+            return plain();
+        };
+        let shown = self.shown.unwrap_or(span);
+        let inner = Evaluator {
+            block: &block,
+            text: code,
+            shown: Some(shown),
+            macros,
+            scope: self.scope,
+        };
+        inner.value(operand, &mut Vec::new()).map_err(|mut fault| {
+            fault.span = span;
+            fault
+        })
     }
 
     /// Pops the number and the subscripts of a parameter.
@@ -126,20 +201,31 @@ impl Evaluator<'_> {
     ) -> Result<ParameterKey, Box<Fault>> {
         let from = stack.len().saturating_sub(subscripts + 1);
         let mut numbers = Vec::with_capacity(subscripts + 1);
+        let mut unknown = None;
         for slot in stack.drain(from..) {
             match slot? {
                 Value::Number(number) => numbers.push(rounded(number).unwrap_or(i64::MAX)),
-                unknown => return Ok(ParameterKey::Unknown(unknown)),
+                other => {
+                    numbers.push(i64::MAX);
+                    unknown = unknown.or(Some((numbers.len() == 1, other)));
+                }
             }
         }
         let index = numbers.first().copied().unwrap_or_default();
         let index = u32::try_from(index).unwrap_or(u32::MAX);
+        let array = format!("P{index}");
+        if let Some((no_index, cause)) = unknown {
+            let array = (!no_index).then_some(array);
+            return Ok(ParameterKey::Unknown(array, cause));
+        }
         if subscripts == 0 {
             return Ok(ParameterKey::Plain(owner, index));
         }
-        let mut name = format!("P{index}");
+        let mut name = array;
         for number in &numbers[1..] {
-            name.push_str(&format!("[{number}]"));
+            name.push('[');
+            name.push_str(&number.to_string());
+            name.push(']');
         }
         Ok(ParameterKey::Element(name))
     }
@@ -150,48 +236,70 @@ impl Evaluator<'_> {
         at: usize,
         subscripts: usize,
         stack: &mut Vec<Slot>,
-    ) -> Result<String, Box<Fault>> {
+    ) -> Result<VariableKey, Box<Fault>> {
         let from = stack.len().saturating_sub(subscripts);
         let mut values = Vec::with_capacity(subscripts);
+        let mut unknown = None;
         for slot in stack.drain(from..) {
             match slot? {
                 Value::Number(number) => {
-                    values.push(rounded(number).unwrap_or(i64::MAX).to_string())
+                    values.push(rounded(number).unwrap_or(i64::MAX).to_string());
                 }
                 Value::Text(text) => values.push(text.to_string()),
-                Value::Unknown(_) => values.push("?".to_owned()),
+                Value::Unknown(cause) => unknown = unknown.or(Some(cause)),
             }
         }
         let text = self.block.spans[at].of(self.text);
-        Ok(with_subscripts(text, &values))
+        if let Some(cause) = unknown {
+            let array = text.split('[').next().unwrap_or_default();
+            let array: String = array.split_whitespace().collect();
+            return Ok(VariableKey::Unknown(array, cause));
+        }
+        Ok(VariableKey::Name(with_subscripts(text, &values)))
+    }
+
+    fn keyed_variable(&self, key: VariableKey, span: Span) -> Slot {
+        match key {
+            VariableKey::Name(name) => self.variable(&name, span),
+            VariableKey::Unknown(_, cause) => Ok(Value::Unknown(cause)),
+        }
     }
 
     fn variable(&self, name: &str, span: Span) -> Slot {
         if let Some(value) = self.scope.memory.variable(name) {
             return Ok(value);
         }
-        if is_program_variable(name) && !name.contains('?') {
+        if is_program_variable(name) {
             return Err(never_written(span, self.text));
         }
-        Ok((self.scope.system)(name).unwrap_or_else(|| Value::Unknown(name.into())))
+        Ok((self.scope.system)(name).unwrap_or_else(|| {
+            (self.scope.unknown)(name, self.shown.unwrap_or(span));
+            Value::Unknown(name.into())
+        }))
     }
 
-    fn sizeof(&self, at: usize, span: Span) -> Slot {
-        let argument = at
-            .checked_sub(1)
-            .map(|argument| self.block.spans[argument].of(self.text));
-        let name = argument
-            .unwrap_or_default()
-            .split('[')
-            .next()
-            .unwrap_or_default()
-            .trim();
+    /// The elements of an array: of its first dimension, or of the one that is asked for.
+    fn sizeof(&self, span: Span, dimension: Option<Slot>) -> Slot {
+        let text = span.of(self.text);
+        let argument = text.split_once('[').map_or("", |(_, argument)| argument);
+        let name = argument.split(['[', ']', ',']).next().unwrap_or_default();
+        let name = name.trim();
+        let place = match dimension.transpose()? {
+            Some(Value::Unknown(cause)) => return Ok(Value::Unknown(cause)),
+            Some(value) => value.number().and_then(rounded).unwrap_or(1),
+            None => 1,
+        };
+        let place = usize::try_from(place.max(1) - 1).unwrap_or(usize::MAX);
         match self.scope.memory.dimensions(name) {
-            Some(dimensions) => {
-                let first = dimensions.first().copied().unwrap_or(1);
-                Ok(Value::Number(f64::from(first)))
+            Some(dimensions) => match dimensions.get(place) {
+                Some(size) => Ok(Value::Number(f64::from(*size))),
+                None => Err(wrong_type(span, "the array has not so many dimensions")),
+            },
+            None if is_program_variable(name) => Err(never_written(span, self.text)),
+            None => {
+                (self.scope.unknown)(name, self.shown.unwrap_or(span));
+                Ok(Value::Unknown(name.into()))
             }
-            None => Err(never_written(span, self.text)),
         }
     }
 
@@ -221,19 +329,20 @@ impl Evaluator<'_> {
                 .map(|key| match key {
                     ParameterKey::Plain(owner, index) => Place::Parameter(owner, index),
                     ParameterKey::Element(name) => Place::Variable(name),
-                    ParameterKey::Unknown(_) => Place::Nowhere,
+                    ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
+                        Some(array) => Place::Elements(array, cause),
+                        None => Place::Parameters(cause),
+                    },
+                    ParameterKey::Unknown(..) => Place::Nowhere,
                 }),
             Node::Variable { subscripts: 0 } => {
                 Ok(Place::Variable(variable_name(span, self.text).into_owned()))
             }
             Node::Variable { subscripts } => self
                 .variable_key(root, usize::from(subscripts), stack)
-                .map(|name| {
-                    if name.contains('?') {
-                        Place::Nowhere
-                    } else {
-                        Place::Variable(name)
-                    }
+                .map(|key| match key {
+                    VariableKey::Name(name) => Place::Variable(name),
+                    VariableKey::Unknown(array, cause) => Place::Elements(array, cause),
                 }),
             _ => Ok(Place::Nowhere),
         };
@@ -275,26 +384,29 @@ impl Evaluator<'_> {
 pub(super) enum Place {
     Parameter(Owner, u32),
     Variable(String),
-    /// The subscripts are not known, or nothing can be written there.
+    /// Some element of an array; the value that decides which is not known.
+    Elements(String, Arc<str>),
+    /// Some P parameter.
+    Parameters(Arc<str>),
+    /// Nothing can be written there.
     Nowhere,
 }
 
 enum ParameterKey {
     Plain(Owner, u32),
     Element(String),
-    Unknown(Value),
+    /// The number or a subscript is not known; the array where its name is.
+    Unknown(Option<String>, Value),
+}
+
+enum VariableKey {
+    Name(String),
+    /// A subscript is not known.
+    Unknown(String, Arc<str>),
 }
 
 fn pop(stack: &mut Vec<Slot>) -> Slot {
     stack.pop().unwrap_or_else(|| Ok(Value::Number(0.0)))
-}
-
-fn fault(code: Code, span: Span, message: impl Into<String>) -> Box<Fault> {
-    Box::new(Fault::new(code, span, message))
-}
-
-fn wrong_type(span: Span, message: &str) -> Box<Fault> {
-    fault(Code::Fc312, span, message)
 }
 
 fn never_written(span: Span, text: &str) -> Box<Fault> {
@@ -311,8 +423,10 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
     )
 }
 
-fn unquoted(text: &str) -> &str {
-    text.trim_matches('"')
+/// A text without its quotes.
+pub(super) fn unquoted(text: &str) -> &str {
+    let inner = text.strip_prefix('"').unwrap_or(text);
+    inner.strip_suffix('"').unwrap_or(inner)
 }
 
 /// `V.P.`, `V.L.`, `V.S.`: what only programs write.
@@ -359,240 +473,4 @@ fn with_subscripts(text: &str, values: &[String]) -> String {
         }
     }
     name
-}
-
-fn binary(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot {
-    match operator {
-        BinaryOperator::And | BinaryOperator::Or => return logic(operator, left, right, span),
-        _ => {}
-    }
-    match (left?, right?) {
-        (Value::Number(left), Value::Number(right)) => arithmetic(operator, left, right, span),
-        (unknown @ Value::Unknown(_), _) | (_, unknown @ Value::Unknown(_)) => Ok(unknown),
-        (Value::Text(left), Value::Text(right)) => match operator {
-            BinaryOperator::Add => Ok(Value::Text(format!("{left}{right}").into())),
-            BinaryOperator::Equal => Ok((left == right).into()),
-            BinaryOperator::NotEqual => Ok((left != right).into()),
-            _ => Err(wrong_type(span, "this operator does not take texts")),
-        },
-        _ => Err(wrong_type(span, "a text and a number cannot be combined")),
-    }
-}
-
-/// `&&` and `||`: one operand may decide alone, whatever the other is.
-fn logic(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot {
-    let deciding = operator == BinaryOperator::Or;
-    let truth = |slot: &Slot| slot.as_ref().ok().and_then(Value::truth);
-    if truth(&left) == Some(deciding) {
-        return Ok(deciding.into());
-    }
-    let left = left?;
-    if truth(&right) == Some(deciding) {
-        return Ok(deciding.into());
-    }
-    match (left, right?) {
-        (Value::Text(_), _) | (_, Value::Text(_)) => {
-            Err(wrong_type(span, "a text is neither true nor false"))
-        }
-        (unknown @ Value::Unknown(_), _) | (_, unknown @ Value::Unknown(_)) => Ok(unknown),
-        (Value::Number(_), Value::Number(_)) => Ok((!deciding).into()),
-    }
-}
-
-fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Slot {
-    use BinaryOperator::{
-        Add, And, BitAnd, BitOr, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
-        Multiply, NotEqual, Or, Power, Subtract, Xor,
-    };
-    #[allow(clippy::float_cmp)] // comparison is the language's own
-    let value = match operator {
-        Add => left + right,
-        Subtract => left - right,
-        Multiply => left * right,
-        Divide | Modulo if right == 0.0 => {
-            return Err(fault(Code::Fc312, span, "division by zero"));
-        }
-        Divide => left / right,
-        Modulo => left % right,
-        Power => left.powf(right),
-        Equal => return Ok((left == right).into()),
-        NotEqual => return Ok((left != right).into()),
-        GreaterOrEqual => return Ok((left >= right).into()),
-        LessOrEqual => return Ok((left <= right).into()),
-        Less => return Ok((left < right).into()),
-        Greater => return Ok((left > right).into()),
-        BitAnd | BitOr => return bitwise(operator, left, right, span),
-        Xor => return Ok((is_true(left) != is_true(right)).into()),
-        And | Or => return Ok((is_true(left) && is_true(right)).into()),
-    };
-    finite(value, span)
-}
-
-fn finite(value: f64, span: Span) -> Slot {
-    if value.is_finite() {
-        Ok(Value::Number(value))
-    } else {
-        Err(fault(Code::Fc312, span, "the result is no number"))
-    }
-}
-
-fn bitwise(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Slot {
-    let (Some(left), Some(right)) = (rounded(left), rounded(right)) else {
-        return Err(wrong_type(span, "bits exist in whole numbers only"));
-    };
-    let bits = if operator == BinaryOperator::BitAnd {
-        left & right
-    } else {
-        left | right
-    };
-    #[allow(clippy::cast_precision_loss)] // below 2^53
-    Ok(Value::Number(bits as f64))
-}
-
-fn call(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
-    if function == Function::Exist {
-        let exists = slots.first().is_some_and(Result::is_ok);
-        return Ok(exists.into());
-    }
-    let mut values = Vec::with_capacity(slots.len());
-    for slot in slots {
-        values.push(slot?);
-    }
-    if let Some(unknown) = values
-        .iter()
-        .find(|value| matches!(value, Value::Unknown(_)))
-    {
-        return Ok(unknown.clone());
-    }
-    match function {
-        Function::Left
-        | Function::Mid
-        | Function::Right
-        | Function::Len
-        | Function::Find
-        | Function::Ord => text_function(function, &values, span),
-        _ => {
-            let numbers: Option<Vec<f64>> = values.iter().map(Value::number).collect();
-            match numbers.as_deref() {
-                Some([x]) => number_function(function, *x, span),
-                Some([y, x]) if function == Function::Atan2 => {
-                    finite(y.atan2(*x).to_degrees(), span)
-                }
-                Some(_) => Err(wrong_type(span, "wrong number of arguments")),
-                None => Err(wrong_type(span, "this function takes numbers")),
-            }
-        }
-    }
-}
-
-fn number_function(function: Function, x: f64, span: Span) -> Slot {
-    let domain = |message: &str| Err(fault(Code::Fc312, span, message.to_owned()));
-    let value = match function {
-        Function::Abs => x.abs(),
-        Function::Sqr => x * x,
-        Function::Sqrt if x < 0.0 => return domain("square root of a negative number"),
-        Function::Sqrt => x.sqrt(),
-        Function::Exp => x.exp(),
-        Function::Ln | Function::Log if x <= 0.0 => {
-            return domain("logarithm of a number that is not positive");
-        }
-        Function::Ln => x.ln(),
-        Function::Log => x.log10(),
-        Function::Dexp => 10_f64.powf(x),
-        Function::Sin => degrees(x, f64::sin),
-        Function::Cos => degrees(x + 90.0, f64::sin),
-        Function::Tan | Function::Cot => {
-            let (sine, cosine) = (degrees(x, f64::sin), degrees(x + 90.0, f64::sin));
-            let (above, below) = if function == Function::Tan {
-                (sine, cosine)
-            } else {
-                (cosine, sine)
-            };
-            if below == 0.0 {
-                return domain("the function has a pole here");
-            }
-            above / below
-        }
-        Function::Asin | Function::Acos if x.abs() > 1.0 => {
-            return domain("argument outside -1 … 1");
-        }
-        Function::Asin => x.asin().to_degrees(),
-        Function::Acos => x.acos().to_degrees(),
-        Function::Atan => x.atan().to_degrees(),
-        Function::Acot => 90.0 - x.atan().to_degrees(),
-        Function::Int => x.trunc(),
-        Function::Fract => x.fract(),
-        Function::Ceil => x.ceil(),
-        Function::Floor => x.floor(),
-        Function::Round => x.round(),
-        Function::Not => f64::from(u8::from(!is_true(x))),
-        Function::Inv => {
-            let Some(bits) = rounded(x).and_then(|bits| u32::try_from(bits).ok()) else {
-                return domain("bits exist in whole numbers from 0 to 4294967295 only");
-            };
-            f64::from(!bits)
-        }
-        _ => return domain("wrong number of arguments"),
-    };
-    finite(value, span)
-}
-
-/// Multiples of a quarter turn come out exact.
-fn degrees(x: f64, function: fn(f64) -> f64) -> f64 {
-    let turn = x.rem_euclid(360.0);
-    if turn == 0.0 || turn == 180.0 {
-        0.0
-    } else if turn == 90.0 {
-        1.0
-    } else if turn == 270.0 {
-        -1.0
-    } else {
-        function(turn.to_radians())
-    }
-}
-
-fn text_function(function: Function, values: &[Value], span: Span) -> Slot {
-    let wrong = || wrong_type(span, "this function takes a text first, then whole numbers");
-    let count = |value: Option<&Value>| -> Result<usize, Box<Fault>> {
-        let number = value
-            .and_then(Value::number)
-            .and_then(rounded)
-            .ok_or_else(wrong)?;
-        usize::try_from(number.max(0)).map_err(|_| wrong())
-    };
-    let Some(Value::Text(text)) = values.first() else {
-        return Err(wrong());
-    };
-    let text_of = |characters: String| Ok(Value::Text(characters.into()));
-    #[allow(clippy::cast_precision_loss)] // lengths of lines
-    let number_of = |number: usize| Ok(Value::Number(number as f64));
-    let length = text.chars().count();
-    match function {
-        Function::Left => text_of(text.chars().take(count(values.get(1))?).collect()),
-        Function::Right => {
-            let skip = length.saturating_sub(count(values.get(1))?);
-            text_of(text.chars().skip(skip).collect())
-        }
-        Function::Mid => {
-            let (first, number) = (count(values.get(1))?, count(values.get(2))?);
-            text_of(
-                text.chars()
-                    .skip(first.saturating_sub(1))
-                    .take(number)
-                    .collect(),
-            )
-        }
-        Function::Len => number_of(length),
-        Function::Find => {
-            let Some(Value::Text(wanted)) = values.get(1) else {
-                return Err(wrong());
-            };
-            let found = text.find(&**wanted);
-            number_of(found.map_or(0, |at| text[..at].chars().count() + 1))
-        }
-        _ => text.chars().next().map_or_else(
-            || Err(wrong_type(span, "an empty text has no first character")),
-            |first| Ok(Value::Number(f64::from(u32::from(first)))),
-        ),
-    }
 }

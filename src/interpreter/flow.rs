@@ -10,8 +10,7 @@ use super::expression::Place as Target;
 use super::program::{EntryIndex, LabelName};
 use super::value::rounded;
 use super::{
-    At, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Request, Seeking, Step,
-    Value,
+    At, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Seeking, Step, Value,
 };
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
@@ -62,8 +61,7 @@ impl Interpreter {
             };
             if let Some(over) = self.over_budget(&at) {
                 let over = self.with_loop(over, unit, next);
-                self.work.diagnostics.clear();
-                self.work.diagnostics.push(over);
+                self.work.over = Some(over);
                 return Outlook::Ended(EndedBy::Budget);
             }
             let depth = self.state.frames.len();
@@ -90,14 +88,9 @@ impl Interpreter {
                     frame.next = entry;
                 }
             }
-            Step::Call(request) => {
-                let Request {
-                    found,
-                    own,
-                    called_from,
-                } = *request;
-                self.push_call(found, own, called_from);
-            }
+            // Only a run that has not begun is parked so; `go_on` begins it.
+            Step::Begin => {}
+            Step::Call(request) => self.push_call(*request),
             Step::Return => match self.state.frames.last() {
                 Some(frame) if frame.level > 0 => self.leave(),
                 _ => return ControlFlow::Break(EndedBy::EndOfFile),
@@ -109,7 +102,12 @@ impl Interpreter {
 
     fn leave(&mut self) {
         if let Some(frame) = self.state.frames.pop() {
-            self.state.memory.leave_call(frame.level as usize);
+            self.state
+                .memory
+                .leave_call(usize::try_from(frame.level).unwrap_or(usize::MAX));
+            if let Some(saved) = &frame.restores {
+                self.state.modal.restore(saved);
+            }
         }
     }
 
@@ -478,10 +476,11 @@ impl Interpreter {
             .label(frame.section, label.clone());
         match found {
             Some(entry) => Ok(Some(Step::Jump(entry))),
-            None if matches!(
-                target,
-                JumpTarget::Number(Operand::Number(_)) | JumpTarget::Label(_)
-            ) =>
+            None if at.macro_depth == 0
+                && matches!(
+                    target,
+                    JumpTarget::Number(Operand::Number(_)) | JumpTarget::Label(_)
+                ) =>
             {
                 // Said before the program began.
                 Ok(None)

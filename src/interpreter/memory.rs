@@ -1,6 +1,7 @@
 //! Parameters, variables and macros of a run.
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -16,21 +17,62 @@ pub(super) struct Memory {
     parameters: BTreeMap<u32, Value>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and array elements, by their full text.
     variables: HashMap<String, Value>,
-    /// Dimensions of declared arrays.
-    arrays: HashMap<String, Vec<u32>>,
+    arrays: HashMap<String, Array>,
     /// `V.L.` of each call level.
-    locals: Vec<HashMap<String, Value>>,
+    locals: Vec<Level>,
     macros: HashMap<String, String>,
+}
+
+/// A declared array.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Array {
+    dimensions: Vec<u32>,
+    /// The value of elements that were never written.
+    default: Value,
+}
+
+/// What `#VAR` declared on one call level.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+struct Level {
+    values: HashMap<String, Value>,
+    arrays: HashMap<String, Array>,
+}
+
+impl Level {
+    fn value(&self, name: &str) -> Option<Value> {
+        self.values
+            .get(name)
+            .cloned()
+            .or_else(|| default_of(&self.arrays, name))
+    }
+
+    fn holds(&self, name: &str) -> bool {
+        self.values.contains_key(name) || default_of(&self.arrays, name).is_some()
+    }
+}
+
+/// The default of an array's element, where the name has the subscripts of one.
+fn default_of(arrays: &HashMap<String, Array>, name: &str) -> Option<Value> {
+    let (array, subscripts) = name.split_at(name.find('[')?);
+    let array = arrays.get(array)?;
+    let mut sizes = array.dimensions.iter();
+    for part in subscripts.split(['[', ']']).filter(|part| !part.is_empty()) {
+        let at: u32 = part.parse().ok()?;
+        if at >= *sizes.next()? {
+            return None;
+        }
+    }
+    sizes.next().is_none().then(|| array.default.clone())
 }
 
 impl Memory {
     /// Forgets what a program start clears: P parameters and `V.P.`, `V.L.`, `V.CYC.` variables
-    /// (R2.33, R2.34). `V.S.` and what the machine holds stay.
+    /// (R2.33, R2.34). `V.S.`, macros (PM/206014219: valid across programs) and what the machine
+    /// holds stay.
     pub(super) fn start_program(&mut self) {
         self.direct.clear();
         self.parameters.clear();
         self.locals.clear();
-        self.macros.clear();
         self.variables.retain(|name, _| !is_of_run(name));
         self.arrays.retain(|name, _| !is_of_run(name));
     }
@@ -58,49 +100,19 @@ impl Memory {
     /// The value of a variable, the declared default of an array element that was never written.
     pub(super) fn variable(&self, name: &str) -> Option<Value> {
         if name.starts_with("V.L.") {
-            return self
-                .locals
-                .iter()
-                .rev()
-                .find_map(|level| level.get(name))
-                .cloned();
+            return self.locals.iter().rev().find_map(|level| level.value(name));
         }
         self.variables
             .get(name)
             .cloned()
-            .or_else(|| self.is_element(name).then_some(Value::Number(0.0)))
-    }
-
-    /// Whether a name with subscripts is an element of a declared array.
-    fn is_element(&self, name: &str) -> bool {
-        let Some(open) = name.find('[') else {
-            return false;
-        };
-        let (array, subscripts) = name.split_at(open);
-        let Some(dimensions) = self.arrays.get(array) else {
-            return false;
-        };
-        let found: Vec<Option<u32>> = subscripts
-            .split(['[', ']'])
-            .filter(|part| !part.is_empty())
-            .map(|part| part.parse().ok())
-            .collect();
-        found.len() == dimensions.len()
-            && found
-                .iter()
-                .zip(dimensions)
-                .all(|(at, size)| at.is_some_and(|at| at < *size))
+            .or_else(|| default_of(&self.arrays, name))
     }
 
     pub(super) fn set_variable(&mut self, name: &str, value: Value) {
         if name.starts_with("V.L.") {
-            let known = self
-                .locals
-                .iter_mut()
-                .rev()
-                .find(|level| level.contains_key(name));
+            let known = self.locals.iter_mut().rev().find(|level| level.holds(name));
             if let Some(level) = known {
-                level.insert(name.to_owned(), value);
+                level.values.insert(name.to_owned(), value);
             } else {
                 self.declare_local(name, value);
             }
@@ -114,13 +126,17 @@ impl Memory {
         }
     }
 
-    fn declare_local(&mut self, name: &str, value: Value) {
+    /// The `V.L.` variables of the current level.
+    fn level(&mut self) -> &mut Level {
         if self.locals.is_empty() {
-            self.locals.push(HashMap::new());
+            self.locals.push(Level::default());
         }
-        if let Some(level) = self.locals.last_mut() {
-            level.insert(name.to_owned(), value);
-        }
+        let last = self.locals.len() - 1;
+        &mut self.locals[last]
+    }
+
+    fn declare_local(&mut self, name: &str, value: Value) {
+        self.level().values.insert(name.to_owned(), value);
     }
 
     /// Declares a scalar on the current level.
@@ -132,24 +148,76 @@ impl Memory {
         }
     }
 
-    pub(super) fn declare_array(&mut self, name: &str, dimensions: Vec<u32>) {
-        self.arrays.insert(name.to_owned(), dimensions);
+    /// Declares an array on the current level; its elements have a default value.
+    pub(super) fn declare_array(&mut self, name: &str, dimensions: Vec<u32>, default: Value) {
+        let array = Array {
+            dimensions,
+            default,
+        };
+        let (arrays, values) = if name.starts_with("V.L.") {
+            let level = self.level();
+            (&mut level.arrays, &mut level.values)
+        } else {
+            (&mut self.arrays, &mut self.variables)
+        };
+        values.retain(|key, _| !is_element_of(key, name));
+        arrays.insert(name.to_owned(), array);
     }
 
     pub(super) fn dimensions(&self, name: &str) -> Option<&[u32]> {
-        self.arrays.get(name).map(Vec::as_slice)
+        let local = self
+            .locals
+            .iter()
+            .rev()
+            .find_map(|level| level.arrays.get(name));
+        local
+            .or_else(|| self.arrays.get(name))
+            .map(|array| array.dimensions.as_slice())
     }
 
     pub(super) fn delete(&mut self, name: &str) {
+        let gone = |key: &str| key == name || is_element_of(key, name);
         if name.starts_with("V.L.") {
-            for level in &mut self.locals {
-                level.remove(name);
+            let level = self
+                .locals
+                .iter_mut()
+                .rev()
+                .find(|level| level.holds(name) || level.arrays.contains_key(name));
+            if let Some(level) = level {
+                level.values.retain(|key, _| !gone(key));
+                level.arrays.remove(name);
+            }
+            return;
+        }
+        self.variables.retain(|key, _| !gone(key));
+        self.arrays.remove(name);
+    }
+
+    /// Some element of an array was written and nobody knows which: none is known any more.
+    pub(super) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
+        let unknown = Value::Unknown(cause.clone());
+        let levels = self.locals.iter_mut();
+        let maps = levels
+            .map(|level| (&mut level.values, &mut level.arrays))
+            .chain([(&mut self.variables, &mut self.arrays)]);
+        for (values, arrays) in maps {
+            for (key, value) in values.iter_mut() {
+                if is_element_of(key, name) {
+                    *value = unknown.clone();
+                }
+            }
+            if let Some(array) = arrays.get_mut(name) {
+                array.default = unknown.clone();
             }
         }
-        self.variables.remove(name);
-        self.arrays.remove(name);
-        let elements = format!("{name}[");
-        self.variables.retain(|key, _| !key.starts_with(&elements));
+    }
+
+    /// Some P parameter was written and nobody knows which: none is known any more.
+    pub(super) fn forget_parameters(&mut self, cause: &Arc<str>) {
+        let written = self.direct.iter_mut().flatten();
+        for value in written.chain(self.parameters.values_mut()) {
+            *value = Value::Unknown(cause.clone());
+        }
     }
 
     pub(super) fn delete_parameter(&mut self, index: u32) {
@@ -161,9 +229,9 @@ impl Memory {
 
     pub(super) fn enter_call(&mut self, depth: usize) {
         while self.locals.len() < depth {
-            self.locals.push(HashMap::new());
+            self.locals.push(Level::default());
         }
-        self.locals.push(HashMap::new());
+        self.locals.push(Level::default());
     }
 
     pub(super) fn leave_call(&mut self, depth: usize) {
@@ -171,11 +239,17 @@ impl Memory {
     }
 
     pub(super) fn define_macro(&mut self, name: &str, code: &str) {
-        self.macros.insert(name.to_owned(), code.to_owned());
+        let code = code.replace("\\\"", "\"");
+        self.macros.insert(name.trim().to_owned(), code);
+    }
+
+    /// `#INIT MACRO TAB`
+    pub(super) fn clear_macros(&mut self) {
+        self.macros.clear();
     }
 
     pub(super) fn macro_code(&self, name: &str) -> Option<&str> {
-        self.macros.get(name).map(String::as_str)
+        self.macros.get(name.trim()).map(String::as_str)
     }
 
     /// The `V.S.` variables, which outlive programs.
@@ -186,6 +260,11 @@ impl Memory {
             .map(|(name, value)| (name.clone(), value.clone()))
             .collect()
     }
+}
+
+fn is_element_of(key: &str, array: &str) -> bool {
+    key.strip_prefix(array)
+        .is_some_and(|rest| rest.starts_with('['))
 }
 
 fn is_of_run(name: &str) -> bool {

@@ -6,15 +6,23 @@
 
 mod block;
 mod call;
+mod comp;
+mod evaluate;
 mod event;
 mod expression;
 mod flow;
+mod functions;
+mod hash;
 mod memory;
 mod modal;
 mod program;
+mod snapshot;
+mod stream;
 mod unknown;
 mod value;
+mod words;
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::rc::Rc;
@@ -22,17 +30,18 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-pub use event::{Ended, EndedBy, Event, Executed, Observer, Outcome};
+pub use event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};
 pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
+pub use snapshot::{ResumeError, Snapshot};
 pub use value::Value;
 
 use crate::codes::Code;
 use crate::compensation::{Change, Compensation};
 use crate::diagnostic::{Diagnostic, Place, Severity};
 use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
-use crate::source::{LineSource, SourceFile, Span};
-use crate::syntax::ast::{Block, Call, Repetition};
-use crate::syntax::{BlockReader, FastPath, Fault, Stretch};
+use crate::source::{SourceFile, Span};
+use crate::syntax::ast::{Block, Call, CallForm, Repetition};
+use crate::syntax::{FastPath, Fault};
 use call::Found;
 use memory::Memory;
 use program::{EntryIndex, Index};
@@ -85,6 +94,8 @@ pub struct Options {
     pub limits: Limits,
     /// Whether plain blocks are parsed by hand.
     pub fast_path: FastPath,
+    /// Whether notes are taken.
+    pub notes: Notes,
 }
 
 /// Finds called programs for the library, which opens no file itself.
@@ -135,6 +146,8 @@ struct Frame {
     seeking: Option<Seeking>,
     /// Where it was called.
     called_from: Option<Place>,
+    /// What the end of a cycle brings back.
+    restores: Option<Box<modal::Saved>>,
 }
 
 /// What the next branch statement has to decide.
@@ -163,6 +176,8 @@ struct State {
     occurred: Vec<bool>,
     /// Axes of coupling groups that `#SET AX LINK` defined.
     couplings: BTreeMap<String, Vec<AxisIndex>>,
+    /// The coupling groups in force, in the order in which they were enabled.
+    coupled: Vec<String>,
     /// The cycle that is repeated after blocks.
     repeated: Option<Repeated>,
     /// Set while the configured end program runs.
@@ -187,17 +202,6 @@ struct Repeated {
     found: Found,
     own: BTreeMap<u32, Value>,
     after_motion_only: bool,
-}
-
-/// A run between two blocks, to be saved and resumed (R9.30 is about what outlives programs; this
-/// is about the middle of one).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Snapshot {
-    /// 1.
-    pub schema: u32,
-    /// The files of the run, in the order in which they were first needed.
-    pub files: Vec<String>,
-    state: State,
 }
 
 /// A file of the run.
@@ -270,6 +274,11 @@ struct Work {
     stack: Vec<Result<Value, Box<Fault>>>,
     /// Axis words of the block with their values.
     coordinates: Vec<(AxisIndex, Option<f64>)>,
+    notes: RefCell<Vec<Note>>,
+    /// Macros that the block has expanded.
+    expansions: Cell<u32>,
+    /// The budget that ended the run.
+    over: Option<Diagnostic>,
 }
 
 impl Work {
@@ -279,6 +288,8 @@ impl Work {
         self.moved.clear();
         self.diagnostics.clear();
         self.coordinates.clear();
+        self.notes.get_mut().clear();
+        self.expansions.set(0);
     }
 }
 
@@ -317,6 +328,8 @@ impl At<'_> {
 /// What the control does after a block.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 enum Step {
+    /// The program was announced and has not begun.
+    Begin,
     Next,
     /// To a block of the same program.
     Jump(EntryIndex),
@@ -331,6 +344,7 @@ enum Step {
 struct Request {
     found: Found,
     own: BTreeMap<u32, Value>,
+    form: CallForm,
     called_from: Place,
 }
 
@@ -359,6 +373,7 @@ impl Interpreter {
             opaque: BTreeMap::new(),
             occurred,
             couplings: BTreeMap::new(),
+            coupled: Vec::new(),
             repeated: None,
             ending: None,
             last: None,
@@ -466,15 +481,21 @@ impl Interpreter {
         let index = Index::new(source, self.options.limits.nesting);
         let main = index.main();
         let name = main.and_then(|main| index.sections[main].name.clone());
+        self.units.push(Unit::new(index));
         if self.announce(name.as_deref(), observer).is_break() {
+            self.park(Step::Begin);
             return Outlook::Paused;
         }
-        let refused = index.refused.clone();
-        self.units.push(Unit::new(index));
+        self.begin(finder, observer)
+    }
+
+    /// Runs the program that was announced.
+    fn begin(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
+        let refused = self.refused();
         if !refused.is_empty() && self.options.stop == StopPolicy::FirstError {
             return self.ended(EndedBy::Error, refused, observer);
         }
-        if let Some(section) = main {
+        if let Some(section) = self.units[0].index.main() {
             self.enter(0, section);
         }
         if let Err(missing) = self.start_program(finder) {
@@ -484,115 +505,29 @@ impl Interpreter {
         self.close(outlook, refused, observer)
     }
 
-    /// Goes on with a run that an observer stopped.
-    pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
-        if let Some(step) = self.state.parked.take() {
-            if let ControlFlow::Break(by) = self.follow(step) {
-                let refused = self.units.first().map(|unit| unit.index.refused.clone());
-                return self.close(Outlook::Ended(by), refused.unwrap_or_default(), observer);
-            }
-        }
-        let outlook = self.run(finder, observer);
-        let refused = self.units.first().map(|unit| unit.index.refused.clone());
-        self.close(outlook, refused.unwrap_or_default(), observer)
+    /// What keeps the main program from running at all.
+    fn refused(&self) -> Vec<Diagnostic> {
+        let main = self.units.first();
+        main.map_or(Vec::new(), |unit| unit.index.refused.clone())
     }
 
-    /// Runs a main program whose lines come one after another and are forgotten. Such a program
-    /// has no flow; [`crate::source::FlowScan`] tells which has.
-    pub fn stream(
-        &mut self,
-        file: &str,
-        lines: &mut dyn LineSource,
-        finder: &mut dyn Finder,
-        observer: &mut dyn Observer,
-    ) -> Outlook {
-        self.start();
-        let file: Arc<str> = file.into();
-        let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
-        let mut block = std::mem::take(&mut self.work.block);
-        let mut announced = false;
-        let mut by = None;
-        let mut notes = Vec::new();
-        while let Some(raw) = reader.next(&mut block) {
-            if let Stretch::Program { name, .. } = raw.stretch {
-                if announced {
-                    break;
-                }
-                announced = true;
-                if self.announce(Some(name.of(raw.text)), observer).is_break() {
-                    return Outlook::Paused;
-                }
-                continue;
-            }
-            if by.is_some() {
-                self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
-                continue;
-            }
-            if !announced {
-                announced = true;
-                if self.announce(None, observer).is_break() {
-                    return Outlook::Paused;
-                }
-                if let Err(missing) = self.start_program(finder) {
-                    return self.ended(EndedBy::Error, vec![missing], observer);
-                }
-                if let Some(outlook) = self.run_called(finder, observer) {
-                    return outlook;
-                }
-            }
-            let at = At {
-                file: &file,
-                text: raw.text,
-                line: raw.line,
-                remark: raw.remark,
-                level: 0,
-                called_from: None,
-                macro_depth: 0,
-            };
-            if let Some(over) = self.over_budget(&at) {
-                return self.ended(EndedBy::Budget, vec![over], observer);
-            }
-            if self.is_skipped(&block) {
-                continue;
-            }
-            let step = match self.execute(&block, &at, finder, observer) {
-                ControlFlow::Continue(step) => step,
-                ControlFlow::Break(()) => return Outlook::Paused,
-            };
-            match self.follow(step) {
-                ControlFlow::Continue(()) => match self.run_called(finder, observer) {
-                    None => {}
-                    Some(outlook) => return outlook,
-                },
-                ControlFlow::Break(ended) => {
-                    by = Some(ended);
-                    if self.options.stop != StopPolicy::CheckAll {
-                        break;
-                    }
-                }
-            }
-        }
-        self.work.block = block;
-        if !announced && self.announce(None, observer).is_break() {
-            return Outlook::Paused;
-        }
-        let by = by.unwrap_or_else(|| {
-            notes.extend(self.missing_end());
-            EndedBy::EndOfFile
-        });
-        self.ended(by, notes, observer)
+    /// Goes on with a run that an observer stopped.
+    pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
+        let outlook = match self.state.parked.take() {
+            Some(Step::Begin) => return self.begin(finder, observer),
+            Some(step) => match self.follow(step) {
+                ControlFlow::Break(by) => Outlook::Ended(by),
+                ControlFlow::Continue(()) => self.run(finder, observer),
+            },
+            None => self.run(finder, observer),
+        };
+        let refused = self.refused();
+        self.close(outlook, refused, observer)
     }
 
     /// Prepares the state for a program start.
     fn start(&mut self) {
-        let axes = self.machine.axes.len();
-        let positions = std::mem::replace(&mut self.state.modal, Modal::new(axes));
-        for position in 0..axes {
-            let axis = AxisIndex::new(position);
-            self.state
-                .modal
-                .set_reference(axis, positions.position(axis).value);
-        }
+        self.state.modal = self.state.modal.next_program();
         self.state.memory.start_program();
         self.state.frames.clear();
         self.state.seq = 0;
@@ -624,23 +559,8 @@ impl Interpreter {
             own: BTreeMap::new(),
             seeking: None,
             called_from: None,
+            restores: None,
         });
-    }
-
-    /// Runs called programs until the one that called them goes on; `None` when it does.
-    fn run_called(
-        &mut self,
-        finder: &mut dyn Finder,
-        observer: &mut dyn Observer,
-    ) -> Option<Outlook> {
-        if self.state.frames.is_empty() {
-            return None;
-        }
-        match self.run(finder, observer) {
-            Outlook::Ended(EndedBy::EndOfFile) => None,
-            Outlook::Ended(by) => Some(self.ended(by, Vec::new(), observer)),
-            Outlook::Paused => Some(Outlook::Paused),
-        }
     }
 
     /// Ends a program whose text is in memory.
@@ -654,7 +574,7 @@ impl Interpreter {
             return outlook;
         };
         let mut notes = refused;
-        notes.append(&mut self.work.diagnostics);
+        notes.extend(self.work.over.take());
         if by == EndedBy::EndOfFile && !self.state.frames.is_empty() {
             notes.extend(self.missing_end());
         }
@@ -688,6 +608,7 @@ impl Interpreter {
             self.version += 1;
         }
         self.state.frames.clear();
+        self.release_couplings();
         // The observer wants no more, or it does not: the program has ended either way.
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,
@@ -747,55 +668,6 @@ impl Interpreter {
                 .map(|fault| at.diagnostic(fault.clone())),
         );
     }
-
-    /// The state of the run between two blocks. Programs that are streamed have none.
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            schema: 1,
-            files: self
-                .units
-                .iter()
-                .map(|unit| unit.index.source.name().to_string())
-                .collect(),
-            state: self.state.clone(),
-        }
-    }
-
-    /// An interpreter in the state of a snapshot. `source` gives the text of each file of the run.
-    ///
-    /// # Errors
-    /// The name of a file that `source` does not give, or of a machine with other axes.
-    pub fn resume(
-        machine: impl Into<Arc<Machine>>,
-        options: Options,
-        snapshot: Snapshot,
-        source: &mut dyn FnMut(&str) -> Option<SourceFile>,
-    ) -> Result<Self, ResumeError> {
-        let machine = machine.into();
-        if snapshot.state.compensation.len() != machine.axes.len() {
-            return Err(ResumeError::OtherMachine);
-        }
-        let mut resumed = Self::with_state(machine, options, snapshot.state);
-        for file in snapshot.files {
-            let Some(text) = source(&file) else {
-                return Err(ResumeError::MissingFile(file));
-            };
-            let index = Index::new(text, options.limits.nesting);
-            resumed.units.push(Unit::new(index));
-        }
-        Ok(resumed)
-    }
-}
-
-/// Why a snapshot cannot be resumed.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum ResumeError {
-    /// A file of the run is not there.
-    #[error("the file `{0}` of the run is missing")]
-    MissingFile(String),
-    /// The machine has other axes.
-    #[error("the snapshot belongs to a machine with other axes")]
-    OtherMachine,
 }
 
 impl Unit {

@@ -1,5 +1,7 @@
 //! Modal state and programmed positions (R2.45 to R2.47).
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use crate::machine::AxisIndex;
@@ -55,7 +57,8 @@ pub enum Frame {
 /// The position of an axis after a block.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AxisPosition {
-    /// The programmed coordinate in mm or degrees; `None` where it is not known.
+    /// The programmed coordinate in mm or degrees with the offset of G92; `None` where it is not
+    /// known.
     pub value: Option<f64>,
     /// Whether it is one of the machine.
     pub frame: Frame,
@@ -81,11 +84,32 @@ pub struct Modal {
     /// Whether the circle centre is absolute, G161.
     pub centre_absolute: bool,
     /// What takes positions away from the machine's: names of `#` commands and G functions.
-    pub transformed: std::collections::BTreeSet<String>,
-    /// Whether it is known which of G90 and G91, G70 and G71 is in force.
-    scale_known: bool,
+    pub transformed: BTreeSet<String>,
+    /// Groups of which nobody knows offline what is in force (R2.51).
+    unknown: BTreeSet<Group>,
+    /// Absolute positions: the programmed coordinate and the offset of G92.
     positions: Vec<Option<f64>>,
+    /// G92; `None` where it is not known.
+    references: Vec<Option<f64>>,
 }
+
+/// What the end of a cycle brings back (P-CHAN-00210): G functions and feed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Saved {
+    motion: u32,
+    plane: u32,
+    absolute: bool,
+    inch: bool,
+    feed_mode: u32,
+    feeds: [Option<f64>; 3],
+    offset: u32,
+    centre_absolute: bool,
+    transformed: [bool; 2],
+    unknown: BTreeSet<Group>,
+}
+
+/// G functions that take positions away from the machine's.
+const TRANSFORMING: [&str; 2] = ["G41", "G21"];
 
 impl Modal {
     /// The defaults at program start. Where the axes stand is not known.
@@ -99,22 +123,85 @@ impl Modal {
             feeds: [None; 3],
             offset: 53,
             centre_absolute: false,
-            transformed: std::collections::BTreeSet::new(),
-            scale_known: true,
+            transformed: BTreeSet::new(),
+            unknown: BTreeSet::new(),
             positions: vec![None; axes],
+            references: vec![Some(0.0); axes],
         }
+    }
+
+    /// The state at the start of the next program: the axes stay where they are.
+    pub(super) fn next_program(&self) -> Self {
+        Self {
+            positions: self.positions.clone(),
+            ..Self::new(self.positions.len())
+        }
+    }
+
+    /// Whether it is known which G function of a group is in force.
+    pub fn is_known(&self, group: Group) -> bool {
+        !self.unknown.contains(&group)
+    }
+
+    /// What a cycle may change and its end brings back.
+    pub(super) fn save(&self) -> Saved {
+        Saved {
+            motion: self.motion,
+            plane: self.plane,
+            absolute: self.absolute,
+            inch: self.inch,
+            feed_mode: self.feed_mode,
+            feeds: self.feeds,
+            offset: self.offset,
+            centre_absolute: self.centre_absolute,
+            transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
+            unknown: self.unknown.clone(),
+        }
+    }
+
+    /// The end of a cycle.
+    pub(super) fn restore(&mut self, saved: &Saved) {
+        if self.offset != saved.offset {
+            self.forget_positions();
+        }
+        self.motion = saved.motion;
+        self.plane = saved.plane;
+        self.absolute = saved.absolute;
+        self.inch = saved.inch;
+        self.feed_mode = saved.feed_mode;
+        self.feeds = saved.feeds;
+        self.offset = saved.offset;
+        self.centre_absolute = saved.centre_absolute;
+        self.unknown.clone_from(&saved.unknown);
+        for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
+            self.transform(name, on);
+        }
+    }
+
+    /// The axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is
+    /// not known.
+    pub(super) fn main_axis(&self, letter: u8) -> Option<u8> {
+        let place = usize::from(letter.checked_sub(b'X')?);
+        let axes = match self.plane {
+            _ if !self.is_known(Group::Plane) => return None,
+            18 => b"ZXY",
+            19 => b"YZX",
+            _ => b"XYZ",
+        };
+        axes.get(place).copied()
     }
 
     /// Puts a G function into force. `false` for one that is not modelled.
     pub fn set(&mut self, number: u32) -> bool {
-        match Group::of(number) {
+        let group = Group::of(number);
+        if let Some(group) = group {
+            self.unknown.remove(&group);
+        }
+        match group {
             Some(Group::Motion) => self.motion = number,
             Some(Group::Plane) => self.plane = number,
             Some(Group::Unit) => self.inch = number == 70,
-            Some(Group::Distance) => {
-                self.absolute = number == 90;
-                self.scale_known = true;
-            }
+            Some(Group::Distance) => self.absolute = number == 90,
             Some(Group::Feed) => self.feed_mode = number,
             Some(Group::Offset) => {
                 // An offset's values are the machine's own; coordinates lose their meaning.
@@ -133,11 +220,16 @@ impl Modal {
     }
 
     /// Enters or leaves a transformation.
+    /// The coordinates before and behind are those of different systems, except with cutter radius
+    /// compensation, which leaves the program's coordinates as they are.
     fn transform(&mut self, name: &str, on: bool) {
-        if on {
-            self.transformed.insert(name.to_owned());
+        let changed = if on {
+            self.transformed.insert(name.to_owned())
         } else {
-            self.transformed.remove(name);
+            self.transformed.remove(name)
+        };
+        if changed && name != "G41" {
+            self.forget_positions();
         }
     }
 
@@ -151,21 +243,54 @@ impl Modal {
         }
     }
 
-    /// A programmed coordinate of an axis.
-    pub fn move_axis(&mut self, axis: AxisIndex, value: Option<f64>) {
-        let metric = if self.inch { 25.4 } else { 1.0 };
-        let position = &mut self.positions[axis.get()];
-        *position = match (value.filter(|_| self.scale_known), self.absolute) {
-            (None, _) => None,
-            (Some(value), true) => Some(value * metric),
-            (Some(value), false) => position.map(|position| position + value * metric),
-        };
+    /// A `#` command that may or may not have been executed.
+    pub(super) fn forget_hash(&mut self, name: &str) {
+        let mut after = self.clone();
+        after.hash(name);
+        if after.transformed != self.transformed {
+            self.transformed.extend(after.transformed);
+            self.forget_positions();
+        }
     }
 
-    /// G92: the axis stands at this coordinate from now on.
+    fn metric(&self) -> Option<f64> {
+        let factor = if self.inch { 25.4 } else { 1.0 };
+        self.is_known(Group::Unit).then_some(factor)
+    }
+
+    /// A programmed coordinate of an axis.
+    pub fn move_axis(&mut self, axis: AxisIndex, value: Option<f64>) {
+        let value = value
+            .zip(self.metric())
+            .map(|(value, factor)| value * factor);
+        let from = if self.absolute {
+            self.references[axis.get()]
+        } else {
+            self.positions[axis.get()]
+        };
+        let known = self.is_known(Group::Distance);
+        self.positions[axis.get()] = value
+            .zip(from)
+            .map(|(value, from)| from + value)
+            .filter(|_| known);
+    }
+
+    /// G92: an offset for the absolute coordinates that follow; in G91 it adds to the one in force
+    /// (PM/206145291). The axis does not move.
     pub fn set_reference(&mut self, axis: AxisIndex, value: Option<f64>) {
-        let metric = if self.inch { 25.4 } else { 1.0 };
-        self.positions[axis.get()] = value.map(|value| value * metric);
+        let value = value
+            .zip(self.metric())
+            .map(|(value, factor)| value * factor);
+        let from = if self.absolute {
+            Some(0.0)
+        } else {
+            self.references[axis.get()]
+        };
+        let known = self.is_known(Group::Distance);
+        self.references[axis.get()] = value
+            .zip(from)
+            .map(|(value, from)| from + value)
+            .filter(|_| known);
     }
 
     /// Forgets where the axes stand.
@@ -178,22 +303,51 @@ impl Modal {
         self.positions[axis.get()] = None;
     }
 
-    /// A G function that may or may not have been executed.
-    pub fn forget_g(&mut self, number: Option<i64>) {
-        let group = number
-            .and_then(|number| u32::try_from(number).ok())
-            .and_then(Group::of);
-        match group {
-            Some(Group::Distance | Group::Unit) => self.scale_known = false,
+    /// Forgets what G92 set for an axis.
+    pub(super) fn forget_reference(&mut self, axis: AxisIndex) {
+        self.references[axis.get()] = None;
+    }
+
+    /// A G function that may or may not have been executed; `None` for one that is not known.
+    pub(super) fn forget_g(&mut self, number: Option<i64>) {
+        let Some(number) = number.and_then(|number| u32::try_from(number).ok()) else {
+            self.unknown.extend([
+                Group::Motion,
+                Group::Plane,
+                Group::Unit,
+                Group::Distance,
+                Group::Feed,
+                Group::Offset,
+                Group::CutterRadius,
+                Group::CircleCentre,
+            ]);
+            self.forget_positions();
+            self.references.fill(None);
+            return;
+        };
+        match Group::of(number) {
             Some(Group::Offset) => self.forget_positions(),
+            Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
+            None if (21..=23).contains(&number) => self.transform("G21", true),
             _ => {}
         }
+        self.unknown.extend(Group::of(number));
     }
 
     /// A feed word in mm/min, or the unit of the mode in force.
     pub fn set_feed(&mut self, value: Option<f64>) {
-        let place = (self.feed_mode - 93) as usize;
-        self.feeds[place] = value;
+        match self.feed_mode {
+            _ if !self.is_known(Group::Feed) => self.feeds = [None; 3],
+            93 => self.feeds[0] = value,
+            95 => self.feeds[2] = value,
+            _ => self.feeds[1] = value,
+        }
+    }
+
+    /// The programmed coordinate, without the offset of G92.
+    pub(super) fn programmed(&self, axis: AxisIndex) -> Option<f64> {
+        let position = self.positions[axis.get()].zip(self.references[axis.get()]);
+        position.map(|(position, reference)| position - reference)
     }
 
     /// Where an axis stands.

@@ -65,6 +65,8 @@ pub(super) struct Index {
     pub(super) entries: Vec<Entry>,
     pub(super) sections: Vec<Section>,
     links: HashMap<EntryIndex, Links>,
+    /// The statements that open loops.
+    loops: Vec<EntryIndex>,
     labels: HashMap<(usize, LabelName), EntryIndex>,
     remarks: HashMap<EntryIndex, (String, u32)>,
     /// What keeps the program from running at all.
@@ -130,6 +132,7 @@ impl Index {
                 entries: Vec::new(),
                 sections: Vec::new(),
                 links: HashMap::new(),
+                loops: Vec::new(),
                 labels: HashMap::new(),
                 remarks: HashMap::new(),
                 refused: Vec::new(),
@@ -208,11 +211,8 @@ impl Index {
 
     /// The loop that a block stands in, by its opener.
     pub(super) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
-        self.links
-            .iter()
-            .filter(|(at, links)| links.opener == **at && **at <= entry && entry <= links.end)
-            .map(|(at, _)| *at)
-            .max()
+        let around = |opener: &&EntryIndex| **opener <= entry && entry <= self.links(**opener).end;
+        self.loops.iter().filter(around).max().copied()
     }
 
     /// The comment line above a block that speaks to this tool, with its line.
@@ -385,6 +385,9 @@ impl Builder {
             )
             .with_help("a deeper nesting is allowed with `--max-nesting`");
             self.refuse(entry, fault);
+        }
+        if !matches!(kind, Kind::If | Kind::Switch) {
+            self.index.loops.push(entry);
         }
         self.open.push(Open {
             kind,

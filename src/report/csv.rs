@@ -4,6 +4,8 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 use crate::compensation::Change;
+use crate::interpreter::PositionFrame;
+use crate::machine::AxisIndex;
 use crate::syntax::Kind;
 use crate::timeline::{End, Record, Row, Sink, StateView};
 
@@ -28,6 +30,14 @@ pub struct Csv<W> {
     states: Vec<u8>,
     version: Option<u64>,
     changes: String,
+    positions: Positions,
+}
+
+/// Whether the rows say where the axes stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Positions {
+    Shown,
+    Hidden,
 }
 
 impl<W: Write> Csv<W> {
@@ -40,6 +50,17 @@ impl<W: Write> Csv<W> {
             states: Vec::new(),
             version: None,
             changes: String::new(),
+            positions: Positions::Hidden,
+        }
+    }
+
+    /// The same with a column `X_pos` for each axis, in mm or degrees, empty where the position is
+    /// not known, and a column `frame` that says whether positions are those of the `machine` or
+    /// as `programmed`.
+    pub fn with_positions(self) -> Self {
+        Self {
+            positions: Positions::Shown,
+            ..self
         }
     }
 
@@ -50,6 +71,13 @@ impl<W: Write> Csv<W> {
         for axis in &state.machine.axes {
             field(out, &axis.name);
             out.push(b',');
+        }
+        if self.positions == Positions::Shown {
+            for axis in &state.machine.axes {
+                field(out, &axis.name);
+                out.extend_from_slice(b"_pos,");
+            }
+            out.extend_from_slice(b"frame,");
         }
         out.extend_from_slice(b"changes,codes\n");
     }
@@ -74,6 +102,9 @@ impl<W: Write> Csv<W> {
         field(out, row.text);
         out.push(b',');
         out.extend_from_slice(&self.states);
+        if self.positions == Positions::Shown {
+            append_positions(out, row);
+        }
         self.changes.clear();
         for change in row.changes {
             if self.view.kinds.contains(change.kind) {
@@ -108,7 +139,7 @@ impl<W: Write> Csv<W> {
         self.version = Some(state.version);
         self.states.clear();
         for (index, _) in state.machine.axes.iter().enumerate() {
-            let axis = crate::machine::AxisIndex::new(index);
+            let axis = AxisIndex::new(index);
             let word = state.state(axis, Kind::Frict).word();
             self.states.extend_from_slice(word.as_bytes());
             self.states.push(b',');
@@ -152,6 +183,25 @@ impl<W: Write> Report for Csv<W> {
     fn is_closed(&self) -> bool {
         self.output.is_closed()
     }
+}
+
+fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
+    let axes = row.state.machine.axes.iter().enumerate();
+    let mut frame = PositionFrame::Machine;
+    for (index, _) in axes {
+        let position = row.modal.position(AxisIndex::new(index));
+        if let Some(value) = position.value {
+            // Rounded to a nanometre, so that sums of decimals look as they were programmed.
+            let rounded = (value * 1e6).round() / 1e6;
+            out.extend_from_slice(rounded.to_string().as_bytes());
+        }
+        out.push(b',');
+        frame = position.frame;
+    }
+    out.extend_from_slice(match frame {
+        PositionFrame::Machine => b"machine,",
+        PositionFrame::Programmed => b"programmed,",
+    });
 }
 
 /// Appends a field, quoted where it must be.

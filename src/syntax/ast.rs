@@ -3,6 +3,8 @@
 //! Names are spans into the block's text. Expressions stand in one vector per block, each operand
 //! in front of its operator, so that they are evaluated with a stack and without recursion.
 
+use serde::{Deserialize, Serialize};
+
 use super::{CompCommand, Fault};
 use crate::source::Span;
 
@@ -78,6 +80,9 @@ pub enum Address {
     Letter(u8),
     /// A lower-case letter that would name an axis in upper case; axis names are case-sensitive.
     Lower(u8),
+    /// `@X` … `@Z`, `@I` … `@K`, `@S` in a cycle: a main axis of the active plane, its centre or the
+    /// main spindle.
+    Main(u8),
     /// A longer axis or spindle name.
     Name(Span),
 }
@@ -292,6 +297,16 @@ pub enum CallScope {
     Global,
 }
 
+/// Whether a call is one of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum CallForm {
+    /// `L file.nc`, `LL NAME`.
+    #[default]
+    Plain,
+    /// `L CYCLE […]`, `LL CYCLE […]`: what the cycle does to G functions and feed ends with it.
+    Cycle,
+}
+
 /// How a cycle is repeated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Repetition {
@@ -311,6 +326,8 @@ pub struct Call {
     pub scope: CallScope,
     /// How it is named.
     pub name: CallName,
+    /// Whether it is a cycle.
+    pub form: CallForm,
     /// Own parameters of the call, `@P1` …: number and value.
     pub arguments: Vec<(u32, Operand)>,
     /// Whether it is repeated.
@@ -398,6 +415,8 @@ pub enum BinaryOperator {
     BitAnd,
     /// `|`
     BitOr,
+    /// `^`
+    BitXor,
     /// `&&`
     And,
     /// `||`
@@ -451,6 +470,12 @@ pub enum Function {
     Floor,
     /// Nearest integer.
     Round,
+    /// The smaller of two.
+    Min,
+    /// The greater of two.
+    Max,
+    /// -1, 0 or 1.
+    Sign,
     /// Bitwise inversion.
     Inv,
     /// Logical inversion.
@@ -461,7 +486,7 @@ pub enum Function {
     Sizeof,
     /// The first characters of a text.
     Left,
-    /// Characters from the middle of a text.
+    /// Characters from the middle of a text: text, count, first position.
     Mid,
     /// The last characters of a text.
     Right,
@@ -469,6 +494,20 @@ pub enum Function {
     Len,
     /// The position of a text in another, from 1, 0 when absent.
     Find,
-    /// The code of a text's first character.
+    /// The code of a text's character at a position, the first when left out.
     Ord,
+    /// A text with another one put in behind a position.
+    Insert,
+    /// A text without a count of characters from a position.
+    Delete,
+    /// A text with a count of characters from a position replaced.
+    Replace,
+    /// A whole number as text.
+    IntToStr,
+    /// A number as text.
+    RealToStr,
+    /// A text as whole number.
+    StrToInt,
+    /// A text as number.
+    StrToReal,
 }

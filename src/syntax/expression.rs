@@ -10,14 +10,15 @@ use crate::source::Span;
 /// How tightly operators bind, loosest first.
 const PRECEDENCE: &[&[BinaryOperator]] = {
     use BinaryOperator::{
-        Add, And, BitAnd, BitOr, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
-        Multiply, NotEqual, Or, Power, Subtract, Xor,
+        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
+        Modulo, Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
     &[
         &[Or],
         &[Xor],
         &[And],
         &[BitOr],
+        &[BitXor],
         &[BitAnd],
         &[Equal, NotEqual],
         &[Less, Greater, LessOrEqual, GreaterOrEqual],
@@ -56,6 +57,14 @@ pub(super) fn lower(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Opera
     operand(from, block)
 }
 
+/// Lowers a text that is an expression and nothing else, as the code of a macro may be.
+pub(super) fn lower_text(text: &str, block: &mut Block) -> Option<Operand> {
+    use pest::Parser;
+    let mut pairs = super::grammar::NcParser::parse(Rule::lone_expression, text).ok()?;
+    let pair = pairs.next()?.into_inner().next()?;
+    Some(lower(pair, 0, block))
+}
+
 /// Lowers a single value.
 pub(super) fn lower_primary(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Operand {
     let from = block.nodes.len();
@@ -88,13 +97,23 @@ fn range(from: usize, block: &Block) -> Expression {
 /// A plain number stays out of the nodes.
 fn operand(from: usize, block: &mut Block) -> Operand {
     match block.nodes[from..] {
-        [Node::Number(value)] => {
+        // What is no number, or too large for one, is said when it is evaluated.
+        [Node::Number(value)] if value.is_finite() => {
             block.nodes.truncate(from);
             block.spans.truncate(from);
             Operand::Number(value)
         }
         _ => Operand::Expression(range(from, block)),
     }
+}
+
+/// What waits while an expression is lowered.
+#[derive(Default)]
+struct Stacks {
+    /// Operators, each with the place of its sign.
+    waiting: Vec<(Waiting, u32)>,
+    /// The source of each operand.
+    operands: Vec<Span>,
 }
 
 struct Lowering<'a> {
@@ -117,36 +136,38 @@ impl Lowering<'_> {
     /// Precedence over the flat list: operators wait until one that binds less tightly follows,
     /// so nothing recurses but brackets.
     fn expression(&mut self, pair: Pair<'_, Rule>) {
-        let start = self.span(&pair).start;
-        let mut waiting: Vec<Waiting> = Vec::new();
-        let mut negative = false;
+        let mut stacks = Stacks::default();
+        let mut signs = None;
         for part in pair.into_inner() {
-            let end = self.span(&part).end;
+            let span = self.span(&part);
             match part.as_rule() {
-                Rule::sign => negative ^= part.as_str() == "-",
+                Rule::sign => {
+                    let (start, negative) = signs.unwrap_or((span.start, false));
+                    signs = Some((start, negative ^ (part.as_str() == "-")));
+                }
                 Rule::infix => {
                     let Some(operator) = operator(part.as_str()) else {
                         continue;
                     };
                     let operator = Waiting::Binary(operator);
-                    self.reduce(&mut waiting, Some(operator), Span { start, end });
-                    waiting.push(operator);
+                    self.reduce(&mut stacks, Some(operator));
+                    stacks.waiting.push((operator, span.start));
                 }
                 _ => {
-                    if std::mem::take(&mut negative) {
-                        waiting.push(Waiting::Negate);
+                    if let Some((start, true)) = signs.take() {
+                        stacks.waiting.push((Waiting::Negate, start));
                     }
                     self.primary(part);
+                    stacks.operands.push(span);
                 }
             }
         }
-        let end = self.block.spans.last().map_or(start, |span| span.end);
-        self.reduce(&mut waiting, None, Span { start, end });
+        self.reduce(&mut stacks, None);
     }
 
     /// Writes the waiting operators that bind at least as tightly as the next one.
-    fn reduce(&mut self, waiting: &mut Vec<Waiting>, next: Option<Waiting>, span: Span) {
-        while let Some(&last) = waiting.last() {
+    fn reduce(&mut self, stacks: &mut Stacks, next: Option<Waiting>) {
+        while let Some(&(last, start)) = stacks.waiting.last() {
             let goes_first = next.is_none_or(|next| {
                 let rightwards = next == Waiting::Binary(BinaryOperator::Power);
                 last.binding() > next.binding() || (last.binding() == next.binding() && !rightwards)
@@ -154,7 +175,16 @@ impl Lowering<'_> {
             if !goes_first {
                 return;
             }
-            waiting.pop();
+            stacks.waiting.pop();
+            let right = stacks.operands.pop().unwrap_or_default();
+            let span = match last {
+                Waiting::Binary(_) => stacks.operands.pop().unwrap_or(right).to(right),
+                Waiting::Negate => Span {
+                    start,
+                    end: right.end,
+                },
+            };
+            stacks.operands.push(span);
             match last {
                 Waiting::Binary(operator) => self.push(Node::Binary(operator), span),
                 Waiting::Negate => self.negate(span),
@@ -307,8 +337,8 @@ fn constant(text: &str) -> f64 {
 
 fn operator(text: &str) -> Option<BinaryOperator> {
     use BinaryOperator::{
-        Add, And, BitAnd, BitOr, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual, Modulo,
-        Multiply, NotEqual, Or, Power, Subtract, Xor,
+        Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
+        Modulo, Multiply, NotEqual, Or, Power, Subtract, Xor,
     };
     Some(match text.trim().to_ascii_uppercase().as_str() {
         "+" => Add,
@@ -325,8 +355,9 @@ fn operator(text: &str) -> Option<BinaryOperator> {
         ">" => Greater,
         "&" => BitAnd,
         "|" => BitOr,
-        "&&" => And,
-        "||" => Or,
+        "^" => BitXor,
+        "&&" | "AND" => And,
+        "||" | "OR" => Or,
         "XOR" => Xor,
         _ => return None,
     })
@@ -334,8 +365,9 @@ fn operator(text: &str) -> Option<BinaryOperator> {
 
 fn function(name: &str) -> Option<Function> {
     use Function::{
-        Abs, Acos, Acot, Asin, Atan, Atan2, Ceil, Cos, Cot, Dexp, Exist, Exp, Find, Floor, Fract,
-        Int, Inv, Left, Len, Ln, Log, Mid, Not, Ord, Right, Round, Sin, Sizeof, Sqr, Sqrt, Tan,
+        Abs, Acos, Acot, Asin, Atan, Atan2, Ceil, Cos, Cot, Delete, Dexp, Exist, Exp, Find, Floor,
+        Fract, Insert, Int, IntToStr, Inv, Left, Len, Ln, Log, Max, Mid, Min, Not, Ord, RealToStr,
+        Replace, Right, Round, Sign, Sin, Sizeof, Sqr, Sqrt, StrToInt, StrToReal, Tan,
     };
     Some(match name.to_ascii_uppercase().as_str() {
         "ABS" => Abs,
@@ -369,6 +401,16 @@ fn function(name: &str) -> Option<Function> {
         "LEN" => Len,
         "FIND" => Find,
         "ORD" => Ord,
+        "MIN" => Min,
+        "MAX" => Max,
+        "SIGN" => Sign,
+        "INSERT" => Insert,
+        "DELETE" => Delete,
+        "REPLACE" => Replace,
+        "INT_TO_STR" => IntToStr,
+        "REAL_TO_STR" => RealToStr,
+        "STR_TO_INT" => StrToInt,
+        "STR_TO_REAL" => StrToReal,
         _ => return None,
     })
 }

@@ -336,8 +336,8 @@ fn mask(line: &str, code: &mut String) -> Masked {
     let mut at = 0;
     while at < bytes.len() {
         match bytes[at] {
-            b'"' if memchr::memchr(b'"', &bytes[at + 1..]).is_some() => {
-                let end = at + 2 + memchr::memchr(b'"', &bytes[at + 1..]).unwrap_or_default();
+            b'"' if text_end(bytes, at).is_some() => {
+                let end = text_end(bytes, at).unwrap_or(bytes.len());
                 code.push_str(&line[at..end]);
                 at = end;
             }
@@ -368,6 +368,19 @@ fn mask(line: &str, code: &mut String) -> Masked {
         masked.continues = true;
     }
     masked
+}
+
+/// One past the quote that closes the text at `start`. A `\"` stands for a quote inside; where that
+/// leaves the text open, it was the text's own last character.
+pub(super) fn text_end(bytes: &[u8], start: usize) -> Option<usize> {
+    let mut at = start + 1;
+    while let Some(length) = memchr::memchr(b'"', &bytes[at..]) {
+        at += length + 1;
+        if bytes[at - 2] != b'\\' || at - 2 == start {
+            return Some(at);
+        }
+    }
+    memchr::memchr(b'"', &bytes[start + 1..]).map(|length| start + length + 2)
 }
 
 fn blank(code: &mut String, length: usize) {

@@ -4,8 +4,8 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::ast::{
-    Address, Assignment, Block, Call, CallName, CallScope, Declaration, Flow, GCall, Hash, Item,
-    JumpTarget, Number, Operand, Repetition, Target, Word,
+    Address, Assignment, Block, Call, CallForm, CallName, CallScope, Declaration, Flow, GCall,
+    Hash, Item, JumpTarget, Number, Operand, Repetition, Target, Word,
 };
 use super::comp::CompWords;
 use super::expression;
@@ -84,15 +84,15 @@ pub(super) fn block(code: &str, block: &mut Block) {
 }
 
 /// Finds the first `[` that is never closed; refuses what nests too deeply for recursion.
-fn brackets(code: &str) -> Result<Option<usize>, Fault> {
+pub(super) fn brackets(code: &str) -> Result<Option<usize>, Fault> {
     let mut open = Vec::new();
     let mut powers = 0_usize;
-    let mut in_text = false;
+    let mut text_end = 0;
     let bytes = code.as_bytes();
     for (at, byte) in bytes.iter().enumerate() {
         match byte {
-            b'"' => in_text = !in_text,
-            _ if in_text => {}
+            _ if at < text_end => {}
+            b'"' => text_end = super::lines::text_end(bytes, at).unwrap_or_default(),
             b'[' => open.push(at),
             b']' => {
                 open.pop();
@@ -259,17 +259,25 @@ impl Lowering<'_> {
     }
 
     fn word(&mut self, pair: Pair<'_, Rule>, span: Span) {
-        let mut inner = pair.into_inner();
+        let mut inner = pair.into_inner().peekable();
+        let main = inner
+            .next_if(|part| part.as_rule() == Rule::main_axis)
+            .is_some();
         let (Some(letter), Some(value)) = (inner.next(), inner.next()) else {
             return;
         };
         let byte = letter.as_str().bytes().next().unwrap_or_default();
-        if !is_axis_letter(byte) {
+        if main || !is_axis_letter(byte) {
             self.note_case(span_of(&letter));
         }
         let value = expression::lower(value, 0, self.block);
+        let address = if main {
+            Address::Main(byte.to_ascii_uppercase())
+        } else {
+            address(byte)
+        };
         self.block.items.push(Item::Word(Word {
-            address: address(byte),
+            address,
             value: Some(value),
             span,
         }));
@@ -503,6 +511,7 @@ impl Lowering<'_> {
             self.block.items.push(Item::Call(Call {
                 scope,
                 name,
+                form: CallForm::Plain,
                 arguments: Vec::new(),
                 repetition: Repetition::Once,
                 span,
@@ -552,19 +561,19 @@ impl Lowering<'_> {
                         arguments.push((index, value));
                     }
                 }
-                _ if argument.as_str().eq_ignore_ascii_case("MODAL_MOVE") => {
-                    repetition = Repetition::AfterMotion;
-                }
-                _ if argument.as_str().eq_ignore_ascii_case("MODAL_BLOCK") => {
-                    repetition = Repetition::AfterBlock;
-                }
-                _ => {}
+                // `MODAL` is the older word for `MODAL_MOVE`.
+                _ => match argument.as_str().to_ascii_uppercase().as_str() {
+                    "MODAL" | "MODAL_MOVE" => repetition = Repetition::AfterMotion,
+                    "MODAL_BLOCK" => repetition = Repetition::AfterBlock,
+                    _ => {}
+                },
             }
         }
         match name {
             Some(name) => self.block.items.push(Item::Call(Call {
                 scope,
                 name,
+                form: CallForm::Cycle,
                 arguments,
                 repetition,
                 span,

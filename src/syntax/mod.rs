@@ -91,6 +91,13 @@ pub fn parse_block(text: &str) -> ast::Block {
     block
 }
 
+/// Parses a text that is one expression into an empty block; `None` where it is none, or nests too
+/// deeply.
+pub(crate) fn parse_expression(text: &str, block: &mut ast::Block) -> Option<ast::Operand> {
+    lower::brackets(text).ok()?;
+    expression::lower_text(text, block)
+}
+
 /// The words of a `#` command in upper case, and how many bytes they take.
 pub(crate) fn hash_name(code: &str) -> (String, usize) {
     let mut name = String::from("#");

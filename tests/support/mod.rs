@@ -6,14 +6,16 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
-use frictcomp::machine::{Machine, Setting};
+use frictcomp::compensation::Compensation;
+use frictcomp::interpreter::{Event, Interpreter, Options, PositionFrame, Value};
+use frictcomp::machine::{AxisIndex, Machine, Setting};
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::source::SourceFile;
 use frictcomp::syntax::Kind;
 use frictcomp::timeline::{Record, Sink, StateView};
 
 /// X and Y configured with a value list, Z not configured, B configured without a list.
-pub const MACHINE: &str = r#"
+pub(crate) const MACHINE: &str = r#"
 [[axis]]
 name = "X"
 frict_comp = true
@@ -31,19 +33,19 @@ frict_comp = true
 "#;
 
 /// A session to set up and run.
-pub struct Bench {
-    pub machine: Machine,
-    pub options: SessionOptions,
-    pub files: BTreeMap<String, String>,
-    pub kinds: Vec<Kind>,
+pub(crate) struct Bench {
+    pub(crate) machine: Machine,
+    pub(crate) options: SessionOptions,
+    pub(crate) files: BTreeMap<String, String>,
+    pub(crate) kinds: Vec<Kind>,
 }
 
 impl Bench {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::on(MACHINE)
     }
 
-    pub fn on(toml: &str) -> Self {
+    pub(crate) fn on(toml: &str) -> Self {
         Self {
             machine: Machine::from_toml(toml).expect("the test's machine"),
             options: SessionOptions::default(),
@@ -52,53 +54,155 @@ impl Bench {
         }
     }
 
-    pub fn keep_going(mut self) -> Self {
+    pub(crate) fn keep_going(mut self) -> Self {
         self.options.stop = StopPolicy::KeepGoing;
         self
     }
 
-    pub fn check_all(mut self) -> Self {
+    pub(crate) fn check_all(mut self) -> Self {
         self.options.stop = StopPolicy::CheckAll;
         self
     }
 
-    pub fn skip(mut self, levels: u16) -> Self {
+    pub(crate) fn skip(mut self, levels: u16) -> Self {
         self.options.skip = levels;
         self
     }
 
-    pub fn limits(mut self, limits: Limits) -> Self {
+    pub(crate) fn limits(mut self, limits: Limits) -> Self {
         self.options.limits = limits;
         self
     }
 
-    pub fn set(mut self, name: &str, value: f64) -> Self {
+    pub(crate) fn set(mut self, name: &str, value: f64) -> Self {
         let setting = (name.to_owned(), Setting::Number(value));
         self.options.settings.push(setting);
         self
     }
 
-    pub fn file(mut self, name: &str, text: &str) -> Self {
+    pub(crate) fn file(mut self, name: &str, text: &str) -> Self {
         self.files.insert(name.to_owned(), text.to_owned());
         self
     }
 
-    pub fn kinds(mut self, kinds: &[Kind]) -> Self {
+    pub(crate) fn kinds(mut self, kinds: &[Kind]) -> Self {
         self.kinds = kinds.to_vec();
         self
     }
 
-    pub fn session(&self) -> Session {
+    pub(crate) fn set_text(mut self, name: &str, value: &str) -> Self {
+        let setting = (name.to_owned(), Setting::Text(value.to_owned()));
+        self.options.settings.push(setting);
+        self
+    }
+
+    /// The value of each expression, or what is said about it.
+    pub(crate) fn values(&self, preparation: &str, expressions: &[&str]) -> String {
+        let mut lines = String::new();
+        for expression in expressions {
+            let mut session = self.session();
+            let program = format!("{preparation}\nV.S.R = {expression}\nM30");
+            let transcript = self.run_in(&mut session, &[&program]);
+            let value = session.interpreter().shared_variables().remove("V.S.R");
+            let said = transcript
+                .lines()
+                .find_map(|line| line.strip_prefix("    "))
+                .unwrap_or("nothing");
+            let shown = match value {
+                Some(Value::Number(number)) => format!("{}", (number * 1e9).round() / 1e9),
+                Some(Value::Text(text)) => format!("{text:?}"),
+                Some(Value::Unknown(cause)) => format!("unknown: {cause}"),
+                None => said.to_owned(),
+            };
+            writeln!(lines, "{expression} -> {shown}").expect("text");
+        }
+        lines
+    }
+
+    /// What is said about a program, with advice and labels.
+    pub(crate) fn said(&self, program: &str) -> String {
+        struct Said(String);
+        impl Sink for Said {
+            fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+                let (mut said, mut noted) = (Vec::new(), Vec::new());
+                match record {
+                    Record::Block(row) => said.extend(row.diagnostics),
+                    Record::End(end) => noted.extend(end.notes.iter().map(|note| &note.diagnostic)),
+                    _ => {}
+                }
+                for diagnostic in said.into_iter().chain(noted) {
+                    let place = diagnostic.place.start();
+                    writeln!(self.0, "{} {place} {}", diagnostic.code, diagnostic.message)
+                        .expect("text");
+                    for help in &diagnostic.help {
+                        writeln!(self.0, "  help: {help}").expect("text");
+                    }
+                    for label in &diagnostic.labels {
+                        writeln!(self.0, "  {}: {}", label.place.start(), label.text)
+                            .expect("text");
+                    }
+                }
+                ControlFlow::Continue(())
+            }
+        }
+        let mut said = Said(String::new());
+        let files = self.files.clone();
+        let mut find = move |name: &str, _: &str| {
+            let text = files.get(name)?;
+            Some(SourceFile::new(name, text.as_str()))
+        };
+        let source = Program::Whole(SourceFile::new("a.nc", program));
+        let _ = self.session().program("a.nc", source, &mut find, &mut said);
+        said.0
+    }
+
+    /// Where the axes stand after each block.
+    pub(crate) fn positions(&self, program: &str) -> String {
+        let compensation = Compensation::at_startup(&self.machine);
+        let machine = std::sync::Arc::new(self.machine.clone());
+        let mut run = Interpreter::new(machine.clone(), compensation, Options::default());
+        for (name, setting) in &self.options.settings {
+            run.set(name, setting);
+        }
+        let mut lines = String::new();
+        let files = self.files.clone();
+        let mut find = move |name: &str, _: &str| {
+            let text = files.get(name)?;
+            Some(SourceFile::new(name, text.as_str()))
+        };
+        let source = SourceFile::new("a.nc", program);
+        run.program(source, &mut find, &mut |event: Event<'_>| {
+            if let Event::Executed(block) = event {
+                write!(lines, "{}", block.text.lines().next().unwrap_or_default()).expect("text");
+                for (at, axis) in machine.axes.iter().enumerate() {
+                    let position = block.modal.position(AxisIndex::new(at));
+                    let value = position
+                        .value
+                        .map_or("?".to_owned(), |value| value.to_string());
+                    let mark = match position.frame {
+                        PositionFrame::Machine => "",
+                        PositionFrame::Programmed => "*",
+                    };
+                    write!(lines, " {}:{value}{mark}", axis.name).expect("text");
+                }
+                lines.push('\n');
+            }
+            ControlFlow::Continue(())
+        });
+        lines
+    }
+
+    pub(crate) fn session(&self) -> Session {
         Session::new(self.machine.clone(), self.options.clone())
     }
 
     /// Runs programs in one session and shows the records.
-    pub fn run(&self, programs: &[&str]) -> String {
+    pub(crate) fn run(&self, programs: &[&str]) -> String {
         let mut session = self.session();
         self.run_in(&mut session, programs)
     }
 
-    pub fn run_in(&self, session: &mut Session, programs: &[&str]) -> String {
+    pub(crate) fn run_in(&self, session: &mut Session, programs: &[&str]) -> String {
         let mut transcript = Transcript {
             text: String::new(),
             kinds: self.kinds.clone(),

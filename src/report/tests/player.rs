@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use crate::codes::Code;
 use crate::compensation::{Change, Compensation};
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::interpreter::Modal;
 use crate::machine::{AxisSet, Machine};
 use crate::source::{SourceFile, Span};
 use crate::syntax::{Kind, KindSet, Selection};
@@ -111,6 +112,7 @@ impl<'a> Player<'a> {
             text,
             changes: &changes,
             state: state!(self),
+            modal: &Modal::new(self.machine.axes.len()),
             diagnostics: said,
         }))
     }

@@ -1,0 +1,188 @@
+//! COMP commands and what there is to say about them (chapter 1).
+
+use super::{At, Interpreter, Outcome};
+use crate::codes::Code;
+use crate::compensation::{CompensationError, State};
+use crate::diagnostic::did_you_mean;
+use crate::machine::{AxisIndex, AxisSet, CncBuild, Origin, Parameterisation};
+use crate::source::Span;
+use crate::syntax::{CompCommand, Fault, Kind, KindSet, Selection};
+
+impl Interpreter {
+    pub(super) fn comp(&mut self, command: &CompCommand, at: &At<'_>) {
+        let before = self.work.changes.len();
+        let axis = self.find_axis(command);
+        let result = axis.and_then(|axis| {
+            self.state.occurred[axis.get()] = true;
+            self.warn_opposite(command, axis, at);
+            self.state
+                .compensation
+                .switch(axis, command.selection, &mut self.work.changes)
+                .map(|()| axis)
+        });
+        match &result {
+            Ok(axis) => {
+                self.warn_build(command, at);
+                self.warn_ineffective(command, *axis, at);
+            }
+            Err(error) => {
+                let diagnostic = self.refusal(error, command, at);
+                self.work.diagnostics.push(diagnostic);
+            }
+        }
+        self.work.outcomes.push(Outcome {
+            command: command.clone(),
+            result,
+            changes: self.work.changes.len() - before,
+        });
+    }
+
+    fn find_axis(&self, command: &CompCommand) -> Result<AxisIndex, CompensationError> {
+        let axis = self.state.compensation.resolve(&command.axis)?;
+        let nameless = self.machine.axis_set == AxisSet::AsTheyOccur;
+        debug_assert!(nameless || self.state.occurred[axis.get()]);
+        Ok(axis)
+    }
+
+    /// FC301: the same axis and kind twice in one block with opposite states.
+    fn warn_opposite(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+        let on = |selection| matches!(selection, Selection::On(_));
+        let opposite = self.work.outcomes.iter().find_map(|earlier| {
+            let same_axis = earlier.result.as_ref().ok() == Some(&axis);
+            let kinds = earlier
+                .command
+                .selection
+                .kinds()
+                .intersection(command.selection.kinds());
+            (same_axis
+                && !kinds.is_empty()
+                && on(earlier.command.selection) != on(command.selection))
+            .then_some((earlier.command.span, kinds))
+        });
+        if let Some((first, kinds)) = opposite {
+            let keywords: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
+            let name = &command.axis;
+            let fault = Fault::new(
+                Code::Fc301,
+                command.span,
+                format!(
+                    "`{}` of axis `{name}` is switched both on and off in this block; this command wins",
+                    keywords.join(" ")
+                ),
+            );
+            let diagnostic = at
+                .diagnostic(fault)
+                .with_axis(name.clone())
+                .with_label(at.place(first), "the opposite stands here");
+            self.work.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// FC305: a kind that the configured build does not know (R1.10).
+    fn warn_build(&mut self, command: &CompCommand, at: &At<'_>) {
+        let Some(build) = self.machine.build else {
+            return;
+        };
+        let named = match command.selection {
+            Selection::On(kinds) | Selection::Off(kinds) => kinds,
+            Selection::OffAll => KindSet::NONE,
+        };
+        for kind in named.iter() {
+            let since: CncBuild = kind.facts().since;
+            if build < since {
+                let keyword = kind.keyword();
+                let fault = Fault::new(
+                    Code::Fc305,
+                    command.span,
+                    format!("`{keyword}` exists since CNC build {since}, the machine has {build}"),
+                );
+                self.work
+                    .diagnostics
+                    .push(at.diagnostic(fault).with_axis(command.axis.clone()));
+            }
+        }
+    }
+
+    /// FC303: selected, but nothing to work with (R1.26).
+    fn warn_ineffective(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+        let selects =
+            matches!(command.selection, Selection::On(kinds) if kinds.contains(Kind::Frict));
+        if !selects || self.state.compensation.state(axis, Kind::Frict) != State::Ineffective {
+            return;
+        }
+        let name = &command.axis;
+        let (missing, help) = match &self.machine.axis(axis).friction {
+            Parameterisation::Missing => (
+                "the axis has no value list".to_owned(),
+                format!("give axis `{name}` a list with `frict_comp.mode 3` and table values"),
+            ),
+            Parameterisation::Off => (
+                "the value list says `frict_comp.mode 0`".to_owned(),
+                "set P-COMP-00041 to 3".to_owned(),
+            ),
+            Parameterisation::Rejected { file, code } => (
+                format!("the value list `{file}` was rejected with {code}"),
+                format!("`frictcomp explain {code}` says why"),
+            ),
+            Parameterisation::Assumed | Parameterisation::Accepted(_) => return,
+        };
+        let fault = Fault::new(
+            Code::Fc303,
+            command.span,
+            format!("friction compensation of axis `{name}` is selected without effect: {missing}"),
+        )
+        .with_help(help);
+        self.work
+            .diagnostics
+            .push(at.diagnostic(fault).with_axis(name.clone()));
+    }
+
+    fn refusal(
+        &self,
+        error: &CompensationError,
+        command: &CompCommand,
+        at: &At<'_>,
+    ) -> crate::diagnostic::Diagnostic {
+        let name = &command.axis;
+        let axis_span = Span::new(
+            command.span.start as usize,
+            command.span.start as usize + name.len(),
+        );
+        let span = match error {
+            CompensationError::UnknownAxis { .. } => axis_span,
+            _ => command.span,
+        };
+        let fault = Fault::new(error.code(), span, error.to_string());
+        let mut diagnostic = at.diagnostic(fault).with_axis(name.clone());
+        match error {
+            CompensationError::NotConfigured { .. } => {
+                let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
+                diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
+                    Some(Origin::File { file, line }) => {
+                        format!("{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control")
+                    }
+                    _ => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control"),
+                });
+                diagnostic = diagnostic.with_help(format!(
+                    "to go on as if it were set, run with `--enable {name}`"
+                ));
+            }
+            CompensationError::UnknownAxis { .. } => {
+                let known = self.machine.axes.iter().map(|axis| axis.name.as_str());
+                diagnostic = match did_you_mean(name, known.clone()) {
+                    Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+                    None => diagnostic.with_help(format!(
+                        "the machine has {}",
+                        known.collect::<Vec<_>>().join(", ")
+                    )),
+                };
+            }
+            CompensationError::Coupled { .. } => {
+                diagnostic =
+                    diagnostic.with_help("release the coupling before, with `#DISABLE AX LINK`");
+            }
+            CompensationError::Spindle { .. } => {}
+        }
+        diagnostic
+    }
+}

@@ -1,0 +1,178 @@
+//! Values of operands, system variables, and what assignments write.
+
+use std::collections::BTreeMap;
+
+use super::event::{Note, NoteKind, Notes};
+use super::expression::{Evaluator, Macros, Place, Scope};
+use super::{At, Interpreter, PositionFrame, Value};
+use crate::compensation::State;
+use crate::machine::AxisIndex;
+use crate::source::Span;
+use crate::syntax::ast::{Assignment, Block, Expression, Operand, Owner};
+use crate::syntax::{Fault, Kind};
+
+impl Interpreter {
+    /// The value of an operand.
+    pub(super) fn value(
+        &mut self,
+        operand: Operand,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<Value, Box<Fault>> {
+        if let Operand::Number(number) = operand {
+            return Ok(Value::Number(number));
+        }
+        let mut stack = std::mem::take(&mut self.work.stack);
+        let value =
+            self.with_evaluator(block, at, |evaluator| evaluator.value(operand, &mut stack));
+        self.work.stack = stack;
+        value
+    }
+
+    pub(super) fn with_evaluator<T>(
+        &self,
+        block: &Block,
+        at: &At<'_>,
+        work: impl FnOnce(&Evaluator<'_>) -> T,
+    ) -> T {
+        static NO_CALL: BTreeMap<u32, Value> = BTreeMap::new();
+        let own = self
+            .state
+            .frames
+            .last()
+            .map_or(&NO_CALL, |frame| &frame.own);
+        let taken = self.options.notes == Notes::Taken;
+        work(&Evaluator {
+            block,
+            text: at.text,
+            shown: None,
+            macros: Macros {
+                depth: at.macro_depth,
+                limit: self.options.limits.macros,
+                expansions: &self.work.expansions,
+            },
+            scope: Scope {
+                memory: &self.state.memory,
+                own,
+                system: &|name| self.system_variable(name),
+                unknown: &|name, span| {
+                    if taken {
+                        self.work.notes.borrow_mut().push(Note {
+                            kind: NoteKind::Unknown,
+                            name: name.to_owned(),
+                            place: at.place(span),
+                        });
+                    }
+                },
+            },
+        })
+    }
+
+    /// Counts something that was accepted and passed over.
+    pub(super) fn pass_over(&mut self, word: &str, span: Span, at: &At<'_>) {
+        match self.state.opaque.get_mut(word) {
+            Some(count) => *count += 1,
+            None => {
+                self.state.opaque.insert(word.to_owned(), 1);
+            }
+        }
+        if self.options.notes == Notes::Taken {
+            self.work.notes.borrow_mut().push(Note {
+                kind: NoteKind::Opaque,
+                name: word.to_owned(),
+                place: at.place(span),
+            });
+        }
+    }
+
+    /// What the dry run knows of the machine's own variables (R1.35, R2.36).
+    fn system_variable(&self, name: &str) -> Option<Value> {
+        let rest = name.strip_prefix("V.A.")?;
+        let (variable, axis) = match rest.split_once('[') {
+            Some((variable, index)) => {
+                let position = index.trim_end_matches(']').parse().ok()?;
+                (
+                    variable,
+                    (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
+                )
+            }
+            None => {
+                let (variable, axis) = rest.rsplit_once('.')?;
+                (variable, self.machine.find(axis)?)
+            }
+        };
+        if let Some(kind) = variable
+            .strip_suffix("_COMP_ACTIVE")
+            .and_then(compensation_kind)
+        {
+            return match self.state.compensation.state(axis, kind) {
+                State::Unknown => None,
+                state => Some((state == State::Active).into()),
+            };
+        }
+        if let Some(kind) = variable
+            .strip_suffix("_COMP_INIT")
+            .and_then(compensation_kind)
+        {
+            let machine = self.machine.axis(axis);
+            let ready = machine.configured.contains(kind) && machine.parameterised().contains(kind);
+            return Some(ready.into());
+        }
+        match variable {
+            "ABS" => {
+                let position = self.state.modal.position(axis);
+                let value = position
+                    .value
+                    .filter(|_| position.frame == PositionFrame::Machine);
+                value.map(Value::Number)
+            }
+            "PROG" => self.state.modal.programmed(axis).map(Value::Number),
+            _ => None,
+        }
+    }
+
+    pub(super) fn assign(
+        &mut self,
+        assignment: Assignment,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<(), Box<Fault>> {
+        let value = self.value(assignment.value, block, at)?;
+        let place = self.target_place(assignment.target.place, block, at)?;
+        self.write(place, value);
+        Ok(())
+    }
+
+    pub(super) fn target_place(
+        &mut self,
+        place: Expression,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<Place, Box<Fault>> {
+        let mut stack = std::mem::take(&mut self.work.stack);
+        let found = self.with_evaluator(block, at, |evaluator| evaluator.place(place, &mut stack));
+        self.work.stack = stack;
+        found
+    }
+
+    pub(super) fn write(&mut self, place: Place, value: Value) {
+        match place {
+            Place::Parameter(Owner::Program, index) => {
+                self.state.memory.set_parameter(index, value);
+            }
+            Place::Parameter(Owner::Call, index) => {
+                if let Some(frame) = self.state.frames.last_mut() {
+                    frame.own.insert(index, value);
+                }
+            }
+            Place::Variable(name) => self.state.memory.set_variable(&name, value),
+            Place::Elements(name, cause) => self.state.memory.forget_elements(&name, &cause),
+            Place::Parameters(cause) => self.state.memory.forget_parameters(&cause),
+            Place::Nowhere => {}
+        }
+    }
+}
+
+fn compensation_kind(name: &str) -> Option<Kind> {
+    Kind::from_keyword(name).filter(|kind| *kind != Kind::Backlash)
+}

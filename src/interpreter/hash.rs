@@ -1,0 +1,254 @@
+//! `#` commands (R2.34, R2.47) and axis couplings.
+
+use super::block::Intent;
+use super::expression::Place;
+use super::words::AxisWords;
+use super::{At, Interpreter, Value};
+use crate::codes::Code;
+use crate::compensation::Coupling;
+use crate::machine::AxisIndex;
+use crate::source::Span;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Block, Declaration, Hash, Operand};
+
+impl Interpreter {
+    pub(super) fn hash(
+        &mut self,
+        hash: &Hash,
+        block: &Block,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let rest = hash.rest.of(at.text);
+        match hash.name.as_str() {
+            "#VAR" => return self.declare(&hash.declarations, block, at),
+            "#DELETE" => return self.delete(hash, block, at),
+            "#TIME" => {
+                intent.axis_words = AxisWords::Other;
+                if let Some(time) = hash.argument {
+                    self.value(time, block, at)?;
+                }
+            }
+            // PM/207120267
+            "#SET AX LINK" | "#AX LINK" => {
+                let axes = self.axes_in(rest);
+                self.define_coupling((rest, axes), at);
+            }
+            "#SET AX LINK NBR" | "#AX LINK NBR" => {
+                let axes = self.axes_by_number(rest);
+                self.define_coupling((rest, axes), at);
+            }
+            // PM/207133579
+            "#ENABLE AX LINK" | "#AX LINK ON" => self.enable_coupling((rest, hash.span), at),
+            "#DISABLE AX LINK" | "#AX LINK OFF" => self.disable_coupling(rest, at),
+            "#DISABLE AX LINK ALL" | "#AX LINK OFF ALL" => self.release_couplings(),
+            "#DISABLE MODAL CYCLE" => self.state.repeated = None,
+            "#INIT MACRO TAB" => self.state.memory.clear_macros(),
+            "#RETAIN CYCLE CHANGES" => self.retain_cycle_changes(),
+            "#COMMENT END" | "#ENDVAR" => {}
+            name => {
+                self.state.modal.hash(name);
+                let word = name.trim_end_matches(" OFF").trim_end_matches(" ON");
+                self.pass_over(word, hash.span, at);
+                if name.starts_with("#MACHINE DATA") && names_friction(rest) {
+                    return Err(Box::new(
+                        Fault::new(
+                            Code::Fc314,
+                            hash.span,
+                            "the program writes friction parameters into the machine data",
+                        )
+                        .with_help("from here on the machine may differ from its lists; this run goes on with the lists"),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The cycle that runs keeps what it did to G functions and feed.
+    fn retain_cycle_changes(&mut self) {
+        let cycle = self.state.frames.iter_mut().rev();
+        if let Some(frame) = cycle.into_iter().find(|frame| frame.restores.is_some()) {
+            frame.restores = None;
+        }
+    }
+
+    fn define_coupling(&mut self, (rest, axes): (&str, Vec<AxisIndex>), at: &At<'_>) {
+        let group = self.group_of(rest, at);
+        self.state.couplings.insert(group, axes);
+        self.mark_coupled();
+    }
+
+    fn enable_coupling(&mut self, (rest, span): (&str, Span), at: &At<'_>) {
+        let group = self.group_of(rest, at);
+        if self.state.couplings.contains_key(&group) {
+            self.state.coupled.retain(|active| *active != group);
+            self.state.coupled.push(group);
+            self.mark_coupled();
+        } else {
+            // A group of the channel parameters: which axes it couples nobody knows offline.
+            self.pass_over("#ENABLE AX LINK", span, at);
+        }
+    }
+
+    /// Without a group the last one that was enabled is released.
+    fn disable_coupling(&mut self, rest: &str, at: &At<'_>) {
+        let group = self.group_of(rest, at);
+        if group.is_empty() {
+            self.state.coupled.pop();
+        } else {
+            self.state.coupled.retain(|active| *active != group);
+        }
+        self.mark_coupled();
+    }
+
+    /// Couplings end with the program unless P-CHAN-00105 says otherwise; their definitions stay.
+    pub(super) fn release_couplings(&mut self) {
+        if !self.state.coupled.is_empty() {
+            self.state.coupled.clear();
+            self.mark_coupled();
+        }
+    }
+
+    fn mark_coupled(&mut self) {
+        let active: Vec<AxisIndex> = self
+            .state
+            .coupled
+            .iter()
+            .filter_map(|group| self.state.couplings.get(group))
+            .flatten()
+            .copied()
+            .collect();
+        for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
+            let coupling = if active.contains(&axis) {
+                Coupling::Active
+            } else {
+                Coupling::None
+            };
+            self.state.compensation.set_coupled(axis, coupling);
+        }
+    }
+
+    /// The coupling group that `[1, …]` or `[P1+1]` names; empty without one.
+    fn group_of(&mut self, rest: &str, at: &At<'_>) -> String {
+        let inside = rest.trim_start().strip_prefix('[').unwrap_or_default();
+        let text = inside.split([',', ']']).next().unwrap_or_default().trim();
+        let mut block = Block::default();
+        let operand = crate::syntax::parse_expression(text, &mut block);
+        let inner = At { text, ..*at };
+        let value = operand.and_then(|operand| self.value(operand, &block, &inner).ok());
+        match value {
+            Some(Value::Number(number)) => number.round().to_string(),
+            _ => text.to_owned(),
+        }
+    }
+
+    fn axes_in(&self, text: &str) -> Vec<AxisIndex> {
+        names_in(text)
+            .filter_map(|word| self.machine.find(word))
+            .collect()
+    }
+
+    /// The axes with the logical numbers of `[1, 8 = 2]`, the group left out.
+    fn axes_by_number(&self, text: &str) -> Vec<AxisIndex> {
+        let pairs = text.split_once(',').map_or("", |(_, pairs)| pairs);
+        let numbers: Vec<u32> = names_in(pairs)
+            .filter_map(|word| word.parse().ok())
+            .collect();
+        let axes = self.machine.axes.iter().enumerate();
+        axes.filter(|(_, axis)| axis.number.is_some_and(|number| numbers.contains(&number)))
+            .map(|(position, _)| AxisIndex::new(position))
+            .collect()
+    }
+
+    fn delete(&mut self, hash: &Hash, block: &Block, at: &At<'_>) -> Result<(), Box<Fault>> {
+        let Some(Operand::Expression(place)) = hash.argument else {
+            return Ok(());
+        };
+        match self.target_place(place, block, at)? {
+            Place::Parameter(_, index) => self.state.memory.delete_parameter(index),
+            Place::Variable(name) => self.state.memory.delete(&name),
+            Place::Elements(..) | Place::Parameters(_) | Place::Nowhere => {}
+        }
+        Ok(())
+    }
+
+    fn declare(
+        &mut self,
+        declarations: &[Declaration],
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<(), Box<Fault>> {
+        for declaration in declarations {
+            let mut stack = std::mem::take(&mut self.work.stack);
+            let dimensions = self.with_evaluator(block, at, |evaluator| {
+                evaluator.dimensions(declaration.target.place, &mut stack)
+            });
+            self.work.stack = stack;
+            let name = declared_name(declaration, at);
+            let mut values = Vec::with_capacity(declaration.initial.len());
+            for operand in &declaration.initial {
+                values.push(self.value(*operand, block, at)?);
+            }
+            let default = if declaration.kind.as_deref() == Some("STRING") {
+                Value::Text("".into())
+            } else {
+                Value::Number(0.0)
+            };
+            let memory = &mut self.state.memory;
+            if dimensions.is_empty() {
+                let value = values.into_iter().next().unwrap_or(default);
+                match name.strip_prefix('P').map(str::parse) {
+                    Some(Ok(index)) => memory.set_parameter(index, value),
+                    _ => memory.declare(&name, value),
+                }
+                continue;
+            }
+            let elements: Vec<String> = (0..values.len())
+                .map(|at| element(&name, &dimensions, at))
+                .collect();
+            memory.declare_array(&name, dimensions, default);
+            for (element, value) in elements.iter().zip(values) {
+                memory.declare(element, value);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The name that a declaration declares, without its dimensions.
+pub(super) fn declared_name(declaration: &Declaration, at: &At<'_>) -> String {
+    let text = declaration.target.span.of(at.text);
+    let name = text.split('[').next().unwrap_or_default();
+    let compact: String = name.split_whitespace().collect();
+    match compact.strip_prefix('v').or(compact.strip_prefix('p')) {
+        Some(rest) => format!("{}{rest}", compact[..1].to_ascii_uppercase()),
+        None => compact,
+    }
+}
+
+fn names_in(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+}
+
+fn names_friction(text: &str) -> bool {
+    text.contains("lr_param.frict_comp") || text.contains("frict_comp.")
+}
+
+/// The name of the element at a place in row order.
+fn element(name: &str, dimensions: &[u32], place: usize) -> String {
+    let mut subscripts = Vec::with_capacity(dimensions.len());
+    let mut rest = place;
+    for size in dimensions.iter().rev() {
+        let size = usize::try_from(*size).unwrap_or(usize::MAX).max(1);
+        subscripts.push(rest % size);
+        rest /= size;
+    }
+    let mut element = name.to_owned();
+    for subscript in subscripts.iter().rev() {
+        element.push('[');
+        element.push_str(&subscript.to_string());
+        element.push(']');
+    }
+    element
+}

@@ -1,0 +1,247 @@
+//! Words of a block: axes, G, M, T and the other letters (R2.20 to R2.25, R2.45, R2.46).
+
+use std::collections::BTreeMap;
+
+use super::block::Intent;
+use super::value::rounded;
+use super::{At, EndedBy, Group, Interpreter, Value};
+use crate::codes::Code;
+use crate::compensation::State;
+use crate::machine::AxisIndex;
+use crate::source::Span;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Address, Block, GCall, Word};
+
+/// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
+/// ramp time and jerk, feedforward (TF5200 channel parameters, P-CHAN-00210, names examples).
+const NO_MOTION: [u32; 15] = [
+    98, 99, 112, 129, 130, 131, 132, 133, 134, 135, 136, 137, 231, 333, 334,
+];
+
+/// Homing: the axes move, their words are no coordinates.
+const HOMING: u32 = 74;
+
+/// What axis words of a block are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum AxisWords {
+    /// Coordinates to move to.
+    #[default]
+    Motion,
+    /// G74: the axes move, nobody knows where to.
+    Homing,
+    /// G92: offsets.
+    Reference,
+    /// G04 and the like: other values.
+    Other,
+}
+
+impl Interpreter {
+    pub(super) fn word(
+        &mut self,
+        word: &Word,
+        block: &Block,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let value = match word.value {
+            None => None,
+            Some(operand) => Some(self.value(operand, block, at)?),
+        };
+        let number = value.as_ref().and_then(Value::number);
+        let (letter, name) = match word.address {
+            Address::Name(name) => {
+                let name = name.of(at.text);
+                match self.names.get(name).copied() {
+                    Some(axis) => self.axis_word(axis, word.span, number),
+                    None if name.starts_with('S') => {}
+                    None => self.pass_over(name, word.span, at),
+                }
+                return Ok(());
+            }
+            Address::Main(letter) => match self.main_axis(letter) {
+                Some(axis) => {
+                    self.axis_word(axis, word.span, number);
+                    return Ok(());
+                }
+                // The plane is not known, or it is `@I`, `@S`.
+                None if letter >= b'X' => (letter, format!("@{}", char::from(letter))),
+                None => return Ok(()),
+            },
+            Address::Letter(letter @ b'A'..=b'Z') => {
+                if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+                    self.axis_word(axis, word.span, number);
+                    return Ok(());
+                }
+                return self.letter((letter, number), word, at, intent);
+            }
+            Address::Lower(letter) | Address::Letter(letter) => {
+                (letter, char::from(letter).to_string())
+            }
+        };
+        debug_assert!(letter.is_ascii());
+        self.pass_over(&name, word.span, at);
+        Ok(())
+    }
+
+    /// The axis that `@X` means in the plane in force.
+    pub(super) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
+        let letter = self.state.modal.main_axis(letter)?;
+        self.letters[usize::from(letter - b'A')]
+    }
+
+    fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
+        self.state.occurred[axis.get()] = true;
+        self.work.coordinates.push((axis, number));
+        self.work.moved.push((axis, span));
+    }
+
+    /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
+    /// block took effect before the motion (R1.9).
+    pub(super) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
+        if matches!(words, AxisWords::Reference | AxisWords::Other) {
+            return;
+        }
+        let machine = std::sync::Arc::clone(&self.machine);
+        for &(axis, span) in &self.work.moved {
+            let missing = machine.axis(axis).required.iter().find(|kind| {
+                !matches!(
+                    self.state.compensation.state(axis, *kind),
+                    State::Active | State::Unknown
+                )
+            });
+            let Some(kind) = missing else {
+                continue;
+            };
+            let name = &machine.axis(axis).name;
+            let keyword = kind.keyword();
+            let fault = Fault::new(
+                Code::PErr70435,
+                span,
+                format!("axis `{name}` moves without `{keyword}`, which P-AXIS-00465 requires"),
+            )
+            .with_help(format!(
+                "switch it on before, with `{name}[COMP ON {keyword}]`"
+            ));
+            let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+            self.work.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn letter(
+        &mut self,
+        (letter, number): (u8, Option<f64>),
+        word: &Word,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let whole = number.and_then(rounded);
+        match (letter, whole) {
+            (b'G', Some(number)) => return self.g_word(number, word.span, at, intent),
+            (b'G', None) => self.state.modal.forget_g(None),
+            (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
+            (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
+            (b'M', Some(17 | 29)) => intent.returns = true,
+            (b'F', _) => intent.feed = Some(number),
+            (b'M' | b'T', Some(number)) => {
+                if !self.machine.programs.words.is_empty() {
+                    let letter = char::from(letter).to_string();
+                    let wanted =
+                        self.configured([&format!("{letter}{number}"), &letter], word.span);
+                    intent.call = intent.call.take().or(wanted);
+                }
+            }
+            (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'I' | b'J' | b'K' | b'R' | b'N', _) => {}
+            _ => self.pass_over(&char::from(letter).to_string(), word.span, at),
+        }
+        Ok(())
+    }
+
+    fn g_word(
+        &mut self,
+        number: i64,
+        span: Span,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let Ok(number) = u32::try_from(number) else {
+            self.pass_over(&format!("G{number}"), span, at);
+            return Ok(());
+        };
+        if let Some(group) = Group::of(number) {
+            let first = intent.groups.iter().find(|(other, _)| *other == group);
+            if let Some((_, first)) = first.filter(|(_, first)| *first != number) {
+                return Err(Box::new(
+                    Fault::new(
+                        Code::Fc313,
+                        span,
+                        format!("`G{number:02}` and `G{first:02}` belong to one group"),
+                    )
+                    .with_help("a block takes one G function of each group"),
+                ));
+            }
+            intent.groups.push((group, number));
+        }
+        match number {
+            4 => intent.axis_words = AxisWords::Other,
+            92 => intent.axis_words = AxisWords::Reference,
+            _ if self.state.modal.set(number) => {}
+            // G60, G61 and the like have no bearing on the compensation; a configured cycle has.
+            _ => {
+                let name = format!("G{number}");
+                if let Some(wanted) = self.configured([&name, &name], span) {
+                    intent.call = Some(wanted);
+                    return Ok(());
+                }
+                if number == HOMING {
+                    intent.axis_words = AxisWords::Homing;
+                } else if NO_MOTION.contains(&number) {
+                    intent.axis_words = AxisWords::Other;
+                }
+                self.pass_over(&name, span, at);
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn g_call(
+        &mut self,
+        call: &GCall,
+        block: &Block,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let mut own = BTreeMap::new();
+        for (place, operand) in (1..).zip(&call.arguments) {
+            if let Some(operand) = operand {
+                own.insert(place, self.value(*operand, block, at)?);
+            }
+        }
+        let word = format!("G{}", call.number);
+        match self.configured([&word, &word], call.span) {
+            Some(wanted) => {
+                intent.call = Some(super::call::Wanted { own, ..wanted });
+            }
+            None => self.pass_over(&word, call.span, at),
+        }
+        Ok(())
+    }
+
+    /// Axis words become positions when the whole block is known: G90, G91, G70 and G92 count
+    /// wherever they stand, and F belongs to the feed mode of its block.
+    pub(super) fn move_axes(&mut self, intent: &Intent) {
+        if let Some(feed) = intent.feed {
+            self.state.modal.set_feed(feed);
+        }
+        for &(axis, value) in &self.work.coordinates {
+            match intent.axis_words {
+                AxisWords::Motion => self.state.modal.move_axis(axis, value),
+                AxisWords::Homing => self.state.modal.forget_position(axis),
+                AxisWords::Reference => self.state.modal.set_reference(axis, value),
+                AxisWords::Other => {}
+            }
+        }
+        if matches!(intent.axis_words, AxisWords::Reference | AxisWords::Other) {
+            self.work.moved.clear();
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! 2.5 and 2.8: flow and budgets.
+
+use frictcomp::session::Limits;
+use insta::assert_snapshot;
+
+use crate::support::Bench;
+
+/// The lines that were executed.
+fn lines(program: &str) -> String {
+    let transcript = Bench::new().keep_going().run(&[program]);
+    let said: Vec<&str> = transcript
+        .lines()
+        .filter_map(|line| {
+            let said = line.strip_prefix("    ");
+            said.or_else(|| {
+                line.strip_prefix("  ")?
+                    .split(" line ")
+                    .nth(1)?
+                    .split(' ')
+                    .next()
+            })
+        })
+        .collect();
+    said.join(" ")
+}
+
+#[test]
+fn branches() {
+    // R2.40
+    let program = |p: i32| {
+        format!(
+            "P1={p}\n$IF P1==1\nX1\n$ELSEIF P1==2\nX2\n$ELSEIF P1==3\nX3\n$ELSE\nX4\n$ENDIF\nM30"
+        )
+    };
+    assert_snapshot!(lines(&program(1)), @"1 2 3 4 11");
+    assert_snapshot!(lines(&program(2)), @"1 2 4 5 6 11");
+    assert_snapshot!(lines(&program(3)), @"1 2 4 6 7 8 11");
+    assert_snapshot!(lines(&program(4)), @"1 2 4 6 8 9 10 11");
+    assert_snapshot!(lines("$IF 0\nX1\n$ENDIF\n$if 1\nX2\n$endif\nN10 $IF 1 $GOTO N30\nX3\nN30: $IF 0 $GOTO N99\nX4\nN99:\nM30"), @"1 3 4 FC404 4:1-4 5 6 FC404 6:1-7 7 9 10 11 12");
+}
+
+#[test]
+fn switches() {
+    // R2.40: equality within 0.001, `$BREAK`, fall-through, `$DEFAULT`.
+    let program = |value: &str| {
+        format!(
+            "$SWITCH {value}\n$CASE 1\nX1\n$BREAK\n$CASE 2\nX2\n$CASE 3\nX3\n$BREAK\n$DEFAULT\nX4\n$ENDSWITCH\nM30"
+        )
+    };
+    assert_snapshot!(lines(&program("1")), @"1 2 3 4 13");
+    assert_snapshot!(lines(&program("2")), @"1 2 5 6 7 8 9 13");
+    assert_snapshot!(lines(&program("3.0009")), @"1 2 5 7 8 9 13");
+    assert_snapshot!(lines(&program("3.002")), @"1 2 5 7 10 11 12 13");
+    assert_snapshot!(lines(&program("P1=1+1")), @"1 2 5 6 7 8 9 13");
+    assert_snapshot!(lines("$SWITCH \"b\"\n$CASE \"a\"\nX1\n$CASE \"b\"\nX2\n$ENDSWITCH\n$SWITCH 5\n$CASE 1\nX3\n$ENDSWITCH\nM30"), @"1 2 4 5 6 7 8 10 11");
+}
+
+#[test]
+fn counting_loops() {
+    // R2.41
+    assert_snapshot!(lines("$FOR P1=1,3,1\nX1\n$ENDFOR\nM30"), @"1 2 3 2 3 2 3 4");
+    assert_snapshot!(lines("$FOR P1=3,1,-1\nX1\n$ENDFOR\nM30"), @"1 2 3 2 3 2 3 4");
+    assert_snapshot!(lines("$FOR P1=1,0,1\nX1\n$ENDFOR\nX2\nM30"), @"1 4 5");
+    assert_snapshot!(lines("$FOR V.P.I = 0, 1, 0.5\nX1\n$ENDFOR\nM30"), @"1 2 3 2 3 2 3 4");
+    // The body may change the counter and the end.
+    assert_snapshot!(lines("P2=10\n$FOR P1=1,P2,1\nP1=P1+3\nP2=6\n$ENDFOR\nV.S.R=P1\nM30"), @"1 2 3 4 5 3 4 5 6 7");
+    // Step 0 is endless.
+    let limits = Limits {
+        blocks: 7,
+        ..Limits::default()
+    };
+    assert_snapshot!(Bench::new().limits(limits).run(&["$FOR P1=1,3,0\nX1\n$ENDFOR\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 2 -
+      5 line 3 -
+      6 line 2 -
+      7 line 3 -
+        FC910 2:1-3
+      end 7 budget X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn condition_loops() {
+    // R2.41
+    assert_snapshot!(lines("P1=0\n$WHILE P1<2\nP1=P1+1\n$ENDWHILE\nM30"), @"1 2 3 4 2 3 4 2 5");
+    assert_snapshot!(lines("P1=0\n$DO\nP1=P1+1\n$ENDDO P1<2\nM30"), @"1 2 3 4 2 3 4 5");
+    assert_snapshot!(lines("P1=0\n$DO P1<2\nP1=P1+1\n$ENDDO\nM30"), @"1 2 3 4 2 3 4 2 5");
+    assert_snapshot!(lines("P1=0\n$DO\nP1=P1+1\n$IF P1==2\n$BREAK\n$ENDIF\n$ENDDO\nM30"), @"1 2 3 4 6 7 2 3 4 5 8");
+    assert_snapshot!(lines("P1=0\n$REPEAT\nP1=P1+1\n$UNTIL P1>=2\nM30"), @"1 2 3 4 2 3 4 5");
+}
+
+#[test]
+fn break_and_continue() {
+    // R2.41
+    assert_snapshot!(lines("$FOR P1=1,5,1\n$IF P1==2\n$CONTINUE\n$ENDIF\n$IF P1==3\n$BREAK\n$ENDIF\nX1\n$ENDFOR\nM30"), @"1 2 4 5 7 8 9 2 3 9 2 4 5 6 10");
+    assert_snapshot!(lines("P1=0\n$WHILE 1\nP1=P1+1\n$SWITCH P1\n$CASE 2\n$BREAK\n$DEFAULT\n$CONTINUE\n$ENDSWITCH\n$BREAK\n$ENDWHILE\nM30"), @"1 2 3 4 5 7 8 11 2 3 4 5 6 10 12");
+    assert_snapshot!(lines("P1=0\n$REPEAT\nP1=P1+1\n$CONTINUE\nX1\n$UNTIL P1>=2\nM30"), @"1 2 3 4 6 2 3 4 6 7");
+}
+
+#[test]
+fn jumps() {
+    // R2.42
+    assert_snapshot!(lines("P1=0\nN10:\nP1=P1+1\n$IF P1<2\n$GOTO N10\n$ENDIF\n$GOTO [END]\nX1\n[END] X2\nM30"), @"1 2 3 4 5 2 3 4 6 7 9 10");
+    // Into branches and loops.
+    assert_snapshot!(lines("P1=2\n$GOTO N20\n$IF 0\nX1\nN20: X2\n$ELSE\nX3\n$ENDIF\nM30"), @"1 2 5 6 9");
+    assert_snapshot!(lines("P1=2\n$GOTO [IN]\n$FOR P1=1,3,1\nX1\n[IN]\n$ENDFOR\nM30"), @"1 2 5 6 4 5 6 7");
+    assert_snapshot!(lines("$FOR P1=1,3,1\n$IF P1==2 $GOTO N99\n$ENDFOR\nX1\nN99: M30"), @"1 2 3 2 5");
+    // By expression and by variable, with a colon too.
+    let bench = Bench::new().set_text("V.E.S", "TWO").set("V.E.N", 30.0);
+    assert_snapshot!(bench.run(&["P1=10\n$GOTO N[P1+10]\nX1\nN20: $GOTO N30:\nX2\nN30: $GOTO V.E.S\nX3\n[TWO] $GOTO NV.E.N+10\nN40:\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 4 N20
+      4 line 6 N30
+      5 line 8 -
+      6 line 9 N40
+      7 line 10 -
+      end 7 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+    // Labels belong to their program level.
+    assert_snapshot!(lines("%L S\nN10: X1\nM17\n%M\n$GOTO N10\nX2\nN10: LL S\nM30"), @"5 7 2 3 8");
+    // The jump is the last action of its block.
+    assert_snapshot!(Bench::new().run(&["$GOTO N9 X[COMP OFF FRICT]\nX1\nN9: M30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 - X:active>inactive
+      2 line 3 N9
+        FC401 1:10-27
+      end 2 M30 X:inactive Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn labels_that_are_wrong() {
+    // R2.42: said before anything runs.
+    assert_snapshot!(Bench::new().run(&["X[COMP OFF FRICT]\nN10: X1\n$GOTO N10\nN10: X2\n[A]\n[A]\n$GOTO N20\n$GOTO [B]\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+        FC209 4:1-5
+        FC209 6:2-3
+        FC209 7:1-10
+        FC209 8:1-10
+      end 0 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(Bench::new().run(&["P1=1\n$GOTO N[P1]\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+        FC209 2:1-12
+      end 2 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn unbalanced_blocks() {
+    // R2.43
+    assert_snapshot!(Bench::new().run(&["X1\nN10 $IF 1\n$FOR P1=1,2,1\n$ENDIF\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+        FC208 3:1-14
+      end 0 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(Bench::new().run(&["$WHILE 1\nX1\n%L S\n$ENDWHILE\nM17"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+        FC208 1:1-9
+        FC208 4:1-10
+      end 0 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(Bench::new().run(&["$ENDIF\n$ELSE\n$CASE 1\n$UNTIL 1\n$BREAK\n$CONTINUE\n$SWITCH 1\n$CONTINUE\n$ENDSWITCH\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+        FC208 1:1-7
+        FC208 2:1-6
+        FC208 3:1-8
+        FC208 4:1-9
+        FC208 5:1-7
+        FC208 6:1-10
+        FC208 8:1-10
+      end 0 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(Bench::new().run(&["$FOO 1\n$IFF 1\n$FOR P1\n$GOTO 5\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+        FC207 1:1-7
+      end 1 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn budgets() {
+    // R2.60
+    let limits = |limits: Limits| Bench::new().limits(limits);
+    let bench = limits(Limits {
+        blocks: 5,
+        ..Limits::default()
+    });
+    assert_snapshot!(bench.run(&["X1\n$WHILE 1\n$IF 1\nX2\n$ENDIF\n$ENDWHILE\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+        FC910 6:1-10
+      end 5 budget X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(bench.run(&["X1\nX2\nX3\nX4\nX5\nX6\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+        FC910 6:1-3
+      end 5 budget X:active Y:active Z:unconfigured B:ineffective
+    ");
+    let bench = limits(Limits {
+        calls: 3,
+        ..Limits::default()
+    });
+    assert_snapshot!(bench.run(&["%L S\nLL S\nM17\n%M\nLL S\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc M
+      1 line 5 -
+      2 line 2 - level 1
+      3 line 2 - level 2
+      4 line 2 - level 3
+        FC911 2:1-5
+      end 4 budget X:active Y:active Z:unconfigured B:ineffective
+    ");
+    let bench = limits(Limits {
+        nesting: 2,
+        ..Limits::default()
+    });
+    assert_snapshot!(bench.run(&["$IF 1\n$IF 1\n$IF 1\n$ENDIF\n$ENDIF\n$ENDIF\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+        FC912 3:1-6
+      end 0 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    let deep = format!("P1={}1{}\nM30", "[".repeat(65), "]".repeat(65));
+    assert_snapshot!(Bench::new().run(&[&deep]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+        FC913 1:68-69
+      end 1 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    let fits = format!("P1={}1{}\nM30", "[".repeat(64), "]".repeat(64));
+    assert!(!Bench::new().run(&[&fits]).contains("FC913"));
+    let bench = limits(Limits {
+        macros: 2,
+        ..Limits::default()
+    });
+    let chain = "\"A\"=\"\\\"B\\\"\"\n\"B\"=\"\\\"C\\\"\"\n\"C\"=\"X1\"\n\"B\"\n\"A\"\nM30";
+    assert_snapshot!(bench.run(&[chain]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+        FC914 5:1-4
+      end 5 budget X:active Y:active Z:unconfigured B:ineffective
+    ");
+    // A macro that uses itself many times is no way to hang.
+    for program in [
+        "\"A\"=\"\\\"A\\\" \\\"A\\\" \\\"A\\\" \\\"A\\\"\"\n\"A\"\nM30",
+        "\"A\"=\"\\\"A\\\"+\\\"A\\\"+\\\"A\\\"\"\nP1=\"A\"\nM30",
+    ] {
+        let said = Bench::new().keep_going().run(&[program]);
+        assert!(said.contains("FC914"), "{program}\n{said}");
+    }
+}
+
+#[test]
+fn budgets_name_the_loop_that_used_them_up() {
+    // R2.60
+    let limits = Limits {
+        blocks: 5,
+        ..Limits::default()
+    };
+    let said = Bench::new()
+        .limits(limits)
+        .said("X1\n$WHILE 1\n$IF 1\nX2\n$ENDIF\n$ENDWHILE\nM30");
+    assert_snapshot!(said, @"
+    FC910 6:1 more than 5 blocks were executed
+      help: look for a loop that does not end, or raise the budget with `--max-blocks`
+      2:1: in this loop
+    ");
+}

@@ -1,0 +1,6 @@
+mod expressions;
+mod flow;
+mod programs;
+mod text;
+mod unknown;
+mod words;

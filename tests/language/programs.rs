@@ -1,0 +1,337 @@
+//! 2.2: programs.
+
+use insta::assert_snapshot;
+
+use crate::support::{Bench, MACHINE};
+
+#[test]
+fn program_lines() {
+    // R2.10
+    let name = |line: &str| {
+        let transcript = Bench::new().run(&[&format!("{line}\nM30")]);
+        transcript.lines().nth(1).unwrap_or_default().to_owned()
+    };
+    assert_eq!(name("%MAIN"), "a.nc MAIN");
+    assert_eq!(name("% MAIN (comment)"), "a.nc MAIN");
+    assert_eq!(name("%LOWER"), "a.nc LOWER");
+    assert_eq!(name("%L10.nc;x"), "a.nc L10.nc");
+    assert_eq!(name("%A\"B"), "a.nc A");
+    assert_eq!(name("%A#B"), "a.nc A");
+    assert_eq!(name("%A$B"), "a.nc A");
+    assert_eq!(name("X1"), "a.nc -");
+    // The rest of the line is not part of the program.
+    assert_snapshot!(Bench::new().run(&["%MAIN X[COMP OFF FRICT]\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc MAIN
+      1 line 2 -
+      end 1 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn local_subprograms_before_and_behind() {
+    // R2.10 R2.11
+    let program = "%L FIRST\nN1 X[COMP OFF FRICT]\nM17\n%MAIN\nN10 LL FIRST\nN20 LL LAST\nN30 M30\n%L LAST\nN2 X[COMP ON FRICT]\nM29";
+    assert_snapshot!(Bench::new().run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc MAIN
+      1 line 5 N10
+      2 line 2 N1 level 1 X:active>inactive
+      3 line 3 - level 1
+      4 line 6 N20
+      5 line 9 N2 level 1 X:inactive>active
+      6 line 10 - level 1
+      7 line 7 N30
+      end 7 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn ends_of_programs() {
+    // R2.12
+    let bench = Bench::new();
+    // M17 may be missing; M02 in a subprogram ends the whole run.
+    assert_snapshot!(bench.run(&["%L A\nX1\n%L B\nX2\nM02\nX3\n%MAIN\nLL A\nLL B\nX4\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc MAIN
+      1 line 8 -
+      2 line 2 - level 1
+      3 line 9 -
+      4 line 4 - level 1
+      5 line 5 - level 1
+        FC315 5:1-4
+      end 5 M02 X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(bench.run(&["X1\nX2"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+        FC310 2:1-3
+      end 2 end-of-file X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(bench.run(&["X1\nM17\nX2\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+        FC310 2:1-4
+      end 2 end-of-file X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(bench.run(&["M30\nX[COMP OFF FRICT"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      end 1 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(Bench::new().check_all().run(&["M30\nX[COMP OFF FRICT"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+        FC205 2:2-3
+      end 1 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn global_calls() {
+    // R2.13
+    let bench = Bench::new()
+        .file("sub.nc", "N1 X[COMP OFF FRICT]\nN2 L deeper.nc\nN3 M17")
+        .file("deeper.nc", "%DEEPER\nN4 X[COMP ON FRICT]")
+        .file("dir/other.nc", "N5 M29")
+        .set_text("V.E.NAME", "sub.nc");
+    let program = "N10 L sub.nc\nN20 L dir/other.nc\nN30 L \"dir/other.nc\"\nN40 L V.E.NAME\nN50 \"O\" = \"dir/other.nc\"\nN60 L \"O\" (comment)\nM30";
+    assert_snapshot!(bench.run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+      2 line 1 N1 level 1 X:active>inactive
+      3 line 2 N2 level 1
+      4 line 2 N4 level 2 X:inactive>active
+      5 line 3 N3 level 1
+      6 line 2 N20
+      7 line 1 N5 level 1
+      8 line 3 N30
+      9 line 1 N5 level 1
+      10 line 4 N40
+      11 line 1 N1 level 1 X:active>inactive
+      12 line 2 N2 level 1
+      13 line 2 N4 level 2 X:inactive>active
+      14 line 3 N3 level 1
+      15 line 5 N50
+      16 line 6 N60
+      17 line 1 N5 level 1
+      18 line 7 -
+      end 18 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn own_locals_and_parameters() {
+    // R2.13 R2.33 R2.34: @P of the call, V.L of the level and those below.
+    let bench = Bench::new().file(
+        "c.cyc",
+        "#VAR\nV.L.A = 5\n#ENDVAR\nV.S.SEEN = V.L.A*100 + @P1*10 + @P2\nV.L.OUTER = 9\nP5 = @P1\n@P1 = 0\nM17",
+    );
+    let program = "#VAR\nV.L.A = 1\nV.L.OUTER = 2\n#ENDVAR\nP2 = 3\nL CYCLE [NAME=c.cyc @P1=2 @P2=P2]\nV.S.R = V.S.SEEN*1000 + V.L.A*100 + V.L.OUTER*10 + P5\nM30";
+    let mut session = bench.session();
+    assert_snapshot!(bench.run_in(&mut session, &[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 5 -
+      3 line 6 -
+      4 line 1 - level 1
+      5 line 4 - level 1
+      6 line 5 - level 1
+      7 line 6 - level 1
+      8 line 7 - level 1
+      9 line 8 - level 1
+      10 line 7 -
+      11 line 8 -
+      end 11 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.R": Number(523192.0), "V.S.SEEN": Number(523.0)}"#);
+}
+
+#[test]
+fn modal_cycles() {
+    // R2.13
+    let bench = Bench::new().file("c.cyc", "N1 M17");
+    let program = "N10 L CYCLE [NAME=c.cyc MODAL_MOVE @P1=1]\nN20 G0 X1\nN30 M3\nN40 G4 X1\nN50 #DISABLE MODAL CYCLE\nN60 X2\nM30";
+    assert_snapshot!(bench.run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+      2 line 1 N1 level 1
+      3 line 2 N20
+      4 line 1 N1 level 1
+      5 line 3 N30
+      6 line 4 N40
+      7 line 5 N50
+      8 line 6 N60
+      9 line 7 -
+      end 9 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+    let program = "N10 L CYCLE [NAME=c.cyc \\\nN11 MODAL_BLOCK]\nN20 M3\nN50 #DISABLE MODAL CYCLE\nN60 X2\nM30";
+    assert_snapshot!(bench.run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+      2 line 1 N1 level 1
+      3 line 3 N20
+      4 line 1 N1 level 1
+      5 line 4 N50
+      6 line 5 N60
+      7 line 6 -
+      end 7 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn a_cycle_gives_back_g_functions_and_feed() {
+    // R2.13 R2.45: P-CHAN-00210 is 0 unless the program retains the changes.
+    let bench = Bench::new()
+        .file("c.cyc", "G91 X5\nM17")
+        .file("keep.cyc", "#RETAIN CYCLE CHANGES\nG91 X5\nM17");
+    let program =
+        "X10\nL CYCLE [NAME=c.cyc]\nX10\nL c.cyc\nX10\nG90 X0\nL CYCLE [NAME=keep.cyc]\nX1\nM30";
+    assert_snapshot!(bench.positions(program), @"
+    X10 X:10 Y:? Z:? B:?
+    L CYCLE [NAME=c.cyc] X:10 Y:? Z:? B:?
+    G91 X5 X:15 Y:? Z:? B:?
+    M17 X:15 Y:? Z:? B:?
+    X10 X:10 Y:? Z:? B:?
+    L c.cyc X:10 Y:? Z:? B:?
+    G91 X5 X:15 Y:? Z:? B:?
+    M17 X:15 Y:? Z:? B:?
+    X10 X:25 Y:? Z:? B:?
+    G90 X0 X:0 Y:? Z:? B:?
+    L CYCLE [NAME=keep.cyc] X:0 Y:? Z:? B:?
+    #RETAIN CYCLE CHANGES X:0 Y:? Z:? B:?
+    G91 X5 X:5 Y:? Z:? B:?
+    M17 X:5 Y:? Z:? B:?
+    X1 X:6 Y:? Z:? B:?
+    M30 X:6 Y:? Z:? B:?
+    ");
+}
+
+#[test]
+fn implicit_calls() {
+    // R2.14
+    let machine = format!(
+        "[machine.programs]\nG80 = \"drill.nc\"\nG800 = \"drill.nc\"\nM6 = \"tool.nc\"\nT = \"tool.nc\"\n{MACHINE}"
+    );
+    let bench = Bench::on(&machine)
+        .file(
+            "drill.nc",
+            "$IF EXIST[@P3]\nX[COMP OFF FRICT]\n$ELSE\nV.S.R = @P1*100 + @P2*10 + @P4\n$ENDIF\nM17",
+        )
+        .file("tool.nc", "Y[COMP OFF FRICT]\nY[COMP ON FRICT]\nM17");
+    let program = "N10 G800[1, 2, , 4]\nN20 G80 X5\nN30 T5 M6\nN40 G81[1,2]\nN50 G82\nM30";
+    let mut session = bench.session();
+    assert_snapshot!(bench.run_in(&mut session, &[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+      2 line 1 - level 1
+      3 line 3 - level 1
+      4 line 4 - level 1
+      5 line 5 - level 1
+      6 line 6 - level 1
+      7 line 2 N20
+      8 line 1 - level 1
+      9 line 3 - level 1
+      10 line 4 - level 1
+        FC311 4:9-12 in drill.nc
+      end 10 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.R": Number(124.0)}"#);
+}
+
+#[test]
+fn configured_programs_at_start_and_end() {
+    // R2.15
+    let machine =
+        format!("[machine]\nstart_program = \"start.nc\"\nend_program = \"end.nc\"\n{MACHINE}");
+    let bench = Bench::on(&machine)
+        .file("start.nc", "N1 X[COMP ON FRICT]\nM17")
+        .file("end.nc", "N9 X[COMP ON FRICT]\nM30");
+    let program = "N10 X[COMP OFF FRICT]\nN20 M30";
+    assert_snapshot!(bench.run(&[program, "M02"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N1 level 1
+        FC402 1:4-20 in start.nc
+      2 line 2 - level 1
+      3 line 1 N10 X:active>inactive
+      4 line 2 N20
+      5 line 1 N9 level 1 X:inactive>active
+      6 line 2 - level 1
+      end 6 M30 X:active Y:active Z:unconfigured B:ineffective
+    b.nc -
+      1 line 1 N1 level 1
+        FC402 1:4-20 in start.nc
+      2 line 2 - level 1
+      3 line 1 -
+      4 line 1 N9 level 1
+        FC402 1:4-20 in end.nc
+      5 line 2 - level 1
+      end 5 M02 X:active Y:active Z:unconfigured B:ineffective
+    ");
+    let nothing = Bench::on(&machine);
+    assert_snapshot!(nothing.run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+        FC320 1:1-1 in start.nc
+      end 0 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn called_files_that_are_not_there() {
+    // R2.16
+    let program = "N10 L missing.nc\nN20 LL MISING\nN30 X1\nM30\n%L MISSING\nM17";
+    assert_snapshot!(Bench::new().run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+        FC320 1:5-17
+      end 1 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(Bench::new().keep_going().run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+        FC320 1:5-17
+      2 line 2 N20
+        FC320 2:5-14
+      3 line 3 N30
+      4 line 4 -
+      end 4 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn faults_in_a_called_file_point_there() {
+    // R2.16
+    let bench = Bench::new().file("sub.nc", "X1\nX[COMP ON FRIKT]\nM17");
+    assert_snapshot!(bench.run(&["N10 L sub.nc\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+      2 line 1 - level 1
+      3 line 2 - level 1
+        FC202 2:11-16 in sub.nc
+      end 3 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+    let bench = Bench::new().file("sub.nc", "X1\n$IF 1\nM17");
+    assert_snapshot!(bench.run(&["N10 L sub.nc\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 N10
+        FC208 2:1-6 in sub.nc
+      end 1 error X:active Y:active Z:unconfigured B:ineffective
+    ");
+}

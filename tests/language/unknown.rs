@@ -1,0 +1,217 @@
+//! 2.7: what cannot be known offline.
+
+use insta::assert_snapshot;
+
+use crate::support::{Bench, MACHINE};
+
+fn run(program: &str) -> String {
+    Bench::new().run(&[program])
+}
+
+#[test]
+fn unknown_values_flow() {
+    // R2.50
+    let bench = Bench::new();
+    let preparation = "P1=V.E.A\nP2=P1*2+1\nV.P.B=P2\nP3=5\nPV.E.I=7\nV.P.L[V.E.I]=3";
+    assert_snapshot!(bench.values("P1=V.E.A P2=P1*2+1\nV.P.B=P2", &[
+        "P2", "V.P.B", "SIN[P1]", "P1 && 0", "P1 || 1", "P1 && 1", "-P1", "P1==P1", "LEFT[P1, 1]", "[P1]", "P1*0", "V.P.C[P1]",
+    ]), @"
+    P2 -> unknown: V.E.A
+    V.P.B -> unknown: V.E.A
+    SIN[P1] -> unknown: V.E.A
+    P1 && 0 -> 0
+    P1 || 1 -> 1
+    P1 && 1 -> unknown: V.E.A
+    -P1 -> unknown: V.E.A
+    P1==P1 -> unknown: V.E.A
+    LEFT[P1, 1] -> unknown: V.E.A
+    [P1] -> unknown: V.E.A
+    P1*0 -> unknown: V.E.A
+    V.P.C[P1] -> unknown: V.E.A
+    ");
+    // Written where nobody knows: what was there before is not known any more.
+    assert_snapshot!(bench.values(preparation, &["P3"]), @"P3 -> 5");
+    assert_snapshot!(bench.values("#VAR\nV.P.L[3]\n#ENDVAR\nV.P.L[1]=4\nV.P.L[V.E.I]=3", &["V.P.L[1]", "V.P.L[2]"]), @"
+    V.P.L[1] -> unknown: V.E.I
+    V.P.L[2] -> unknown: V.E.I
+    ");
+}
+
+#[test]
+fn unknown_branches_are_not_executed() {
+    // R2.51
+    let program = "P1=1 P2=1\nX1 Y1 Z1\n$IF V.E.A > 1\nX[COMP OFF FRICT]\nP1=2\n$ELSE\nY[COMP OFF LEAD]\nG91 X5\n$ENDIF\nN10 X2\nG90 Y[COMP OFF FRICT]\nN20 P3=P1\nN30 X[COMP ON FRICT] P1=1\n$IF P1==1\nY[COMP ON FRICT]\n$ENDIF\n$IF P3==1\n$ENDIF\nM30";
+    assert_snapshot!(run(program), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 - X:active>unknown
+        FC901 3:1-14
+      4 line 10 N10
+      5 line 11 - Y:active>inactive
+      6 line 12 N20
+      7 line 13 N30 X:unknown>active
+      8 line 14 -
+      9 line 15 - Y:inactive>active
+      10 line 16 -
+      11 line 17 -
+        FC901 17:1-10
+      12 line 19 -
+      end 12 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+    assert_snapshot!(Bench::new().positions(program), @"
+    P1=1 P2=1 X:? Y:? Z:? B:?
+    X1 Y1 Z1 X:1 Y:1 Z:1 B:?
+    $IF V.E.A > 1 X:? Y:1 Z:1 B:?
+    N10 X2 X:? Y:1 Z:1 B:?
+    G90 Y[COMP OFF FRICT] X:? Y:1 Z:1 B:?
+    N20 P3=P1 X:? Y:1 Z:1 B:?
+    N30 X[COMP ON FRICT] P1=1 X:? Y:1 Z:1 B:?
+    $IF P1==1 X:? Y:1 Z:1 B:?
+    Y[COMP ON FRICT] X:? Y:1 Z:1 B:?
+    $ENDIF X:? Y:1 Z:1 B:?
+    $IF P3==1 X:? Y:1 Z:1 B:?
+    M30 X:? Y:1 Z:1 B:?
+    ");
+}
+
+#[test]
+fn unknown_switches_and_loops() {
+    // R2.51
+    for (open, close) in [
+        ("$SWITCH V.E.A\n$CASE 1", "$ENDSWITCH"),
+        ("$SWITCH 1\n$CASE V.E.A", "$ENDSWITCH"),
+        ("$FOR P1=1,V.E.A,1", "$ENDFOR"),
+        ("$FOR P1=V.E.A,1,1", "$ENDFOR"),
+        ("$WHILE V.E.A", "$ENDWHILE"),
+        ("$DO V.E.A", "$ENDDO"),
+    ] {
+        let said = run(&format!(
+            "{open}\nX[COMP OFF FRICT]\n{close}\nX[COMP ON FRICT]\nM30"
+        ));
+        assert!(
+            said.contains("FC901") && said.contains("X:active>unknown"),
+            "{said}"
+        );
+        assert!(said.contains("X:unknown>active"), "{said}");
+    }
+    // These run at least once.
+    for (open, close) in [("$DO", "$ENDDO V.E.A"), ("$REPEAT", "$UNTIL V.E.A")] {
+        let said = run(&format!("{open}\nX[COMP OFF FRICT]\n{close}\nM30"));
+        assert!(
+            said.contains("FC901") && said.contains("X:inactive>unknown"),
+            "{said}"
+        );
+    }
+    // A loop whose end becomes unknown while it runs.
+    assert_snapshot!(run("P2=3\n$FOR P1=1,P2,1\nX[COMP OFF FRICT]\nP2=V.E.A\n$ENDFOR\nV.S.R=P1\nM30"), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 - X:active>inactive
+      4 line 4 -
+      5 line 5 - X:inactive>unknown
+        FC901 2:1-8
+      6 line 6 -
+      7 line 7 -
+      end 7 M30 X:unknown Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn unknown_regions_reach_through_calls() {
+    // R2.51: calls by name, local calls of called files, cycles, configured words, macros.
+    let machine = format!("[machine.programs]\nG80 = \"g80.nc\"\n{MACHINE}");
+    let bench = Bench::on(&machine)
+        .file(
+            "sub.nc",
+            "%L IN\nX[COMP OFF FRICT]\nM17\n%SUB\nLL IN\nL sub.nc\nM17",
+        )
+        .file("g80.nc", "Y[COMP OFF FRICT]\nM17")
+        .file("c.cyc", "B[COMP OFF FRICT] P5=1\nM17");
+    let program = "P5=2\n\"M\" = \"P6=1\"\nP6=2\n$IF V.E.A\nL sub.nc\nG80\nL CYCLE [NAME=c.cyc]\n\"M\"\n$ENDIF\nV.S.R=P5\nV.S.Q=P6\nM30";
+    let mut session = bench.session();
+    assert_snapshot!(bench.run_in(&mut session, &[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 - B:ineffective>unknown Y:active>unknown X:active>unknown
+        FC901 4:1-10
+      5 line 10 -
+      6 line 11 -
+      7 line 12 -
+      end 7 M30 X:unknown Y:unknown Z:unconfigured B:unknown
+    ");
+    assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.Q": Unknown("V.E.A"), "V.S.R": Unknown("V.E.A")}"#);
+    // A call by a name that nobody knows could do anything.
+    assert_snapshot!(run("$IF V.E.A\nL V.E.NAME\n$ENDIF\nM30"), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 - X:active>unknown Y:active>unknown B:ineffective>unknown
+        FC901 1:1-10
+      2 line 4 -
+      end 2 M30 X:unknown Y:unknown Z:unconfigured B:unknown
+    ");
+}
+
+#[test]
+fn unknown_modal_words() {
+    // R2.51
+    let program = "X1 Y1\n$IF V.E.A\nG91\n#TRAFO ON\n$ENDIF\nX1\nG90 X1\n$IF V.E.A\n#TRAFO OFF\n$ENDIF\n#TRAFO OFF\n$IF V.E.A\nG92 X5\n$ENDIF\nX5\nG92 X0\nX6\n$IF V.E.A\n#VAR\nV.L.N = 1\n#ENDVAR\n$ENDIF\nYV.L.N\nM30";
+    assert_snapshot!(Bench::new().positions(program), @"
+    X1 Y1 X:1 Y:1 Z:? B:?
+    $IF V.E.A X:?* Y:?* Z:?* B:?*
+    X1 X:?* Y:?* Z:?* B:?*
+    G90 X1 X:1* Y:?* Z:?* B:?*
+    $IF V.E.A X:?* Y:?* Z:?* B:?*
+    #TRAFO OFF X:? Y:? Z:? B:?
+    $IF V.E.A X:? Y:? Z:? B:?
+    X5 X:? Y:? Z:? B:?
+    G92 X0 X:? Y:? Z:? B:?
+    X6 X:6 Y:? Z:? B:?
+    $IF V.E.A X:6 Y:? Z:? B:?
+    YV.L.N X:6 Y:? Z:? B:?
+    M30 X:6 Y:? Z:? B:?
+    ");
+}
+
+#[test]
+fn unknown_jumps_and_calls() {
+    // R2.52
+    assert_snapshot!(run("$IF V.E.A $GOTO N90\nX[COMP OFF FRICT]\n$GOTO V.E.B\n$GOTO N[V.E.C]\nL V.E.D\nX[COMP ON FRICT]\nN90: M30"), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+        FC902 1:1-10
+      2 line 2 - X:active>inactive
+      3 line 3 -
+        FC902 3:1-12
+      4 line 4 -
+        FC902 4:1-15
+      5 line 5 - X:inactive>unknown Y:active>unknown B:ineffective>unknown
+        FC902 5:1-8
+      6 line 6 - X:unknown>active
+      7 line 7 N90
+      end 7 M30 X:active Y:unknown Z:unconfigured B:unknown
+    ");
+}
+
+#[test]
+fn values_that_the_user_gives_are_known() {
+    // R2.36 R2.51
+    let bench = Bench::new().set("V.E.A", 2.0);
+    assert_snapshot!(bench.run(&["$IF V.E.A > 1\nX[COMP OFF FRICT]\n$ENDIF\nM30"]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 - X:active>inactive
+      3 line 3 -
+      4 line 4 -
+        FC401 2:1-18
+      end 4 M30 X:inactive Y:active Z:unconfigured B:ineffective
+    ");
+}

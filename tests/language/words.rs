@@ -1,0 +1,398 @@
+//! 2.3 and 2.6: axes, words, modal state and positions.
+
+use insta::assert_snapshot;
+
+use crate::support::Bench;
+use frictcomp::machine::Machine;
+
+fn run(program: &str) -> String {
+    Bench::new().keep_going().run(&[program])
+}
+
+#[test]
+fn axis_names() {
+    // R2.20
+    let machine = "[[axis]]\nname = \"X\"\n[[axis]]\nname = \"X_LONG_NAME_1234\"\nfrict_comp = true\n[[axis]]\nname = \"Q1\"\n";
+    let program = "X_LONG_NAME_1234=5 Q1=7 X1\nX_LONG_NAME_1234[COMP OFF FRICT]\nx_long_name_1234[COMP OFF FRICT]\nM30";
+    assert_snapshot!(Bench::on(machine).keep_going().run(&[program]), @"
+    start X:unconfigured X_LONG_NAME_1234:ineffective Q1:unconfigured
+    a.nc -
+      1 line 1 -
+      2 line 2 - X_LONG_NAME_1234:ineffective>inactive
+      3 line 3 -
+        P-ERR-21947 3:1-17
+      4 line 4 -
+        FC401 2:1-33
+      end 4 M30 X:unconfigured X_LONG_NAME_1234:inactive Q1:unconfigured
+    ");
+    let mut bench = Bench::new().keep_going();
+    bench.machine = Machine::unconfigured();
+    assert_snapshot!(bench.run(&["X1 W2\nB[COMP OFF FRICT]\nQ[COMP OFF FRICT]\nX1[COMP ON FRICT]\nM30"]), @"
+    start 
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+        FC402 2:1-18
+      3 line 3 -
+        P-ERR-21947 3:1-2
+      4 line 4 -
+        P-ERR-21947 4:1-3
+      5 line 5 -
+      end 5 M30 X:unconfigured B:unconfigured W:unconfigured
+    ");
+}
+
+#[test]
+fn long_names_need_an_equals_sign() {
+    // R2.21
+    let machine = "[[axis]]\nname = \"X\"\n[[axis]]\nname = \"X1\"\n[[axis]]\nname = \"X50P1\"\n";
+    let program = "P1=2\nX1=100\nX50P1=7\nX50 P1=9\nX=5\nX1 = P1\nX50P1 = 8 X1 = 4\nM30";
+    assert_snapshot!(Bench::on(machine).positions(program), @"
+    P1=2 X:? X1:? X50P1:?
+    X1=100 X:? X1:100 X50P1:?
+    X50P1=7 X:? X1:100 X50P1:7
+    X50 P1=9 X:50 X1:100 X50P1:7
+    X=5 X:5 X1:100 X50P1:7
+    X1 = P1 X:5 X1:9 X50P1:7
+    X50P1 = 8 X1 = 4 X:5 X1:4 X50P1:8
+    M30 X:5 X1:4 X50P1:8
+    ");
+}
+
+#[test]
+fn values_of_words() {
+    // R2.22 R2.24
+    let machine = "[[axis]]\nname = \"X\"\n[[axis]]\nname = \"V\"\n";
+    let program = "P1=2 P2=30 P100=3\n#VAR\nV.L.A = 4\nV.L.B[2] = [5, 6]\n#ENDVAR\nX100\nX-P100\nXP1*SIN[P2]\nX[P1+10]\nX SIN[30]\nX-SIN[30]*2\nXV.L.A V7\nXV.L.B[1]\nX=V.L.B[0]+1\nV-1 X.5\nVV.L.A\nX'16#FF'\nXABS[-3]V2\nX[[P1]]V[P1]\nM30";
+    assert_snapshot!(Bench::on(machine).positions(program), @"
+    P1=2 P2=30 P100=3 X:? V:?
+    #VAR X:? V:?
+    X100 X:100 V:?
+    X-P100 X:-3 V:?
+    XP1*SIN[P2] X:0.9999999999999999 V:?
+    X[P1+10] X:12 V:?
+    X SIN[30] X:0.49999999999999994 V:?
+    X-SIN[30]*2 X:-0.9999999999999999 V:?
+    XV.L.A V7 X:4 V:7
+    XV.L.B[1] X:6 V:7
+    X=V.L.B[0]+1 X:6 V:7
+    V-1 X.5 X:0.5 V:-1
+    VV.L.A X:0.5 V:4
+    X'16#FF' X:255 V:4
+    XABS[-3]V2 X:3 V:2
+    X[[P1]]V[P1] X:2 V:2
+    M30 X:2 V:2
+    ");
+}
+
+#[test]
+fn brackets_of_axes() {
+    // R2.23
+    let program = "X[INDP_SYN POS=5 G01 FEED=10]\nX[OSC ON]\nX[LIFT_START DOWN=1]\nX[M3]\nX[H56]\nX[MC_MoveAbsolute Position=1]\nX[DYNAMIC]\nX[OVERRIDE 50]\nX[POLY [1,2]]\nX[10] Y[-P1]\nM30";
+    assert_snapshot!(Bench::new().keep_going().run(&[&format!("P1=1\n{program}")]), @r#"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+      6 line 6 -
+      7 line 7 -
+      8 line 8 -
+      9 line 9 -
+      10 line 10 -
+      11 line 11 -
+      12 line 12 -
+      end 12 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {"X[DYNAMIC]": 1, "X[H56]": 1, "X[INDP_SYN]": 1, "X[LIFT_START]": 1, "X[M3]": 1, "X[MC_MoveAbsolute]": 1, "X[OSC]": 1, "X[OVERRIDE]": 1, "X[POLY]": 1}
+    "#);
+    assert_snapshot!(run("X[FOO]\nX[SOMETHING 1]\nX[ ]\nM30"), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+        P-ERR-21301 1:3-6
+      2 line 2 -
+        P-ERR-21301 2:3-12
+      3 line 3 -
+        P-ERR-21301 3:1-5
+      4 line 4 -
+      end 4 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
+fn spindles_tools_and_other_words() {
+    // R2.25
+    let program = "S1000 M3\nS[M4 REV500]\nS2[M3 REV1000]\nM5 M19\nT5 D5\nH7 E3\nM200=1200 M77\nS2=500\nS1.5\nM30";
+    assert_snapshot!(Bench::new().run(&[program]), @r#"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+      6 line 6 -
+      7 line 7 -
+      8 line 8 -
+      9 line 9 -
+      10 line 10 -
+      end 10 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {"S2[M3]": 1, "S[M4]": 1}
+    "#);
+}
+
+#[test]
+fn groups_of_g_functions() {
+    // R2.45
+    let refused = |block: &str| run(&format!("{block}\nM30")).contains("FC313");
+    for pair in [
+        "G0 G1",
+        "G17 G18",
+        "G70 G71",
+        "G90 G91",
+        "G93 G94",
+        "G53 G54",
+        "G40 G41",
+        "G161 G162",
+        "G02 G3",
+        "G59 G159",
+    ] {
+        assert!(refused(pair), "{pair}");
+    }
+    for pair in ["G1 G01", "G1 G90", "G4 G1", "G20 G21", "G92 G1", "G60 G61"] {
+        assert!(!refused(pair), "{pair}");
+    }
+    assert_snapshot!(run("G00 X1 G01\nG60 G61 G999\nM30"), @r#"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+        FC313 1:8-11
+      2 line 2 -
+      3 line 3 -
+      end 3 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {"G60": 1, "G61": 1, "G999": 1}
+    "#);
+}
+
+#[test]
+fn absolute_incremental_inch() {
+    // R2.45
+    let program = "X10\nG91 X5\nX-2 G90\nG91\nX1 Y1\nG90 Y2\nG91 Y1\nG70 G90 X1\nG71 X1\nG4 X9\n#TIME 3\nG04 2.5\nG74 X1\nX\nM30";
+    assert_snapshot!(Bench::new().positions(program), @"
+    X10 X:10 Y:? Z:? B:?
+    G91 X5 X:15 Y:? Z:? B:?
+    X-2 G90 X:-2 Y:? Z:? B:?
+    G91 X:-2 Y:? Z:? B:?
+    X1 Y1 X:-1 Y:? Z:? B:?
+    G90 Y2 X:-1 Y:2 Z:? B:?
+    G91 Y1 X:-1 Y:3 Z:? B:?
+    G70 G90 X1 X:25.4 Y:3 Z:? B:?
+    G71 X1 X:1 Y:3 Z:? B:?
+    G4 X9 X:1 Y:3 Z:? B:?
+    #TIME 3 X:1 Y:3 Z:? B:?
+    G04 2.5 X:1 Y:3 Z:? B:?
+    G74 X1 X:? Y:3 Z:? B:?
+    X X:? Y:3 Z:? B:?
+    M30 X:? Y:3 Z:? B:?
+    ");
+}
+
+#[test]
+fn reference_offsets() {
+    // R2.45: G92 shifts the absolute coordinates that follow, it moves nothing.
+    let program = "X10 Y10\nG92 X5\nX0\nG91 X1\nG92 X2\nG90 X0\nP1=V.A.PROG.X P2=V.A.ABS.X\nXP2 YP1\nG92 X0\nX1\nM30";
+    assert_snapshot!(Bench::new().positions(program), @"
+    X10 Y10 X:10 Y:10 Z:? B:?
+    G92 X5 X:10 Y:10 Z:? B:?
+    X0 X:5 Y:10 Z:? B:?
+    G91 X1 X:6 Y:10 Z:? B:?
+    G92 X2 X:6 Y:10 Z:? B:?
+    G90 X0 X:7 Y:10 Z:? B:?
+    P1=V.A.PROG.X P2=V.A.ABS.X X:7 Y:10 Z:? B:?
+    XP2 YP1 X:14 Y:0 Z:? B:?
+    G92 X0 X:14 Y:0 Z:? B:?
+    X1 X:1 Y:0 Z:? B:?
+    M30 X:1 Y:0 Z:? B:?
+    ");
+    let both = format!("{program}\nX2");
+    assert!(
+        Bench::new()
+            .positions(&both)
+            .ends_with("M30 X:1 Y:0 Z:? B:?\n")
+    );
+}
+
+#[test]
+fn offsets_forget_positions() {
+    // R2.45: what G54 to G59 hold only the machine knows.
+    assert_snapshot!(Bench::new().positions("X1 Y2\nG54\nX1\nG54 Y2\nG159=3 X3\nG53\nM30"), @"
+    X1 Y2 X:1 Y:2 Z:? B:?
+    G54 X:? Y:? Z:? B:?
+    X1 X:1 Y:? Z:? B:?
+    G54 Y2 X:1 Y:2 Z:? B:?
+    G159=3 X3 X:3 Y:? Z:? B:?
+    G53 X:? Y:? Z:? B:?
+    M30 X:? Y:? Z:? B:?
+    ");
+}
+
+#[test]
+fn circles_feed_and_dwell() {
+    // R2.46
+    let program = "G17 G1 X0 Y0 F1000\nG2 X10 Y0 I5 J0\nG3 X0 Y0 R5 Z-1\nG161 G2 X5 I1 J2\nG163 R7\nG93 F2\nG95 F0.1\nG94\nG18 G2 Z5 X1 I1 K2\nM30";
+    assert_snapshot!(Bench::new().positions(program), @"
+    G17 G1 X0 Y0 F1000 X:0 Y:0 Z:? B:?
+    G2 X10 Y0 I5 J0 X:10 Y:0 Z:? B:?
+    G3 X0 Y0 R5 Z-1 X:0 Y:0 Z:-1 B:?
+    G161 G2 X5 I1 J2 X:5 Y:0 Z:-1 B:?
+    G163 R7 X:5 Y:0 Z:-1 B:?
+    G93 F2 X:5 Y:0 Z:-1 B:?
+    G95 F0.1 X:5 Y:0 Z:-1 B:?
+    G94 X:5 Y:0 Z:-1 B:?
+    G18 G2 Z5 X1 I1 K2 X:1 Y:0 Z:5 B:?
+    M30 X:1 Y:0 Z:5 B:?
+    ");
+    assert_snapshot!(run(program), @r#"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+      6 line 6 -
+      7 line 7 -
+      8 line 8 -
+      9 line 9 -
+      10 line 10 -
+      end 10 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {"G163": 1}
+    "#);
+}
+
+#[test]
+fn hash_commands() {
+    // R2.47
+    let program = "#HSC ON [BSPLINE]\n#HSC OFF\n#MSG [\"text ; (\"]\n#MSG SAVE EXCLUSIVE [\"X[COMP OFF FRICT]\"]\n#FOO BAR BAZ\n#TIME 2.5\n#RT CYCLE [ID=1]\nV.RTA.X = V.A.Y\nX[COMP OFF FRICT]\n#RT CYCLE END\n#SLOPE [TYPE=STEP]\nM30";
+    assert_snapshot!(run(program), @r##"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+      6 line 6 -
+      7 line 7 -
+      8 line 11 -
+      9 line 12 -
+      end 9 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {"#FOO BAR BAZ": 1, "#HSC": 2, "#MSG": 1, "#MSG SAVE EXCLUSIVE": 1, "#RT CYCLE": 1, "#SLOPE": 1}
+    "##);
+    assert_snapshot!(run("#MACHINE DATA [AX=X lr_param.frict_comp 0]\n#MACHINE DATA [AX=X frict_comp.mode 0]\n#MACHINE DATA [AX=X other 1]\nM30"), @r##"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+        FC314 1:1-43
+      2 line 2 -
+        FC314 2:1-39
+      3 line 3 -
+      4 line 4 -
+      end 4 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {"#MACHINE DATA": 3}
+    "##);
+}
+
+#[test]
+fn transformations_mark_positions() {
+    // R2.47
+    let program = "X1\n#TRAFO ON\nX2\nP1=V.A.PROG.X\n#TRAFO OFF\nX3\n#CS ON [0,0,0,0,0,45]\n#CS OFF\nG41\nG40\nG21\nG20\n#ROTATION ON [ANGLE 5]\n#ROTATION OFF\n#SCALE ON [X2]\n#SCALE OFF\n#KIN ID [9]\nM30";
+    assert_snapshot!(Bench::new().positions(program), @"
+    X1 X:1 Y:? Z:? B:?
+    #TRAFO ON X:?* Y:?* Z:?* B:?*
+    X2 X:2* Y:?* Z:?* B:?*
+    P1=V.A.PROG.X X:2* Y:?* Z:?* B:?*
+    #TRAFO OFF X:? Y:? Z:? B:?
+    X3 X:3 Y:? Z:? B:?
+    #CS ON [0,0,0,0,0,45] X:?* Y:?* Z:?* B:?*
+    #CS OFF X:? Y:? Z:? B:?
+    G41 X:?* Y:?* Z:?* B:?*
+    G40 X:? Y:? Z:? B:?
+    G21 X:?* Y:?* Z:?* B:?*
+    G20 X:? Y:? Z:? B:?
+    #ROTATION ON [ANGLE 5] X:?* Y:?* Z:?* B:?*
+    #ROTATION OFF X:? Y:? Z:? B:?
+    #SCALE ON [X2] X:?* Y:?* Z:?* B:?*
+    #SCALE OFF X:? Y:? Z:? B:?
+    #KIN ID [9] X:?* Y:?* Z:?* B:?*
+    M30 X:?* Y:?* Z:?* B:?*
+    ");
+}
+
+#[test]
+fn couplings() {
+    // 2.6 and P-ERR-21403
+    let program = "#SET AX LINK [1, Y=X]\n#AX LINK [P1+1, Z=X]\n#ENABLE AX LINK [1]\nX[COMP OFF FRICT]\nY[COMP OFF FRICT]\n\
+        #AX LINK ON [2]\n#AX LINK OFF [1]\nY[COMP OFF FRICT]\nX[COMP OFF FRICT]\n#DISABLE AX LINK\nX[COMP OFF FRICT]\n\
+        #ENABLE AX LINK [1]\n#ENABLE AX LINK [2]\n#AX LINK OFF ALL\nX[COMP ON FRICT]\n#ENABLE AX LINK [7]\n#ENABLE AX LINK [1]\nM30";
+    let program = format!("P1=1\n{program}");
+    assert_snapshot!(Bench::new().keep_going().run(&[&program, "X[COMP OFF FRICT]\n#ENABLE AX LINK [1]\nX[COMP ON FRICT]\nM30"]), @r##"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+        P-ERR-21403 5:1-18
+      6 line 6 -
+        P-ERR-21403 6:1-18
+      7 line 7 -
+      8 line 8 -
+      9 line 9 - Y:active>inactive
+      10 line 10 -
+        P-ERR-21403 10:1-18
+      11 line 11 -
+      12 line 12 - X:active>inactive
+      13 line 13 -
+      14 line 14 -
+      15 line 15 -
+      16 line 16 - X:inactive>active
+      17 line 17 -
+      18 line 18 -
+      19 line 19 -
+        FC401 9:1-18
+      end 19 M30 X:active Y:inactive Z:unconfigured B:ineffective
+    b.nc -
+      1 line 1 - X:active>inactive
+      2 line 2 -
+      3 line 3 -
+        P-ERR-21403 3:1-17
+      4 line 4 -
+        FC401 1:1-18
+      end 4 M30 X:inactive Y:inactive Z:unconfigured B:ineffective
+    opaque {"#ENABLE AX LINK": 1}
+    "##);
+}
+
+#[test]
+fn main_axes_of_a_cycle() {
+    // R2.13: @X, @Y, @Z are the main axes of the active plane.
+    let bench = Bench::new().file("c.cyc", "G1 @X1 @Y2 @Z3 @I5 @S100\nM17");
+    assert_snapshot!(bench.positions("L CYCLE [NAME=c.cyc]\nG18\nL CYCLE [NAME=c.cyc]\nG19\nL CYCLE [NAME=c.cyc]\nM30"), @"
+    L CYCLE [NAME=c.cyc] X:? Y:? Z:? B:?
+    G1 @X1 @Y2 @Z3 @I5 @S100 X:1 Y:2 Z:3 B:?
+    M17 X:1 Y:2 Z:3 B:?
+    G18 X:1 Y:2 Z:3 B:?
+    L CYCLE [NAME=c.cyc] X:1 Y:2 Z:3 B:?
+    G1 @X1 @Y2 @Z3 @I5 @S100 X:2 Y:3 Z:1 B:?
+    M17 X:2 Y:3 Z:1 B:?
+    G19 X:2 Y:3 Z:1 B:?
+    L CYCLE [NAME=c.cyc] X:2 Y:3 Z:1 B:?
+    G1 @X1 @Y2 @Z3 @I5 @S100 X:3 Y:1 Z:2 B:?
+    M17 X:3 Y:1 Z:2 B:?
+    M30 X:3 Y:1 Z:2 B:?
+    ");
+}

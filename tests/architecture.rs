@@ -82,6 +82,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "lists",
             "machine",
             "compensation",
+            "interpreter",
             "timeline",
         ],
     ),

@@ -199,7 +199,16 @@ fn every_named_rule_exists() {
     let listed = rules(&read(&root().join("docs/rules.md")));
     for path in documents().into_iter().chain(files("src", "rs")) {
         let here = rules(&read(&path));
-        let unknown: Vec<_> = here.difference(&listed).collect();
+        // Pages may speak of chapters that are not built yet.
+        let chapter = |rule: &str| rule.split('.').next().map(|chapter| format!("{chapter}."));
+        let built = |rule: &str| {
+            let chapter = chapter(rule).unwrap_or_default();
+            listed.iter().any(|other| other.starts_with(&chapter))
+        };
+        let unknown: Vec<_> = here
+            .difference(&listed)
+            .filter(|rule| built(rule))
+            .collect();
         assert!(unknown.is_empty(), "{}: {unknown:?}", path.display());
     }
 }

@@ -136,7 +136,10 @@ fn tests() -> BTreeMap<String, String> {
 /// The comments of a source.
 fn comments(text: &str) -> String {
     let lines = text.lines().filter_map(|line| line.split_once("//"));
-    lines.map(|(_, comment)| format!("{comment}\n")).collect()
+    lines
+        .map(|(_, comment)| comment)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 #[test]

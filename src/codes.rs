@@ -1,9 +1,8 @@
 //! The one table of codes.
 //!
 //! The control's own numbers (`P-ERR-…`) stand here only where a document ties the number to the
-//! cause; all others begin with `FC` (R9.23): FC1xx files, configuration and lists, FC2xx syntax,
-//! FC3xx meaning, FC4xx lints, FC5xx drive, FC9xx unknown values and budgets. Numbers are never
-//! used again.
+//! cause; all others begin with `FC` (R9.23): 1xx files, configuration and lists, 2xx syntax, 3xx
+//! meaning, 4xx lints, 5xx drive, 9xx unknown values and budgets. Numbers are never used again.
 
 use std::fmt;
 

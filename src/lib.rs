@@ -1,4 +1,32 @@
 //! Dry runs of ISG and TwinCAT CNC programs with an eye on friction compensation.
+//!
+//! A program switches friction compensation per axis with `X[COMP ON FRICT]`, and the state
+//! outlives the program. This crate executes programs without a machine and says for every block
+//! what it changed and which axis has friction compensation active behind it.
+//!
+//! A host with an interpreter of its own needs only [`syntax::parse_comp`] and
+//! [`compensation::Compensation`]:
+//!
+//! ```
+//! use frictcomp::compensation::Compensation;
+//! use frictcomp::machine::Machine;
+//! use frictcomp::syntax::parse_comp;
+//!
+//! let machine = Machine::enabled(["X"]);
+//! let mut compensation = Compensation::at_startup(&machine);
+//! let changes = compensation.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
+//! assert_eq!(changes[0].to.word(), "inactive");
+//! let refused = compensation.apply(&parse_comp("Y[COMP ON FRICT]")?).unwrap_err();
+//! assert_eq!(refused.code().text(), "P-ERR-70495");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`interpreter::Interpreter`] runs a program block by block and can be saved and resumed;
+//! [`session::Session`] runs programs one after the other, with lints, and gives the records of
+//! [`timeline`]. A [`machine::Machine`] comes from the control's lists or from `frictcomp.toml`.
+//!
+//! The library opens no file, prints nothing and reads neither clock nor environment: texts are
+//! handed to it. The command line, the feature `cli`, is on by default.
 
 #[cfg(feature = "cli")]
 pub mod cli;

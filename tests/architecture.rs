@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     // These three are plain data about text and know each other.
     ("source", &["diagnostic", "codes"]),
     ("diagnostic", &["source", "codes"]),
@@ -71,6 +71,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
             "timeline",
         ],
     ),
+    ("current", &["codes", "diagnostic", "lists", "machine"]),
     (
         "report",
         &[
@@ -81,6 +82,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
             "lists",
             "machine",
             "compensation",
+            "interpreter",
             "timeline",
         ],
     ),
@@ -91,10 +93,12 @@ const ROOMS: [(&str, &[&str]); 13] = [
             "diagnostic",
             "codes",
             "syntax",
+            "lists",
             "machine",
             "compensation",
             "timeline",
             "session",
+            "current",
             "report",
         ],
     ),
@@ -105,9 +109,6 @@ const OUTER: [&str; 3] = ["cli", "report", "main"];
 
 /// A file above this many lines is split.
 const MAX_LINES: usize = 800;
-
-/// Files that are too long today, to be split by whoever works in them next.
-const TOO_LONG: [&str; 2] = ["interpreter/block.rs", "interpreter/mod.rs"];
 
 /// A source file: its path below `src`, its room, its text.
 struct File {
@@ -133,12 +134,12 @@ fn sources() -> Vec<File> {
     paths.sort();
     let files = paths.into_iter().map(|path| {
         let below = path.strip_prefix(&root).expect("below src");
-        let path_below = below.to_string_lossy().replace('\\', "/");
-        let room = path_below.split('/').next().expect("a name");
+        let name = below.to_string_lossy().replace('\\', "/");
+        let room = name.split('/').next().expect("a name");
         File {
             room: room.trim_end_matches(".rs").to_owned(),
             text: fs::read_to_string(&path).expect("text"),
-            path: path_below,
+            path: name,
         }
     });
     files.collect()
@@ -257,7 +258,7 @@ fn files_stay_short() {
     let long: Vec<String> = sources()
         .iter()
         .map(|file| (file, file.text.lines().count()))
-        .filter(|(file, lines)| *lines > MAX_LINES && !TOO_LONG.contains(&file.path.as_str()))
+        .filter(|(file, lines)| *lines > MAX_LINES)
         .map(|(file, lines)| format!("src/{}: {lines} lines", file.path))
         .collect();
     assert!(long.is_empty(), "{}", long.join("\n"));

@@ -119,7 +119,7 @@ struct AxisState {
 }
 
 impl AxisState {
-    fn state(&self, kind: Kind) -> State {
+    fn state(self, kind: Kind) -> State {
         if !self.configured.contains(kind) {
             State::Unconfigured
         } else if self.unknown.contains(kind) {
@@ -175,7 +175,11 @@ impl Compensation {
         Self {
             axes: axes.collect(),
             names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
-            spindles: machine.axes.iter().map(|axis| axis.is_spindle()).collect(),
+            spindles: machine
+                .axes
+                .iter()
+                .map(crate::machine::Axis::is_spindle)
+                .collect(),
         }
     }
 

@@ -22,7 +22,8 @@ use crate::source::{Span, TextLines};
 pub const MAX_BRACKETS: usize = 64;
 
 /// A statement about the text of one block: a diagnostic whose span counts from the block's start.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
 pub struct Fault {
     /// The code.
     pub code: Code,

@@ -136,6 +136,7 @@ impl<'a> Player<'a> {
             seq,
             by: EndedBy::M30,
             notes,
+            repeated: &[],
             changes: &[],
             state: state!(self),
         }));

@@ -60,15 +60,33 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     }
 }
 
-/// The blocks that changed an axis, as many as have room.
+/// How a file is named.
+#[derive(Clone, Copy)]
+enum Files {
+    /// As the user named it.
+    Path,
+    /// Without its folders.
+    Name,
+}
+
+/// The blocks that changed an axis, as many as have room; without the folders of their files if
+/// that needs too much.
 fn changed_by(axis: &AxisSummary, room: usize) -> String {
+    let whole = named_blocks(axis, room, Files::Path);
+    if whole.width() <= room {
+        return whole;
+    }
+    named_blocks(axis, room, Files::Name)
+}
+
+fn named_blocks(axis: &AxisSummary, room: usize, files: Files) -> String {
     if axis.changes == 0 {
         return "-".to_owned();
     }
     let mut text = String::new();
     let mut named = 0;
     for block in &axis.changed_by {
-        let name = block_name(block);
+        let name = block_name(block, files);
         let separator = if named == 0 { "" } else { ", " };
         let left = axis.changes.saturating_sub(named + 1);
         let more = if left == 0 { 0 } else { more(left).width() };
@@ -91,10 +109,14 @@ fn more(left: u64) -> String {
     format!(" and {} more", grouped(left))
 }
 
-fn block_name(block: &ChangedBy) -> String {
+fn block_name(block: &ChangedBy, files: Files) -> String {
+    let file = match files {
+        Files::Path => block.file.as_str(),
+        Files::Name => block.file.rsplit(['/', '\\']).next().unwrap_or_default(),
+    };
     match block.number {
-        Some(number) => format!("N{number} ({}:{})", block.file, block.line),
-        None => format!("{}:{}", block.file, block.line),
+        Some(number) => format!("N{number} ({file}:{})", block.line),
+        None => format!("{file}:{}", block.line),
     }
 }
 
@@ -240,6 +262,9 @@ mod tests {
         axis.changes = 2300;
         assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1), a.nc:2 and 2 298 more");
         assert_eq!(changed_by(&axis, 0), "N10 (a.nc:1) and 2 299 more");
+        axis.changed_by[0].file = "programs/of/a/folder/a.nc".to_owned();
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1), a.nc:2 and 2 298 more");
+        axis.changed_by[0].file = "a.nc".to_owned();
         axis.changes = 1;
         axis.changed_by.truncate(1);
         assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1)");

@@ -186,7 +186,7 @@ impl AdditiveCurrent {
         self.last_position = Some(position);
         if velocity != 0.0 {
             let direction = velocity.signum();
-            if direction != self.direction {
+            if direction * self.direction <= 0.0 {
                 let waits = match self.reading.delay {
                     Delay::All => 0,
                     Delay::Reversal => self.delay_cycles,
@@ -305,10 +305,11 @@ impl AdditiveCurrent {
 
     fn rounded(&mut self, current: f64) -> i16 {
         let rounded = current.round();
-        let limited = rounded.clamp(f64::from(i16::MIN), f64::from(i16::MAX));
-        if limited != rounded {
+        let range = f64::from(i16::MIN)..=f64::from(i16::MAX);
+        if !range.contains(&rounded) {
             self.saturated += 1;
         }
+        let limited = rounded.clamp(*range.start(), *range.end());
         #[allow(clippy::cast_possible_truncation)] // clamped just above
         let output = limited as i16;
         output

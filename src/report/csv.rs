@@ -4,10 +4,9 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 use crate::compensation::Change;
-use crate::interpreter::PositionFrame;
 use crate::machine::AxisIndex;
 use crate::syntax::Kind;
-use crate::timeline::{End, Record, Row, Sink, StateView};
+use crate::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
 
 use super::strings::integer;
 use super::{Output, Report, View};

@@ -6,12 +6,11 @@ use std::ops::ControlFlow;
 use crate::codes::Code;
 use crate::compensation::{Change, Compensation};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::interpreter::Modal;
 use crate::machine::{AxisSet, Machine};
 use crate::source::{SourceFile, Span};
 use crate::syntax::{Kind, KindSet, Selection};
 use crate::timeline::{
-    AxisSummary, ChangedBy, End, EndNote, EndedBy, Record, Row, Sink, StateView, Summary,
+    AxisSummary, ChangedBy, End, EndNote, EndedBy, Modal, Record, Row, Sink, StateView, Summary,
 };
 
 /// The documented example (1.5), with a loop behind it that changes nothing.

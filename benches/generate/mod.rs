@@ -83,11 +83,13 @@ impl Path {
     }
 
     fn motion(&mut self, number: u64, shape: Shape, out: &mut dyn Write) -> io::Result<()> {
-        let (x, y, z) = (self.coordinate(), self.coordinate(), self.coordinate());
-        write!(out, "N{number} G01 X{x} Y{y} Z{z}")?;
-        if shape == Shape::FiveAxes {
-            let (a, b) = (self.coordinate(), self.coordinate());
-            write!(out, " A{a} B{b}")?;
+        let axes = match shape {
+            Shape::FiveAxes => "XYZAB",
+            _ => "XYZ",
+        };
+        write!(out, "N{number} G01")?;
+        for axis in axes.chars() {
+            write!(out, " {axis}{}", self.coordinate())?;
         }
         writeln!(out, " F1500")
     }

@@ -120,6 +120,14 @@ impl Code {
         })
     }
 
+    /// Whether it says that a bound of the dry run was reached (R2.60).
+    pub fn is_budget(self) -> bool {
+        matches!(
+            self,
+            Self::Fc910 | Self::Fc911 | Self::Fc912 | Self::Fc913 | Self::Fc914
+        )
+    }
+
     /// Whether it is a number of the control; those cannot be silenced (R9.24).
     pub fn is_controller(self) -> bool {
         self.text().starts_with("P-ERR-")

@@ -158,20 +158,24 @@ impl Levels {
 }
 
 /// The nearest of several known words, close enough to be meant: at most a third of the letters
-/// differ, swapped neighbours count once.
+/// differ, swapped neighbours count once; or one is the beginning of the other.
 pub(crate) fn did_you_mean<'a>(
     found: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     let found = found.to_ascii_uppercase();
-    let allowed = (found.chars().count() / 3).max(1);
+    let letters = found.chars().count();
+    // Of a single letter only the case can be wrong.
+    let allowed = if letters > 1 { (letters / 3).max(1) } else { 0 };
     known
         .into_iter()
-        .map(|word| {
-            let distance = strsim::damerau_levenshtein(&found, &word.to_ascii_uppercase());
-            (distance, word)
+        .filter_map(|word| {
+            let upper = word.to_ascii_uppercase();
+            let distance = strsim::damerau_levenshtein(&found, &upper);
+            let begins = letters.min(upper.len()) > 2
+                && (found.starts_with(&upper) || upper.starts_with(&found));
+            (distance <= allowed || begins).then_some((distance, word))
         })
-        .filter(|&(distance, _)| distance <= allowed)
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, word)| word)
 }

@@ -78,7 +78,7 @@ fn plain() -> impl Strategy<Value = String> {
     (prop::collection::vec(word, 1..6), change).prop_map(|(words, (at, change))| {
         let mut line = words.concat();
         let at = at.index(line.len());
-        line.replace_range(at..at + 1, &change);
+        line.replace_range(at..=at, &change);
         line
     })
 }

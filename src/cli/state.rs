@@ -137,7 +137,8 @@ mod tests {
     use super::*;
 
     fn state() -> SavedState {
-        serde_json::from_str("{\"schema\":1}").unwrap()
+        let machine = crate::machine::Machine::enabled(["X"]);
+        crate::session::Session::new(machine, crate::session::SessionOptions::default()).save()
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::value::rounded;
 use super::words::AxisWords;
 use super::{
     At, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Step, StopPolicy,
-    Value, stops,
+    Value, ended_by, stops,
 };
 use crate::codes::Code;
 use crate::source::Span;
@@ -68,14 +68,8 @@ impl Interpreter {
         }
         let call = intent.call.take();
         let call = call.and_then(|wanted| self.resolve(wanted, at, finder));
-        let refused = self
-            .work
-            .diagnostics
-            .iter()
-            .find(|diagnostic| stops(diagnostic));
-        let budget = refused.is_some_and(|diagnostic| diagnostic.code.text().starts_with("FC91"));
-        let stopped =
-            self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused.is_some());
+        let refused = self.work.diagnostics.iter().any(stops);
+        let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
         self.take_faults(block, at, stopped);
         if !stopped {
             self.move_axes(&intent);
@@ -86,11 +80,7 @@ impl Interpreter {
         }
         self.remember_last(at);
         let step = if stopped {
-            Step::End(if budget {
-                EndedBy::Budget
-            } else {
-                EndedBy::Error
-            })
+            Step::End(ended_by(&self.work.diagnostics))
         } else {
             let moved = !self.work.moved.is_empty();
             self.step((intent, call), moved, at, finder)

@@ -219,7 +219,12 @@ impl Interpreter {
         };
         let entry = frame.next - 1;
         let seeking = frame.seeking.take();
-        let links = self.units[frame.unit].index.links(entry);
+        let index = &self.units[frame.unit].index;
+        if !index.is_linked(entry) && !matches!(flow, Flow::Goto(_)) {
+            // It belongs to no control block, which was said before the program began.
+            return Ok(None);
+        }
+        let links = index.links(entry);
         let behind = Step::Jump(links.end + 1);
         Ok(match flow {
             Flow::If(condition) => self.branch(*condition, (block, at, span), links.next)?,

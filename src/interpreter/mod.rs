@@ -501,7 +501,8 @@ impl Interpreter {
     fn begin(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
         let refused = self.refused();
         if !refused.is_empty() && self.options.stop == StopPolicy::FirstError {
-            return self.ended(EndedBy::Error, &refused, observer);
+            let by = ended_by(&refused);
+            return self.ended(by, &refused, observer);
         }
         if let Some(section) = self.units[0].index.main() {
             self.enter(0, section);
@@ -699,5 +700,14 @@ fn after_motion_only(call: &Call) -> Option<bool> {
         Repetition::Once => None,
         Repetition::AfterMotion => Some(true),
         Repetition::AfterBlock => Some(false),
+    }
+}
+
+/// What ends a program that one of these diagnostics keeps from going on.
+fn ended_by(said: &[Diagnostic]) -> EndedBy {
+    let bound = |diagnostic: &Diagnostic| diagnostic.code.is_budget();
+    match said.iter().find(|diagnostic| stops(diagnostic)) {
+        Some(diagnostic) if bound(diagnostic) => EndedBy::Budget,
+        _ => EndedBy::Error,
     }
 }

@@ -145,6 +145,11 @@ impl Index {
         builder.build()
     }
 
+    /// Whether a `$` statement belongs to a control block that is whole.
+    pub(super) fn is_linked(&self, entry: EntryIndex) -> bool {
+        self.links.contains_key(&entry)
+    }
+
     /// The links of a `$` statement.
     pub(super) fn links(&self, entry: EntryIndex) -> Links {
         self.links.get(&entry).copied().unwrap_or(Links {

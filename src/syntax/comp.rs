@@ -360,11 +360,11 @@ fn unknown_word(span: Span, word: &str) -> Fault {
         span,
         format!("unknown compensation kind `{word}`"),
     );
+    if word.contains(',') {
+        return fault.with_help("kinds are separated by blanks, a comma is no separator");
+    }
     match did_you_mean(word, KEYWORDS) {
         Some(near) => fault.with_help(format!("did you mean `{near}`?")),
-        None if word.contains(',') => {
-            fault.with_help("kinds are separated by blanks, a comma is no separator")
-        }
         None => fault.with_help(format!("the kinds are {kinds}")),
     }
 }

@@ -248,7 +248,7 @@ fn budgets() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
         FC912 3:1-6
-      end 0 error X:active Y:active Z:unconfigured B:ineffective
+      end 0 budget X:active Y:active Z:unconfigured B:ineffective
     ");
     let deep = format!("P1={}1{}\nM30", "[".repeat(65), "]".repeat(65));
     assert_snapshot!(Bench::new().run(&[&deep]), @"
@@ -256,7 +256,7 @@ fn budgets() {
     a.nc -
       1 line 1 -
         FC913 1:68-69
-      end 1 error X:active Y:active Z:unconfigured B:ineffective
+      end 1 budget X:active Y:active Z:unconfigured B:ineffective
     ");
     let fits = format!("P1={}1{}\nM30", "[".repeat(64), "]".repeat(64));
     assert!(!Bench::new().run(&[&fits]).contains("FC913"));

@@ -75,7 +75,6 @@ fn ends_of_programs() {
     a.nc -
       1 line 1 -
       2 line 2 -
-        FC310 2:1-4
       end 2 end-of-file X:active Y:active Z:unconfigured B:ineffective
     ");
     assert_snapshot!(bench.run(&["M30\nX[COMP OFF FRICT"]), @"

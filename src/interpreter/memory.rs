@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::value::Value;
+use crate::machine::Parameters;
 
 /// Parameters up to this number have a place in a vector of their own.
 const DIRECT: u32 = 1024;
@@ -66,15 +67,20 @@ fn default_of(arrays: &HashMap<String, Array>, name: &str) -> Option<Value> {
 }
 
 impl Memory {
-    /// Forgets what a program start clears: P parameters and `V.P.`, `V.L.`, `V.CYC.` variables
+    /// Forgets what a program start clears: P parameters unless they are kept, and `V.P.`, `V.L.`, `V.CYC.` variables
     /// (R2.33, R2.34). `V.S.`, macros (PM/206014219: valid across programs) and what the machine
     /// holds stay.
-    pub(super) fn start_program(&mut self) {
-        self.direct.clear();
-        self.parameters.clear();
+    pub(super) fn start_program(&mut self, parameters: Parameters) {
+        let kept = |name: &str| {
+            !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
+        };
+        if parameters == Parameters::Cleared {
+            self.direct.clear();
+            self.parameters.clear();
+        }
         self.locals.clear();
-        self.variables.retain(|name, _| !is_of_run(name));
-        self.arrays.retain(|name, _| !is_of_run(name));
+        self.variables.retain(|name, _| kept(name));
+        self.arrays.retain(|name, _| kept(name));
     }
 
     pub(super) fn parameter(&self, index: u32) -> Option<&Value> {

@@ -537,7 +537,7 @@ impl Interpreter {
     /// Prepares the state for a program start.
     fn start(&mut self) {
         self.state.modal = self.state.modal.next_program();
-        self.state.memory.start_program();
+        self.state.memory.start_program(self.machine.parameters);
         self.state.frames.clear();
         self.state.seq = 0;
         self.state.repeated = None;

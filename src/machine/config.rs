@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::assemble::AxisDraft;
 use super::load::{ListFiles, Loader, MAX_AXES, NoLists};
 use super::section::{ROOT, Section, Shape};
-use super::{Configuration, ConfiguredPrograms, Machine, Setting};
+use super::{Configuration, ConfiguredPrograms, Machine, Parameters, Setting};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
 use crate::lists::{AxisType, AxisValues, Field, FrictionDraft, Given, Written, WrittenPoint};
@@ -125,6 +125,12 @@ impl Configuration {
             end: section.string("end_program")?.map(|given| given.value),
             words,
         };
+        if section
+            .truth("keep_parameters")?
+            .is_some_and(|given| given.value)
+        {
+            self.machine.parameters = Parameters::Kept;
+        }
         Ok(())
     }
 }
@@ -158,6 +164,7 @@ const MACHINE: Shape = Shape {
         "program_dirs",
         "start_program",
         "end_program",
+        "keep_parameters",
         "programs",
     ]),
 };

@@ -183,6 +183,18 @@ pub struct Machine {
     pub build: Option<CncBuild>,
     /// Programs that run by themselves or stand behind a word.
     pub programs: ConfiguredPrograms,
+    /// What a program start does to P parameters.
+    pub parameters: Parameters,
+}
+
+/// What a program start does to P parameters (R2.33).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Parameters {
+    /// They are cleared.
+    #[default]
+    Cleared,
+    /// They keep what an earlier program wrote.
+    Kept,
 }
 
 /// Programs that the configuration names (R2.14, R2.15).

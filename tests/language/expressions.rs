@@ -167,6 +167,21 @@ fn parameters() {
         FC311 1:4-6
       end 1 error X:active Y:active Z:unconfigured B:ineffective
     ");
+    // The configuration may keep them.
+    let kept = Bench::on("[machine]\nkeep_parameters = true\n[[axis]]\nname = \"X\"");
+    assert_snapshot!(kept.run(&["P1=5 V.P.A=1\nM30", "$IF P1 == 5\nX1\n$ENDIF\nM30"]), @"
+    start X:unconfigured
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      end 2 M30 X:unconfigured
+    b.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 -
+      end 4 M30 X:unconfigured
+    ");
 }
 
 #[test]

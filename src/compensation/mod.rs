@@ -119,6 +119,24 @@ struct AxisState {
 }
 
 impl AxisState {
+    /// Makes a change to a kind and tells it where the user would see it.
+    fn change(
+        &mut self,
+        axis: AxisIndex,
+        kind: Kind,
+        make: impl FnOnce(&mut Self),
+    ) -> Option<Change> {
+        let from = self.state(kind);
+        make(self);
+        let to = self.state(kind);
+        (from != to).then_some(Change {
+            axis,
+            kind,
+            from,
+            to,
+        })
+    }
+
     fn state(self, kind: Kind) -> State {
         if !self.configured.contains(kind) {
             State::Unconfigured
@@ -245,18 +263,10 @@ impl Compensation {
         }
         let membership = if on { Membership::In } else { Membership::Out };
         for kind in selection.kinds().intersection(state.configured).iter() {
-            let from = state.state(kind);
-            state.selected.assign(kind, membership);
-            state.unknown.remove(kind);
-            let to = state.state(kind);
-            if from != to {
-                changes.push(Change {
-                    axis,
-                    kind,
-                    from,
-                    to,
-                });
-            }
+            changes.extend(state.change(axis, kind, |state| {
+                state.selected.assign(kind, membership);
+                state.unknown.remove(kind);
+            }));
         }
         Ok(())
     }
@@ -269,18 +279,10 @@ impl Compensation {
             let axis = AxisIndex::new(index);
             let state = &mut self.axes[index];
             for kind in state.manual.intersection(state.configured).iter() {
-                let from = state.state(kind);
-                state.selected.remove(kind);
-                state.unknown.remove(kind);
-                let to = state.state(kind);
-                if from != to {
-                    changes.push(Change {
-                        axis,
-                        kind,
-                        from,
-                        to,
-                    });
-                }
+                changes.extend(state.change(axis, kind, |state| {
+                    state.selected.remove(kind);
+                    state.unknown.remove(kind);
+                }));
             }
         }
         changes
@@ -296,17 +298,7 @@ impl Compensation {
     pub fn forget(&mut self, axis: AxisIndex, kinds: KindSet, changes: &mut Vec<Change>) {
         let state = &mut self.axes[axis.get()];
         for kind in kinds.intersection(state.configured).iter() {
-            let from = state.state(kind);
-            state.unknown.insert(kind);
-            let to = state.state(kind);
-            if from != to {
-                changes.push(Change {
-                    axis,
-                    kind,
-                    from,
-                    to,
-                });
-            }
+            changes.extend(state.change(axis, kind, |state| state.unknown.insert(kind)));
         }
     }
 

@@ -278,6 +278,23 @@ fn comments_allow_a_lint_and_no_error() {
 }
 
 #[test]
+fn a_remark_in_a_loop_is_made_once_and_counted() {
+    // R9.10 R9.13: FC402 once a place, with how often it came true.
+    let program = "P1 = 0\n$WHILE P1 < 5\nX[COMP ON FRICT]\nP1 = P1 + 1\n$ENDWHILE\nM30\n";
+    let bench = Bench::new(&[("a.nc", program)]);
+    let text = bench.stdout(&["run", "a.nc"]);
+    assert_eq!(text.matches("info[FC402]").count(), 1, "{text}");
+    assert!(text.contains("FC402 at a.nc:3 came true 5 times"), "{text}");
+    let records = bench.records(&["a.nc"]);
+    let end = records.iter().find(|record| record.contains("\"end\""));
+    let repeated = json(end.expect("an end"))["repeated"].clone();
+    let expected = r#"[{"code":"FC402","file":"a.nc","line":3,"times":5}]"#;
+    assert_eq!(repeated, json(expected));
+    let check = bench.stdout(&["check", "--format", "concise", "a.nc"]);
+    assert!(check.contains("is already on (5 times)"), "{check}");
+}
+
+#[test]
 fn check_has_six_formats() {
     // R9.21, R9.25
     let bench = Bench::new(&[("a.nc", NOT_CONFIGURED)]);

@@ -20,7 +20,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::{Listing, ListingFormat, Tally};
 use crate::session::{NoteKind, Notes, StopPolicy};
 use crate::source::Position;
-use crate::timeline::{Record, Sink};
+use crate::timeline::{Record, Repeat, Sink};
 
 /// Prints every diagnostic of every program, each run from the start of the control
 #[derive(Debug, Args)]
@@ -214,13 +214,29 @@ impl Found {
             .entry(key)
             .or_insert_with(|| diagnostic.clone());
     }
+
+    /// Says how often a remark came true that is made once.
+    fn count(&mut self, repeat: &Repeat) {
+        let said = self.diagnostics.values_mut().filter(|said| {
+            said.code == repeat.code
+                && said.place.first_line == repeat.line
+                && *said.place.file == repeat.file
+        });
+        for diagnostic in said {
+            let times = repeat.times;
+            diagnostic.message = format!("{} ({times} times)", diagnostic.message);
+        }
+    }
 }
 
 impl Sink for Found {
     fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Block(row) => row.diagnostics.iter().for_each(|said| self.add(said)),
-            Record::End(end) => end.notes.iter().for_each(|note| self.add(&note.diagnostic)),
+            Record::End(end) => {
+                end.notes.iter().for_each(|note| self.add(&note.diagnostic));
+                end.repeated.iter().for_each(|repeat| self.count(repeat));
+            }
             // What the lists say is listed once a machine, not once a program.
             Record::Machine(_)
             | Record::Session { .. }

@@ -3,7 +3,7 @@
 use crate::compensation::Change;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::syntax::{Kind, KindSet};
-use crate::timeline::{End, Record, Row, SCHEMA, StateView, Summary};
+use crate::timeline::{End, Record, Repeat, Row, SCHEMA, StateView, Summary};
 
 use super::View;
 use super::strings::{integer, optional, separated, string};
@@ -139,6 +139,9 @@ impl Encoder {
         {
             self.changes(out, end.changes, end.state);
         }
+        if !end.repeated.is_empty() {
+            repeats(out, end.repeated);
+        }
         self.close(out, end.state);
     }
 
@@ -264,4 +267,24 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
         out.push(b'}');
     });
     out.push(b'}');
+}
+
+/// How often remarks came true that were made once a place.
+fn repeats(out: &mut Vec<u8>, repeated: &[Repeat]) {
+    out.extend_from_slice(b",\"repeated\":[");
+    for (at, repeat) in repeated.iter().enumerate() {
+        if at > 0 {
+            out.push(b',');
+        }
+        out.extend_from_slice(b"{\"code\":");
+        string(out, repeat.code.text());
+        out.extend_from_slice(b",\"file\":");
+        string(out, &repeat.file);
+        out.extend_from_slice(b",\"line\":");
+        integer(out, repeat.line);
+        out.extend_from_slice(b",\"times\":");
+        integer(out, repeat.times);
+        out.push(b'}');
+    }
+    out.push(b']');
 }

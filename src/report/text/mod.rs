@@ -263,6 +263,15 @@ impl<W: Write> Text<W> {
         for note in end.notes {
             self.diagnostic(&note.diagnostic);
         }
+        for repeat in end.repeated {
+            let (code, times) = (repeat.code, grouped(repeat.times));
+            let mut line = self.line();
+            line.plain(&format!(
+                "        {code} at {}:{} came true {times} times",
+                repeat.file, repeat.line
+            ));
+            line.end();
+        }
         self.line().end();
     }
 }

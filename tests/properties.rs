@@ -293,8 +293,14 @@ fn an_observer_may_stop_at_any_block() {
 
 #[test]
 fn a_whole_program_says_what_a_streamed_one_says() {
-    // An error was said again at the end; M17 in the main program hid the missing M30.
-    for text in ["D\n", "M17\n", "N10 X[COMP ON FRIKT]\nN20 M30\n"] {
+    // An error was said again at the end; notes stood in another order.
+    let texts = [
+        "D\n",
+        "M17\n",
+        "N10 X[COMP ON FRIKT]\nN20 M30\n",
+        "A\n%A\nd\n",
+    ];
+    for text in texts {
         for stop in POLICIES {
             assert_eq!(streamed(text, stop), whole(text, stop), "{text:?}");
         }

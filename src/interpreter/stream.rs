@@ -94,7 +94,7 @@ impl Interpreter {
             return Outlook::Paused;
         }
         let by = by.unwrap_or_else(|| {
-            notes.extend(self.missing_end());
+            notes.splice(0..0, self.missing_end());
             EndedBy::EndOfFile
         });
         self.ended(by, &notes, observer)

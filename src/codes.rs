@@ -91,6 +91,7 @@ codes! {
     Fc313 "FC313" Error "two words of one G group";
     Fc314 "FC314" Warning "machine data written by the program";
     Fc315 "FC315" Warning "program end inside a subprogram";
+    Fc316 "FC316" Warning "circle by radius without an end point of its own";
     Fc320 "FC320" Error "called program not found";
     Fc401 "FC401" Warning "left changed past program end";
     Fc402 "FC402" Info "command changes nothing";

@@ -41,6 +41,8 @@ pub(super) struct Intent {
     pub(super) axis_words: AxisWords,
     /// F, which may be unknown.
     pub(super) feed: Feed,
+    /// R of a circle.
+    pub(super) radius: Option<Span>,
     /// The condition of an `$IF` in a block with `$GOTO`.
     condition: Option<bool>,
 }
@@ -72,7 +74,7 @@ impl Interpreter {
         let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
         self.take_faults(block, at, stopped);
         if !stopped {
-            self.move_axes(&intent);
+            self.move_axes(&intent, at);
         }
         let number = self.block_number(block, at);
         if !self.work.changes.is_empty() || self.work.new_axes {

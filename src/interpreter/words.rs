@@ -162,7 +162,8 @@ impl Interpreter {
                     intent.call = intent.call.take().or(wanted);
                 }
             }
-            (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'I' | b'J' | b'K' | b'R' | b'N', _) => {}
+            (b'R', _) => intent.radius = Some(word.span),
+            (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'I' | b'J' | b'K' | b'N', _) => {}
             _ => self.pass_over(&char::from(letter).to_string(), word.span, at),
         }
         Ok(())
@@ -239,10 +240,11 @@ impl Interpreter {
 
     /// Axis words become positions when the whole block is known: G90, G91, G70 and G92 count
     /// wherever they stand, and F belongs to the feed mode of its block.
-    pub(super) fn move_axes(&mut self, intent: &Intent) {
+    pub(super) fn move_axes(&mut self, intent: &Intent, at: &At<'_>) {
         if let Feed::Given(feed) = intent.feed {
             self.state.modal.set_feed(feed);
         }
+        let before = intent.radius.map(|_| self.ends());
         for &(axis, value) in &self.work.coordinates {
             match intent.axis_words {
                 AxisWords::Motion => self.state.modal.move_axis(axis, value),
@@ -251,8 +253,34 @@ impl Interpreter {
                 AxisWords::Other => {}
             }
         }
+        if let (Some(span), Some(before)) = (intent.radius, before) {
+            self.warn_full_circle(span, &before, at);
+        }
         if matches!(intent.axis_words, AxisWords::Reference | AxisWords::Other) {
             self.work.moved.clear();
+        }
+    }
+
+    /// Where the axes of the block's words stand, as far as that is known.
+    fn ends(&self) -> Vec<Option<f64>> {
+        let axes = self.work.coordinates.iter();
+        axes.map(|&(axis, _)| self.state.modal.position(axis).value)
+            .collect()
+    }
+
+    /// FC316: R makes no full circle, the end point must differ from the start (R2.46).
+    fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &At<'_>) {
+        let circular = matches!(self.state.modal.motion, 2 | 3);
+        let ends = self.ends();
+        let stays = !ends.is_empty() && ends.iter().all(Option::is_some) && ends == before;
+        if circular && stays {
+            let fault = Fault::new(
+                Code::Fc316,
+                span,
+                "a circle by its radius ends where it starts; `R` cannot make a full circle",
+            )
+            .with_help("give the centre of a full circle with `I`, `J`, `K`");
+            self.work.diagnostics.push(at.diagnostic(fault));
         }
     }
 }

@@ -254,6 +254,19 @@ fn circles_feed_and_dwell() {
     G18 G2 Z5 X1 I1 K2 X:1 Y:0 Z:5 B:?
     M30 X:1 Y:0 Z:5 B:?
     ");
+    // R cannot make a full circle; where the start is not known, nothing is said.
+    let circles = "G2 X1 Y1 R5 F1000\nG2 X1 Y1 R5\nG2 X2 Y1 R5\nG2 X2 Y1 I5 J0\nM30";
+    assert_snapshot!(Bench::new().run(&[circles]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+        FC316 2:10-12
+      3 line 3 -
+      4 line 4 -
+      5 line 5 -
+      end 5 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
     assert_snapshot!(run(program), @r#"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -

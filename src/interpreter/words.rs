@@ -48,7 +48,7 @@ impl Interpreter {
             Some(Operand::Number(number)) => Some(number),
             Some(operand) => self.value(operand, block, at)?.number(),
         };
-        let (letter, name) = match word.address {
+        let name = match word.address {
             Address::Name(name) => {
                 let name = name.of(at.text);
                 match self.names.get(name).copied() {
@@ -64,7 +64,7 @@ impl Interpreter {
                     return Ok(());
                 }
                 // The plane is not known, or it is `@I`, `@S`.
-                None if letter >= b'X' => (letter, format!("@{}", char::from(letter))),
+                None if letter >= b'X' => format!("@{}", char::from(letter)),
                 None => return Ok(()),
             },
             Address::Letter(letter @ b'A'..=b'Z') => {
@@ -74,11 +74,8 @@ impl Interpreter {
                 }
                 return self.letter((letter, number), word, at, intent);
             }
-            Address::Lower(letter) | Address::Letter(letter) => {
-                (letter, char::from(letter).to_string())
-            }
+            Address::Lower(letter) | Address::Letter(letter) => char::from(letter).to_string(),
         };
-        debug_assert!(letter.is_ascii());
         self.pass_over(&name, word.span, at);
         Ok(())
     }

@@ -128,12 +128,7 @@ impl Code {
     pub fn is_budget(self) -> bool {
         matches!(
             self,
-            Self::Fc910
-                | Self::Fc911
-                | Self::Fc912
-                | Self::Fc913
-                | Self::Fc914
-                | Self::Fc915
+            Self::Fc910 | Self::Fc911 | Self::Fc912 | Self::Fc913 | Self::Fc914 | Self::Fc915
         )
     }
 

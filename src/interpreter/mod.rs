@@ -38,7 +38,9 @@ use serde::{Deserialize, Serialize};
 
 pub use event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};
 pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
-pub use motion::{Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn};
+pub use motion::{
+    Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
+};
 pub use snapshot::{ResumeError, Snapshot};
 pub use value::Value;
 

@@ -4,12 +4,12 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::{Cause, Cycles};
 use super::junction::{Junction, Share};
 use super::leg::Leg;
 use super::limits::AxisLimits;
 use super::plan::{Stage, Stretch, plan};
 use super::sampler::Sampler;
+use super::{Cause, Cycles};
 
 /// How many legs the look-ahead sees at once. The path is planned to a stop behind the last one;
 /// half of the plan is kept, the rest is planned anew when more legs are known.
@@ -107,26 +107,40 @@ impl Course {
         ControlFlow::Continue(())
     }
 
-    /// Follows the first half of the legs, and more where the path may not be cut there.
+    /// Follows the first half of the legs.
     fn advance(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
         let mut stretches = self.plan();
-        let mut legs = 0;
-        let kept = stretches.iter().take_while(|stretch| {
-            legs += stretch.legs;
-            legs <= LOOK_AHEAD / 2
-        });
-        let kept = kept.count();
-        if kept == 0 && stretches.len() == 1 {
-            // One single speeding up and slowing down: it is followed as it is, to the stop.
-            self.left.clear();
-            self.follow(&stretches, cycles)?;
-            self.velocity = 0.0;
-            return ControlFlow::Continue(());
+        let mut kept = self.cut(&mut stretches);
+        if kept == 0 {
+            // The path speeds up or slows down over half of the queue: it has to be cut there.
+            let middle = &mut self.queue[LOOK_AHEAD / 2].entry;
+            *middle = middle.fixed();
+            stretches = self.plan();
+            kept = self.cut(&mut stretches).max(1);
         }
-        self.left = stretches.split_off(kept.max(1));
+        self.left = stretches.split_off(kept);
         self.follow(&stretches, cycles)?;
         self.velocity = stretches.last().map_or(0.0, |last| last.end_velocity);
         ControlFlow::Continue(())
+    }
+
+    /// How many stretches lie in the first half of the queue; the next one is cut in two where
+    /// that changes nothing.
+    fn cut(&self, stretches: &mut Vec<Stretch>) -> usize {
+        let (mut kept, mut legs) = (0, 0);
+        while let Some(stretch) = stretches.get(kept)
+            && legs + stretch.legs <= LOOK_AHEAD / 2
+        {
+            legs += stretch.legs;
+            kept += 1;
+        }
+        let half = self.queue.range(legs..LOOK_AHEAD / 2);
+        let lengths = half.map(|queued| queued.leg.length);
+        if let Some((first, second)) = stretches.get(kept).and_then(|next| next.cut(lengths)) {
+            stretches.splice(kept..=kept, [first, second]);
+            kept += 1;
+        }
+        kept
     }
 
     /// A plan for the whole queue.

@@ -112,6 +112,16 @@ impl Junction {
         }
     }
 
+    /// The same without path acceleration.
+    pub(super) fn fixed(self) -> Self {
+        match self {
+            Self::Stop => Self::Stop,
+            open => Self::Corner {
+                velocity: open.velocity(),
+            },
+        }
+    }
+
     /// Whether the axes turn in it while they move.
     pub(super) fn is_kink(self) -> bool {
         matches!(self, Self::Bend { .. } | Self::Corner { .. })

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
-use super::limits::AxisLimits;
-use super::profile::Bounds;
 use super::Cause;
 use super::junction::Share;
+use super::limits::AxisLimits;
+use super::profile::Bounds;
 use crate::interpreter::{BlockEnd, Centre, CircularArc, Turn};
 
 /// Ends of an arc that lie closer than this, in mm, make it a full circle.
@@ -177,7 +177,9 @@ impl Leg {
             jerk: f64::INFINITY,
         };
         for (axis, limits) in limits.iter().enumerate() {
-            let straight = self.circle.is_none_or(|circle| !circle.axes.contains(&axis));
+            let straight = self
+                .circle
+                .is_none_or(|circle| !circle.axes.contains(&axis));
             let slope = ((self.to[axis] - self.from[axis]) / self.length).abs();
             if straight && slope > 0.0 {
                 let limits = share.of(limits);

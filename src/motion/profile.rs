@@ -6,6 +6,8 @@
 //! velocity that length and bounds allow, a stretch at that velocity, and a ramp to the end: the
 //! fastest motion between two states without acceleration.
 
+use std::ops::RangeInclusive;
+
 /// Bounds along the path, per second: mm or degrees by the path's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
@@ -113,10 +115,7 @@ impl Profile {
     /// acceleration at both ends. Lengths are in mm or degrees, times in seconds.
     pub fn between(start: f64, end: f64, length: f64, bounds: &Bounds) -> Self {
         let ways = |peak: f64| {
-            let (up, down) = (
-                Ramp::new(start, peak, bounds),
-                Ramp::new(peak, end, bounds),
-            );
+            let (up, down) = (Ramp::new(start, peak, bounds), Ramp::new(peak, end, bounds));
             (up, down, up.way + down.way)
         };
         let mut peak = bounds.velocity.max(start).max(end);
@@ -190,6 +189,37 @@ impl Profile {
     /// How long it takes, in seconds.
     pub fn duration(&self) -> f64 {
         self.duration
+    }
+
+    /// The length of the way.
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The ways between which the velocity is steady, and that velocity.
+    pub(super) fn steady(&self) -> (RangeInclusive<f64>, f64) {
+        let (from, to) = (self.phases[3], self.phases[4]);
+        (from.way..=to.way, from.velocity)
+    }
+
+    /// The highest velocity on the way.
+    pub(super) fn top_velocity(&self) -> f64 {
+        let phases = self.phases.iter().map(|phase| phase.velocity);
+        phases.fold(self.end_velocity, f64::max)
+    }
+
+    /// The velocity after a way.
+    pub(super) fn velocity_after(&self, way: f64) -> f64 {
+        let (mut early, mut late) = (0.0, self.duration);
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(early, late);
+            if self.at(middle).way <= way {
+                early = middle;
+            } else {
+                late = middle;
+            }
+        }
+        self.at(early).velocity
     }
 
     /// The state at a time behind the start.

@@ -156,7 +156,9 @@ impl Tracer {
         }
         let jumped = self.stand.iter().zip(&travel.from);
         if self.running == Running::Yes
-            && jumped.into_iter().any(|(is, was)| was.is_some() && is != was)
+            && jumped
+                .into_iter()
+                .any(|(is, was)| was.is_some() && is != was)
         {
             self.course.stop(cycles)?;
             self.running = Running::No;

@@ -20,6 +20,7 @@ mod lists;
 mod man;
 mod run;
 mod settings;
+mod sheet;
 mod state;
 mod walk;
 

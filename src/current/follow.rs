@@ -135,7 +135,9 @@ impl Follower {
             State::Active => Switched::On,
             _ => Switched::Off,
         });
-        let cycle = self.current.advance(input.position, input.velocity, reversal);
+        let cycle = self
+            .current
+            .advance(input.position, input.velocity, reversal);
         Some(Moment { input, cycle })
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! It is made only where [`Motions::Taken`] asks for it.
 
+use serde::{Deserialize, Serialize};
+
 use super::words::AxisWords;
 use super::{Group, Interpreter};
 use crate::machine::AxisIndex;
@@ -94,7 +96,7 @@ pub enum PathFeed {
 }
 
 /// What happens at the end of a block.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum BlockEnd {
     /// The path goes on as fast as its corner allows.
     #[default]
@@ -189,16 +191,14 @@ impl Interpreter {
             AxisWords::Reference | AxisWords::Other => return None,
         };
         let modal = &self.state.modal;
-        let exact = modal.exact_stop || geometry.end == BlockEnd::ExactStop;
         Some(Motion::Travel(Travel {
             form,
             from,
             to: modal.positions().to_vec(),
             feed: self.path_feed(),
-            end: if exact {
-                BlockEnd::ExactStop
-            } else {
-                BlockEnd::Through
+            end: match geometry.end {
+                BlockEnd::Through => modal.block_end,
+                BlockEnd::ExactStop => BlockEnd::ExactStop,
             },
         }))
     }

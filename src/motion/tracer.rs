@@ -51,7 +51,10 @@ pub struct Tracer {
     running: Running,
     friction: Arc<[State]>,
     version: Option<u64>,
+    /// The last block that moved something.
     file: Arc<str>,
+    text: String,
+    line: u32,
     diagnostics: Vec<Diagnostic>,
     named: BTreeSet<(Code, Arc<str>, u32)>,
 }
@@ -69,6 +72,23 @@ enum Obstacle {
     /// Where the axes stand before it is not known.
     Start,
     Reason(&'static str),
+}
+
+/// The place of a block.
+struct At<'a> {
+    file: &'a str,
+    text: &'a str,
+    line: u32,
+}
+
+impl<'a> At<'a> {
+    fn of(row: &Row<'a>) -> Self {
+        Self {
+            file: row.file,
+            text: row.text,
+            line: row.line,
+        }
+    }
 }
 
 impl Tracer {
@@ -89,6 +109,8 @@ impl Tracer {
             friction: Arc::new([]),
             version: None,
             file: Arc::from(""),
+            text: String::new(),
+            line: 0,
             diagnostics: Vec::new(),
             named: BTreeSet::new(),
         }
@@ -103,18 +125,37 @@ impl Tracer {
             Motion::Travel(travel) => self.travel(row, travel, cycles),
             Motion::Dwell(seconds) => self.dwell(row, *seconds, cycles),
         };
+        self.text.clear();
+        self.text.push_str(row.text);
+        self.line = row.line;
+        self.check_budget();
+        flow
+    }
+
+    /// FC915 at the last block that moved something.
+    fn check_budget(&mut self) {
         if self.course.is_over() {
+            let at = At {
+                file: &Arc::clone(&self.file),
+                text: &std::mem::take(&mut self.text),
+                line: self.line,
+            };
             let help = "ask for more with `--max-cycles`";
             let message = "the trace is longer than its bound and ends here";
-            self.say(row, (Code::Fc915, message), help);
+            self.say(&at, (Code::Fc915, message), help);
         }
-        flow
+    }
+
+    fn follows(&self, axis: usize) -> bool {
+        self.followed.iter().any(|followed| followed.get() == axis)
     }
 
     /// Follows the path to its end.
     pub fn finish(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
         self.running = Running::No;
-        self.course.stop(cycles)
+        let flow = self.course.stop(cycles);
+        self.check_budget();
+        flow
     }
 
     /// What there is to say about the motions, each once a place.
@@ -149,7 +190,7 @@ impl Tracer {
             let message = "from here on the trace is that of the program, not of the machine: a \
                            transformation is in force";
             self.say(
-                row,
+                &At::of(row),
                 (Code::Fc904, message),
                 "the axes of the machine move in another way",
             );
@@ -200,17 +241,20 @@ impl Tracer {
         let message = format!("the trace leaves this motion out: {reason}");
         let help = "write what is missing into the program (`F`, absolute positions), or give \
                     values with `--set`; the trace begins anew behind it";
-        self.say(row, (Code::Fc903, &message), help);
+        self.say(&At::of(row), (Code::Fc903, &message), help);
         self.running = Running::No;
         self.course.stop(cycles)
     }
 
     /// The leg of a motion; `None` where nothing moves.
     fn leg(&mut self, row: &Row<'_>, travel: &Travel) -> Result<Option<Leg>, Obstacle> {
-        if let Form::Unknown(reason) = travel.form {
-            return Err(Obstacle::Reason(reason));
+        let moves = travel.from.iter().zip(&travel.to).enumerate();
+        let mut unknown = moves.filter(|(_, (from, _))| from.is_none());
+        if unknown.any(|(axis, (_, to))| to.is_some() || self.follows(axis)) {
+            return Err(Obstacle::Start);
         }
         let feed = match (travel.form, travel.feed) {
+            (Form::Unknown(reason), _) => return Err(Obstacle::Reason(reason)),
             (Form::Rapid, _) => PathFeed::PerMinute(f64::INFINITY),
             (_, PathFeed::Unknown(reason)) => return Err(Obstacle::Reason(reason)),
             (_, PathFeed::PerMinute(feed) | PathFeed::Seconds(feed)) if feed <= 0.0 => {
@@ -220,17 +264,14 @@ impl Tracer {
         };
         let mut from = Vec::with_capacity(travel.from.len());
         let mut to = Vec::with_capacity(travel.from.len());
-        for (axis, ends) in travel.from.iter().zip(&travel.to).enumerate() {
-            let followed = self.followed.iter().any(|followed| followed.get() == axis);
+        for ends in travel.from.iter().zip(&travel.to) {
             let (start, end) = match ends {
                 (Some(start), Some(end)) => (*start, *end),
-                (None, None) if followed => return Err(Obstacle::Start),
-                // It does not move: where it stands does not matter.
-                (None, None) => (0.0, 0.0),
-                (None, Some(_)) => return Err(Obstacle::Start),
                 (Some(_), None) => {
                     return Err(Obstacle::Reason("where it ends is not known"));
                 }
+                // It does not move: where it stands does not matter.
+                (None, _) => (0.0, 0.0),
             };
             from.push(start);
             to.push(end);
@@ -279,16 +320,16 @@ impl Tracer {
 
     /// Says something about a block, once a place; of what holds for the rest of the program only
     /// the first.
-    fn say(&mut self, row: &Row<'_>, (code, message): (Code, &str), help: &str) {
+    fn say(&mut self, at: &At<'_>, (code, message): (Code, &str), help: &str) {
         let place = Place {
-            file: row.file.into(),
-            text: row.text.into(),
-            first_line: row.line,
-            span: Span::new(0, row.text.len()),
+            file: at.file.into(),
+            text: at.text.into(),
+            first_line: at.line,
+            span: Span::new(0, at.text.len()),
         };
         let key = match code {
-            Code::Fc904 => (code, Arc::from(""), 0),
-            _ => (code, Arc::clone(&place.file), row.line),
+            Code::Fc903 => (code, Arc::clone(&place.file), at.line),
+            _ => (code, Arc::from(""), 0),
         };
         if self.named.len() < MAX_NAMED && self.named.insert(key) {
             let diagnostic = Diagnostic::new(code, place, message).with_help(help);

@@ -64,14 +64,11 @@ fn rapid_motions_go_as_fast_as_one_of_the_axes_can() {
 fn a_line_in_many_blocks_takes_the_time_of_one() {
     // R5.2: full look-ahead over any number of blocks, also beyond the queue.
     let whole = trace("G01 X0 Y0 F9000\nX300 Y150\nM30", &["X", "Y"]).seconds();
-    let mut program = String::from("G01 X0 Y0 F9000\n");
-    for block in 1..=30_000 {
-        program.push_str(&format!(
-            "X{:.2} Y{:.3}\n",
-            f64::from(block) * 0.01,
-            f64::from(block) * 0.005
-        ));
-    }
+    let blocks = (1..=30_000).map(f64::from);
+    let blocks: Vec<String> = blocks
+        .map(|block| format!("X{:.2} Y{:.3}", block * 0.01, block * 0.005))
+        .collect();
+    let program = format!("G01 X0 Y0 F9000\n{}", blocks.join("\n"));
     let pieces = trace(&program, &["X", "Y"]);
     assert!(
         pieces.seconds() <= whole * 1.01,

@@ -4,8 +4,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::value::rounded;
 use super::words::AxisWords;
-use super::{Group, Interpreter};
+use super::{Group, Interpreter, Value};
 use crate::machine::AxisIndex;
 
 /// Whether blocks say what they move.
@@ -153,6 +154,16 @@ impl Interpreter {
         }
     }
 
+    /// `G04 P1`: the parameter holds the seconds (PM/206132747).
+    pub(super) fn dwell_parameter(&mut self, index: Option<f64>) {
+        let index = index
+            .and_then(rounded)
+            .and_then(|index| u32::try_from(index).ok());
+        let value = index.and_then(|index| self.state.memory.parameter(index));
+        let seconds = value.and_then(Value::number);
+        self.geometry().dwell = Some(seconds);
+    }
+
     /// Where every axis stands, for a block that may move.
     pub(super) fn stand(&self) -> Option<Vec<Option<f64>>> {
         (self.options.motions == Motions::Taken).then(|| self.state.modal.positions().to_vec())
@@ -176,8 +187,7 @@ impl Interpreter {
         from: Vec<Option<f64>>,
         words: AxisWords,
     ) -> Option<Motion> {
-        let dwells = self.work.dwells;
-        if dwells {
+        if self.work.dwells {
             let by_axis = self.work.coordinates.first().map(|&(_, seconds)| seconds);
             return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
         }

@@ -88,7 +88,8 @@ fn arcs_are_given_by_centres_and_by_radii() {
         // A centre a little beside is moved to where both ends allow.
         (
             "G03 X0 Y10 I-10.01",
-            [-0.005, -0.005], 10.005_f64.hypot(0.005)
+            [-0.005, -0.005],
+            10.005_f64.hypot(0.005),
         ),
     ] {
         let axes = ["X", "Y"];

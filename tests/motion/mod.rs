@@ -1,5 +1,7 @@
 //! A bench that runs a program and keeps its commanded trace.
 
+#[cfg(feature = "cli")]
+mod command;
 mod forms;
 mod limits;
 mod unknown;

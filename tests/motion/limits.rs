@@ -2,7 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::{MACHINE, assert_limits, trace};
+use frictcomp::motion::{Bounds, Profile};
+
+use super::{CYCLE, MACHINE, assert_limits, trace};
 
 const AXES: [&str; 4] = ["X", "Y", "Z", "C"];
 
@@ -157,5 +159,47 @@ proptest! {
         let trace = trace(&program, &AXES);
         prop_assume!(!trace.positions.is_empty());
         assert_limits(MACHINE, &AXES, &trace);
+    }
+}
+
+/// Seconds that rsruckig takes for a change of state without acceleration at both ends.
+fn reference(start: f64, end: f64, length: f64, bounds: &Bounds) -> f64 {
+    use rsruckig::prelude::*;
+    let mut input = InputParameter::<1>::new(None);
+    input.current_position = daov_stack![0.0];
+    input.current_velocity = daov_stack![start];
+    input.current_acceleration = daov_stack![0.0];
+    input.target_position = daov_stack![length];
+    input.target_velocity = daov_stack![end];
+    input.target_acceleration = daov_stack![0.0];
+    input.max_velocity = daov_stack![bounds.velocity];
+    input.max_acceleration = daov_stack![bounds.acceleration];
+    input.max_jerk = daov_stack![bounds.jerk];
+    let mut trajectory = Trajectory::<1>::new(None);
+    let mut generator = Ruckig::<1, ThrowErrorHandler>::new(None, CYCLE);
+    let result = generator.calculate(&input, &mut trajectory);
+    assert!(result.is_ok(), "{result:?}");
+    trajectory.get_duration()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn profiles_take_the_time_of_the_reference(
+        (velocity, acceleration, jerk) in (0.1_f64..1000.0, 100.0_f64..20_000.0, 1e3_f64..1e6),
+        (start, end) in (prop_oneof![Just(0.0), 0.0_f64..1.0], prop_oneof![Just(0.0), 0.0_f64..1.0]),
+        room in 1e-2_f64..1000.0,
+    ) {
+        // R5.2
+        let bounds = Bounds { velocity, acceleration, jerk };
+        let (start, end) = (start * velocity, end * velocity);
+        // More than the change of velocity needs, at the lowest acceleration that it can have.
+        let change = velocity / acceleration + acceleration / jerk + (velocity / jerk).sqrt();
+        let length = 2.0 * velocity * change + room;
+        let profile = Profile::between(start, end, length, &bounds);
+        let expected = reference(start, end, length, &bounds);
+        let found = profile.duration();
+        prop_assert!((found - expected).abs() <= 1e-6 * expected, "{found} s, not {expected} s");
     }
 }

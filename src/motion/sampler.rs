@@ -80,7 +80,8 @@ impl Sampler {
                 }
                 for (place, &axis) in self.followed.iter().enumerate() {
                     self.positions[place] = leg.position(axis, way);
-                    self.velocities[place] = leg.slope(axis, way) * state.velocity;
+                    // No negative zero.
+                    self.velocities[place] = leg.slope(axis, way) * state.velocity + 0.0;
                 }
                 self.emit(&leg.cause, cycles)?;
             }

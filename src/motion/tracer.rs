@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::course::Course;
-use super::leg::{Ends, Leg};
+use super::leg::{Ends, Leg, SAME_PLACE};
 use super::limits::AxisLimits;
 use super::sampler::Sampler;
 use super::{Cause, Cycles};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::diagnostic::{Diagnostic, Place};
-use crate::interpreter::{Form, Motion, PathFeed, PositionFrame, Travel};
+use crate::interpreter::{Form, Motion, PathFeed, Travel};
 use crate::machine::{AxisIndex, Machine};
 use crate::source::Span;
 use crate::syntax::Kind;
@@ -48,6 +48,8 @@ pub struct Tracer {
     main: Vec<bool>,
     /// Where the path ends, by axis; empty before it begins.
     stand: Vec<Option<f64>>,
+    /// The same, to the last bit of the last leg.
+    end: Vec<f64>,
     running: Running,
     friction: Arc<[State]>,
     version: Option<u64>,
@@ -57,6 +59,18 @@ pub struct Tracer {
     line: u32,
     diagnostics: Vec<Diagnostic>,
     named: BTreeSet<(Code, Arc<str>, u32)>,
+}
+
+/// A difference, in mm or degrees, that rounding makes and no program.
+const NOTHING: f64 = 1e-9;
+
+/// Whether a straight motion goes nowhere.
+fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
+    let stays = from
+        .iter()
+        .zip(to)
+        .all(|(from, to)| (to - from).abs() < NOTHING);
+    stays && !matches!(travel.form, Form::Arc(_))
 }
 
 /// Whether the path is known.
@@ -105,6 +119,7 @@ impl Tracer {
                 .map(|axis| matches!(axis.name.as_str(), "X" | "Y" | "Z"))
                 .collect(),
             stand: Vec::new(),
+            end: Vec::new(),
             running: Running::No,
             friction: Arc::new([]),
             version: None,
@@ -184,9 +199,12 @@ impl Tracer {
             Err(Obstacle::Reason(reason)) => return self.lose(row, reason, cycles),
         };
         let Some(leg) = leg else {
+            if self.running == Running::Yes {
+                self.stand.clone_from(&travel.to);
+            }
             return ControlFlow::Continue(());
         };
-        if row.modal.position(self.followed[0]).frame == PositionFrame::Programmed {
+        if !row.modal.transformed.is_empty() {
             let message = "from here on the trace is that of the program, not of the machine: a \
                            transformation is in force";
             self.say(
@@ -209,6 +227,8 @@ impl Tracer {
             self.running = Running::Yes;
         }
         self.stand.clone_from(&travel.to);
+        self.end.clear();
+        self.end.extend_from_slice(leg.ends());
         self.course.add(leg, cycles)
     }
 
@@ -254,9 +274,10 @@ impl Tracer {
             return Err(Obstacle::Start);
         }
         let feed = match (travel.form, travel.feed) {
-            (Form::Unknown(reason), _) => return Err(Obstacle::Reason(reason)),
             (Form::Rapid, _) => PathFeed::PerMinute(f64::INFINITY),
-            (_, PathFeed::Unknown(reason)) => return Err(Obstacle::Reason(reason)),
+            (Form::Unknown(reason), _) | (_, PathFeed::Unknown(reason)) => {
+                return Err(Obstacle::Reason(reason));
+            }
             (_, PathFeed::PerMinute(feed) | PathFeed::Seconds(feed)) if feed <= 0.0 => {
                 return Err(Obstacle::Reason("F is not above 0"));
             }
@@ -275,6 +296,17 @@ impl Tracer {
             };
             from.push(start);
             to.push(end);
+        }
+        if self.running == Running::Yes {
+            // What was too short to be a motion is made up for by the next one.
+            for (start, end) in from.iter_mut().zip(&self.end) {
+                if (*start - end).abs() < SAME_PLACE {
+                    *start = *end;
+                }
+            }
+        }
+        if is_nothing(travel, &from, &to) {
+            return Ok(None);
         }
         let cause = self.cause(row);
         let ends = Ends {

@@ -182,3 +182,15 @@ fn short_blocks_and_blocks_without_a_way() {
     assert_eq!(trace.end(), [0.0002]);
     assert_limits(MACHINE, &["X"], &trace);
 }
+
+#[test]
+fn rounding_of_positions_is_no_motion() {
+    // R5.1 R5.2: 0.1 + 0.2 is not 0.3; the block in between must not turn the path round.
+    let program = "G01 X0 F600\nG91 X0.1\nX0.2\nX10\nG90 X10.3\nX20\nM30";
+    let whole = trace("G01 X0 F600\nX20\nM30", &["X"]);
+    let parts = trace(program, &["X"]);
+    assert_eq!(
+        (parts.seconds(), parts.end()),
+        (whole.seconds(), whole.end())
+    );
+}

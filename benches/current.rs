@@ -3,6 +3,8 @@
 //! Each line is a ratio to a plain sum over the same cycles, taken in the same run, with the
 //! absolute speed and the goal beside it. `FRICTCOMP_BENCH_RUNS` sets how often each is taken.
 
+#![allow(clippy::print_stdout)] // The table is what it is for.
+
 use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::sync::Arc;

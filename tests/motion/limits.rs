@@ -82,6 +82,37 @@ fn a_line_in_many_blocks_takes_the_time_of_one() {
 }
 
 #[test]
+fn a_queue_full_of_short_blocks_keeps_the_limits() {
+    // R5.2: a circle in 12 000 chords; 10 mm in blocks of half a micrometre, too short to reach
+    // the feed within half of the queue.
+    let turns = (0..=12_000).map(|chord| f64::from(chord) * std::f64::consts::TAU / 12_000.0);
+    let chords: Vec<String> = turns
+        .map(|angle| format!("X{:.5} Y{:.5}", 20.0 * angle.cos(), 20.0 * angle.sin()))
+        .collect();
+    let circle = trace(
+        &format!("G01 F1200\n{}\nM30", chords.join("\n")),
+        &["X", "Y"],
+    );
+    assert_limits(MACHINE, &["X", "Y"], &circle);
+    assert_eq!(
+        (circle.begins.len(), circle.end()),
+        (1, [20.0, 0.0].as_slice())
+    );
+    let steps: Vec<String> = (0..=20_000)
+        .map(|step| format!("X{:.4}", f64::from(step) * 0.0005))
+        .collect();
+    let line = trace(&format!("G01 F12000\n{}\nM30", steps.join("\n")), &["X"]);
+    assert_limits(MACHINE, &["X"], &line);
+    assert_eq!(line.end(), [10.0]);
+    let shortest = shortest(10.0, 200.0, 2000.0, 50_000.0);
+    assert!(
+        line.seconds() < 2.0 * shortest,
+        "{} of {shortest}",
+        line.seconds()
+    );
+}
+
+#[test]
 fn corners_stop_the_path_and_bends_slow_it_down() {
     // R5.2
     let slowest = |second: &str| {

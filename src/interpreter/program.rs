@@ -244,8 +244,9 @@ struct Builder {
 
 impl Builder {
     fn build(mut self) -> Index {
-        let text = self.index.source.text().to_owned();
-        let mut reader = BlockReader::new(TextLines::new(&text), 1, FastPath::On);
+        let text = self.index.source.shared_text();
+        let first = self.index.source.lines().first();
+        let mut reader = BlockReader::new(TextLines::new(&text), first, FastPath::On);
         let mut block = Block::default();
         self.section(None, false);
         while let Some(raw) = reader.next(&mut block) {

@@ -95,6 +95,14 @@ impl<S: LineSource> BlockReader<S> {
         &self.source
     }
 
+    /// Appends what was not read yet, each line behind a line end.
+    pub fn append_rest(&mut self, text: &mut String) {
+        while self.source.advance() {
+            text.push('\n');
+            text.push_str(self.source.line().text);
+        }
+    }
+
     /// Parses the next block into `block`, or finds the next `%` line. Blank lines, comment lines
     /// and `#COMMENT` regions are passed over (R9.11).
     pub fn next(&mut self, block: &mut Block) -> Option<RawBlock<'_>> {

@@ -174,6 +174,21 @@ fn is_refused(whole: &[String]) -> bool {
     whole.iter().any(|said| said.starts_with("0 Error") || said.starts_with("0 Budget"))
 }
 
+/// What was said without the blanks at the end of source lines, which a stream does not keep.
+fn trimmed(said: Vec<String>) -> Vec<String> {
+    let trim = |part: &str| {
+        let mut part = part;
+        while let Some(rest) = [" ", "\\t", "\\0"].iter().find_map(|end| part.strip_suffix(end)) {
+            part = rest;
+        }
+        part.to_owned()
+    };
+    let place = "\", first_line";
+    said.into_iter()
+        .map(|line| line.split(place).map(trim).collect::<Vec<_>>().join(place))
+        .collect()
+}
+
 fn has_flow(text: &str) -> bool {
     let mut scan = FlowScan::default();
     scan.feed(text.as_bytes());
@@ -239,10 +254,12 @@ proptest! {
 
     #[test]
     fn a_streamed_program_runs_as_a_whole_one(text in program()) {
+        let refused = is_refused(&whole(&text, StopPolicy::FirstError));
         for stop in POLICIES {
-            let whole = whole(&text, stop);
-            if !is_refused(&whole) {
-                prop_assert_eq!(streamed(&text, stop), whole);
+            // A check reads all of the text in any case.
+            if !refused || stop == StopPolicy::CheckAll {
+                let whole = whole(&text, stop);
+                prop_assert_eq!(trimmed(streamed(&text, stop)), trimmed(whole));
             }
         }
     }

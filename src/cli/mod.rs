@@ -22,6 +22,7 @@ mod run;
 mod settings;
 mod state;
 mod walk;
+mod workers;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -159,7 +159,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
-    let options = args.execution.options(loaded, args.stop_policy());
+    let options = args.execution.options(&loaded, args.stop_policy());
     let (session, said) = match (saved, &state) {
         (Some(saved), Some(file)) => Session::resume(loaded.machine.clone(), options, saved)
             .map_err(|error| file.refused(&error))?,
@@ -167,7 +167,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     };
     let start = Start {
         inputs,
-        loaded,
+        loaded: &loaded,
         session,
         said,
         state,

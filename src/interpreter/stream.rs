@@ -213,7 +213,7 @@ fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
 /// The text of a block with the remark above it, and the number of its first line.
 fn opening(raw: &RawBlock<'_>) -> (String, u32) {
     match raw.remark {
-        Some((remark, line)) => (format!("{remark}\n{}", raw.text), line),
-        None => (raw.text.to_owned(), raw.line),
+        Some((remark, line)) => (format!("{remark}\n{}\n", raw.text), line),
+        None => (format!("{}\n", raw.text), raw.line),
     }
 }

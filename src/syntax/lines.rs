@@ -95,11 +95,11 @@ impl<S: LineSource> BlockReader<S> {
         &self.source
     }
 
-    /// Appends what was not read yet, each line behind a line end.
+    /// Appends the lines that were not read yet, each with a line end.
     pub fn append_rest(&mut self, text: &mut String) {
         while self.source.advance() {
-            text.push('\n');
             text.push_str(self.source.line().text);
+            text.push('\n');
         }
     }
 

@@ -171,14 +171,19 @@ fn streamed(text: &str, stop: StopPolicy) -> Vec<String> {
 
 /// Whether the text keeps the program from running at all, which a stream finds out late.
 fn is_refused(whole: &[String]) -> bool {
-    whole.iter().any(|said| said.starts_with("0 Error") || said.starts_with("0 Budget"))
+    whole
+        .iter()
+        .any(|said| said.starts_with("0 Error") || said.starts_with("0 Budget"))
 }
 
 /// What was said without the blanks at the end of source lines, which a stream does not keep.
 fn trimmed(said: Vec<String>) -> Vec<String> {
     let trim = |part: &str| {
         let mut part = part;
-        while let Some(rest) = [" ", "\\t", "\\0"].iter().find_map(|end| part.strip_suffix(end)) {
+        while let Some(rest) = [" ", "\\t", "\\0"]
+            .iter()
+            .find_map(|end| part.strip_suffix(end))
+        {
             part = rest;
         }
         part.to_owned()

@@ -99,13 +99,18 @@ mod tests {
     fn a_break_ends_the_work() {
         let mut taken = 0;
         let workers = NonZeroUsize::new(2).unwrap();
-        in_order(0.., workers, |item: u64| item, |item| {
-            taken = item;
-            if item == 100 {
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        });
+        in_order(
+            0..,
+            workers,
+            |item: u64| item,
+            |item| {
+                taken = item;
+                if item == 100 {
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            },
+        );
         assert_eq!(taken, 100);
     }
 }

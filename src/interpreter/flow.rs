@@ -16,7 +16,7 @@ use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{Block, Flow, JumpTarget, Operand};
-use crate::syntax::{Fault, Stretch};
+use crate::syntax::{Comments, Fault, Stretch};
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
@@ -51,6 +51,7 @@ impl Interpreter {
                 file: &file,
                 text: &parsed.text,
                 line: self.units[unit].index.entries[next as usize].line,
+                comments: parsed.comments,
                 remark: parsed
                     .remark
                     .as_ref()
@@ -129,18 +130,21 @@ impl Interpreter {
         unit.executed[place] = true;
         let mut block = Block::default();
         let mut text = String::new();
+        let mut comments = Comments::Possible;
         let mut remark = None;
         if let Some(mut reader) = unit.index.reader(entry)
             && let Some(raw) = reader.next(&mut block)
         {
             debug_assert_eq!(raw.stretch, Stretch::Block);
             raw.text.clone_into(&mut text);
+            comments = raw.comments;
             remark = raw.remark.map(|(text, line)| (text.to_owned(), line));
         }
         let remark = remark.or_else(|| unit.index.remark(entry));
         let parsed = Rc::new(Parsed {
             block,
             text,
+            comments,
             remark,
         });
         let again = entry < unit.high;

@@ -46,7 +46,7 @@ use crate::diagnostic::{Diagnostic, Place, Severity};
 use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
 use crate::source::{SourceFile, Span};
 use crate::syntax::ast::{Block, Call, CallForm, Repetition};
-use crate::syntax::{FastPath, Fault};
+use crate::syntax::{Comments, FastPath, Fault};
 use call::Found;
 use memory::Memory;
 use program::{EntryIndex, Index};
@@ -224,6 +224,7 @@ struct Unit {
 struct Parsed {
     block: Block,
     text: String,
+    comments: Comments,
     remark: Option<(String, u32)>,
 }
 
@@ -306,6 +307,7 @@ struct At<'a> {
     file: &'a Arc<str>,
     text: &'a str,
     line: u32,
+    comments: Comments,
     remark: Option<(&'a str, u32)>,
     level: u32,
     called_from: Option<&'a Place>,
@@ -685,6 +687,7 @@ impl Interpreter {
             file,
             text,
             line,
+            comments: Comments::Possible,
             remark: None,
             level: 0,
             called_from: None,

@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 use super::program::Index;
 use super::{
-    At, Diagnostic, EndedBy, Finder, Interpreter, Observer, Outlook, SourceFile, StopPolicy, Unit,
+    At, Diagnostic, EndedBy, Finder, Interpreter, Observer, Outlook, SourceFile, Step, StopPolicy,
+    Unit,
 };
 use crate::source::LineSource;
 use crate::syntax::ast::{Block, CallScope, Item};
@@ -49,7 +50,7 @@ impl Interpreter {
         let mut stage = Stage::Before;
         let mut notes = Vec::new();
         while let Some(raw) = reader.next(&mut block) {
-            if needs_rest(&raw, &block) {
+            if !raw.plain && needs_rest(&raw, &block) {
                 let (mut text, first) = opening(&raw);
                 reader.append_rest(&mut text);
                 let rest = SourceFile::new(file, text).from_line(first);
@@ -93,6 +94,7 @@ impl Interpreter {
                 file: &file,
                 text: raw.text,
                 line: raw.line,
+                comments: raw.comments,
                 remark: raw.remark,
                 level: 0,
                 called_from: None,
@@ -108,6 +110,9 @@ impl Interpreter {
                 ControlFlow::Continue(step) => step,
                 ControlFlow::Break(()) => return Outlook::Paused,
             };
+            if step == Step::Next {
+                continue;
+            }
             match self.follow(step) {
                 ControlFlow::Continue(()) => match self.run_called(finder, observer) {
                     None => {}

@@ -37,7 +37,12 @@ impl Block {
     pub fn clear(&mut self) {
         self.skip = None;
         self.number = None;
-        self.items.clear();
+        while let Some(item) = self.items.pop() {
+            // A word owns nothing; asking is cheaper than dropping each.
+            if matches!(item, Item::Word(_)) {
+                std::mem::forget(item);
+            }
+        }
         self.nodes.clear();
         self.spans.clear();
         self.faults.clear();

@@ -3,6 +3,7 @@
 //! It yields exactly what the grammar yields, or declines; a property test holds the two together.
 
 use super::ast::{Address, Block, Item, Number, Operand, Word};
+use super::lines::Comments;
 use crate::source::Span;
 
 /// Powers of ten that an `f64` holds exactly.
@@ -10,63 +11,67 @@ const POWERS: [f64; 16] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
 ];
 
-/// Parses a line into an empty block. Declines, with the block empty, whatever is not plain: only
-/// upper-case letters with a number behind each, blanks, and one comment per place.
-pub(super) fn parse(line: &str, block: &mut Block) -> bool {
-    let plain = words(line.as_bytes(), block);
-    if !plain {
+/// Parses a line into an empty block and says whether comments stand in it. Declines, with the
+/// block empty, whatever is not plain: only upper-case letters with a number behind each, blanks,
+/// and one comment per place.
+#[inline]
+pub(super) fn parse(line: &str, block: &mut Block) -> Option<Comments> {
+    let comments = words(line.as_bytes(), block);
+    if comments.is_none() {
         block.clear();
     }
-    plain
+    comments
 }
 
-fn words(bytes: &[u8], block: &mut Block) -> bool {
+fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
     let mut at = 0;
-    let mut number_may_follow = false;
+    let mut comments = Comments::Absent;
     loop {
-        match bytes.get(at) {
-            None | Some(b';') => break,
-            Some(b' ' | b'\t') => at += 1,
-            Some(b'(') => match memchr::memchr2(b'(', b')', &bytes[at + 1..]) {
-                Some(length) if bytes[at + 1 + length] == b')' => at += length + 2,
-                _ => return false,
-            },
-            Some(letter) if letter.is_ascii_uppercase() => {
-                let Some((value, end)) = number(bytes, at + 1) else {
-                    return false;
-                };
+        match *bytes.get(at).unwrap_or(&b';') {
+            b' ' | b'\t' => at += 1,
+            letter @ b'A'..=b'Z' => {
+                let (value, end) = number(bytes, at + 1)?;
                 let span = Span::new(at, end);
                 match letter {
                     b'N' if block.number.is_none() && block.items.is_empty() => {
                         if !bytes[at + 1].is_ascii_digit() && bytes[at + 1] != b'.' {
-                            return false;
+                            return None;
                         }
                         block.number = Some(Number {
                             value: Operand::Number(value),
                             label: false,
                             span,
                         });
-                        number_may_follow = true;
                     }
                     // A call, a parameter or a second number: the grammar's business.
-                    b'L' | b'P' | b'N' => return false,
+                    b'L' | b'P' | b'N' => return None,
                     _ => block.items.push(Item::Word(Word {
-                        address: Address::Letter(*letter),
+                        address: Address::Letter(letter),
                         value: Some(Operand::Number(value)),
                         span,
                     })),
                 }
                 at = end;
                 // What is glued to the number, or continues it as an expression, is not plain.
-                match bytes.get(at) {
-                    Some(byte) if !is_separator(*byte) => return false,
-                    _ => {}
+                if bytes.get(at).is_some_and(|byte| !is_separator(*byte)) {
+                    return None;
                 }
             }
-            Some(_) => return false,
+            b'(' => {
+                comments = Comments::Possible;
+                match memchr::memchr2(b'(', b')', &bytes[at + 1..]) {
+                    Some(length) if bytes[at + 1 + length] == b')' => at += length + 2,
+                    _ => return None,
+                }
+            }
+            b';' => break,
+            _ => return None,
         }
     }
-    number_may_follow || !block.items.is_empty()
+    if at < bytes.len() {
+        comments = Comments::Possible;
+    }
+    (block.number.is_some() || !block.items.is_empty()).then_some(comments)
 }
 
 fn is_separator(byte: u8) -> bool {
@@ -170,7 +175,11 @@ fn long_digits(bytes: &[u8]) -> Option<Digits> {
     let mut length = 0;
     for byte in bytes {
         match byte {
-            b'0'..=b'9' => mantissa = mantissa.wrapping_mul(10).wrapping_add(i64::from(byte - b'0')),
+            b'0'..=b'9' => {
+                mantissa = mantissa
+                    .wrapping_mul(10)
+                    .wrapping_add(i64::from(byte - b'0'))
+            }
             b'.' if point.is_none() => point = Some(length),
             _ => break,
         }
@@ -191,14 +200,39 @@ mod tests {
     #[test]
     fn short_numbers_are_read_at_once_as_the_long_ones_are() {
         for text in [
-            "1234567", "0000001", "123.5 X1", "9 Y12345", "1:;/0123", "42\u{dc}8888", "1.", "1.;",
-            ".5", ".5 X1.25", "12.345 Y", "-75", " 1234567", ".", ". X", "X", "1..5", "104.434",
-            "104.4345", "12345678", "1234567.", "1.2.3 X", "5(1)", "0.000001",
+            "1234567",
+            "0000001",
+            "123.5 X1",
+            "9 Y12345",
+            "1:;/0123",
+            "42\u{dc}8888",
+            "1.",
+            "1.;",
+            ".5",
+            ".5 X1.25",
+            "12.345 Y",
+            "-75",
+            " 1234567",
+            ".",
+            ". X",
+            "X",
+            "1..5",
+            "104.434",
+            "104.4345",
+            "12345678",
+            "1234567.",
+            "1.2.3 X",
+            "5(1)",
+            "0.000001",
         ] {
             let all = text.as_bytes();
             let padded = [b"N10 G01 X", all].concat();
             let eight = eight_bytes(&padded, 9).expect("inside the line");
-            assert_eq!(eight, eight_bytes(all, 0).expect("inside the line"), "{text}");
+            assert_eq!(
+                eight,
+                eight_bytes(all, 0).expect("inside the line"),
+                "{text}"
+            );
             let long = long_digits(all);
             match short_digits(eight) {
                 Some(digits) => assert_eq!(Some(digits), long, "{text}"),

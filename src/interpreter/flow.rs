@@ -5,6 +5,7 @@
 
 use std::ops::ControlFlow;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::expression::Place as Target;
 use super::program::{EntryIndex, LabelName};
@@ -46,11 +47,10 @@ impl Interpreter {
                 .last_mut()
                 .and_then(|frame| frame.called_from.take());
             let level = self.state.frames.last().map_or(0, |frame| frame.level);
-            let file = self.units[unit].index.source.name().clone();
             let at = At {
-                file: &file,
+                file: &parsed.file,
                 text: &parsed.text,
-                line: self.units[unit].index.entries[next as usize].line,
+                line: parsed.line,
                 comments: parsed.comments,
                 remark: parsed
                     .remark
@@ -143,6 +143,8 @@ impl Interpreter {
         let remark = remark.or_else(|| unit.index.remark(entry));
         let parsed = Rc::new(Parsed {
             block,
+            file: Arc::clone(unit.index.source.name()),
+            line: unit.index.entries[place].line,
             text,
             comments,
             remark,
@@ -408,10 +410,9 @@ impl Interpreter {
             return Ok(None);
         };
         let parsed = self.parsed(unit, opener);
-        let line = self.units[unit].index.entries[opener as usize].line;
         let head = At {
             text: &parsed.text,
-            line,
+            line: parsed.line,
             ..*at
         };
         let block = &parsed.block;

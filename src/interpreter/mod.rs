@@ -220,9 +220,11 @@ struct Unit {
     executed: Vec<bool>,
 }
 
-/// A parsed block with its text.
+/// A parsed block with its text and its place.
 struct Parsed {
     block: Block,
+    file: Arc<str>,
+    line: u32,
     text: String,
     comments: Comments,
     remark: Option<(String, u32)>,

@@ -3,7 +3,7 @@
 //! It holds offsets, not trees: blocks are parsed when they are executed, and kept only when they
 //! are executed again.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::value::rounded;
 use crate::codes::Code;
@@ -64,7 +64,7 @@ pub(super) struct Index {
     pub(super) source: SourceFile,
     pub(super) entries: Vec<Entry>,
     pub(super) sections: Vec<Section>,
-    links: HashMap<EntryIndex, Links>,
+    links: BTreeMap<EntryIndex, Links>,
     /// The statements that open loops.
     loops: Vec<EntryIndex>,
     labels: HashMap<(usize, LabelName), EntryIndex>,
@@ -131,7 +131,7 @@ impl Index {
                 source,
                 entries: Vec::new(),
                 sections: Vec::new(),
-                links: HashMap::new(),
+                links: BTreeMap::new(),
                 loops: Vec::new(),
                 labels: HashMap::new(),
                 remarks: HashMap::new(),

@@ -54,7 +54,16 @@ fn records_go_out_while_the_program_still_comes() {
     // R9.40
     for format in ["ndjson", "text"] {
         let mut child = tool()
-            .args(["run", "--isolated", "--enable", "X", "--changes", "--format", format, "-"])
+            .args([
+                "run",
+                "--isolated",
+                "--enable",
+                "X",
+                "--changes",
+                "--format",
+                format,
+                "-",
+            ])
             .spawn()
             .expect("the tool starts");
         let mut stdin = child.stdin.take().expect("it is piped");
@@ -63,9 +72,10 @@ fn records_go_out_while_the_program_still_comes() {
             writeln!(stdin, "X[COMP {word} FRICT]").expect("it listens");
             stdin.flush().expect("it listens");
             // Were the record held back, this would wait for ever.
-            let found = lines.by_ref().map(|line| line.expect("UTF-8")).find(|line| {
-                line.contains(&format!("X[COMP {word} FRICT]"))
-            });
+            let found = lines
+                .by_ref()
+                .map(|line| line.expect("UTF-8"))
+                .find(|line| line.contains(&format!("X[COMP {word} FRICT]")));
             assert!(found.is_some(), "{format} {word}");
         }
         drop(stdin);
@@ -77,13 +87,23 @@ fn records_go_out_while_the_program_still_comes() {
 fn a_program_from_a_pipe_says_what_it_says_from_a_file() {
     // R9.40
     let mut compared = 0;
-    for path in programs("programs/ok").into_iter().chain(programs("programs/err")) {
+    for path in programs("programs/ok")
+        .into_iter()
+        .chain(programs("programs/err"))
+    {
         let input = std::fs::read(&path).expect("a program");
         let shown = path
             .strip_prefix(env!("CARGO_MANIFEST_DIR"))
             .expect("below the root");
         let name = shown.to_str().expect("UTF-8");
-        let arguments = ["run", "--isolated", "--enable", "X,Y,Z", "--format", "ndjson"];
+        let arguments = [
+            "run",
+            "--isolated",
+            "--enable",
+            "X,Y,Z",
+            "--format",
+            "ndjson",
+        ];
         let run = |file| [&arguments[..], &[file]].concat();
         let from_file = output(&run(name), b"");
         // A refused program runs up to where a pipe shows why; called files lie beside a file.

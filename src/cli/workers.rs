@@ -84,7 +84,7 @@ mod tests {
             let workers = NonZeroUsize::new(workers).unwrap();
             let mut taken = Vec::new();
             let uneven = |item: u64| {
-                let rounds = if item % 5 == 0 { 20_000 } else { 1 };
+                let rounds = if item.is_multiple_of(5) { 20_000 } else { 1 };
                 (0..rounds).fold(item, |sum, round| std::hint::black_box(sum + round - round))
             };
             in_order(0..500, workers, uneven, |result| {

@@ -17,6 +17,7 @@ use crate::syntax::ast::{Block, CallScope, Item};
 use crate::syntax::{BlockReader, RawBlock, Stretch};
 
 /// How far the program has come.
+#[derive(Clone, Copy)]
 enum Stage {
     /// Nothing was read yet.
     Before,
@@ -185,12 +186,11 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> Outlook {
         let mut said = self.refused();
-        let by = match stage {
-            Stage::Beyond(Some(by)) => by,
-            _ => {
-                said.extend(self.missing_end());
-                EndedBy::EndOfFile
-            }
+        let by = if let Stage::Beyond(Some(by)) = stage {
+            by
+        } else {
+            said.extend(self.missing_end());
+            EndedBy::EndOfFile
         };
         said.append(&mut notes);
         self.check_all_unexecuted(&mut said);
@@ -205,9 +205,8 @@ fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
         Stretch::Block => {
             block.number.is_some_and(|number| number.label)
                 || block.items.iter().any(|item| match item {
-                    Item::Label(_) | Item::Flow(..) => true,
-                    // Its code may be a jump or a call.
-                    Item::MacroUse(_) => true,
+                    // A macro's code may be a jump or a call.
+                    Item::Label(_) | Item::Flow(..) | Item::MacroUse(_) => true,
                     Item::Call(call) => call.scope == CallScope::Local,
                     _ => false,
                 })

@@ -37,10 +37,12 @@ impl Block {
     pub fn clear(&mut self) {
         self.skip = None;
         self.number = None;
-        while let Some(item) = self.items.pop() {
+        while let Some(last) = self.items.last() {
             // A word owns nothing; asking is cheaper than dropping each.
-            if matches!(item, Item::Word(_)) {
-                std::mem::forget(item);
+            let is_word = matches!(last, Item::Word(_));
+            let last = self.items.pop();
+            if is_word {
+                std::mem::forget(last);
             }
         }
         self.nodes.clear();

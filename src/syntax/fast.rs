@@ -26,56 +26,71 @@ pub(super) fn parse(line: &str, block: &mut Block) -> Option<Comments> {
 fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
     let mut at = 0;
     let mut comments = Comments::Absent;
-    loop {
-        match *bytes.get(at).unwrap_or(&b';') {
-            b' ' | b'\t' => at += 1,
-            letter @ b'A'..=b'Z' => {
-                let (value, end) = number(bytes, at + 1)?;
-                let span = Span::new(at, end);
-                match letter {
-                    b'N' if block.number.is_none() && block.items.is_empty() => {
-                        if !bytes[at + 1].is_ascii_digit() && bytes[at + 1] != b'.' {
-                            return None;
-                        }
-                        block.number = Some(Number {
-                            value: Operand::Number(value),
-                            label: false,
-                            span,
-                        });
-                    }
-                    // A call, a parameter or a second number: the grammar's business.
-                    b'L' | b'P' | b'N' => return None,
-                    _ => block.items.push(Item::Word(Word {
-                        address: Address::Letter(letter),
-                        value: Some(Operand::Number(value)),
-                        span,
-                    })),
-                }
-                at = end;
-                // What is glued to the number, or continues it as an expression, is not plain.
-                if bytes.get(at).is_some_and(|byte| !is_separator(*byte)) {
-                    return None;
-                }
+    while let Some(&byte) = bytes.get(at) {
+        if is_blank(byte) {
+            at += 1;
+        } else if byte.is_ascii_uppercase() {
+            at = word(bytes, at, block)?;
+        } else {
+            comments = Comments::Possible;
+            if byte == b';' {
+                break;
             }
-            b'(' => {
-                comments = Comments::Possible;
-                match memchr::memchr2(b'(', b')', &bytes[at + 1..]) {
-                    Some(length) if bytes[at + 1 + length] == b')' => at += length + 2,
-                    _ => return None,
-                }
-            }
-            b';' => break,
-            _ => return None,
+            at = comment(bytes, at)?;
         }
-    }
-    if at < bytes.len() {
-        comments = Comments::Possible;
     }
     (block.number.is_some() || !block.items.is_empty()).then_some(comments)
 }
 
+/// Appends the word at a place; returns where it ends.
+#[inline]
+fn word(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
+    let letter = bytes[start];
+    let (value, end) = number(bytes, start + 1)?;
+    // What is glued to the number, or continues it as an expression, is not plain.
+    if bytes.get(end).is_some_and(|byte| !is_separator(*byte)) {
+        return None;
+    }
+    let value = Operand::Number(value);
+    let span = Span::new(start, end);
+    if matches!(letter, b'L' | b'N' | b'P') {
+        // A call, a parameter or a second number are the grammar's business.
+        let first = letter == b'N' && block.number.is_none() && block.items.is_empty();
+        let signed = matches!(bytes[start + 1], b'+' | b'-');
+        if !first || signed {
+            return None;
+        }
+        block.number = Some(Number {
+            value,
+            label: false,
+            span,
+        });
+    } else {
+        block.items.push(Item::Word(Word {
+            address: Address::Letter(letter),
+            value: Some(value),
+            span,
+        }));
+    }
+    Some(end)
+}
+
+/// Where the comment at a place ends; one that holds another is not plain.
+fn comment(bytes: &[u8], start: usize) -> Option<usize> {
+    if bytes[start] != b'(' {
+        return None;
+    }
+    let inside = &bytes[start + 1..];
+    let length = memchr::memchr2(b'(', b')', inside)?;
+    (inside[length] == b')').then_some(start + length + 2)
+}
+
+fn is_blank(byte: u8) -> bool {
+    byte == b' ' || byte == b'\t'
+}
+
 fn is_separator(byte: u8) -> bool {
-    byte.is_ascii_uppercase() || matches!(byte, b' ' | b'\t' | b';' | b'(')
+    is_blank(byte) || byte.is_ascii_uppercase() || matches!(byte, b';' | b'(')
 }
 
 /// A number with an optional sign: its value and where it ends. At most 15 digits, which an `f64`
@@ -116,7 +131,7 @@ fn eight_bytes(bytes: &[u8], start: usize) -> Option<u64> {
     if let Some(last) = bytes.last_chunk::<8>() {
         // `rest` is shorter than eight bytes; what stands before it is shifted out.
         let before = 8 - rest.len();
-        return Some(u64::from_le_bytes(*last).checked_shr(u32::try_from(before).ok()? * 8)?);
+        return u64::from_le_bytes(*last).checked_shr(u32::try_from(before).ok()? * 8);
     }
     let mut eight = [0; 8];
     eight[..rest.len()].copy_from_slice(rest);
@@ -178,7 +193,7 @@ fn long_digits(bytes: &[u8]) -> Option<Digits> {
             b'0'..=b'9' => {
                 mantissa = mantissa
                     .wrapping_mul(10)
-                    .wrapping_add(i64::from(byte - b'0'))
+                    .wrapping_add(i64::from(byte - b'0'));
             }
             b'.' if point.is_none() => point = Some(length),
             _ => break,

@@ -1,11 +1,11 @@
 //! The lines of a file of any size, in a buffer of one size.
 
-use std::io::{self, Read};
+use std::io::{self, Read, Seek};
 use std::ops::Range;
 
 use encoding_rs::WINDOWS_1252;
 
-use crate::source::{LineSource, PhysicalLine};
+use crate::source::{FlowScan, LineSource, PhysicalLine};
 
 /// Bytes that are read at once.
 const BUFFER: usize = 128 * 1024;
@@ -62,6 +62,30 @@ impl<R: Read> LineReader<R> {
             lines.unread.start += BYTE_ORDER_MARK.len();
         }
         lines
+    }
+
+    /// The reader, wherever it stands.
+    pub(super) fn into_reader(self) -> R {
+        self.reader
+    }
+
+    /// The same lines, of whatever kind the reader is.
+    pub(super) fn boxed<'a>(self) -> LineReader<Box<dyn Read + 'a>>
+    where
+        R: 'a,
+    {
+        LineReader {
+            reader: Box::new(self.reader),
+            buffer: self.buffer,
+            unread: self.unread,
+            at_end: self.at_end,
+            legacy: self.legacy,
+            text: self.text,
+            line: self.line,
+            cut: self.cut,
+            next: self.next,
+            failure: self.failure,
+        }
     }
 
     /// The error that ended the lines before the end of the file.
@@ -177,6 +201,32 @@ impl<R: Read> LineReader<R> {
     }
 }
 
+impl<R: Read + Seek> LineReader<R> {
+    /// Looks through all lines to come, and comes back. What fits into the buffer is read once.
+    pub(super) fn scan(&mut self) -> io::Result<FlowScan> {
+        let mut scan = FlowScan::default();
+        while self.unread.len() < self.buffer.len() && !self.at_end {
+            self.fill();
+        }
+        scan.feed(&self.buffer[self.unread.clone()]);
+        if self.at_end || scan.needs_whole_text() {
+            return Ok(scan);
+        }
+        let here = self.reader.stream_position()?;
+        let mut piece = vec![0; BUFFER];
+        while !scan.needs_whole_text() {
+            match self.reader.read(&mut piece) {
+                Ok(0) => break,
+                Ok(count) => scan.feed(&piece[..count]),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        self.reader.seek(io::SeekFrom::Start(here))?;
+        Ok(scan)
+    }
+}
+
 impl<R: Read> LineSource for LineReader<R> {
     fn advance(&mut self) -> bool {
         if self.next == self.text.len() && !self.refill() {
@@ -266,6 +316,23 @@ mod tests {
             count += 1;
         }
         assert_eq!(count, 40_000);
+    }
+
+    #[test]
+    fn a_look_ahead_loses_no_line() {
+        for lines in [1, 5_000, 40_000] {
+            let text = "N10 G01 X1.5 Y2.5\n".repeat(lines);
+            for (behind, found) in [("M30", false), ("$IF 1", true)] {
+                let text = format!("\u{feff}{text}{behind}");
+                let mut reader = LineReader::new(io::Cursor::new(text.as_bytes()));
+                assert_eq!(reader.scan().unwrap().needs_whole_text(), found);
+                let mut count = 0;
+                while reader.advance() {
+                    count += 1;
+                }
+                assert!(found || count == lines + 1, "{lines}");
+            }
+        }
     }
 
     #[test]

@@ -23,6 +23,7 @@ mod settings;
 mod sheet;
 mod state;
 mod walk;
+mod workers;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -9,6 +9,7 @@ use encoding_rs::WINDOWS_1252;
 
 use super::failure::Failure;
 use super::lines::LineReader;
+use super::steady::Steady;
 use crate::session::Finder;
 use crate::source::{FlowScan, SourceFile};
 
@@ -45,7 +46,7 @@ pub(super) enum Input {
 /// A program that is ready to run.
 pub(super) enum Opened {
     /// A file without flow: its lines come one after another.
-    Lines(LineReader<File>),
+    Lines(LineReader<Steady>),
     /// A program with flow, or one that can be read only once.
     Whole(SourceFile),
 }
@@ -115,9 +116,11 @@ fn open_file(path: &Path, name: String) -> io::Result<Opened> {
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
-    if metadata.is_file() && !needs_whole_text(&mut file)? {
+    if metadata.is_file()
+        && let Some(length) = length_without_flow(&mut file)?
+    {
         file.rewind()?;
-        return Ok(Opened::Lines(LineReader::new(file)));
+        return Ok(Opened::Lines(LineReader::new(Steady::new(file, length))));
     }
     if metadata.is_file() {
         file.rewind()?;
@@ -127,18 +130,24 @@ fn open_file(path: &Path, name: String) -> io::Result<Opened> {
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
 }
 
-fn needs_whole_text(file: &mut File) -> io::Result<bool> {
+/// How many bytes a program has whose lines may be read one after another; `None` where the whole
+/// text is needed.
+fn length_without_flow(file: &mut File) -> io::Result<Option<u64>> {
     let mut scan = FlowScan::default();
+    let mut length = 0;
     let mut piece = vec![0; 256 * 1024];
     loop {
         match file.read(&mut piece) {
-            Ok(0) => return Ok(false),
-            Ok(count) => scan.feed(&piece[..count]),
+            Ok(0) => return Ok(Some(length)),
+            Ok(count) => {
+                scan.feed(&piece[..count]);
+                length += u64::try_from(count).expect("a piece is smaller than 2^64 bytes");
+            }
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
         }
         if scan.needs_whole_text() {
-            return Ok(true);
+            return Ok(None);
         }
     }
 }

@@ -18,9 +18,11 @@ mod golden;
 mod lines;
 mod lists;
 mod man;
+mod replace;
 mod run;
 mod settings;
 mod state;
+mod steady;
 mod walk;
 
 use std::ffi::OsString;

@@ -16,6 +16,9 @@ use crate::source::{FlowScan, SourceFile};
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
 
+/// More than that is not kept in memory: programs with flow, lists, configurations, states.
+const MOST_BYTES: u64 = 1 << 30;
+
 /// How files are named in records and diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Naming {
@@ -99,10 +102,7 @@ impl Input {
                 open_file(path, self.name(naming)).map_err(|error| Failure::reading(path, &error))
             }
             Self::Stdin => {
-                let mut bytes = Vec::new();
-                io::stdin()
-                    .lock()
-                    .read_to_end(&mut bytes)
+                let bytes = read_whole(io::stdin().lock(), 0)
                     .map_err(|error| Failure::reading(Path::new(STDIN), &error))?;
                 Ok(Opened::Whole(SourceFile::new(STDIN, decode(bytes))))
             }
@@ -111,43 +111,48 @@ impl Input {
 }
 
 fn open_file(path: &Path, name: String) -> io::Result<Opened> {
-    let mut file = File::open(path)?;
-    let metadata = file.metadata()?;
+    let mut file = Steady::open(path)?;
+    let metadata = file.metadata().clone();
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
-    if metadata.is_file()
-        && let Some(length) = length_without_flow(&mut file)?
-    {
+    if metadata.is_file() && !needs_whole_text(&mut file)? {
         file.rewind()?;
-        return Ok(Opened::Lines(LineReader::new(Steady::new(file, length))));
+        return Ok(Opened::Lines(LineReader::new(file)));
     }
     if metadata.is_file() {
         file.rewind()?;
     }
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)?;
+    let bytes = read_whole(file, metadata.len())?;
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
 }
 
-/// How many bytes a program has whose lines may be read one after another; `None` where the whole
-/// text is needed.
-fn length_without_flow(file: &mut File) -> io::Result<Option<u64>> {
+/// Reads what is kept in memory, from a file of a length or from a pipe, whose length is 0.
+fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if length <= MOST_BYTES {
+        reader.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    }
+    let read = u64::try_from(bytes.len()).expect("a length is below 2^64");
+    if length.max(read) > MOST_BYTES {
+        let reason = "it has more than 1 GiB, which is too much to be kept in memory";
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, reason));
+    }
+    Ok(bytes)
+}
+
+fn needs_whole_text(file: &mut Steady) -> io::Result<bool> {
     let mut scan = FlowScan::default();
-    let mut length = 0;
     let mut piece = vec![0; 256 * 1024];
     loop {
         match file.read(&mut piece) {
-            Ok(0) => return Ok(Some(length)),
-            Ok(count) => {
-                scan.feed(&piece[..count]);
-                length += u64::try_from(count).expect("a piece is smaller than 2^64 bytes");
-            }
+            Ok(0) => return Ok(false),
+            Ok(count) => scan.feed(&piece[..count]),
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
         }
         if scan.needs_whole_text() {
-            return Ok(None);
+            return Ok(true);
         }
     }
 }
@@ -170,14 +175,22 @@ pub(super) fn decode(bytes: Vec<u8>) -> String {
 
 /// Reads and decodes a whole file.
 pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| {
-        if path.is_dir() {
-            Failure::reading(path, &io::ErrorKind::IsADirectory.into())
-        } else {
-            Failure::reading(path, &error)
-        }
-    })?;
-    Ok(decode(bytes))
+    read_bytes(path)
+        .map(decode)
+        .map_err(|error| Failure::reading(path, &error))
+}
+
+/// Reads a whole file.
+///
+/// # Errors
+/// There is none, it may not be read, is a folder, or is too big to be kept.
+pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    read_whole(file, metadata.len())
 }
 
 /// Finds called programs beside the caller and in the configured folders.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::failure::Failure;
+use super::files::read_bytes;
 use super::replace::{replace, take_away_unfinished};
 use crate::session::{SavedState, StateError};
 
@@ -32,10 +33,10 @@ impl StateFile {
     fn lock_within(path: &Path, patience: Duration) -> Result<Self, Failure> {
         // A link stays a link: the file that it names is replaced.
         let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        if path.is_dir() {
+        if std::fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
+            let shown = path.display();
             return Err(Failure::new(format!(
-                "`{}` is a folder, not a state file",
-                path.display()
+                "`{shown}` is no file to keep a state in"
             )));
         }
         let beside = suffixed(&path, ".lock");
@@ -69,7 +70,7 @@ impl StateFile {
 
     /// What the last run left; `None` before the first.
     pub(super) fn load(&self) -> Result<Option<SavedState>, Failure> {
-        let text = match std::fs::read(&self.path) {
+        let text = match read_bytes(&self.path) {
             Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::reading(&self.path, &error)),

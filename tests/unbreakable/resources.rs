@@ -116,6 +116,48 @@ fn too_little_memory_for_a_program_with_flow_leaves_the_state_alone() {
 }
 
 #[test]
+fn what_is_too_big_to_be_kept_is_refused() {
+    // R9.26
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    for (file, start, call) in [
+        ("b.nc", "$IF 1\n", vec!["run", "b.nc"]),
+        ("x.lis", "frict_comp.mode 3\n", vec!["lists", "x.lis"]),
+        ("s.json", "{", vec!["run", "--state", "s.json", "a.nc"]),
+    ] {
+        bench.write(file, start);
+        let sparse = fs::File::options()
+            .write(true)
+            .open(bench.folder().join(file));
+        sparse
+            .and_then(|file| file.set_len((1 << 30) + 1))
+            .expect("a sparse file");
+        let output = bench.call(&call);
+        assert_eq!(output.status.code(), Some(2), "{call:?}");
+        let said = said(&output);
+        assert!(
+            said.contains(file) && said.contains("more than 1 GiB"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_state_is_no_pipe() {
+    // R9.30: reading one would wait for ever.
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    let made = Command::new("mkfifo")
+        .arg(bench.folder().join("pipe"))
+        .status();
+    assert!(made.expect("mkfifo is there").success());
+    for place in ["pipe", "."] {
+        let output = bench.call(&["run", "--state", place, "a.nc"]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = said(&output);
+        assert!(said.contains("is no file to keep a state in"), "{said}");
+    }
+}
+
+#[test]
 fn budgets_end_what_does_not_end_by_itself() {
     // R2.60, R9.14
     let nested = format!("{}{}M30\n", "$IF 1\n".repeat(60), "$ENDIF\n".repeat(60));

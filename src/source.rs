@@ -7,6 +7,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
 /// A range of bytes in a text, `start..end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 pub struct Span {
@@ -133,9 +135,13 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// A source under the name that diagnostics and records show.
+    /// A source under the name that diagnostics and records show. A byte order mark at the start
+    /// of the text is no part of it.
     pub fn new(name: impl Into<std::sync::Arc<str>>, text: impl Into<String>) -> Self {
-        let text = text.into();
+        let mut text = text.into();
+        if text.starts_with(BYTE_ORDER_MARK) {
+            text.drain(..BYTE_ORDER_MARK.len_utf8());
+        }
         Self {
             name: name.into(),
             lines: LineIndex::new(&text),
@@ -238,7 +244,7 @@ pub struct TextLines<'a> {
 impl<'a> TextLines<'a> {
     /// The lines of `text`. A byte order mark at its start is passed over.
     pub fn new(text: &'a str) -> Self {
-        let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
+        let start = text.len() - text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text).len();
         Self::starting_at(text, start)
     }
 
@@ -332,6 +338,14 @@ mod tests {
             found.push(lines.line().text.to_owned());
         }
         assert_eq!(found, ["a", "b", "c", "", "d"]);
+    }
+
+    #[test]
+    fn a_byte_order_mark_takes_no_column() {
+        // R2.2
+        let file = SourceFile::new("a.nc", "\u{feff}X[COMP]");
+        let place = file.place(Span::new(1, 7));
+        assert_eq!((&*place.text, place.start().column), ("X[COMP]", 2));
     }
 
     #[test]

@@ -2,89 +2,13 @@
 
 #![cfg(feature = "cli")]
 
+mod folder;
+
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
+use folder::{Bench, MACHINE, json};
 use serde_json::Value;
-
-const MACHINE: &str = "\
-[[axis]]
-name = \"X\"
-frict_comp = true
-value = { mode = 3, max_points = 20, table = [[0, 12], [1800, 10]] }
-[[axis]]
-name = \"Y\"
-frict_comp = true
-value = { mode = 3, table = [[0, 12], [1800, 10]] }
-[[axis]]
-name = \"Z\"
-";
-
-/// A folder with a machine and programs.
-struct Bench(tempfile::TempDir);
-
-impl Bench {
-    fn new(programs: &[(&str, &str)]) -> Self {
-        let bench = Self(tempfile::tempdir().expect("a folder"));
-        bench.write("frictcomp.toml", MACHINE);
-        for (name, text) in programs {
-            bench.write(name, text);
-        }
-        bench
-    }
-
-    fn folder(&self) -> &Path {
-        self.0.path()
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.folder().join(name), text).expect("written");
-    }
-
-    fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.folder().join(name)).expect("text")
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
-        command.current_dir(self.folder()).args(arguments);
-        command.stdin(Stdio::null());
-        command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        command
-    }
-
-    fn call(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().expect("the tool starts")
-    }
-
-    fn status(&self, arguments: &[&str]) -> Option<i32> {
-        self.call(arguments).status.code()
-    }
-
-    fn stdout(&self, arguments: &[&str]) -> String {
-        String::from_utf8(self.call(arguments).stdout).expect("text")
-    }
-
-    /// The lines of `run --format ndjson` with further arguments.
-    fn records(&self, arguments: &[&str]) -> Vec<String> {
-        let mut all = vec!["run", "--format", "ndjson"];
-        all.extend(arguments);
-        self.stdout(&all).lines().map(str::to_owned).collect()
-    }
-
-    /// The block records, as JSON.
-    fn blocks(&self, arguments: &[&str]) -> Vec<Value> {
-        let records = self.records(arguments);
-        let values = records.iter().map(|line| json(line));
-        values.filter(|it| it["record"] == "block").collect()
-    }
-}
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
-}
 
 /// The values of a key, in order.
 fn column<'a>(records: &'a [Value], key: &str) -> Vec<&'a Value> {
@@ -416,27 +340,4 @@ fn a_second_run_waits_for_the_first() {
     lock.unlock().expect("free");
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(output.status.code(), Some(0));
-}
-
-#[test]
-fn a_killed_run_leaves_a_whole_state() {
-    // R9.31
-    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.nc", SWITCH_ON)]);
-    assert_eq!(bench.status(&["run", "--state", "s.json", "a.nc"]), Some(0));
-    let off = bench.read("s.json");
-    assert_eq!(bench.status(&["run", "--state", "s.json", "b.nc"]), Some(0));
-    let on = bench.read("s.json");
-    assert_ne!(off, on);
-    for round in 0..100_u64 {
-        let program = if round % 2 == 0 { "a.nc" } else { "b.nc" };
-        let mut child = bench
-            .command(&["run", "--state", "s.json", program])
-            .spawn()
-            .expect("it starts");
-        std::thread::sleep(Duration::from_micros(round * 397 % 12_000));
-        let _ = child.kill();
-        child.wait().expect("it ends");
-        let left = bench.read("s.json");
-        assert!(left == off || left == on, "round {round}: {left}");
-    }
 }

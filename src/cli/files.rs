@@ -9,11 +9,15 @@ use encoding_rs::WINDOWS_1252;
 
 use super::failure::Failure;
 use super::lines::LineReader;
+use super::steady::Steady;
 use crate::session::Finder;
 use crate::source::SourceFile;
 
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
+
+/// More than that is not kept in memory: programs with flow, lists, configurations, states.
+const MOST_BYTES: u64 = 1 << 30;
 
 /// How files are named in records and diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,8 +128,8 @@ fn open_file<'a>(
     name: String,
     before_waiting: &'a dyn Fn(),
 ) -> io::Result<Opened<'a>> {
-    let file = File::open(path)?;
-    let metadata = file.metadata()?;
+    let file = Steady::open(path)?;
+    let metadata = file.metadata().clone();
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
@@ -138,14 +142,27 @@ fn open_file<'a>(
     }
     let mut file = lines.into_reader();
     file.rewind()?;
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)?;
+    let bytes = read_whole(file, metadata.len())?;
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
 }
 
 /// Lines that are given out as they arrive.
 fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
     Opened::Lines(LineReader::new(Box::new(Waiting { reader, before })))
+}
+
+/// Reads what is kept in memory, from a file of a length.
+fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if length <= MOST_BYTES {
+        reader.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    }
+    let read = u64::try_from(bytes.len()).expect("a length is below 2^64");
+    if length.max(read) > MOST_BYTES {
+        let reason = "it has more than 1 GiB, which is too much to be kept in memory";
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, reason));
+    }
+    Ok(bytes)
 }
 
 /// The text of a file: UTF-8 when it is valid, else code page 1252. A byte order mark is passed
@@ -166,14 +183,22 @@ pub(super) fn decode(bytes: Vec<u8>) -> String {
 
 /// Reads and decodes a whole file.
 pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| {
-        if path.is_dir() {
-            Failure::reading(path, &io::ErrorKind::IsADirectory.into())
-        } else {
-            Failure::reading(path, &error)
-        }
-    })?;
-    Ok(decode(bytes))
+    read_bytes(path)
+        .map(decode)
+        .map_err(|error| Failure::reading(path, &error))
+}
+
+/// Reads a whole file.
+///
+/// # Errors
+/// There is none, it may not be read, is a folder, or is too big to be kept.
+pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    read_whole(file, metadata.len())
 }
 
 /// Finds called programs beside the caller and in the configured folders.

@@ -11,6 +11,7 @@ use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::failure::Failure;
 use super::files::{Input, Naming};
+use super::replace::replace;
 use super::{exit, walk};
 use crate::report::{Report, Text, TextOptions};
 use crate::session::StopPolicy;
@@ -51,7 +52,7 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
         }
         drifted += 1;
         if args.update {
-            std::fs::write(&golden, &now).map_err(|error| Failure::writing(&golden, &error))?;
+            replace(&golden, now.as_bytes())?;
             let _ = writeln!(output, "wrote {}", golden.display());
         } else {
             append_drift(&mut output, &golden, before.as_deref(), &now);

@@ -18,10 +18,12 @@ mod golden;
 mod lines;
 mod lists;
 mod man;
+mod replace;
 mod run;
 mod settings;
 mod sheet;
 mod state;
+mod steady;
 mod walk;
 mod workers;
 

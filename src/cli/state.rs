@@ -1,11 +1,13 @@
 //! The state file: what one run leaves and the next one starts with (9.4).
 
 use std::fs::{File, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::failure::Failure;
+use super::files::read_bytes;
+use super::replace::{replace, take_away_unfinished};
 use crate::session::{SavedState, StateError};
 
 /// How long a second run waits for the first (R9.31).
@@ -31,10 +33,10 @@ impl StateFile {
     fn lock_within(path: &Path, patience: Duration) -> Result<Self, Failure> {
         // A link stays a link: the file that it names is replaced.
         let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        if path.is_dir() {
+        if std::fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
+            let shown = path.display();
             return Err(Failure::new(format!(
-                "`{}` is a folder, not a state file",
-                path.display()
+                "`{shown}` is no file to keep a state in"
             )));
         }
         let beside = suffixed(&path, ".lock");
@@ -47,7 +49,10 @@ impl StateFile {
         let start = Instant::now();
         loop {
             match lock.try_lock() {
-                Ok(()) => return Ok(Self { path, _lock: lock }),
+                Ok(()) => {
+                    take_away_unfinished(&path);
+                    return Ok(Self { path, _lock: lock });
+                }
                 Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
                     std::thread::sleep(PAUSE);
                 }
@@ -65,7 +70,7 @@ impl StateFile {
 
     /// What the last run left; `None` before the first.
     pub(super) fn load(&self) -> Result<Option<SavedState>, Failure> {
-        let text = match std::fs::read(&self.path) {
+        let text = match read_bytes(&self.path) {
             Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::reading(&self.path, &error)),
@@ -90,40 +95,11 @@ impl StateFile {
 
     /// Replaces the state. Whenever the tool is killed, the old or the new file is there, whole.
     pub(super) fn save(self, state: &SavedState) -> Result<(), Failure> {
-        self.write(state)
-            .map_err(|error| Failure::writing(&self.path, &error))
-    }
-
-    fn write(&self, state: &SavedState) -> io::Result<()> {
-        let folder = match self.path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".frictcomp-").suffix(".tmp");
-        let old = std::fs::metadata(&self.path).ok();
-        #[cfg(unix)]
-        builder.permissions(new_file_permissions());
-        let mut file = builder.tempfile_in(folder)?;
-        if let Some(old) = old {
-            file.as_file().set_permissions(old.permissions())?;
-        }
-        let mut text = serde_json::to_vec_pretty(state)?;
+        let mut text = serde_json::to_vec_pretty(state)
+            .map_err(|error| Failure::writing(&self.path, &error.into()))?;
         text.push(b'\n');
-        file.write_all(&text)?;
-        file.as_file().sync_all()?;
-        file.persist(&self.path).map_err(|error| error.error)?;
-        #[cfg(unix)]
-        File::open(folder)?.sync_all()?;
-        Ok(())
+        replace(&self.path, &text)
     }
-}
-
-/// What a new file gets; the user's mask takes away from it.
-#[cfg(unix)]
-fn new_file_permissions() -> std::fs::Permissions {
-    use std::os::unix::fs::PermissionsExt;
-    std::fs::Permissions::from_mode(0o666)
 }
 
 fn suffixed(path: &Path, suffix: &str) -> PathBuf {

@@ -23,7 +23,9 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
 
 /// Line ends and other control characters would break the line.
 fn append_flat(out: &mut Vec<u8>, text: &str) {
-    for byte in text.bytes() {
-        out.push(if byte.is_ascii_control() { b' ' } else { byte });
+    let mut buffer = [0; 4];
+    for letter in text.chars() {
+        let shown = if letter.is_control() { ' ' } else { letter };
+        out.extend_from_slice(shown.encode_utf8(&mut buffer).as_bytes());
     }
 }

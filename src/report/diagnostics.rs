@@ -99,10 +99,21 @@ fn wrap(text: &str, width: usize, indent: usize) -> String {
             wrapped.push(' ');
             column += 1;
         }
-        wrapped.push_str(word);
+        wrapped.push_str(&visible(word));
         column += columns;
     }
     wrapped
+}
+
+/// A text without the control characters U+0080 to U+009F, which the renderer lets through and some
+/// terminals obey. What stands for them has as many bytes.
+fn visible(text: &str) -> Cow<'_, str> {
+    let is_control = |letter: char| ('\u{80}'..='\u{9f}').contains(&letter);
+    if text.contains(is_control) {
+        Cow::Owned(text.replace(is_control, "\u{b7}"))
+    } else {
+        Cow::Borrowed(text)
+    }
 }
 
 /// The part of a place's text that is handed to the renderer: all of it, unless a line is so long
@@ -134,7 +145,7 @@ fn shown(place: &Place) -> Shown<'_> {
     let text = &*place.text;
     if text.contains('\n') || text.len() <= 4 * SURROUNDINGS {
         return Shown {
-            text: Cow::Borrowed(text),
+            text: visible(text),
             skipped: 0,
             mark: 0,
         };
@@ -147,7 +158,7 @@ fn shown(place: &Place) -> Shown<'_> {
     let before = if start > 0 { "…" } else { "" };
     let behind = if end < text.len() { "…" } else { "" };
     Shown {
-        text: Cow::Owned(format!("{before}{}{behind}", &text[start..end])),
+        text: Cow::Owned(format!("{before}{}{behind}", visible(&text[start..end]))),
         skipped: start,
         mark: before.len(),
     }
@@ -230,6 +241,22 @@ error[P-ERR-70495]: not configured
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines[3], "1 |     (軸) X[COMP ON]");
         assert_eq!(lines[4], "  |          ^^^^^^^^^^");
+    }
+
+    #[test]
+    fn no_control_character_reaches_the_terminal() {
+        let line = "(\u{9b}31m\u{1b}[31m\u{7f}\u{85}) X[COMP ON]";
+        let mut diagnostic = at(line, "X[COMP ON]").with_help("\u{9b}31m");
+        diagnostic.message = "\u{9b}31m\u{1b}[31m".to_owned();
+        for paint in [Paint::Plain, Paint::Styled] {
+            let text = render(&diagnostic, Look { paint, width: 80 });
+            let c1 = text.contains(|letter: char| ('\u{80}'..='\u{9f}').contains(&letter));
+            assert!(!c1 && !text.contains("\u{1b}[31m"), "{text:?}");
+        }
+        let text = render(&diagnostic, Look::default());
+        let lines: Vec<&str> = text.lines().collect();
+        let column = |line: &str, part: &str| line[..line.find(part).unwrap()].chars().count();
+        assert_eq!(column(lines[3], "X["), column(lines[4], "^"), "{text}");
     }
 
     #[test]

@@ -1,0 +1,27 @@
+//! Blocks: the fast path yields the tree of the grammar, and every span lies in its block.
+#![no_main]
+
+use frictcomp::source::{Span, TextLines};
+use frictcomp::syntax::ast::Block;
+use frictcomp::syntax::{BlockReader, FastPath};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    let reader = |path| BlockReader::new(TextLines::new(text), 1, path);
+    let (mut fast, mut grammar) = (reader(FastPath::On), reader(FastPath::Off));
+    let (mut one, mut other) = (Block::default(), Block::default());
+    loop {
+        let (found, expected) = (fast.next(&mut one), grammar.next(&mut other));
+        assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        // A number that is none is NaN, and equals nothing.
+        assert!(
+            one == other || format!("{one:?}") == format!("{other:?}"),
+            "{one:#?}\n{other:#?}"
+        );
+        let Some(raw) = found else { return };
+        let inside = |span: &Span| assert!(raw.text.get(span.range()).is_some(), "{span:?}");
+        one.spans.iter().for_each(inside);
+        one.items.iter().for_each(|item| inside(&item.span()));
+        one.faults.iter().for_each(|fault| inside(&fault.span));
+    }
+});

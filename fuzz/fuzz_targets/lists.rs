@@ -1,0 +1,17 @@
+//! Lists: any text as a list of any kind, with any text behind the lists that it names.
+#![no_main]
+
+use frictcomp::machine::{Configuration, check_list};
+use frictcomp::report::lists::render_parameters;
+use frictcomp_fuzz::Files;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|input: &str| {
+    let mut files = Files::new(input);
+    let report = check_list(files.source(), None, &mut files);
+    report.diagnostics.iter().for_each(|said| files.hold(said));
+    let mut shown = String::new();
+    render_parameters(&report.reports, &mut shown).expect("a text takes everything");
+    let machine = Configuration::from_startup(files.source(), &mut files);
+    machine.diagnostics.iter().for_each(|said| files.hold(said));
+});

@@ -1,0 +1,65 @@
+//! A session with small budgets, so that an input costs milliseconds.
+
+use frictcomp::machine::{Axis, Machine};
+use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::source::TextLines;
+use frictcomp::timeline::Sink;
+
+use crate::{Files, MAIN};
+
+/// What happens at an error, in every manner.
+pub const POLICIES: [StopPolicy; 3] = [
+    StopPolicy::FirstError,
+    StopPolicy::KeepGoing,
+    StopPolicy::CheckAll,
+];
+
+/// Two axes that may be switched, one that may not.
+pub fn machine() -> Machine {
+    let mut machine = Machine::enabled(["X", "Y"]);
+    machine.axes.push(Axis::new("Z"));
+    machine
+}
+
+/// Programs and how they run.
+#[derive(Debug, Clone, Copy)]
+pub struct Bench<'a> {
+    pub files: Files<'a>,
+    pub stop: StopPolicy,
+}
+
+impl Bench<'_> {
+    pub fn options(self) -> SessionOptions {
+        SessionOptions {
+            stop: self.stop,
+            skip: 0b10,
+            limits: Limits {
+                blocks: 100,
+                calls: 5,
+                nesting: 8,
+                macros: 4,
+            },
+            ..SessionOptions::default()
+        }
+    }
+
+    /// Runs the text as it stands in memory.
+    pub fn whole(mut self, session: &mut Session, sink: &mut dyn Sink) {
+        let program = Program::Whole(self.files.source());
+        let _ = session.program(MAIN, program, &mut self.files, sink);
+    }
+
+    /// Runs the text line by line.
+    pub fn streamed(mut self, session: &mut Session, sink: &mut dyn Sink) {
+        let mut lines = TextLines::new(self.files.main);
+        let _ = session.program(MAIN, Program::Lines(&mut lines), &mut self.files, sink);
+    }
+
+    /// Says what a session starts with, runs the text in it, and says what it leaves.
+    pub fn session(self, session: &mut Session, sink: &mut dyn Sink) {
+        let _ = session.begin(&[], sink);
+        self.whole(session, sink);
+        self.streamed(session, sink);
+        let _ = session.finish(sink);
+    }
+}

@@ -1,0 +1,76 @@
+//! A file that must stay as long as it was when it was opened.
+
+use std::fs::{File, Metadata};
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// Reads a file and fails at its end where that is not the end that it had. A program of which a
+/// part is missing would leave a state that its whole would not leave.
+#[derive(Debug)]
+pub(super) struct Steady {
+    file: File,
+    metadata: Metadata,
+}
+
+impl Steady {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// There is none, or it may not be read.
+    pub(super) fn open(path: &Path) -> io::Result<Self> {
+        let file = File::open(path)?;
+        let metadata = file.metadata()?;
+        Ok(Self { file, metadata })
+    }
+
+    /// What it was when it was opened.
+    pub(super) fn metadata(&self) -> &Metadata {
+        &self.metadata
+    }
+
+    /// Whether the file stands where it ended when it was opened. Pipes have no length, and files
+    /// that the system makes up while they are read say 0.
+    fn is_at_former_end(&mut self) -> io::Result<bool> {
+        let length = self.metadata.len();
+        let has_length = self.metadata.is_file() && length > 0;
+        Ok(!has_length || self.file.stream_position()? == length)
+    }
+}
+
+impl Read for Steady {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.file.read(buffer)?;
+        if count == 0 && !buffer.is_empty() && !self.is_at_former_end()? {
+            return Err(io::Error::other("it changed while it was read"));
+        }
+        Ok(count)
+    }
+}
+
+impl Seek for Steady {
+    fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
+        self.file.seek(position)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_changed_is_noticed() {
+        for (length, is_steady) in [(9, true), (8, false), (10, false), (0, false)] {
+            let named = tempfile::NamedTempFile::new().unwrap();
+            named.as_file().write_all(b"N10 X1.5\n").unwrap();
+            let mut steady = Steady::open(named.path()).unwrap();
+            named.as_file().set_len(length).unwrap();
+            for _ in 0..2 {
+                steady.rewind().unwrap();
+                let read = steady.read_to_end(&mut Vec::new());
+                assert_eq!(read.is_ok(), is_steady, "{length}");
+            }
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! The fast path against the grammar: block by block the same tree, on generated blocks and on
+//! blocks that were damaged afterwards.
+//!
+//! `cargo test --release --test differential -- --ignored` compares ten million blocks.
+
+use fastrand::Rng;
+use frictcomp::source::TextLines;
+use frictcomp::syntax::ast::Block;
+use frictcomp::syntax::{BlockReader, FastPath};
+
+/// Stretches of a program that are more than words.
+const PIECES: [&str; 56] = [
+    "X[COMP ON FRICT]",
+    "Y[COMP OFF FRICT]",
+    "X[COMP OFF_ALL]",
+    "X[COMP ON FRIKT]",
+    "[COMP",
+    "P1=3",
+    "P2 = P1 * 2",
+    "P1",
+    "V.E.A = 1",
+    "X[P1+1]",
+    "XP1",
+    "X=-5",
+    "X=1",
+    "X+.5",
+    "X5.",
+    "X.",
+    "X-",
+    "X",
+    "M30",
+    "M17",
+    "#TIME 1",
+    "#HSC ON",
+    "[LABEL]",
+    "\"M\"=\"X1\"",
+    "\"M\"",
+    "L SUB.nc",
+    "LL A",
+    "G800[1,,2]",
+    "/1",
+    "/",
+    "MOD",
+    "XOR",
+    "X1 MOD 2",
+    "; frictcomp: allow FC402",
+    ";",
+    "(a (b) c)",
+    "(plain)",
+    "(",
+    ")",
+    "\\",
+    "%A",
+    "%L SUB",
+    "$IF P1 > 2",
+    "$ENDIF",
+    "$GOTO N10",
+    "N10:",
+    "N-1",
+    "N1.5",
+    "1E5",
+    "X1e2",
+    "X000000000000001.5",
+    "X1234567890123456",
+    "X0.0000000000000001",
+    "ÜX1",
+    "X１",
+    "\u{feff}",
+];
+
+/// Bytes that change the meaning of their neighbours.
+const BYTES: [char; 24] = [
+    ' ', '\t', '.', '-', '+', '*', '/', '=', '[', ']', '(', ')', '"', ';', ',', '\\', '%', '$',
+    '#', 'N', 'P', 'L', 'x', '0',
+];
+
+/// Lines of one program: an open bracket or comment takes only these with it.
+const LINES: usize = 16;
+
+const LINE_ENDS: [&str; 6] = ["\n", "\n", "\n", "\r\n", "\r", ""];
+
+/// A word whose number has any of the shapes that a number may have.
+fn push_word(line: &mut String, rng: &mut Rng) {
+    line.push(rng.char('A'..='Z'));
+    line.push_str(["", "", "", "-", "+"][rng.usize(..5)]);
+    for _ in 0..rng.usize(..10) {
+        line.push(rng.char('0'..='9'));
+    }
+    if rng.bool() {
+        line.push('.');
+        for _ in 0..rng.usize(..8) {
+            line.push(rng.char('0'..='9'));
+        }
+    }
+}
+
+fn push_line(line: &mut String, rng: &mut Rng) {
+    if rng.u8(..3) == 0 {
+        line.push_str(&format!("N{}", rng.u16(..)));
+    }
+    for _ in 0..rng.usize(..7) {
+        line.push_str(["", " ", "\t", "  "][rng.usize(..4)]);
+        if rng.u8(..8) == 0 {
+            line.push_str(PIECES[rng.usize(..PIECES.len())]);
+        } else {
+            push_word(line, rng);
+        }
+    }
+    if rng.u8(..3) == 0 {
+        damage(line, rng);
+    }
+}
+
+/// Puts a character in, takes one out, or puts one in the place of another.
+fn damage(line: &mut String, rng: &mut Rng) {
+    let at = line.char_indices().nth(rng.usize(..line.len() + 1));
+    let (at, length) = at.map_or((line.len(), 0), |(at, letter)| (at, letter.len_utf8()));
+    let removed = if rng.bool() { length } else { 0 };
+    let put = match rng.u8(..4) {
+        0 => String::new(),
+        1 => rng.char(..).to_string(),
+        _ => BYTES[rng.usize(..BYTES.len())].to_string(),
+    };
+    line.replace_range(at..at + removed, &put);
+}
+
+/// How many blocks a program has; both readers must find the same ones.
+fn compare(program: &str) -> u64 {
+    let reader = |path| BlockReader::new(TextLines::new(program), 1, path);
+    let (mut fast, mut grammar) = (reader(FastPath::On), reader(FastPath::Off));
+    let (mut one, mut other) = (Block::default(), Block::default());
+    let mut blocks = 0;
+    loop {
+        let (found, expected) = (fast.next(&mut one), grammar.next(&mut other));
+        let (Some(found), Some(expected)) = (found, expected) else {
+            assert!(found.is_none() && expected.is_none(), "{program:?}");
+            return blocks;
+        };
+        let seen = (
+            found.stretch,
+            found.text,
+            found.line,
+            found.offset,
+            found.remark,
+        );
+        let meant = (
+            expected.stretch,
+            expected.text,
+            expected.line,
+            expected.offset,
+            expected.remark,
+        );
+        assert_eq!(seen, meant, "{program:?}");
+        // A number that is none is NaN, and equals nothing.
+        let same = one == other || format!("{one:?}") == format!("{other:?}");
+        assert!(same, "{:?}\n{one:#?}\n{other:#?}", found.text);
+        blocks += 1;
+    }
+}
+
+fn compare_blocks(count: u64, seed: u64) {
+    let mut rng = Rng::with_seed(seed);
+    let (mut program, mut line) = (String::new(), String::new());
+    let mut blocks = 0;
+    while blocks < count {
+        program.clear();
+        for _ in 0..LINES {
+            line.clear();
+            push_line(&mut line, &mut rng);
+            program.push_str(&line);
+            program.push_str(LINE_ENDS[rng.usize(..LINE_ENDS.len())]);
+        }
+        blocks += compare(&program);
+    }
+}
+
+#[test]
+fn the_fast_path_is_the_grammar() {
+    compare_blocks(20_000, 1);
+}
+
+#[test]
+#[ignore = "ten million blocks take minutes"]
+fn the_fast_path_is_the_grammar_at_length() {
+    compare_blocks(10_000_000, 2);
+}

@@ -1,0 +1,87 @@
+//! A folder with a machine and programs, and the tool called in it.
+
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+/// X and Y with a value list, Z not configured.
+pub(crate) const MACHINE: &str = "\
+[[axis]]
+name = \"X\"
+frict_comp = true
+value = { mode = 3, max_points = 20, table = [[0, 12], [1800, 10]] }
+[[axis]]
+name = \"Y\"
+frict_comp = true
+value = { mode = 3, table = [[0, 12], [1800, 10]] }
+[[axis]]
+name = \"Z\"
+";
+
+/// A folder with a machine and programs.
+pub(crate) struct Bench(tempfile::TempDir);
+
+impl Bench {
+    pub(crate) fn new(programs: &[(&str, &str)]) -> Self {
+        let bench = Self(tempfile::tempdir().expect("a folder"));
+        bench.write("frictcomp.toml", MACHINE);
+        for (name, text) in programs {
+            bench.write(name, text);
+        }
+        bench
+    }
+
+    pub(crate) fn folder(&self) -> &Path {
+        self.0.path()
+    }
+
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        fs::write(self.folder().join(name), text).expect("written");
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.folder().join(name)).expect("text")
+    }
+
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
+        command.current_dir(self.folder()).args(arguments);
+        command.stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    pub(crate) fn call(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().expect("the tool starts")
+    }
+
+    pub(crate) fn status(&self, arguments: &[&str]) -> Option<i32> {
+        self.call(arguments).status.code()
+    }
+
+    pub(crate) fn stdout(&self, arguments: &[&str]) -> String {
+        String::from_utf8(self.call(arguments).stdout).expect("text")
+    }
+
+    /// The lines of `run --format ndjson` with further arguments.
+    pub(crate) fn records(&self, arguments: &[&str]) -> Vec<String> {
+        let mut all = vec!["run", "--format", "ndjson"];
+        all.extend(arguments);
+        self.stdout(&all).lines().map(str::to_owned).collect()
+    }
+
+    /// The block records, as JSON.
+    pub(crate) fn blocks(&self, arguments: &[&str]) -> Vec<Value> {
+        let records = self.records(arguments);
+        let values = records.iter().map(|line| json(line));
+        values.filter(|it| it["record"] == "block").collect()
+    }
+}
+
+pub(crate) fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}

@@ -1,0 +1,17 @@
+//! Nothing is lost whatever happens: full disks, closed pipes, killed runs, damaged files, old
+//! encodings. `docs/reliability.md` says what is promised.
+//!
+//! What takes minutes is ignored: `cargo test --release --test unbreakable -- --ignored`.
+
+#![cfg(feature = "cli")]
+
+mod folder;
+
+mod unbreakable {
+    mod encodings;
+    #[cfg(unix)]
+    mod kill;
+    #[cfg(unix)]
+    mod resources;
+    mod state;
+}

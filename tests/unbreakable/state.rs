@@ -1,0 +1,82 @@
+//! The state file: damaged anywhere, it is refused and stays as it is.
+
+use crate::folder::{Bench, MACHINE};
+
+const LEAVE_OFF: &str = "X[COMP OFF FRICT]\nV.S.PART = 7\nV.S.NAME = \"mill\"\nM30\n";
+const RUN: [&str; 4] = ["run", "--state", "s.json", "a.nc"];
+
+/// A folder with the state that a run left, and its text.
+fn bench_with_state() -> (Bench, String) {
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    assert_eq!(bench.status(&RUN), Some(0));
+    let good = bench.read("s.json");
+    (bench, good)
+}
+
+#[test]
+fn a_state_cut_anywhere_is_refused_and_left_alone() {
+    // R9.30
+    let (bench, good) = bench_with_state();
+    for length in 0..good.trim_end().len() {
+        let cut = &good[..length];
+        bench.write("s.json", cut);
+        let output = bench.call(&RUN);
+        assert_eq!(output.status.code(), Some(2), "{cut}");
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert!(
+            said.contains("the state file") && said.contains("s.json"),
+            "{said}"
+        );
+        assert!(said.contains("help: name another file"), "{said}");
+        assert!(output.stdout.is_empty(), "nothing ran");
+        assert_eq!(bench.read("s.json"), cut);
+    }
+    bench.write("s.json", &good);
+    assert_eq!(bench.status(&RUN), Some(0));
+}
+
+#[test]
+fn a_state_of_another_time_or_machine_is_refused_and_left_alone() {
+    // R9.30
+    let (bench, good) = bench_with_state();
+    let wrongs = [
+        ("\"schema\": 1", "\"schema\": 2", "schema 2"),
+        ("\"schema\": 1", "\"schema\": -1", "damaged"),
+        ("axis Z number", "axis C number", "another machine"),
+        ("\"variables\"", "\"variable\"", "damaged"),
+        ("\"axis\": \"X\"", "\"axis\": 1", "damaged"),
+        ("\"max_points\": 20", "\"max_points\": 1e99", "damaged"),
+    ];
+    for (right, wrong, reason) in wrongs {
+        let text = good.replacen(right, wrong, 1);
+        assert_ne!(text, good, "{right}");
+        bench.write("s.json", &text);
+        let output = bench.call(&RUN);
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{wrong}: {said}");
+        assert!(said.contains(reason), "{wrong}: {said}");
+        assert_eq!(bench.read("s.json"), text);
+    }
+    bench.write("s.json", &good);
+    bench.write("frictcomp.toml", &MACHINE.replace("\"Z\"", "\"C\""));
+    assert_eq!(bench.status(&RUN), Some(2));
+    assert_eq!(bench.read("s.json"), good);
+}
+
+#[test]
+fn a_run_that_does_not_end_well_leaves_the_state_as_an_error_does() {
+    // R9.14, R9.30
+    let (bench, good) = bench_with_state();
+    bench.write("b.nc", "X[COMP ON FRICT]\nZ[COMP ON FRICT]\nM30\n");
+    assert_eq!(bench.status(&["run", "--state", "s.json", "b.nc"]), Some(1));
+    let left = bench.read("s.json");
+    assert_ne!(
+        left, good,
+        "what ran before the error is part of the session"
+    );
+    assert_eq!(
+        bench.status(&["run", "--state", "s.json", "missing.nc"]),
+        Some(2)
+    );
+    assert_eq!(bench.read("s.json"), left);
+}

@@ -335,15 +335,17 @@ impl AdditiveCurrent {
     }
 
     fn rounded(&mut self, current: f64) -> i16 {
-        let rounded = current.round();
-        let range = f64::from(i16::MIN)..=f64::from(i16::MAX);
-        if !range.contains(&rounded) {
+        let bounds = (f64::from(i16::MIN), f64::from(i16::MAX));
+        let limited = current.clamp(bounds.0, bounds.1);
+        // A call of the mathematical library would cost more than all the rest.
+        #[allow(clippy::cast_possible_truncation)] // clamped just above
+        let whole = limited as i16;
+        let rest = limited - f64::from(whole);
+        let away = i16::from(rest >= 0.5) - i16::from(rest <= -0.5);
+        if current >= bounds.1 + 0.5 || current <= bounds.0 - 0.5 {
             self.saturated += 1;
         }
-        let limited = rounded.clamp(*range.start(), *range.end());
-        #[allow(clippy::cast_possible_truncation)] // clamped just above
-        let output = limited as i16;
-        output
+        whole + away
     }
 }
 

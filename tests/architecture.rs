@@ -84,6 +84,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "compensation",
             "interpreter",
             "timeline",
+            "current",
         ],
     ),
     (

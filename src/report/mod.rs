@@ -10,10 +10,13 @@ mod github;
 mod json;
 mod listing;
 pub mod lists;
+mod markup;
 mod ndjson;
+pub mod pictures;
 mod records;
 mod sarif;
 mod strings;
+pub mod svg;
 mod text;
 
 use std::io::{self, Write};

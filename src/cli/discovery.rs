@@ -10,7 +10,7 @@ use super::files::read_text;
 use super::settings::{self, SetVariable};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
-use crate::machine::{Configuration, ListFiles, Machine, Setting};
+use crate::machine::{AxisReport, Configuration, ListFiles, Machine, Setting};
 use crate::source::SourceFile;
 
 /// The name of the configuration file.
@@ -50,6 +50,8 @@ pub(super) struct LoadedMachine {
     pub(super) program_dirs: Vec<PathBuf>,
     /// What there is to say about the lists.
     pub(super) diagnostics: Vec<Diagnostic>,
+    /// The effective parameters, by axis.
+    pub(super) reports: Vec<AxisReport>,
     /// The configuration or the start-up list that was read.
     pub(super) origin: Option<PathBuf>,
 }
@@ -64,6 +66,7 @@ impl LoadedMachine {
             levels: configuration.levels,
             program_dirs: folders.map(|written| folder.join(written)).collect(),
             diagnostics: configuration.diagnostics,
+            reports: configuration.reports,
             origin: Some(path.to_owned()),
         }
     }
@@ -151,6 +154,7 @@ fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachi
         let axes = read_startup(path)?;
         loaded.machine = axes.machine;
         loaded.diagnostics = axes.diagnostics;
+        loaded.reports = axes.reports;
         loaded.origin = axes.origin;
     }
     for name in &args.enable {

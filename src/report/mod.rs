@@ -3,10 +3,12 @@
 //! Every timeline format is a [`Sink`] over a generic writer. The first error of the writer is
 //! kept and ends the dry run; a closed pipe is no error for the caller.
 
+mod advice;
 mod concise;
 mod csv;
 mod diagnostics;
 mod github;
+pub mod html;
 mod json;
 mod listing;
 pub mod lists;

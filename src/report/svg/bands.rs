@@ -94,7 +94,7 @@ impl BandChart {
             scale: &scale,
             area,
         };
-        rows.draw(&mut canvas);
+        let states = rows.draw(&mut canvas);
         let floor = area.bottom() + 4.0;
         let y = draw_ticks(
             &mut canvas,
@@ -102,7 +102,7 @@ impl BandChart {
             Area { y: floor, ..area },
             &self.x.label,
         );
-        let height = draw_legend(&mut canvas, &self.rows, (16.0, y + 8.0)) + y + 16.0;
+        let height = draw_legend(&mut canvas, &states, (16.0, y + 8.0)) + y + 16.0;
         canvas.finish(
             frame,
             &Head {
@@ -140,8 +140,10 @@ pub(super) struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Draws the rows one below the other, their labels left of the area.
-    pub(super) fn draw(&self, canvas: &mut Canvas) {
+    /// Draws the rows one below the other, their labels left of the area; gives the states that
+    /// are to be seen.
+    pub(super) fn draw(&self, canvas: &mut Canvas) -> Vec<BandState> {
+        let mut drawn = Vec::new();
         let Area { x, y, width, .. } = self.area;
         let mut top = y;
         for row in self.rows {
@@ -152,13 +154,14 @@ impl Rows<'_> {
             while let Some(first) = bands.next() {
                 let (start, mut end) = (place(first.from), place(first.to));
                 let mut shown = first.clone();
-                while end - start < NARROW
-                    && let Some(next) = bands.peek()
-                {
-                    shown.to = next.to;
+                let too_narrow = |next: &&Band| place(next.to) - place(next.from) < NARROW;
+                while end - start < NARROW || shown.state == BandState::Changing {
+                    let Some(next) = bands.next_if(|next| end - start < NARROW || too_narrow(next))
+                    else {
+                        break;
+                    };
                     shown.state = BandState::Changing;
                     end = place(next.to);
-                    bands.next();
                 }
                 if shown.state != first.state {
                     shown.title = format!("{}: several short changes from here", row.label);
@@ -170,9 +173,11 @@ impl Rows<'_> {
                     height: BAR,
                 };
                 draw_band(canvas, &shown, area);
+                drawn.push(shown.state);
             }
             top += ROW;
         }
+        drawn
     }
 }
 
@@ -220,15 +225,10 @@ fn draw_shape(canvas: &mut Canvas, state: BandState, area: Area) {
     }
 }
 
-/// Draws each state that occurs with its word; gives the height that this takes.
-pub(super) fn draw_legend(canvas: &mut Canvas, rows: &[BandRow], (left, y): (f64, f64)) -> f64 {
-    let states: Vec<BandState> = BandState::ALL
-        .into_iter()
-        .filter(|state| {
-            let mut bands = rows.iter().flat_map(|row| &row.bands);
-            bands.any(|band| band.state == *state)
-        })
-        .collect();
+/// Draws each of the states with its word; gives the height that this takes.
+pub(super) fn draw_legend(canvas: &mut Canvas, drawn: &[BandState], (left, y): (f64, f64)) -> f64 {
+    let mut states = BandState::ALL.to_vec();
+    states.retain(|state| drawn.contains(state));
     let mut x = left;
     for state in &states {
         let swatch = Area {

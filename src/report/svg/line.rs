@@ -97,10 +97,12 @@ impl LineChart {
             scale: &x,
             area,
         };
-        rows.draw(&mut canvas);
+        let states = rows.draw(&mut canvas);
         area.y = area.bottom();
+        let mut above = false;
         for (panel, scale) in self.panels.iter().zip(&y) {
-            area.y += 26.0;
+            area.y += if above { 36.0 } else { 26.0 };
+            above = true;
             area.height = if self.panels.len() > 1 { 130.0 } else { 300.0 };
             canvas.text("", (16.0, area.y - 9.0), Anchor::Start, &panel.y.label);
             let axes = Axes {
@@ -113,7 +115,7 @@ impl LineChart {
             area.y = area.bottom();
         }
         let mut floor = draw_ticks(&mut canvas, &x, area, &self.x.label) + 6.0;
-        floor += draw_legend(&mut canvas, &self.bands, (16.0, floor));
+        floor += draw_legend(&mut canvas, &states, (16.0, floor));
         floor += self.legend().draw(&mut canvas, (16.0, floor));
         canvas.finish(
             frame,
@@ -130,13 +132,14 @@ impl LineChart {
         if self.panels.len() > 1 { 4 } else { 7 }
     }
 
-    /// The names of the curves; none where each panel has one curve, whose name its axis says.
+    /// The names of the curves of panels with several; the one curve of a panel is named by its
+    /// axis.
     fn legend(&self) -> Legend<'_> {
-        let shown = self.panels.iter().any(|panel| panel.series.len() > 1);
-        let items = self.panels.iter().flat_map(|panel| panel.numbered());
+        let named = |panel: &&Panel| panel.numbered().any(|(number, _)| number > 0);
+        let items = self.panels.iter().filter(named).flat_map(Panel::numbered);
         Legend {
             items: items
-                .filter(|(_, series)| shown && series.drawn != Drawn::Held)
+                .filter(|(_, series)| series.drawn != Drawn::Held)
                 .map(|(number, series)| (number, series.name.as_str(), series.drawn.marks()))
                 .collect(),
         }

@@ -67,7 +67,7 @@ pub const STYLE: &str = "\
 .fc-picture .fc-s1{stroke:#ff9248}.fc-picture .fc-m1{fill:#ff9248}
 .fc-picture .fc-s2{stroke:#3ccf9e}.fc-picture .fc-m2{fill:#3ccf9e}
 .fc-picture .fc-s3{stroke:#e59ac4}.fc-picture .fc-m3{fill:#e59ac4}
-.fc-picture .fc-active{fill:#2f81c7;stroke:#58b4f0}
+.fc-picture .fc-active{fill:#1f6fb2;stroke:#58b4f0}
 .fc-picture .fc-inactive{fill:#14181d;stroke:#8b949e}
 .fc-picture .fc-half{fill:#ff9248}
 .fc-picture .fc-outline{fill:#14181d;stroke:#ff9248}

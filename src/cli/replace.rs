@@ -30,6 +30,14 @@ pub(super) fn replace_with(
     written.map_err(|error| Failure::writing(path, &error))
 }
 
+/// Writes a picture.
+///
+/// # Errors
+/// The file cannot be written. The old one is as it was.
+pub(super) fn write_picture(path: &Path, svg: &str) -> Result<(), Failure> {
+    replace_with(path, |out| out.write_all(svg.as_bytes()))
+}
+
 /// Says before the work begins why a file could not be written at its end.
 pub(super) fn probe(path: &Path) -> Result<(), Failure> {
     let shown = path.display();

@@ -1,31 +1,63 @@
 //! What the results of the tool look like as charts.
 
 use crate::current::Cycle;
-use crate::lists::{AxisType, FrictionList};
+use crate::lists::AxisType;
+use crate::machine::AcceptedList;
 
 use super::svg::{Axis, BandRow, Drawn, LineChart, Panel, Series};
-
-/// The value list of one axis.
-#[derive(Debug, Clone, Copy)]
-pub struct ValueCurve<'a> {
-    /// The name of the axis, empty when the list names none.
-    pub axis: &'a str,
-    /// Its type, for the unit of the velocity.
-    pub axis_type: AxisType,
-    /// The list.
-    pub list: &'a FrictionList,
-}
 
 /// The curve of a value list with its points and the ends at which its value is held (R4.7), and
 /// the scaled curve where P-COMP-00045 is not 100 %.
 ///
 /// Velocities are in µm/s or 0.001°/s, outputs in drive units.
-pub fn value_curve(curve: &ValueCurve<'_>) -> LineChart {
-    let name = match curve.axis {
-        "" => "Value list".to_owned(),
-        axis => format!("Value list of axis {axis}"),
+pub fn value_curve(accepted: &AcceptedList) -> LineChart {
+    value_curves(&[accepted])
+}
+
+/// The curves of several value lists, one below the other.
+pub fn value_curves(accepted: &[&AcceptedList]) -> LineChart {
+    let mut units: Vec<&str> = (accepted.iter())
+        .map(|list| velocity_unit(list.axis_type))
+        .collect();
+    units.dedup();
+    let unit = match units[..] {
+        [unit] => unit,
+        _ => "\u{b5}m/s or 0.001\u{b0}/s",
     };
-    let table: Vec<[f64; 2]> = (curve.list.table.iter())
+    let told: Vec<String> = accepted.iter().map(|list| describe_list(list)).collect();
+    LineChart {
+        title: match accepted {
+            [one] if one.axis.is_empty() => "Value list".to_owned(),
+            [one] => format!("Value list of axis {}", one.axis),
+            _ => "Value lists".to_owned(),
+        },
+        description: format!(
+            "Additive torque in drive units at velocities in {unit}. {} Below the first and above \
+             the last point the value is held.",
+            told.join(" ")
+        ),
+        x: Axis::linear(format!("velocity in {unit}")),
+        bands: Vec::new(),
+        panels: (accepted.iter())
+            .map(|list| list_panel(list, accepted.len()))
+            .collect(),
+    }
+}
+
+fn describe_list(accepted: &AcceptedList) -> String {
+    let points = accepted.list.table.iter();
+    let points: Vec<String> = points
+        .map(|point| format!("{} at {}", point.output, point.input))
+        .collect();
+    match accepted.axis.as_str() {
+        "" => format!("{}.", points.join(", ")),
+        axis => format!("Axis {axis}: {}.", points.join(", ")),
+    }
+}
+
+fn list_panel(accepted: &AcceptedList, panels: usize) -> Panel {
+    let list = &accepted.list;
+    let table: Vec<[f64; 2]> = (list.table.iter())
         .map(|point| [point.input, point.output])
         .collect();
     let mut series = vec![
@@ -36,31 +68,23 @@ pub fn value_curve(curve: &ValueCurve<'_>) -> LineChart {
         },
         held_ends(&table),
     ];
-    if curve.list.scaling_factor != 1000 {
-        let factor = f64::from(curve.list.scaling_factor) / 1000.0;
+    if list.scaling_factor != 1000 {
+        let factor = f64::from(list.scaling_factor) / 1000.0;
         let scaled: Vec<_> = table.iter().map(|[x, y]| [*x, y * factor]).collect();
         series.push(Series {
-            name: format!("scaled by {} %", factor * 100.0),
+            name: format!("scaled by {} %", f64::from(list.scaling_factor) / 10.0),
             points: scaled.clone(),
             drawn: Drawn::Marked,
         });
         series.push(held_ends(&scaled));
     }
-    let points: Vec<String> = table.iter().map(|[x, y]| format!("{x}: {y}")).collect();
-    let unit = velocity_unit(curve.axis_type);
-    LineChart {
-        title: name,
-        description: format!(
-            "Additive torque in drive units at velocities in {unit}: {}. Below the first and above \
-             the last point the value is held.",
-            points.join(", ")
-        ),
-        x: Axis::linear(format!("velocity in {unit}")),
-        bands: Vec::new(),
-        panels: vec![Panel {
-            y: Axis::linear("additive torque in drive units, broken where it is held"),
-            series,
-        }],
+    let quantity = "additive torque in drive units, broken where it is held";
+    Panel {
+        y: Axis::linear(match accepted.axis.as_str() {
+            axis if panels > 1 && !axis.is_empty() => format!("axis {axis}: {quantity}"),
+            _ => quantity.to_owned(),
+        }),
+        series,
     }
 }
 
@@ -154,5 +178,51 @@ pub fn current_over_time(trace: &CurrentTrace<'_>) -> LineChart {
                 ],
             ),
         ],
+    }
+}
+
+/// The glitch at the reversals of a circle at one feed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedGlitches {
+    /// The feed in mm/min.
+    pub feed: f64,
+    /// Peak to peak in µm without compensation.
+    pub off: f64,
+    /// Peak to peak in µm with the tuned value list.
+    pub on: f64,
+    /// The same, with 20 % less friction than the list was tuned for.
+    pub friction_minus20: f64,
+    /// The same, with 20 % more.
+    pub friction_plus20: f64,
+}
+
+/// The glitch over the feed before and after tuning, with its sensitivity to the friction (R5.25).
+pub fn tuning(title: &str, feeds: &[FeedGlitches]) -> LineChart {
+    let series = |name: &str, value: fn(&FeedGlitches) -> f64| Series {
+        name: name.to_owned(),
+        points: feeds.iter().map(|it| [it.feed, value(it)]).collect(),
+        drawn: Drawn::Marked,
+    };
+    let told: Vec<String> = feeds
+        .iter()
+        .map(|it| format!("{:.1} and {:.1} at {}", it.off, it.on, it.feed))
+        .collect();
+    LineChart {
+        title: title.to_owned(),
+        description: format!(
+            "The largest glitch in \u{b5}m without and with compensation at feeds in mm/min: {}.",
+            told.join("; ")
+        ),
+        x: Axis::logarithmic("feed in mm/min"),
+        bands: Vec::new(),
+        panels: vec![Panel {
+            y: Axis::linear("largest glitch in \u{b5}m, peak to peak"),
+            series: vec![
+                series("without compensation", |it| it.off),
+                series("tuned", |it| it.on),
+                series("tuned, friction \u{2212}20 %", |it| it.friction_minus20),
+                series("tuned, friction +20 %", |it| it.friction_plus20),
+            ],
+        }],
     }
 }

@@ -2,12 +2,12 @@
 
 use super::page::{Page, state_word};
 use super::run::Given;
-use super::story::{AxisStory, RunStory};
+use super::story::RunStory;
 use crate::lists::{AxisType, Origin};
 use crate::machine::{AxisReport, AxisSet, Parameterisation};
 use crate::report::lists::cells;
 use crate::report::markup::escaped;
-use crate::report::pictures::{ValueCurve, value_curve};
+use crate::report::pictures::value_curve;
 use crate::report::svg::Frame;
 
 /// Writes what the user gave and what holds on each axis.
@@ -51,24 +51,11 @@ pub(super) fn render(page: &mut Page<'_>, story: &RunStory, given: &Given<'_>) {
 
 /// Writes the curve of each axis with an accepted value list.
 pub(super) fn render_curves(page: &mut Page<'_>, story: &RunStory) {
-    let mut shown = 0;
-    for (number, axis) in story.axes.iter().enumerate() {
-        let AxisStory {
-            name, axis_type, ..
-        } = axis;
-        if let Parameterisation::Accepted(list) = &axis.friction {
-            shown += 1;
-            let curve = value_curve(&ValueCurve {
-                axis: name,
-                axis_type: *axis_type,
-                list,
-            });
-            page.raw("<figure class=\"picture\">");
-            page.raw(&curve.render(Frame::Inside(&format!("curve{number}"))));
-            page.raw("</figure>\n");
-        }
+    for (number, accepted) in story.accepted.iter().enumerate() {
+        let name = format!("curve{number}");
+        page.figure(&value_curve(accepted).render(Frame::Inside(&name)));
     }
-    if shown == 0 {
+    if story.accepted.is_empty() {
         page.paragraph("No axis has a value list that the control would take.");
     }
 }

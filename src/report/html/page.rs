@@ -86,6 +86,13 @@ impl<'a> Page<'a> {
         self.raw("</p>\n");
     }
 
+    /// A picture, which is markup already.
+    pub(super) fn figure(&mut self, svg: &str) {
+        self.raw("<figure class=\"picture\">\n");
+        self.raw(svg);
+        self.raw("</figure>\n");
+    }
+
     /// Appends markup.
     pub(super) fn raw(&mut self, markup: &str) {
         self.buffer.push_str(markup);

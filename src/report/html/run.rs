@@ -247,10 +247,8 @@ fn render_states(page: &mut Page<'_>, story: &RunStory) -> io::Result<()> {
             "{}, {end}.",
             counted(program.blocks, "executed block")
         ));
-        page.raw("<figure class=\"picture\">");
         let name = format!("states{}", program.number);
-        page.raw(&chart(story, program).render(Frame::Inside(&name)));
-        page.raw("</figure>\n");
+        page.figure(&chart(story, program).render(Frame::Inside(&name)));
         page.settle()?;
     }
     if story.more_programs > 0 {

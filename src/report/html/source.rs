@@ -128,6 +128,7 @@ impl Listing<'_, '_> {
                 let runs = file.runs.get(self.row_of(number)).copied();
                 push_gutter(&mut row, number, runs.unwrap_or_default());
                 push_source_line(&mut row, text);
+                row.push('\n');
                 self.quiet.push((number, row));
                 if self.quiet.len() >= FOLD + CONTEXT {
                     self.release_some(FOLD)?;

@@ -9,7 +9,7 @@ use crate::codes::Code;
 use crate::compensation::Change;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::lists::AxisType;
-use crate::machine::{AxisIndex, AxisSet, Origin, Parameterisation};
+use crate::machine::{AcceptedList, AxisIndex, AxisSet, Origin, Parameterisation};
 use crate::syntax::{Kind, KindSet};
 use crate::timeline::{AxisSummary, End, EndedBy, Record, Row, Sink, StateView, Summary};
 
@@ -34,6 +34,7 @@ pub struct RunStory {
     kinds: KindSet,
     pub(super) axes: Vec<AxisStory>,
     pub(super) axis_set: AxisSet,
+    pub(super) accepted: Vec<AcceptedList>,
     pub(super) programs: Vec<ProgramStory>,
     /// Programs beyond [`MAX_PROGRAMS`].
     pub(super) more_programs: u32,
@@ -139,6 +140,7 @@ impl RunStory {
     fn session(&mut self, state: StateView<'_>) {
         let listed = state.listed.iter().copied().chain(std::iter::repeat(false));
         self.axis_set = state.machine.axis_set;
+        self.accepted = AcceptedList::of(state.machine);
         self.axes = (state.machine.axes.iter().zip(listed))
             .map(|(axis, listed)| AxisStory {
                 name: axis.name.clone(),

@@ -4,10 +4,15 @@
 
 use std::f64::consts::TAU;
 
+use roxmltree::Document;
+
 use frictcomp::compensation::State;
 use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
-use frictcomp::report::pictures::{CurrentTrace, ValueCurve, current_over_time, value_curve};
+use frictcomp::machine::AcceptedList;
+use frictcomp::report::pictures::{
+    CurrentTrace, FeedGlitches, current_over_time, tuning, value_curve, value_curves,
+};
 use frictcomp::report::svg::{
     Axis, Band, BandChart, BandRow, BandState, Drawn, Frame, LineChart, Panel, PolarChart,
     PolarSeries, Series,
@@ -45,10 +50,10 @@ fn band(from: f64, to: f64, state: BandState) -> Band {
 }
 
 fn value_list() -> LineChart {
-    value_curve(&ValueCurve {
-        axis: "X",
+    value_curve(&AcceptedList {
+        axis: "X".to_owned(),
         axis_type: AxisType::Linear,
-        list: &list(),
+        list: list(),
     })
 }
 
@@ -112,30 +117,22 @@ fn circle() -> PolarChart {
 }
 
 fn glitches() -> LineChart {
-    let series = |name: &str, values: [f64; 4]| Series {
-        name: name.to_owned(),
-        points: [500.0, 1000.0, 2000.0, 5000.0]
-            .into_iter()
-            .zip(values)
-            .map(|(feed, value)| [feed, value])
-            .collect(),
-        drawn: Drawn::Marked,
-    };
-    LineChart {
-        title: "Glitch at reversals before and after tuning".to_owned(),
-        description: "Four feeds.".to_owned(),
-        x: Axis::logarithmic("feed in mm/min"),
-        bands: Vec::new(),
-        panels: vec![Panel {
-            y: Axis::linear("glitch in µm, peak to peak"),
-            series: vec![
-                series("without compensation", [10.6, 14.8, 19.2, 23.3]),
-                series("tuned", [1.4, 1.2, 0.8, 1.0]),
-                series("tuned, friction −20 %", [3.1, 3.4, 3.9, 4.4]),
-                series("tuned, friction +20 %", [3.3, 3.6, 4.2, 4.9]),
-            ],
-        }],
-    }
+    let feeds = [
+        [500.0, 10.6, 1.4, 3.1, 3.3],
+        [1000.0, 14.8, 1.2, 3.4, 3.6],
+        [2000.0, 19.2, 0.8, 3.9, 4.2],
+        [5000.0, 23.3, 1.0, 4.4, 4.9],
+    ];
+    let feeds = feeds.map(
+        |[feed, off, on, friction_minus20, friction_plus20]| FeedGlitches {
+            feed,
+            off,
+            on,
+            friction_minus20,
+            friction_plus20,
+        },
+    );
+    tuning("Glitch at reversals before and after tuning", &feeds)
 }
 
 fn states() -> BandChart {
@@ -157,7 +154,7 @@ fn states() -> BandChart {
     });
     BandChart {
         title: "States over the blocks".to_owned(),
-        description: "Four axes.".to_owned(),
+        description: "Four rows of states.".to_owned(),
         x: Axis::linear("executed blocks"),
         rows: vec![
             row("X", [Active, Inactive, Active]),
@@ -181,9 +178,232 @@ fn all() -> Vec<(&'static str, String)> {
     ]
 }
 
+fn parse(svg: &str) -> Document<'_> {
+    Document::parse(svg).unwrap_or_else(|error| panic!("{error}:\n{svg}"))
+}
+
+fn texts<'a>(document: &'a Document<'_>) -> Vec<&'a str> {
+    let nodes = document
+        .descendants()
+        .filter(|node| node.has_tag_name((SVG, "text")));
+    nodes.filter_map(|node| node.text()).collect()
+}
+
+const SVG: &str = "http://www.w3.org/2000/svg";
+
 #[test]
-fn zz_write() {
+fn every_picture_is_told_in_words() {
     for (name, svg) in all() {
-        std::fs::write(format!("/tmp/pic/{name}.svg"), svg).unwrap();
+        let document = parse(&svg);
+        let root = document.root_element();
+        for (reference, element) in [("aria-labelledby", "title"), ("aria-describedby", "desc")] {
+            let id = root.attribute(reference).expect("a reference");
+            let told = document
+                .descendants()
+                .find(|node| node.attribute("id") == Some(id));
+            let told = told.expect("what is referred to");
+            assert!(told.has_tag_name((SVG, element)), "{name}");
+            assert!(
+                told.text().is_some_and(|text| text.len() > 10),
+                "{name} has no {element}"
+            );
+        }
+        assert!(
+            svg.contains("prefers-color-scheme:dark"),
+            "{name} has one ground only"
+        );
+        assert!(svg.contains("@media print"), "{name}");
+    }
+}
+
+#[test]
+fn the_same_input_gives_the_same_picture() {
+    // R9.16
+    assert_eq!(all(), all());
+}
+
+#[test]
+fn a_circle_shows_off_and_on_magnified() {
+    // R5.23
+    let svg = circle().render(Frame::Alone);
+    let document = parse(&svg);
+    let texts = texts(&document);
+    for wanted in [
+        "X+",
+        "Y+",
+        "X\u{2212}",
+        "Y\u{2212}",
+        "10 \u{b5}m",
+        "compensation off",
+        "compensation on",
+    ] {
+        assert!(texts.contains(&wanted), "no `{wanted}` in {texts:?}");
+    }
+    let magnified = texts
+        .iter()
+        .find(|text| text.starts_with("deviation magnified"));
+    // 10 µm are 55 units where 100 mm are 190.
+    assert_eq!(
+        magnified.copied(),
+        Some("deviation magnified 2900\u{d7} against the circle of 100 mm")
+    );
+    let paths: Vec<_> = document
+        .descendants()
+        .filter(|node| node.has_tag_name((SVG, "path")))
+        .collect();
+    assert_eq!(paths.len(), 2, "off and on in one picture");
+    for path in paths {
+        let data = path.attribute("d").expect("data").replace(['M', 'L'], " ");
+        let numbers: Vec<f64> = data
+            .split_whitespace()
+            .map(|number| number.parse().expect("a number"))
+            .collect();
+        for place in numbers.chunks(2) {
+            let radius = (place[0] - 430.0).hypot(place[1] - 384.0);
+            assert!(
+                (80.0..=301.0).contains(&radius),
+                "{place:?} is outside of the rings"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_value_list_shows_its_points_and_held_ends() {
+    // R4.7
+    let svg = value_list().render(Frame::Alone);
+    let document = parse(&svg);
+    let with = |class: &str| {
+        let nodes = document.descendants();
+        let count = nodes.filter(|node| {
+            let classes = node.attribute("class").unwrap_or_default();
+            classes.split(' ').any(|it| it == class)
+        });
+        count.count()
+    };
+    assert_eq!(with("fc-m0"), 5 + 1, "five points and the legend");
+    assert_eq!(with("fc-m1"), 5 + 1, "the scaled points, of another shape");
+    assert_eq!(with("fc-held"), 2);
+    assert!(texts(&document).contains(&"scaled by 90 %"));
+}
+
+#[test]
+fn value_lists_of_several_axes_share_a_picture() {
+    let accepted = |axis: &str, axis_type| AcceptedList {
+        axis: axis.to_owned(),
+        axis_type,
+        list: list(),
+    };
+    let lists = [
+        accepted("X", AxisType::Linear),
+        accepted("C", AxisType::Rotary),
+    ];
+    let svg = value_curves(&lists.iter().collect::<Vec<_>>()).render(Frame::Alone);
+    let document = parse(&svg);
+    let texts = texts(&document);
+    assert!(
+        texts.contains(&"velocity in \u{b5}m/s or 0.001\u{b0}/s"),
+        "{texts:?}"
+    );
+    assert!(texts.iter().any(|text| text.starts_with("axis C: ")));
+}
+
+#[test]
+fn a_million_cycles_are_a_picture_of_bounded_size() {
+    let points = (0..1_000_000_u32).map(|at| [f64::from(at), f64::from(at % 977)]);
+    let chart = LineChart {
+        title: "long".to_owned(),
+        description: "A million cycles.".to_owned(),
+        x: Axis::linear("time in s"),
+        bands: Vec::new(),
+        panels: vec![Panel {
+            y: Axis::linear("value"),
+            series: vec![Series {
+                name: "value".to_owned(),
+                points: points.collect(),
+                drawn: Drawn::Line,
+            }],
+        }],
+    };
+    let svg = chart.render(Frame::Alone);
+    assert!(svg.len() < 100_000, "{} bytes", svg.len());
+    // The peaks are still there: the curve reaches the tick above 976.
+    assert!(texts(&parse(&svg)).contains(&"1000"));
+}
+
+#[test]
+fn changes_that_cannot_be_seen_are_one_bar() {
+    let svg = states().render(Frame::Inside("here"));
+    let document = parse(&svg);
+    let titles: Vec<_> = document
+        .descendants()
+        .filter(|node| node.has_tag_name("title"))
+        .filter_map(|node| node.text())
+        .collect();
+    let several = titles
+        .iter()
+        .filter(|title| title.contains("several short changes"));
+    assert_eq!(several.count(), 1);
+    assert!(titles.contains(&"from 40 to 80: unknown"));
+    assert!(!svg.contains("<style>"), "the page has the style");
+    assert!(svg.contains("id=\"here-title\""));
+}
+
+#[test]
+fn odd_values_make_no_odd_picture() {
+    let odd = [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::MAX,
+        f64::MIN,
+        f64::MIN_POSITIVE,
+        0.0,
+        -0.0,
+    ];
+    let points: Vec<[f64; 2]> = odd.iter().flat_map(|&x| odd.map(|y| [x, y])).collect();
+    for points in [points, Vec::new(), vec![[3.0, 3.0]]] {
+        for x in [Axis::linear("<x> & \0"), Axis::logarithmic("]]>")] {
+            let chart = LineChart {
+                title: "<script>alert(1)</script>\0\u{202e}\u{ffff}".to_owned(),
+                description: "--> \u{b} \" '".to_owned(),
+                x,
+                bands: Vec::new(),
+                panels: vec![Panel {
+                    y: Axis::linear("y"),
+                    series: vec![Series {
+                        name: "</svg>".to_owned(),
+                        points: points.clone(),
+                        drawn: Drawn::Marked,
+                    }],
+                }],
+            };
+            assert_sound(&chart.render(Frame::Alone));
+        }
+        let polar = PolarChart {
+            series: vec![PolarSeries {
+                name: "&".to_owned(),
+                points: points.clone(),
+            }],
+            ..circle()
+        };
+        assert_sound(&polar.render(Frame::Alone));
+    }
+}
+
+/// Well-formed, with nothing but numbers where numbers belong.
+fn assert_sound(svg: &str) {
+    let document = parse(svg);
+    for node in document.descendants() {
+        assert!(!node.has_tag_name((SVG, "script")));
+        for attribute in node.attributes() {
+            let numeric = [
+                "d", "x", "y", "x1", "x2", "y1", "y2", "r", "cx", "cy", "width", "height",
+            ];
+            if numeric.contains(&attribute.name()) {
+                let value = attribute.value();
+                assert!(!value.contains("NaN") && !value.contains("inf"), "{value}");
+            }
+        }
     }
 }

@@ -35,16 +35,16 @@ impl<'a> Page<'a> {
             out,
             buffer: String::with_capacity(CHUNK + CHUNK / 4),
         };
-        page.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+        page.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n");
         page.raw(concat!(
             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; ",
-            "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n",
-            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
-            "<meta name=\"color-scheme\" content=\"light dark\">\n",
-            "<meta name=\"referrer\" content=\"no-referrer\">\n",
+            "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\"/>\n",
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n",
+            "<meta name=\"color-scheme\" content=\"light dark\"/>\n",
+            "<meta name=\"referrer\" content=\"no-referrer\"/>\n",
             "<meta name=\"generator\" content=\"frictcomp ",
             env!("CARGO_PKG_VERSION"),
-            "\">\n"
+            "\"/>\n"
         ));
         page.raw(&format!("<title>{title}</title>\n<style>\n"));
         page.raw(STYLE);

@@ -446,6 +446,12 @@ document.body.setAttribute('data-focus', document.activeElement === bar ? 'bar' 
 document.body.setAttribute('data-wide', document.documentElement.scrollWidth > innerWidth ? 'page' : 'parts');
 </script>";
 
+/// The attributes of the body.
+fn body_tag(dom: &str) -> &str {
+    let behind = dom.split_once("<body").map_or("", |(_, rest)| rest);
+    behind.split('>').next().unwrap_or_default()
+}
+
 #[test]
 fn the_report_works_in_a_browser() {
     // R9.51, R9.52
@@ -485,11 +491,7 @@ fn the_report_works_in_a_browser() {
         .replace("</body>", &format!("{PROBE}</body>"));
     bench.write("probed.html", &probed);
     let (dom, log) = load(&browser, &bench.path("probed.html"));
-    let body = dom
-        .split("<body")
-        .nth(1)
-        .and_then(|rest| rest.split('>').next());
-    let body = body.unwrap_or_default();
+    let body = body_tag(&dom);
     for wanted in [
         "data-fold=\"opens\"",
         "data-lost=\"0\"",
@@ -504,6 +506,6 @@ fn the_report_works_in_a_browser() {
         &report.replace("</body>", &format!("{PROBE}</body>")),
     );
     let (dom, log) = load(&browser, &bench.path("guarded.html"));
-    assert!(!dom.contains("data-fold"), "a script ran");
+    assert_eq!(body_tag(&dom), "", "a script ran");
     assert!(log.contains("Content Security Policy"), "{log}");
 }

@@ -210,7 +210,7 @@ max-width:60rem;font-size:.95em}
 mark{background:var(--mark);color:inherit;text-decoration:underline 2px #d55e00;text-underline-offset:.2em}
 .to-do{border-left:4px solid #d55e00;padding:.2rem 0 .2rem 1rem;margin:1rem 0}
 .to-do ul{margin:0;padding-left:1.1rem}
-@media (max-width:40rem){body{padding:1rem .75rem 3rem}.ev ul{padding-left:1.2rem}.picture svg{max-width:none;width:44rem}}
+@media (max-width:40rem){body{padding:1rem .75rem 3rem}.wide table{min-width:36rem}.ev ul{padding-left:1.2rem}.picture svg{max-width:none;width:44rem}}
 @media print{html{font-size:10.5pt}body{max-width:none;padding:0}nav,.skip{display:none}.wide,.picture,.source{overflow:visible}
 .source pre{white-space:pre-wrap;width:auto}h2,h3{break-after:avoid}.picture,.ev,tr{break-inside:avoid}a{text-decoration:none}}
 ";

@@ -152,16 +152,14 @@ impl Rows<'_> {
             let place = |value: f64| x + self.scale.share(value) * width;
             let mut bands = row.bands.iter().peekable();
             while let Some(first) = bands.next() {
-                let (start, mut end) = (place(first.from), place(first.to));
+                let start = place(first.from);
                 let mut shown = first.clone();
-                let too_narrow = |next: &&Band| place(next.to) - place(next.from) < NARROW;
-                while end - start < NARROW || shown.state == BandState::Changing {
-                    let Some(next) = bands.next_if(|next| end - start < NARROW || too_narrow(next))
-                    else {
-                        break;
-                    };
+                let narrow = |band: &Band| place(band.to) - place(band.from) < NARROW;
+                while narrow(first)
+                    && let Some(next) = bands.next_if(|next| narrow(next))
+                {
                     shown.state = BandState::Changing;
-                    end = place(next.to);
+                    shown.to = next.to;
                 }
                 if shown.state != first.state {
                     shown.title = format!("{}: several short changes from here", row.label);
@@ -169,7 +167,7 @@ impl Rows<'_> {
                 let area = Area {
                     x: start,
                     y: top + (ROW - BAR) / 2.0,
-                    width: end - start,
+                    width: (place(shown.to) - start).max(1.0),
                     height: BAR,
                 };
                 draw_band(canvas, &shown, area);

@@ -105,11 +105,14 @@ codes! {
     Fc503 "FC503" Error "drive type without friction compensation";
     Fc901 "FC901" Warning "condition not known offline";
     Fc902 "FC902" Warning "jump or call not known offline";
+    Fc903 "FC903" Warning "motion not known offline";
+    Fc904 "FC904" Info "trace of the program, not of the machine";
     Fc910 "FC910" Error "budget of executed blocks";
     Fc911 "FC911" Error "budget of call depth";
     Fc912 "FC912" Error "budget of nested control blocks";
     Fc913 "FC913" Error "budget of nested brackets";
     Fc914 "FC914" Error "budget of macro expansion";
+    Fc915 "FC915" Error "budget of CNC cycles";
 }
 
 impl Code {
@@ -125,7 +128,7 @@ impl Code {
     pub fn is_budget(self) -> bool {
         matches!(
             self,
-            Self::Fc910 | Self::Fc911 | Self::Fc912 | Self::Fc913 | Self::Fc914
+            Self::Fc910 | Self::Fc911 | Self::Fc912 | Self::Fc913 | Self::Fc914 | Self::Fc915
         )
     }
 

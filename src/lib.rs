@@ -38,6 +38,7 @@ pub mod interpreter;
 mod lint;
 pub mod lists;
 pub mod machine;
+pub mod motion;
 #[cfg(feature = "cli")]
 pub mod report;
 pub mod session;

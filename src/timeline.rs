@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use crate::codes::Code;
 use crate::compensation::{Change, Compensation, State};
 use crate::diagnostic::{Diagnostic, Severity};
-pub use crate::interpreter::{EndedBy, Modal, PositionFrame};
+pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
 use crate::machine::{AxisIndex, Machine};
 use crate::syntax::Kind;
@@ -78,6 +78,8 @@ pub struct Row<'a> {
     pub state: StateView<'a>,
     /// G functions and positions after the block.
     pub modal: &'a Modal,
+    /// What the block makes the machine do, where the session takes motions.
+    pub motion: Option<&'a Motion>,
     /// What there is to say about the block; written right behind it.
     pub diagnostics: &'a [Diagnostic],
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     // These three are plain data about text and know each other.
     ("source", &["diagnostic", "codes"]),
     ("diagnostic", &["source", "codes"]),
@@ -71,7 +71,23 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "timeline",
         ],
     ),
-    ("current", &["codes", "diagnostic", "lists", "machine"]),
+    (
+        "current",
+        &["codes", "diagnostic", "lists", "machine", "compensation"],
+    ),
+    (
+        "motion",
+        &[
+            "source",
+            "diagnostic",
+            "codes",
+            "syntax",
+            "machine",
+            "compensation",
+            "interpreter",
+            "timeline",
+        ],
+    ),
     (
         "report",
         &[
@@ -100,6 +116,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "timeline",
             "session",
             "current",
+            "motion",
             "report",
         ],
     ),

@@ -8,6 +8,7 @@ use anstream::{AutoStream, ColorChoice};
 use clap::ValueEnum;
 
 use super::failure::Failure;
+use crate::diagnostic::Diagnostic;
 use crate::report::{DEFAULT_WIDTH, Look, Paint, render};
 
 /// When output is coloured.
@@ -94,8 +95,8 @@ impl Console {
         let _ = writeln!(io::stderr().lock(), "{line}");
     }
 
-    /// Says on stderr why the tool could not do its work.
-    pub(super) fn explain(self, failure: &Failure) {
+    /// Shows diagnostics on stderr.
+    pub(super) fn show(self, diagnostics: &[Diagnostic]) {
         let stderr = io::stderr();
         let choice = self.choice(AutoStream::choice(&stderr));
         let look = Look {
@@ -103,9 +104,21 @@ impl Console {
             width: DEFAULT_WIDTH,
         };
         let mut writer = AutoStream::new(stderr.lock(), choice);
-        for diagnostic in &failure.diagnostics {
+        for diagnostic in diagnostics {
             let _ = writeln!(writer, "{}", render(diagnostic, look));
         }
+    }
+
+    /// Says on stderr why the tool could not do its work.
+    pub(super) fn explain(self, failure: &Failure) {
+        self.show(&failure.diagnostics);
+        let stderr = io::stderr();
+        let choice = self.choice(AutoStream::choice(&stderr));
+        let look = Look {
+            paint: paint(choice),
+            width: DEFAULT_WIDTH,
+        };
+        let mut writer = AutoStream::new(stderr.lock(), choice);
         let (bold, plain) = match look.paint {
             Paint::Plain => (anstyle::Style::new(), anstyle::Style::new()),
             Paint::Styled => (

@@ -9,7 +9,7 @@ use super::discovery::LoadedMachine;
 use super::failure::Failure;
 use super::files::{Input, Naming, Opened, ProgramFinder};
 use super::settings::{self, SkipLevels};
-use crate::session::{Limits, Notes, Program, Session, SessionOptions, StopPolicy};
+use crate::session::{Limits, Motions, Notes, Program, Session, SessionOptions, StopPolicy};
 use crate::timeline::Sink;
 
 /// What a dry run skips and where it ends.
@@ -52,6 +52,7 @@ impl ExecutionArgs {
             levels: loaded.levels.clone(),
             settings: loaded.settings.clone(),
             notes: Notes::None,
+            motions: Motions::None,
         }
     }
 }

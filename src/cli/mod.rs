@@ -22,6 +22,7 @@ mod man;
 mod replace;
 mod run;
 mod settings;
+mod sheet;
 mod state;
 mod walk;
 

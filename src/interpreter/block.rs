@@ -99,6 +99,7 @@ impl Interpreter {
             outcomes: &self.work.outcomes,
             changes: &self.work.changes,
             moved: if stopped { &[] } else { &self.work.moved },
+            motion: self.work.motion.as_ref(),
             notes: &self.work.notes.take(),
             diagnostics: &self.work.diagnostics,
             stopped,
@@ -235,8 +236,9 @@ impl Interpreter {
                 Ok(())
             }
             Item::BareNumber(operand, span) => {
-                self.value(*operand, block, at)?;
+                let value = self.value(*operand, block, at)?;
                 if intent.axis_words != AxisWords::Motion {
+                    self.geometry().dwell = Some(value.number());
                     return Ok(());
                 }
                 let found = span.of(at.text);

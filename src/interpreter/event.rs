@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::modal::Modal;
+use super::motion::Motion;
 use crate::compensation::{Change, Compensation, CompensationError};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::machine::AxisIndex;
@@ -107,6 +108,8 @@ pub struct Executed<'a> {
     pub changes: &'a [Change],
     /// The axes that it moves, each with its word.
     pub moved: &'a [(AxisIndex, Span)],
+    /// What it makes the machine do, where motions are taken.
+    pub motion: Option<&'a Motion>,
     /// The notes on it, where they are taken.
     pub notes: &'a [Note],
     /// What is to be said about it, in no order.

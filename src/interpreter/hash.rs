@@ -25,8 +25,10 @@ impl Interpreter {
             "#DELETE" => return self.delete(hash, block, at),
             "#TIME" => {
                 intent.axis_words = AxisWords::Other;
+                self.work.dwells = true;
                 if let Some(time) = hash.argument {
-                    self.value(time, block, at)?;
+                    let seconds = self.value(time, block, at)?.number();
+                    self.geometry().dwell = Some(seconds);
                 }
             }
             // PM/207120267

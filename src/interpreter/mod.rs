@@ -20,6 +20,7 @@ mod functions;
 mod hash;
 mod memory;
 mod modal;
+mod motion;
 mod program;
 mod snapshot;
 mod stream;
@@ -37,6 +38,9 @@ use serde::{Deserialize, Serialize};
 
 pub use event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};
 pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
+pub use motion::{
+    Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
+};
 pub use snapshot::{ResumeError, Snapshot};
 pub use value::Value;
 
@@ -101,6 +105,8 @@ pub struct Options {
     pub fast_path: FastPath,
     /// Whether notes are taken.
     pub notes: Notes,
+    /// Whether blocks say what they move.
+    pub motions: Motions,
 }
 
 /// Finds called programs for the library, which opens no file itself.
@@ -279,6 +285,12 @@ struct Work {
     stack: Vec<Result<Value, Box<Fault>>>,
     /// Axis words of the block with their values.
     coordinates: Vec<(AxisIndex, Option<f64>)>,
+    /// I, J, K, R and the like, where the block has any.
+    geometry: Option<motion::Geometry>,
+    /// Whether the block is G04 or `#TIME`.
+    dwells: bool,
+    /// What the block moves, where motions are taken.
+    motion: Option<Motion>,
     notes: RefCell<Vec<Note>>,
     /// Macros that the block has expanded.
     expansions: Cell<u32>,
@@ -295,6 +307,9 @@ impl Work {
         self.moved.clear();
         self.diagnostics.clear();
         self.coordinates.clear();
+        self.geometry = None;
+        self.dwells = false;
+        self.motion = None;
         self.notes.get_mut().clear();
         self.expansions.set(0);
         self.new_axes = false;

@@ -17,7 +17,7 @@ pub enum Group {
     Unit,
     /// G90 absolute, G91 incremental.
     Distance,
-    /// G93 G94 G95.
+    /// G93 G94 G95 G194.
     Feed,
     /// G53 to G59, G159.
     Offset,
@@ -25,11 +25,13 @@ pub enum Group {
     CutterRadius,
     /// G161 absolute, G162 relative circle centre.
     CircleCentre,
+    /// G360 exact stop, G359 none.
+    ExactStop,
 }
 
 impl Group {
     /// How many groups there are.
-    pub(super) const COUNT: usize = Self::CircleCentre as usize + 1;
+    pub(super) const COUNT: usize = Self::ExactStop as usize + 1;
 
     /// The group of a G number; `None` for one that is not modal or not modelled.
     pub fn of(number: u32) -> Option<Self> {
@@ -38,10 +40,11 @@ impl Group {
             17..=19 => Self::Plane,
             70 | 71 => Self::Unit,
             90 | 91 => Self::Distance,
-            93..=95 => Self::Feed,
+            93..=95 | 194 => Self::Feed,
             53..=59 | 159 => Self::Offset,
             40..=42 => Self::CutterRadius,
             161 | 162 => Self::CircleCentre,
+            359 | 360 => Self::ExactStop,
             _ => return None,
         })
     }
@@ -78,7 +81,7 @@ pub struct Modal {
     pub absolute: bool,
     /// Whether G70 is in force.
     pub inch: bool,
-    /// G93 to G95.
+    /// G93 to G95, G194.
     pub feed_mode: u32,
     /// The feed of each mode, G93, G94, G95, where one was programmed.
     pub feeds: [Option<f64>; 3],
@@ -86,6 +89,10 @@ pub struct Modal {
     pub offset: u32,
     /// Whether the circle centre is absolute, G161.
     pub centre_absolute: bool,
+    /// Whether every block ends with an exact stop, G360.
+    pub exact_stop: bool,
+    /// The radius of circles without a centre, R; `None` where it is not known.
+    pub radius: Option<f64>,
     /// What takes positions away from the machine's: names of `#` commands and G functions.
     pub transformed: BTreeSet<String>,
     /// Groups of which nobody knows offline what is in force (R2.51).
@@ -107,6 +114,7 @@ pub(super) struct Saved {
     feeds: [Option<f64>; 3],
     offset: u32,
     centre_absolute: bool,
+    exact_stop: bool,
     transformed: [bool; 2],
     unknown: BTreeSet<Group>,
 }
@@ -126,6 +134,8 @@ impl Modal {
             feeds: [None; 3],
             offset: 53,
             centre_absolute: false,
+            exact_stop: false,
+            radius: None,
             transformed: BTreeSet::new(),
             unknown: BTreeSet::new(),
             positions: vec![None; axes],
@@ -157,6 +167,7 @@ impl Modal {
             feeds: self.feeds,
             offset: self.offset,
             centre_absolute: self.centre_absolute,
+            exact_stop: self.exact_stop,
             transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
             unknown: self.unknown.clone(),
         }
@@ -175,6 +186,7 @@ impl Modal {
         self.feeds = saved.feeds;
         self.offset = saved.offset;
         self.centre_absolute = saved.centre_absolute;
+        self.exact_stop = saved.exact_stop;
         self.unknown.clone_from(&saved.unknown);
         for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
             self.transform(name, on);
@@ -215,6 +227,7 @@ impl Modal {
             }
             Some(Group::CutterRadius) => self.transform("G41", number != 40),
             Some(Group::CircleCentre) => self.centre_absolute = number == 161,
+            Some(Group::ExactStop) => self.exact_stop = number == 360,
             // G20 switches mirroring off, G21 to G23 switch it on.
             None if (20..=23).contains(&number) => self.transform("G21", number != 20),
             None => return false,
@@ -323,6 +336,7 @@ impl Modal {
                 Group::Offset,
                 Group::CutterRadius,
                 Group::CircleCentre,
+                Group::ExactStop,
             ]);
             self.forget_positions();
             self.references.fill(None);
@@ -343,6 +357,8 @@ impl Modal {
             _ if !self.is_known(Group::Feed) => self.feeds = [None; 3],
             93 => self.feeds[0] = value,
             95 => self.feeds[2] = value,
+            // A weight of feeds that the machine knows, no feed.
+            194 => {}
             _ => self.feeds[1] = value,
         }
     }
@@ -351,6 +367,16 @@ impl Modal {
     pub(super) fn programmed(&self, axis: AxisIndex) -> Option<f64> {
         let position = self.positions[axis.get()].zip(self.references[axis.get()]);
         position.map(|(position, reference)| position - reference)
+    }
+
+    /// Where the axes stand: the programmed coordinate with the offset of G92.
+    pub(super) fn positions(&self) -> &[Option<f64>] {
+        &self.positions
+    }
+
+    /// The offset of G92 of an axis; `None` where it is not known.
+    pub(super) fn reference(&self, axis: AxisIndex) -> Option<f64> {
+        self.references[axis.get()]
     }
 
     /// Where an axis stands.

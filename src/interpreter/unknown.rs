@@ -222,6 +222,7 @@ impl Interpreter {
                 self.forget_configured(&name.unwrap_or_default(), unit, cause);
             }
             Address::Letter(b'F') => self.state.modal.feeds = [None; 3],
+            Address::Letter(b'R') => self.state.modal.radius = None,
             Address::Letter(letter @ (b'M' | b'T')) => {
                 let letter = char::from(letter);
                 let number = number.map(|number| number.to_string()).unwrap_or_default();

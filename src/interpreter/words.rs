@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::block::{Feed, Intent};
+use super::motion::{BlockEnd, foreign};
 use super::value::rounded;
 use super::{At, EndedBy, Group, Interpreter};
 use crate::codes::Code;
@@ -159,8 +160,12 @@ impl Interpreter {
                     intent.call = intent.call.take().or(wanted);
                 }
             }
-            (b'R', _) => intent.radius = Some(word.span),
-            (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'I' | b'J' | b'K' | b'N', _) => {}
+            (b'R', _) => {
+                intent.radius = Some(word.span);
+                self.circle_word(letter, number);
+            }
+            (b'I' | b'J' | b'K', _) => self.circle_word(letter, number),
+            (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'N', _) => {}
             _ => self.pass_over(&char::from(letter).to_string(), word.span, at),
         }
         Ok(())
@@ -191,10 +196,14 @@ impl Interpreter {
             }
         }
         match number {
-            4 => intent.axis_words = AxisWords::Other,
+            4 => {
+                intent.axis_words = AxisWords::Other;
+                self.work.dwells = true;
+            }
+            60 => self.geometry().end = BlockEnd::ExactStop,
             92 => intent.axis_words = AxisWords::Reference,
             _ if self.state.modal.set(number) => {}
-            // G60, G61 and the like have no bearing on the compensation; a configured cycle has.
+            // G61 and the like have no bearing on the compensation; a configured cycle has.
             _ => {
                 let name = format!("G{number}");
                 if let Some(wanted) = self.configured([&name, &name], span) {
@@ -205,6 +214,8 @@ impl Interpreter {
                     intent.axis_words = AxisWords::Homing;
                 } else if NO_MOTION.contains(&number) {
                     intent.axis_words = AxisWords::Other;
+                } else if let Some(reason) = foreign(number) {
+                    self.geometry().foreign = Some(reason);
                 }
                 self.pass_over(&name, span, at);
             }
@@ -241,6 +252,7 @@ impl Interpreter {
         if let Feed::Given(feed) = intent.feed {
             self.state.modal.set_feed(feed);
         }
+        let start = self.stand();
         let before = intent.radius.map(|_| self.ends());
         for &(axis, value) in &self.work.coordinates {
             match intent.axis_words {
@@ -253,6 +265,7 @@ impl Interpreter {
         if let (Some(span), Some(before)) = (intent.radius, before) {
             self.warn_full_circle(span, &before, at);
         }
+        self.take_motion(start, intent.axis_words);
         if matches!(intent.axis_words, AxisWords::Reference | AxisWords::Other) {
             self.work.moved.clear();
         }

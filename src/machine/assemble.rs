@@ -26,6 +26,14 @@ pub struct AxisReport {
     pub drive: BTreeMap<String, Entry>,
 }
 
+/// What `frictcomp.toml` says about the dynamics of an axis, in its units.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Dynamics {
+    pub(super) velocity: Option<f64>,
+    pub(super) acceleration: Option<f64>,
+    pub(super) jerk: Option<f64>,
+}
+
 /// One axis while its sources are being read.
 #[derive(Debug, Clone)]
 pub(super) struct AxisDraft {
@@ -39,7 +47,7 @@ pub(super) struct AxisDraft {
     /// The number that the start-up list gives to the value list.
     pub(super) startup_number: Option<Given<u32>>,
     pub(super) value_list: ValueList,
-    pub(super) max_velocity: Option<f64>,
+    pub(super) dynamics: Dynamics,
 }
 
 impl AxisDraft {
@@ -51,7 +59,7 @@ impl AxisDraft {
             channel_number: None,
             startup_number: None,
             value_list: ValueList::default(),
-            max_velocity: None,
+            dynamics: Dynamics::default(),
         }
     }
 
@@ -126,7 +134,9 @@ impl AxisDraft {
             max_points_place: max_points_given
                 .map(Given::place)
                 .or_else(|| anchor.as_ref().map(Given::place)),
-            max_velocity: self.max_velocity,
+            max_velocity: self.dynamics.velocity,
+            max_acceleration: self.dynamics.acceleration,
+            max_jerk: self.dynamics.jerk,
         };
         diagnostics.extend(self.check_selection(&axis));
         for diagnostic in &mut diagnostics[first..] {

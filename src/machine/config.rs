@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use super::assemble::AxisDraft;
+use super::assemble::{AxisDraft, Dynamics};
 use super::load::{ListFiles, Loader, MAX_AXES, NoLists};
 use super::section::{ROOT, Section, Shape};
 use super::{Configuration, ConfiguredPrograms, Machine, Parameters, Setting};
@@ -188,6 +188,8 @@ const AXIS: Shape = Shape {
         "manual_activation",
         "required",
         "max_velocity",
+        "max_acceleration",
+        "max_jerk",
     ]),
 };
 
@@ -343,9 +345,11 @@ fn read_axis(
             .collect();
         values.required = Some(whole.with(required));
     }
-    if let Some(velocity) = section.positive("max_velocity")? {
-        axis.max_velocity = Some(velocity);
-    }
+    axis.dynamics = Dynamics {
+        velocity: section.positive("max_velocity")?,
+        acceleration: section.positive("max_acceleration")?,
+        jerk: section.positive("max_jerk")?,
+    };
     Ok(())
 }
 

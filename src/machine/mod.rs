@@ -86,6 +86,10 @@ pub struct Axis {
     pub max_points_place: Option<Place>,
     /// The maximum velocity in mm/min or °/min, where known.
     pub max_velocity: Option<f64>,
+    /// The maximum acceleration in m/s² or °/s², where known.
+    pub max_acceleration: Option<f64>,
+    /// The maximum jerk in m/s³ or °/s³, where known.
+    pub max_jerk: Option<f64>,
 }
 
 impl Axis {
@@ -103,6 +107,8 @@ impl Axis {
             max_points: crate::lists::DEFAULT_MAX_POINTS,
             max_points_place: None,
             max_velocity: None,
+            max_acceleration: None,
+            max_jerk: None,
         }
     }
 

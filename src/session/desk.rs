@@ -131,6 +131,7 @@ impl Desk<'_> {
                 version: executed.version,
             },
             modal: executed.modal,
+            motion: executed.motion,
             diagnostics: &self.said,
         }))
     }

@@ -14,7 +14,7 @@ pub use saved::{SavedAxis, SavedState, StateError};
 use crate::compensation::Compensation;
 use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
 use crate::interpreter::{Event, Interpreter, Options, Outlook};
-pub use crate::interpreter::{Finder, Limits, NoFiles, NoteKind, Notes, StopPolicy};
+pub use crate::interpreter::{Finder, Limits, Motions, NoFiles, NoteKind, Notes, StopPolicy};
 use crate::lint::Linter;
 use crate::machine::{AxisIndex, Machine, Parameterisation, Setting};
 use crate::source::{LineSource, SourceFile};
@@ -38,6 +38,8 @@ pub struct SessionOptions {
     pub settings: Vec<(String, Setting)>,
     /// Whether notes are taken, for [`Session::notes`].
     pub notes: Notes,
+    /// Whether rows say what their block moves.
+    pub motions: Motions,
 }
 
 /// The text of a program.
@@ -96,6 +98,7 @@ impl Session {
             skip: options.skip,
             limits: options.limits,
             notes: options.notes,
+            motions: options.motions,
             ..Options::default()
         };
         let mut interpreter = Interpreter::new(Arc::clone(&machine), compensation.clone(), run);

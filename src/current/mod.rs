@@ -1,7 +1,13 @@
 //! The additive current: what the control sends to the drive's torque interface in every CNC
 //! cycle, from the commanded motion and the value list (chapter 4 of the rules).
 
+mod follow;
+mod trace;
+
 use std::collections::VecDeque;
+
+pub use follow::{Followers, Input, Moment};
+pub use trace::{AxisTrace, Band, Boundary};
 
 use crate::lists::{FrictionList, TablePoint};
 
@@ -182,6 +188,24 @@ impl AdditiveCurrent {
     /// velocity in µm/s or 0.001°/s, `upcoming` the velocities of the next cycles, as many of the
     /// next [`lookahead`](Self::lookahead) as there are.
     pub fn step(&mut self, position: f64, velocity: f64, upcoming: &[f64]) -> Cycle {
+        let direction = self.direction_at(velocity);
+        let mut upcoming = upcoming.iter().take(self.lookahead);
+        let reversal = upcoming.position(|velocity| velocity * direction < 0.0);
+        self.advance(position, velocity, reversal)
+    }
+
+    /// The direction of the next cycle.
+    fn direction_at(&self, velocity: f64) -> f64 {
+        if velocity == 0.0 {
+            self.direction
+        } else {
+            velocity.signum()
+        }
+    }
+
+    /// The current of the next cycle, whose direction ends after `reversal` more cycles: `r[k]` of
+    /// the rules, `None` where no reversal comes within the look-ahead.
+    fn advance(&mut self, position: f64, velocity: f64, reversal: Option<usize>) -> Cycle {
         let before = self.last_position.unwrap_or(position);
         self.last_position = Some(position);
         if velocity != 0.0 {
@@ -200,7 +224,7 @@ impl AdditiveCurrent {
             self.direction = direction;
         }
         let w_after = self.weight_after(position);
-        let w_before = self.weight_before(upcoming);
+        let w_before = self.weight_before(reversal);
         let held = velocity != 0.0 || self.reading.standstill == Standstill::Hold;
         let value = if held {
             self.friction(velocity.abs())
@@ -219,14 +243,24 @@ impl AdditiveCurrent {
 
     /// The currents of a whole trace of positions and velocities of the same length.
     pub fn trace(&mut self, positions: &[f64], velocities: &[f64]) -> Vec<Cycle> {
-        let lookahead = self.lookahead;
+        // The first cycle behind the present one that moves the other way; looked for once a
+        // reversal.
+        let mut turn = 0;
+        let mut sought = 0.0;
         positions
             .iter()
             .zip(velocities)
             .enumerate()
             .map(|(at, (&position, &velocity))| {
-                let end = velocities.len().min(at + 1 + lookahead);
-                self.step(position, velocity, &velocities[at + 1..end])
+                let direction = self.direction_at(velocity);
+                if turn <= at || direction.to_bits() != f64::to_bits(sought) {
+                    sought = direction;
+                    let later = &velocities[at + 1..];
+                    let found = later.iter().position(|later| later * direction < 0.0);
+                    turn = found.map_or(usize::MAX, |found| at + 1 + found);
+                }
+                let reversal = Some(turn - 1 - at).filter(|cycles| *cycles < self.lookahead);
+                self.advance(position, velocity, reversal)
             })
             .collect()
     }
@@ -257,11 +291,7 @@ impl AdditiveCurrent {
     }
 
     /// Linear over the cycles up to the next reversal (R4.2).
-    fn weight_before(&self, upcoming: &[f64]) -> f64 {
-        let reversal = upcoming
-            .iter()
-            .take(self.lookahead)
-            .position(|velocity| velocity * self.direction < 0.0);
+    fn weight_before(&self, reversal: Option<usize>) -> f64 {
         match reversal {
             #[allow(clippy::cast_precision_loss)] // at most 65535 cycles
             Some(cycles) => cycles as f64 / self.lookahead as f64,

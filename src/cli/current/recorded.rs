@@ -1,54 +1,14 @@
-//! `frictcomp current`: the additive current over a commanded trace.
+//! The current of a recorded or made-up trace.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 
-use clap::{Args, ValueEnum};
-
-use super::console::Console;
-use super::exit;
-use super::failure::Failure;
-use super::files::read_text;
-use crate::current::{AdditiveCurrent, Below, Cycle, Delay, Reading, Standstill, Switched};
-use crate::diagnostic::{Severity, did_you_mean};
-use crate::lists::{Conditions, Entries, FrictionDraft, FrictionList, Verdict};
-use crate::source::SourceFile;
-
-/// Computes the additive current of a commanded trace, cycle by cycle
-///
-/// The trace is a CSV file with a header: `t` in s, `x` in 0.1 µm or 0.0001°, `v` in µm/s or
-/// 0.001°/s, one row a CNC cycle. Either `x` or `v` may be missing. A column `comp` with `on` and
-/// `off` switches as COMP would.
-#[derive(Debug, Args)]
-pub(super) struct CurrentArgs {
-    /// The commanded trace
-    #[arg(long, value_name = "FILE")]
-    trace: PathBuf,
-    /// The compensation value list
-    #[arg(long, value_name = "LIST")]
-    value_list: PathBuf,
-    /// The CNC cycle in seconds; without it the distance of the first two times
-    #[arg(long, value_name = "SECONDS")]
-    cycle_time: Option<f64>,
-    /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
-    #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
-    reading: Reading,
-    /// The format of the result
-    #[arg(long, default_value = "csv")]
-    format: Format,
-    /// Write the result into this file
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
-}
-
-/// A format of the currents.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// One row a cycle.
-    #[default]
-    Csv,
-}
+use super::super::console::Console;
+use super::super::exit;
+use super::super::failure::Failure;
+use super::super::files::read_text;
+use super::{CurrentArgs, check_cycle, say_saturated, value_list};
+use crate::current::{AdditiveCurrent, Cycle, Switched};
 
 /// A commanded trace: positions and velocities of each cycle.
 struct Trace {
@@ -58,12 +18,15 @@ struct Trace {
     switched: Vec<Switched>,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
-    let list = value_list(&args.value_list)?;
-    let trace = Trace::read(&args.trace, args.cycle_time)?;
+/// Computes the current of a recorded trace.
+pub(super) fn run(
+    (trace, list): (&Path, &Path),
+    args: &CurrentArgs,
+    console: Console,
+) -> Result<u8, Failure> {
+    let list = value_list(list)?;
+    let trace = Trace::read(trace, args.cycle_time)?;
     let mut current = AdditiveCurrent::new(&list, args.reading);
-    let Format::Csv = args.format;
     let mut writer = console.target(args.output.as_deref())?.writer;
     let written = write_csv(&mut writer, &trace, &mut current);
     match written {
@@ -71,12 +34,7 @@ pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
         written => written.map_err(|error| Failure::output(&error))?,
     }
     Console::talk(&format!("reading: {}", args.reading.words()));
-    if current.saturated() > 0 {
-        let cycles = current.saturated();
-        Console::talk(&format!(
-            "FC137: the current of {cycles} cycles is beyond 16 bit and was cut"
-        ));
-    }
+    say_saturated("", current.saturated());
     Ok(exit::CLEAN)
 }
 
@@ -104,43 +62,6 @@ fn write_csv(
         )?;
     }
     writer.flush()
-}
-
-/// The values that a list would give the control.
-fn value_list(path: &Path) -> Result<FrictionList, Failure> {
-    let source = Arc::new(SourceFile::new(
-        path.display().to_string(),
-        read_text(path)?,
-    ));
-    let entries = Entries::parse(&source);
-    let mut diagnostics = entries.diagnostics.clone();
-    let draft = FrictionDraft::from_entries(&entries, &mut diagnostics);
-    let reading = draft.check(&Conditions::default());
-    diagnostics.extend(reading.diagnostics);
-    let reason = match reading.verdict {
-        Verdict::Accepted(list) => {
-            let count = diagnostics.len();
-            if count > 0 {
-                let name = source.name();
-                Console::talk(&format!(
-                    "lists: {count} remarks (`frictcomp lists {name}` shows them)"
-                ));
-            }
-            return Ok(list);
-        }
-        Verdict::Absent => "it holds no friction parameters",
-        Verdict::Off => "its mode is 0, off",
-        Verdict::Rejected(_) => "the control would reject it",
-    };
-    diagnostics.retain(|diagnostic| diagnostic.severity == Severity::Error);
-    Err(Failure {
-        message: format!(
-            "the value list `{}` cannot be used: {reason}",
-            source.name()
-        ),
-        help: Vec::new(),
-        diagnostics,
-    })
 }
 
 impl Trace {
@@ -190,14 +111,7 @@ impl Trace {
             [first, second, ..] if second > first => second - first,
             _ => 0.001,
         });
-        if cycle.is_finite() && cycle > 0.0 {
-            Ok(cycle)
-        } else {
-            Err(
-                Failure::new(format!("a CNC cycle of {cycle} s is not possible"))
-                    .with_help("write the seconds of a cycle, `--cycle-time 0.001`"),
-            )
-        }
+        check_cycle(cycle)
     }
 
     /// Computes the columns that are missing: 1 unit of position is 0.1 units of velocity times
@@ -257,38 +171,4 @@ fn parse_switch(path: &Path, row: u64, word: Option<&str>) -> Result<Switched, F
         ))
         .with_help("write `on` or `off`")),
     }
-}
-
-/// `standstill=zero,below=origin,delay=reversal`, each of them optional.
-fn parse_reading(text: &str) -> Result<Reading, String> {
-    const OPTIONS: [&str; 6] = [
-        "standstill=hold",
-        "standstill=zero",
-        "below=hold",
-        "below=origin",
-        "delay=all",
-        "delay=reversal",
-    ];
-    let mut reading = Reading::default();
-    for option in text
-        .split(',')
-        .map(str::trim)
-        .filter(|option| !option.is_empty())
-    {
-        match option {
-            "standstill=hold" => reading.standstill = Standstill::Hold,
-            "standstill=zero" => reading.standstill = Standstill::Zero,
-            "below=hold" => reading.below = Below::Hold,
-            "below=origin" => reading.below = Below::Origin,
-            "delay=all" => reading.delay = Delay::All,
-            "delay=reversal" => reading.delay = Delay::Reversal,
-            _ => {
-                return Err(match did_you_mean(option, OPTIONS) {
-                    Some(near) => format!("`{option}` is no reading, did you mean `{near}`?"),
-                    None => format!("`{option}` is no reading; there are {}", OPTIONS.join(", ")),
-                });
-            }
-        }
-    }
-    Ok(reading)
 }

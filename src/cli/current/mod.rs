@@ -1,0 +1,201 @@
+//! `frictcomp current`: the additive current over the commanded trace of a program, or over a
+//! recorded one.
+
+mod program;
+mod recorded;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+
+use super::console::Console;
+use super::discovery::MachineArgs;
+use super::dry_run::ExecutionArgs;
+use super::failure::Failure;
+use super::files::read_text;
+use crate::current::{Below, Delay, Reading, Standstill};
+use crate::diagnostic::{Severity, did_you_mean};
+use crate::lists::{Conditions, Entries, FrictionDraft, FrictionList, Verdict};
+use crate::motion::TracerOptions;
+use crate::source::SourceFile;
+
+/// Computes the additive current of a program or of a recorded trace, cycle by cycle
+///
+/// A program is run as `run` does it, and its path is followed in CNC cycles; the current of each
+/// axis follows its compensation state. A trace is a CSV file with a header: `t` in s, `x` in
+/// 0.1 µm or 0.0001°, `v` in µm/s or 0.001°/s, one row a CNC cycle. Either `x` or `v` may be
+/// missing. A column `comp` with `on` and `off` switches as COMP would.
+#[derive(Debug, Args)]
+pub(super) struct CurrentArgs {
+    /// The program, `-` for standard input
+    #[arg(
+        required_unless_present = "trace",
+        conflicts_with = "trace",
+        requires = "axes"
+    )]
+    program: Option<PathBuf>,
+    /// The axes of the program whose current is computed
+    #[arg(
+        long = "axis",
+        value_name = "AXIS",
+        value_delimiter = ',',
+        conflicts_with = "trace"
+    )]
+    axes: Vec<String>,
+    /// A commanded trace in place of a program
+    #[arg(long, value_name = "FILE", requires = "value_list")]
+    trace: Option<PathBuf>,
+    /// The compensation value list; for a program in place of what the configuration names
+    #[arg(long, value_name = "LIST")]
+    value_list: Option<PathBuf>,
+    /// The CNC cycle in seconds; without it that of the configuration or 1 ms, and of a trace the
+    /// distance of the first two times
+    #[arg(long, value_name = "SECONDS")]
+    cycle_time: Option<f64>,
+    /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
+    #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
+    reading: Reading,
+    /// The format of the result
+    #[arg(long, default_value = "csv")]
+    format: Format,
+    /// More columns for a program: `comp` is the state of the compensation, `line` the block
+    #[arg(
+        long,
+        value_name = "COLUMNS",
+        value_delimiter = ',',
+        conflicts_with = "trace"
+    )]
+    columns: Vec<Column>,
+    /// End the trace of a program after so many CNC cycles
+    #[arg(long, value_name = "N", default_value_t = TracerOptions::default().max_cycles)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    max_cycles: u64,
+    /// Write the result into this file
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// A format of the currents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// One row a cycle.
+    #[default]
+    Csv,
+}
+
+/// Columns that the currents of a program have only where they are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Column {
+    /// The state of the compensation.
+    Comp,
+    /// The line of the block that is followed.
+    Line,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
+    let Format::Csv = args.format;
+    match (&args.program, &args.trace, &args.value_list) {
+        (Some(program), ..) => program::run(program, args, console),
+        (None, Some(trace), Some(list)) => recorded::run((trace, list), args, console),
+        // The arguments are declared so that one of them is there.
+        _ => Err(Failure::new("there is neither a program nor a trace")),
+    }
+}
+
+/// A CNC cycle that can be one, in seconds.
+fn check_cycle(cycle: f64) -> Result<f64, Failure> {
+    if cycle.is_finite() && cycle > 0.0 {
+        Ok(cycle)
+    } else {
+        Err(
+            Failure::new(format!("a CNC cycle of {cycle} s is not possible"))
+                .with_help("write the seconds of a cycle, `--cycle-time 0.001`"),
+        )
+    }
+}
+
+/// Says which outputs were cut to 16 bit.
+fn say_saturated(axis: &str, cycles: u64) {
+    if cycles > 0 {
+        Console::talk(&format!(
+            "FC137: the current of {cycles} cycles{axis} is beyond 16 bit and was cut"
+        ));
+    }
+}
+
+/// The values that a list would give the control.
+fn value_list(path: &Path) -> Result<FrictionList, Failure> {
+    let source = Arc::new(SourceFile::new(
+        path.display().to_string(),
+        read_text(path)?,
+    ));
+    let entries = Entries::parse(&source);
+    let mut diagnostics = entries.diagnostics.clone();
+    let draft = FrictionDraft::from_entries(&entries, &mut diagnostics);
+    let reading = draft.check(&Conditions::default());
+    diagnostics.extend(reading.diagnostics);
+    let reason = match reading.verdict {
+        Verdict::Accepted(list) => {
+            let count = diagnostics.len();
+            if count > 0 {
+                let name = source.name();
+                Console::talk(&format!(
+                    "lists: {count} remarks (`frictcomp lists {name}` shows them)"
+                ));
+            }
+            return Ok(list);
+        }
+        Verdict::Absent => "it holds no friction parameters",
+        Verdict::Off => "its mode is 0, off",
+        Verdict::Rejected(_) => "the control would reject it",
+    };
+    diagnostics.retain(|diagnostic| diagnostic.severity == Severity::Error);
+    Err(Failure {
+        message: format!(
+            "the value list `{}` cannot be used: {reason}",
+            source.name()
+        ),
+        help: Vec::new(),
+        diagnostics,
+    })
+}
+
+/// `standstill=zero,below=origin,delay=reversal`, each of them optional.
+fn parse_reading(text: &str) -> Result<Reading, String> {
+    const OPTIONS: [&str; 6] = [
+        "standstill=hold",
+        "standstill=zero",
+        "below=hold",
+        "below=origin",
+        "delay=all",
+        "delay=reversal",
+    ];
+    let mut reading = Reading::default();
+    for option in text
+        .split(',')
+        .map(str::trim)
+        .filter(|option| !option.is_empty())
+    {
+        match option {
+            "standstill=hold" => reading.standstill = Standstill::Hold,
+            "standstill=zero" => reading.standstill = Standstill::Zero,
+            "below=hold" => reading.below = Below::Hold,
+            "below=origin" => reading.below = Below::Origin,
+            "delay=all" => reading.delay = Delay::All,
+            "delay=reversal" => reading.delay = Delay::Reversal,
+            _ => {
+                return Err(match did_you_mean(option, OPTIONS) {
+                    Some(near) => format!("`{option}` is no reading, did you mean `{near}`?"),
+                    None => format!("`{option}` is no reading; there are {}", OPTIONS.join(", ")),
+                });
+            }
+        }
+    }
+    Ok(reading)
+}

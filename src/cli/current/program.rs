@@ -1,0 +1,396 @@
+//! The current of the axes of a program.
+
+use std::collections::VecDeque;
+use std::io::{self, BufWriter, Write};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::super::console::Console;
+use super::super::discovery::{LoadedMachine, Machines};
+use super::super::dry_run::{Alone, run_alone};
+use super::super::exit;
+use super::super::failure::Failure;
+use super::super::files::{Input, Naming};
+use super::super::sheet::Sheet;
+use super::{Column, CurrentArgs, check_cycle, say_saturated, value_list};
+use crate::compensation::State;
+use crate::current::{AdditiveCurrent, Followers, Input as Commanded, Moment};
+use crate::diagnostic::{Diagnostic, Severity, did_you_mean};
+use crate::lists::FrictionList;
+use crate::machine::{AxisIndex, AxisType, Parameterisation};
+use crate::motion::{AxisLimits, Cause, Cycle, Cycles, Tracer, TracerOptions};
+use crate::session::{Motions, SessionOptions, StopPolicy};
+use crate::timeline::{Record, Sink};
+
+/// Units of position of the lists, 0.1 µm or 0.0001°, in a millimetre or degree.
+const POSITION: f64 = 10_000.0;
+/// Units of velocity of the lists, µm/s or 0.001°/s, in a millimetre or degree per second.
+const VELOCITY: f64 = 1000.0;
+
+/// Runs a program and writes the currents of its axes.
+pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
+    let input = Input::new(program);
+    input.probe()?;
+    let mut machines = Machines::new(&args.machine);
+    let mut loaded = machines.for_folder(input.folder())?.clone();
+    if let Some(remark) = loaded.remark() {
+        Console::talk(&remark);
+    }
+    let followed = followed(&args.axes, &mut loaded, args.value_list.as_deref())?;
+    let cycle = args
+        .cycle_time
+        .or(loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0));
+    let tracing = TracerOptions {
+        cycle: check_cycle(cycle.unwrap_or(TracerOptions::default().cycle))?,
+        max_cycles: args.max_cycles,
+    };
+    say_limits(&loaded);
+    let sheet = Sheet::create(args.output.as_deref(), console)?;
+    let currents = followed.iter().map(|axis| {
+        let list = values(&loaded, *axis);
+        AdditiveCurrent::new(&list, args.reading)
+    });
+    let mut follow = Follow {
+        tracer: Tracer::new(&loaded.machine, &followed, tracing),
+        table: Table {
+            followers: Followers::new(currents.collect()),
+            waiting: VecDeque::new(),
+            columns: args.columns.clone(),
+            writer: BufWriter::new(sheet),
+            written: Ok(()),
+            cycles: 0,
+            begins: Vec::new(),
+            seen: vec![Vec::new(); followed.len()],
+        },
+        errors: Vec::new(),
+        over: ControlFlow::Continue(()),
+    };
+    let names: Vec<String> = followed
+        .iter()
+        .map(|axis| loaded.machine.axis(*axis).name.clone())
+        .collect();
+    follow.table.header(&names);
+    let alone = Alone {
+        options: SessionOptions {
+            motions: Motions::Taken,
+            ..args.execution.options(&loaded, StopPolicy::FirstError)
+        },
+        naming: Naming::AsGiven,
+    };
+    run_alone(&input, &loaded, alone, &mut follow)?;
+    let Follow {
+        mut tracer,
+        mut table,
+        errors,
+        over,
+    } = follow;
+    if over.is_continue() && tracer.finish(&mut table).is_continue() {
+        table.drain();
+    }
+    let cycles = table.cycles;
+    match table.finish() {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),
+        written => written.map_err(|error| Failure::output(&error))?,
+    }
+    let told = Told {
+        names: &names,
+        table: &table,
+        loaded: &loaded,
+    };
+    let mut said = errors;
+    said.extend(told.levelled(tracer.diagnostics()));
+    console.show(&said);
+    if cycles == 0 {
+        Console::talk(&told.nothing());
+    }
+    told.say_all(args);
+    let failed = said.iter().any(|said| said.severity == Severity::Error);
+    Ok(if failed { exit::FOUND } else { exit::CLEAN })
+}
+
+/// The axes that are followed. A value list of the command line takes the place of theirs.
+fn followed(
+    names: &[String],
+    loaded: &mut LoadedMachine,
+    list: Option<&Path>,
+) -> Result<Vec<AxisIndex>, Failure> {
+    let list = list.map(value_list).transpose()?;
+    let mut followed: Vec<AxisIndex> = Vec::new();
+    for name in names {
+        let machine = &mut loaded.machine;
+        let Some(axis) = machine.find(name) else {
+            let known: Vec<&str> = machine.axes.iter().map(|axis| axis.name.as_str()).collect();
+            let failure = Failure::new(format!("the machine has no axis `{name}`"));
+            return Err(match did_you_mean(name, known.iter().copied()) {
+                Some(near) => failure.with_help(format!("did you mean `{near}`?")),
+                None => failure.with_help(format!("it has {}", known.join(", "))),
+            });
+        };
+        if followed.contains(&axis) {
+            continue;
+        }
+        followed.push(axis);
+        let axis = &mut machine.axes[axis.get()];
+        if let Some(list) = &list {
+            axis.friction = Parameterisation::Accepted(list.clone());
+        }
+        if axis.friction == Parameterisation::Assumed {
+            return Err(Failure::new(format!(
+                "the friction values of axis `{name}` are not known, only assumed to exist"
+            ))
+            .with_help("name its compensation value list with `--value-list`"));
+        }
+    }
+    Ok(followed)
+}
+
+/// The value list of an axis; an empty one where the control would not take any.
+fn values(loaded: &LoadedMachine, axis: AxisIndex) -> FrictionList {
+    match &loaded.machine.axis(axis).friction {
+        Parameterisation::Accepted(list) => list.clone(),
+        _ => FrictionList {
+            position_delay: 0,
+            reversal_lookahead: 0,
+            scaling_factor: 1000,
+            delay_cycles: 0,
+            max_points: 0,
+            table: Vec::new(),
+        },
+    }
+}
+
+/// Which limits are assumed, for each axis that the configuration does not describe in full.
+fn say_limits(loaded: &LoadedMachine) {
+    let mut assumed: Vec<(String, Vec<&str>)> = Vec::new();
+    for axis in &loaded.machine.axes {
+        let limits = AxisLimits::of(axis);
+        let (minute, second) = match axis.axis_type {
+            AxisType::Linear => ("mm/min", ("m/s²", "m/s³", 1000.0)),
+            _ => ("°/min", ("°/s²", "°/s³", 1.0)),
+        };
+        let (square, cube, unit) = second;
+        let parts = [
+            (limits.assumed.velocity, limits.velocity * 60.0, minute),
+            (
+                limits.assumed.acceleration,
+                limits.acceleration / unit,
+                square,
+            ),
+            (limits.assumed.jerk, limits.jerk / unit, cube),
+        ];
+        let parts: Vec<String> = parts
+            .iter()
+            .filter(|(assumed, ..)| *assumed)
+            .map(|(_, value, unit)| format!("{value:.0} {unit}"))
+            .collect();
+        if parts.is_empty() {
+            continue;
+        }
+        let text = parts.join(", ");
+        match assumed.iter_mut().find(|(known, _)| *known == text) {
+            Some((_, names)) => names.push(&axis.name),
+            None => assumed.push((text, vec![&axis.name])),
+        }
+    }
+    for (limits, names) in assumed {
+        let names = names.join(" ");
+        Console::talk(&format!("limits assumed for {names}: {limits}"));
+    }
+}
+
+/// Follows a session.
+struct Follow {
+    tracer: Tracer,
+    table: Table,
+    /// What stopped the program.
+    errors: Vec<Diagnostic>,
+    over: ControlFlow<()>,
+}
+
+impl Sink for Follow {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        let error = |said: &&Diagnostic| said.severity == Severity::Error;
+        match record {
+            Record::Machine(said) => self.errors.extend(Some(said).filter(error).cloned()),
+            Record::Block(row) => {
+                self.errors
+                    .extend(row.diagnostics.iter().filter(error).cloned());
+                self.over = self.tracer.block(&row, &mut self.table);
+            }
+            Record::End(end) => {
+                let notes = end.notes.iter().map(|note| &note.diagnostic);
+                self.errors.extend(notes.filter(error).cloned());
+            }
+            _ => {}
+        }
+        self.over
+    }
+}
+
+/// The rows of the result on their way out.
+struct Table {
+    followers: Followers,
+    /// Time and line of the cycles whose current is not known yet.
+    waiting: VecDeque<(f64, u32)>,
+    columns: Vec<Column>,
+    writer: BufWriter<Sheet>,
+    written: io::Result<()>,
+    cycles: u64,
+    /// When and at which line the trace begins, and begins anew.
+    begins: Vec<(f64, u32)>,
+    /// The states that each axis was in, other than active.
+    seen: Vec<Vec<State>>,
+}
+
+impl Table {
+    /// `t,x,v,…` for one axis, `t,x.X,v.X,…` for several.
+    fn header(&mut self, names: &[String]) {
+        let mut header = String::from("t");
+        for name in names {
+            let suffix = match names.len() {
+                1 => String::new(),
+                _ => format!(".{name}"),
+            };
+            let comp = self.columns.contains(&Column::Comp).then_some("comp");
+            let columns = ["x", "v", "w_before", "w_after", "current", "output"];
+            for column in columns.into_iter().chain(comp) {
+                header.push_str(&format!(",{column}{suffix}"));
+            }
+        }
+        if self.columns.contains(&Column::Line) {
+            header.push_str(",line");
+        }
+        self.written = writeln!(self.writer, "{header}");
+    }
+
+    /// Writes the cycles that wait for others.
+    fn drain(&mut self) {
+        while let Some(moments) = self.followers.pop() {
+            let Some(head) = self.waiting.pop_front() else {
+                return;
+            };
+            if self.written.is_ok() {
+                self.written = write_row(&mut self.writer, &self.columns, head, moments);
+            }
+        }
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        std::mem::replace(&mut self.written, Ok(()))?;
+        self.writer.flush()?;
+        self.writer.get_mut().finish()
+    }
+}
+
+impl Cycles for Table {
+    fn begin(&mut self, time: f64, cause: &Arc<Cause>) -> ControlFlow<()> {
+        self.drain();
+        self.followers.restart();
+        self.begins.push((time, cause.line));
+        ControlFlow::Continue(())
+    }
+
+    fn cycle(&mut self, cycle: &Cycle<'_>) -> ControlFlow<()> {
+        self.cycles += 1;
+        for (seen, state) in self.seen.iter_mut().zip(cycle.cause.friction.iter()) {
+            if *state != State::Active && !seen.contains(state) {
+                seen.push(*state);
+            }
+        }
+        self.waiting.push_back((cycle.time, cycle.cause.line));
+        let axes = cycle.positions.iter().zip(cycle.velocities);
+        let inputs = axes
+            .zip(cycle.cause.friction.iter())
+            .map(|((x, v), state)| Commanded {
+                position: x * POSITION,
+                velocity: v * VELOCITY,
+                friction: *state,
+            });
+        if let Some(moments) = self.followers.push(inputs)
+            && let Some(head) = self.waiting.pop_front()
+        {
+            self.written = write_row(&mut self.writer, &self.columns, head, moments);
+        }
+        match self.written {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        }
+    }
+}
+
+fn write_row(
+    writer: &mut impl Write,
+    columns: &[Column],
+    (time, line): (f64, u32),
+    moments: &[Moment],
+) -> io::Result<()> {
+    write!(writer, "{time}")?;
+    for Moment { input, cycle } in moments {
+        let (x, v) = (input.position, input.velocity);
+        write!(writer, ",{x},{v},{},{}", cycle.w_before, cycle.w_after)?;
+        match input.friction {
+            // Nobody knows it.
+            State::Unknown => write!(writer, ",,")?,
+            _ => write!(writer, ",{},{}", cycle.current, cycle.output)?,
+        }
+        if columns.contains(&Column::Comp) {
+            write!(writer, ",{}", input.friction.word())?;
+        }
+    }
+    if columns.contains(&Column::Line) {
+        write!(writer, ",{line}")?;
+    }
+    writeln!(writer)
+}
+
+/// What is said when the result is out.
+struct Told<'a> {
+    names: &'a [String],
+    table: &'a Table,
+    loaded: &'a LoadedMachine,
+}
+
+impl Told<'_> {
+    /// The diagnostics with the severities of the user.
+    fn levelled(&self, diagnostics: &[Diagnostic]) -> Vec<Diagnostic> {
+        let levels = &self.loaded.levels;
+        let levelled = diagnostics.iter().filter_map(|said| {
+            let severity = levels.severity(said.code)?;
+            Some(Diagnostic {
+                severity,
+                ..said.clone()
+            })
+        });
+        levelled.collect()
+    }
+
+    fn nothing(&self) -> String {
+        let names = self.names.join(", ");
+        format!(
+            "no motion is known of an axis that stands where it is known: program {names} with \
+             absolute positions, twice"
+        )
+    }
+
+    fn say_all(&self, args: &CurrentArgs) {
+        for (at, (time, line)) in self.table.begins.iter().enumerate() {
+            let anew = if at == 0 { "begins" } else { "begins anew" };
+            Console::talk(&format!("the trace {anew} with line {line}, at {time} s"));
+        }
+        for (name, states) in self.names.iter().zip(&self.table.seen) {
+            for state in states {
+                let word = state.word();
+                let what = match state {
+                    State::Unknown => "its current is left empty",
+                    _ => "its current is 0",
+                };
+                Console::talk(&format!("{name}: while its state is `{word}`, {what}"));
+            }
+        }
+        Console::talk(&format!("reading: {}", args.reading.words()));
+        for (name, cycles) in self.names.iter().zip(self.table.followers.saturated()) {
+            say_saturated(&format!(" of axis {name}"), cycles);
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! The canonical motion of a block: what moves, along what and how fast, without any words (R5.1).
+//!
+//! It is made only where [`Motions::Taken`] asks for it.
+
+use super::words::AxisWords;
+use super::{Group, Interpreter};
+use crate::machine::AxisIndex;
+
+/// Whether blocks say what they move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Motions {
+    /// They do not.
+    #[default]
+    None,
+    /// They do, see [`Motion`].
+    Taken,
+}
+
+/// What a block makes the machine do.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Motion {
+    /// Axes move.
+    Travel(Travel),
+    /// The axes rest, in seconds; `None` where nobody knows how long.
+    Dwell(Option<f64>),
+}
+
+/// A motion from one place to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Travel {
+    /// Along what.
+    pub form: Form,
+    /// Where each axis of the machine stands before, in mm or degrees, where that is known.
+    pub from: Vec<Option<f64>>,
+    /// Where each axis stands behind it.
+    pub to: Vec<Option<f64>>,
+    /// How fast; a rapid motion takes no notice of it.
+    pub feed: PathFeed,
+    /// What happens at the end of the block.
+    pub end: BlockEnd,
+}
+
+/// What a motion follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Form {
+    /// G00: a straight line, as fast as the axes can.
+    Rapid,
+    /// G01: a straight line at the path feed.
+    Line,
+    /// G02, G03: an arc, or a helix when the third axis moves.
+    Arc(Arc),
+    /// Something that is not modelled, or not known offline, in words.
+    Unknown(&'static str),
+}
+
+/// A circular arc in the plane of two axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arc {
+    /// The first and the second axis of the plane: X Y with G17, Z X with G18, Y Z with G19.
+    pub axes: [AxisIndex; 2],
+    /// The sense of rotation, seen against the third axis.
+    pub turn: Turn,
+    /// Where the centre lies.
+    pub centre: Centre,
+}
+
+/// The sense of rotation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turn {
+    /// G02.
+    Clockwise,
+    /// G03.
+    CounterClockwise,
+}
+
+/// How the centre of an arc is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Centre {
+    /// By its coordinates on the two axes of the plane, in mm.
+    Point([f64; 2]),
+    /// By the radius in mm: positive for the short arc, negative for the long one.
+    Radius(f64),
+}
+
+/// How fast the path is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathFeed {
+    /// G94: in mm/min, or °/min where only rotary axes move.
+    PerMinute(f64),
+    /// G93: the seconds that the block takes (PM/206602507).
+    Seconds(f64),
+    /// Not known, and why.
+    Unknown(&'static str),
+}
+
+/// What happens at the end of a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BlockEnd {
+    /// The path goes on as fast as its corner allows.
+    #[default]
+    Through,
+    /// G60, or G360 until G359: the axes come to rest (PM/206301707).
+    ExactStop,
+}
+
+/// What a word says: nothing, or a value that may be unknown.
+pub(super) type Given = Option<Option<f64>>;
+
+/// The words of a block that shape its motion and nothing else.
+#[derive(Debug, Default)]
+pub(super) struct Geometry {
+    /// I, J, K.
+    pub(super) centre: [Given; 3],
+    /// R.
+    pub(super) radius: Given,
+    /// The seconds of `G04 2.5` and `#TIME 2.5`.
+    pub(super) dwell: Given,
+    pub(super) end: BlockEnd,
+    /// A G function that makes the block's motion something else.
+    pub(super) foreign: Option<&'static str>,
+}
+
+/// G functions with which axis words are a motion that is not modelled.
+pub(super) fn foreign(number: u32) -> Option<&'static str> {
+    Some(match number {
+        33 => "G33 follows a spindle",
+        63 => "G63 follows a spindle",
+        100..=102 | 106 | 108 => "a measuring motion ends where the probe says",
+        301 | 302 => "G301 and G302 insert a contour",
+        303 => "G303 is an arc in space",
+        _ => return None,
+    })
+}
+
+impl Interpreter {
+    /// The geometry words of the block.
+    pub(super) fn geometry(&mut self) -> &mut Geometry {
+        self.work.geometry.get_or_insert_default()
+    }
+
+    /// I, J, K or R of a circle.
+    pub(super) fn circle_word(&mut self, letter: u8, value: Option<f64>) {
+        let metric = self.state.modal.is_known(Group::Unit);
+        let inch = self.state.modal.inch;
+        let value = value.filter(|_| metric);
+        let value = value.map(|value| if inch { value * 25.4 } else { value });
+        let geometry = self.geometry();
+        match letter {
+            b'R' => geometry.radius = Some(value),
+            _ => geometry.centre[usize::from(letter.saturating_sub(b'I')).min(2)] = Some(value),
+        }
+    }
+
+    /// Where every axis stands, for a block that may move.
+    pub(super) fn stand(&self) -> Option<Vec<Option<f64>>> {
+        (self.options.motions == Motions::Taken).then(|| self.state.modal.positions().to_vec())
+    }
+
+    /// Makes the motion of the block, which started at `from`.
+    pub(super) fn take_motion(&mut self, from: Option<Vec<Option<f64>>>, words: AxisWords) {
+        let geometry = self.work.geometry.take();
+        if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {
+            // The radius holds until another one is given (PM, radius programming).
+            self.state.modal.radius = radius;
+        }
+        let Some(from) = from else { return };
+        let geometry = geometry.unwrap_or_default();
+        self.work.motion = self.motion(&geometry, from, words);
+    }
+
+    fn motion(
+        &self,
+        geometry: &Geometry,
+        from: Vec<Option<f64>>,
+        words: AxisWords,
+    ) -> Option<Motion> {
+        let dwells = self.work.dwells;
+        if dwells {
+            let by_axis = self.work.coordinates.first().map(|&(_, seconds)| seconds);
+            return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
+        }
+        let circular = matches!(self.state.modal.motion, 2 | 3);
+        let centred = geometry.centre.iter().any(Option::is_some);
+        let moves = !self.work.coordinates.is_empty() || (circular && centred);
+        let form = match words {
+            _ if !moves => return None,
+            AxisWords::Motion => self.form(geometry, &from),
+            AxisWords::Homing => Form::Unknown("homing ends at a reference point of the machine"),
+            AxisWords::Reference | AxisWords::Other => return None,
+        };
+        let modal = &self.state.modal;
+        let exact = modal.exact_stop || geometry.end == BlockEnd::ExactStop;
+        Some(Motion::Travel(Travel {
+            form,
+            from,
+            to: modal.positions().to_vec(),
+            feed: self.path_feed(),
+            end: if exact {
+                BlockEnd::ExactStop
+            } else {
+                BlockEnd::Through
+            },
+        }))
+    }
+
+    fn form(&self, geometry: &Geometry, from: &[Option<f64>]) -> Form {
+        let modal = &self.state.modal;
+        if let Some(reason) = geometry.foreign {
+            return Form::Unknown(reason);
+        }
+        if !modal.is_known(Group::Motion) {
+            return Form::Unknown("whether G00, G01, G02 or G03 is in force is not known");
+        }
+        match modal.motion {
+            0 => Form::Rapid,
+            1 => Form::Line,
+            motion => self.arc(motion, geometry, from),
+        }
+    }
+
+    fn arc(&self, motion: u32, geometry: &Geometry, from: &[Option<f64>]) -> Form {
+        let modal = &self.state.modal;
+        let letters = [b'X', b'Y'].map(|letter| modal.main_axis(letter));
+        let [Some(first), Some(second)] = letters else {
+            return Form::Unknown("which plane is in force is not known");
+        };
+        let axes = [first, second].map(|letter| self.letters[usize::from(letter - b'A')]);
+        let [Some(one), Some(two)] = axes else {
+            return Form::Unknown("the machine lacks an axis of the plane");
+        };
+        let centre = if geometry.centre.iter().any(Option::is_some) {
+            let offset = |letter: u8| geometry.centre[usize::from(letter - b'X')];
+            let at = |axis: AxisIndex, letter| self.centre_of(axis, offset(letter), from);
+            match (at(one, first), at(two, second)) {
+                (Some(a), Some(b)) => Centre::Point([a, b]),
+                _ => return Form::Unknown("where the centre of the circle lies is not known"),
+            }
+        } else {
+            match modal.radius {
+                Some(radius) => Centre::Radius(radius),
+                None => return Form::Unknown("the circle has neither a centre nor a known radius"),
+            }
+        };
+        Form::Arc(Arc {
+            axes: [one, two],
+            turn: if motion == 2 {
+                Turn::Clockwise
+            } else {
+                Turn::CounterClockwise
+            },
+            centre,
+        })
+    }
+
+    /// The centre on one axis: G162 counts from the start of the arc, G161 from the origin of the
+    /// program (PM/206537483). Only with G162 a word may be left out.
+    fn centre_of(&self, axis: AxisIndex, word: Given, from: &[Option<f64>]) -> Option<f64> {
+        let modal = &self.state.modal;
+        if !modal.is_known(Group::CircleCentre) {
+            return None;
+        }
+        let start = if modal.centre_absolute {
+            modal.reference(axis)
+        } else {
+            from.get(axis.get()).copied().flatten()
+        };
+        let word = match word {
+            None if !modal.centre_absolute => Some(0.0),
+            word => word.flatten(),
+        };
+        start.zip(word).map(|(start, word)| start + word)
+    }
+
+    fn path_feed(&self) -> PathFeed {
+        let modal = &self.state.modal;
+        if !modal.is_known(Group::Feed) {
+            return PathFeed::Unknown("which of G93, G94 and G95 is in force is not known");
+        }
+        match (modal.feed_mode, modal.feeds) {
+            (93, [Some(seconds), ..]) => PathFeed::Seconds(seconds),
+            (94, [_, Some(feed), _]) => PathFeed::PerMinute(feed),
+            (95, _) => PathFeed::Unknown("G95 needs the speed of a spindle"),
+            (194, _) => PathFeed::Unknown("G194 weights feeds of the machine"),
+            _ => PathFeed::Unknown("no F is known"),
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Block transitions: how fast one piece of the path may turn into the next (R5.2).
+
+use super::leg::Leg;
+use super::limits::AxisLimits;
+use super::profile::Bounds;
+use crate::interpreter::BlockEnd;
+
+/// How much of the limits a piece of the path may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Share {
+    /// All of them.
+    Whole,
+    /// What a kink at one of its ends leaves.
+    BesideKink,
+}
+
+/// A kink may take a quarter of an axis' acceleration, and of its jerk twice a quarter: two
+/// kinks of opposite sign in neighbouring cycles add up.
+const KINK_SHARE: f64 = 0.25;
+
+impl Share {
+    /// The limits of an axis under this share.
+    pub(super) fn of(self, limits: &AxisLimits) -> Bounds {
+        let (acceleration, jerk) = match self {
+            Self::Whole => (1.0, 1.0),
+            Self::BesideKink => (1.0 - KINK_SHARE, 1.0 - 2.0 * KINK_SHARE),
+        };
+        Bounds {
+            velocity: limits.velocity,
+            acceleration: limits.acceleration * acceleration,
+            jerk: limits.jerk * jerk,
+        }
+    }
+}
+
+/// A change of slope that is none: decimals of the program.
+const STRAIGHT: f64 = 1e-7;
+
+/// A change of the slope of an axis from which on the path stops: 5.7° between two lines.
+const SHARP: f64 = 0.1;
+
+/// The transition from one piece of the path to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Junction {
+    /// Nothing changes but the bounds.
+    Smooth,
+    /// A kink that may be passed while the path speeds up or slows down.
+    Bend {
+        /// The highest path velocity in it.
+        velocity: f64,
+    },
+    /// A kink that is passed without path acceleration.
+    Corner {
+        /// The highest path velocity in it.
+        velocity: f64,
+    },
+    /// The path stops.
+    Stop,
+}
+
+impl Junction {
+    /// The transition between two pieces of the path. In a CNC cycle, in which the path turns from
+    /// one slope to another, the velocity of an axis jumps by `v·Δx'` and its acceleration by
+    /// `v²·Δx'' + a·Δx'`; the jumps stay within a share of the acceleration and the jerk of the
+    /// axis in that cycle.
+    pub(super) fn between(before: &Leg, after: &Leg, limits: &[AxisLimits], cycle: f64) -> Self {
+        if before.end == BlockEnd::ExactStop {
+            return Self::Stop;
+        }
+        let mut junction = Self::Smooth;
+        let bounds = [before, after].map(|leg| leg.bounds(limits, Share::BesideKink));
+        let pull = bounds[0].acceleration.min(bounds[1].acceleration);
+        for (axis, limits) in limits.iter().enumerate().take(before.axes()) {
+            let turn = (after.slope(axis, 0.0) - before.slope(axis, before.length)).abs();
+            let bow = (after.bend(axis, 0.0) - before.bend(axis, before.length)).abs();
+            if turn >= SHARP {
+                return Self::Stop;
+            }
+            // A bow over one length unit changes the slope by as much.
+            if turn < STRAIGHT && bow < STRAIGHT {
+                continue;
+            }
+            // The jerk that the kink may take; a jump of velocity counts over two cycles.
+            let budget = KINK_SHARE * limits.jerk.min(limits.acceleration / cycle);
+            let pulled = pull * turn / cycle;
+            let passing = pulled <= budget / 2.0;
+            let left = if passing { budget - pulled } else { budget };
+            let (linear, square) = (turn / (cycle * cycle), bow / cycle);
+            let velocity = 2.0 * left / (linear + (linear * linear + 4.0 * square * left).sqrt());
+            let velocity = velocity.min(before.length.min(after.length) / cycle);
+            junction = junction.and(velocity, passing);
+        }
+        junction
+    }
+
+    /// The stricter of what is known and one more kink.
+    fn and(self, velocity: f64, passing: bool) -> Self {
+        let velocity = velocity.min(self.velocity());
+        match self {
+            Self::Stop => Self::Stop,
+            Self::Smooth | Self::Bend { .. } if passing => Self::Bend { velocity },
+            _ => Self::Corner { velocity },
+        }
+    }
+
+    /// The highest path velocity in it.
+    pub(super) fn velocity(self) -> f64 {
+        match self {
+            Self::Smooth => f64::INFINITY,
+            Self::Bend { velocity } | Self::Corner { velocity } => velocity,
+            Self::Stop => 0.0,
+        }
+    }
+
+    /// The same without path acceleration.
+    pub(super) fn fixed(self) -> Self {
+        match self {
+            Self::Stop => Self::Stop,
+            open => Self::Corner {
+                velocity: open.velocity(),
+            },
+        }
+    }
+
+    /// Whether the axes turn in it while they move.
+    pub(super) fn is_kink(self) -> bool {
+        matches!(self, Self::Bend { .. } | Self::Corner { .. })
+    }
+
+    /// Whether the path must be without acceleration in it.
+    pub(super) fn is_fixed(self) -> bool {
+        matches!(self, Self::Corner { .. } | Self::Stop)
+    }
+}

@@ -1,0 +1,300 @@
+//! One piece of the path: where the axes are after a way, which way they head, how they turn.
+
+use std::f64::consts::TAU;
+use std::sync::Arc as Shared;
+
+use super::Cause;
+use super::junction::Share;
+use super::limits::AxisLimits;
+use super::profile::Bounds;
+use crate::interpreter::{BlockEnd, Centre, CircularArc, Turn};
+
+/// Ends of an arc that lie closer than this, in mm, make it a full circle.
+const SAME_PLACE: f64 = 1e-6;
+
+/// The centre of an arc may miss the places that its ends allow by this part of the radius; it is
+/// moved then, as G165 does (PM/206551563).
+const CENTRE_TOLERANCE: f64 = 0.05;
+
+/// How much of the acceleration a circle may take for its own: the rest speeds up and slows down.
+const CIRCLE_ACCELERATION: f64 = 0.9;
+/// How much of the jerk a circle may take for its own.
+const CIRCLE_JERK: f64 = 0.7;
+/// How much of the jerk the change of path velocity on a circle may take across the path.
+const CROSS_JERK: f64 = 0.5;
+
+/// A slope smaller than this is none: the rounding of a sine.
+const NO_SLOPE: f64 = 1e-12;
+
+/// A piece of the path.
+#[derive(Debug, Clone)]
+pub(super) struct Leg {
+    from: Box<[f64]>,
+    to: Box<[f64]>,
+    circle: Option<Circle>,
+    /// The way along the path that the feed refers to, in mm or degrees.
+    pub(super) length: f64,
+    /// The highest path velocity that the program asks for.
+    pub(super) feed: f64,
+    pub(super) end: BlockEnd,
+    pub(super) cause: Shared<Cause>,
+}
+
+/// An arc in the plane of two axes.
+#[derive(Debug, Clone, Copy)]
+struct Circle {
+    axes: [usize; 2],
+    centre: [f64; 2],
+    radius: f64,
+    /// The angle at which it starts, against the first axis.
+    start: f64,
+    /// The angle that it runs through, positive against the clock.
+    sweep: f64,
+}
+
+/// Where a leg leads, by axis, and which axes the feed refers to.
+pub(super) struct Ends<'a> {
+    pub(super) from: Box<[f64]>,
+    pub(super) to: Box<[f64]>,
+    /// Whether each axis is a main axis (X Y Z, PM/207471243).
+    pub(super) main: &'a [bool],
+}
+
+impl Leg {
+    /// A straight leg; `None` where nothing moves.
+    pub(super) fn line(ends: Ends<'_>, cause: Shared<Cause>) -> Option<Self> {
+        let way = |main: bool| {
+            let axes = ends.from.iter().zip(&ends.to).zip(ends.main);
+            axes.filter(|(_, is_main)| **is_main == main)
+                .map(|((from, to), _)| to - from)
+                .fold(0.0, f64::hypot)
+        };
+        // Axes behind the main ones follow; moving alone, the feed is theirs.
+        let length = [way(true), way(false)].into_iter().find(|way| *way > 0.0)?;
+        Some(Self::new(ends, None, length, cause))
+    }
+
+    /// An arc or a helix.
+    ///
+    /// # Errors
+    /// What keeps the ends and the centre from making an arc.
+    pub(super) fn arc(
+        ends: Ends<'_>,
+        arc: &CircularArc,
+        cause: Shared<Cause>,
+    ) -> Result<Self, &'static str> {
+        let axes = arc.axes.map(crate::machine::AxisIndex::get);
+        let circle = Circle::new(axes, (&ends.from, &ends.to), arc)?;
+        let depth = (0..ends.from.len())
+            .filter(|axis| ends.main[*axis] && !axes.contains(axis))
+            .map(|axis| ends.to[axis] - ends.from[axis])
+            .fold(0.0, f64::hypot);
+        let length = (circle.radius * circle.sweep).hypot(depth);
+        Ok(Self::new(ends, Some(circle), length, cause))
+    }
+
+    fn new(ends: Ends<'_>, circle: Option<Circle>, length: f64, cause: Shared<Cause>) -> Self {
+        Self {
+            from: ends.from,
+            to: ends.to,
+            circle,
+            length,
+            feed: f64::INFINITY,
+            end: BlockEnd::Through,
+            cause,
+        }
+    }
+
+    /// How many axes there are.
+    pub(super) fn axes(&self) -> usize {
+        self.from.len()
+    }
+
+    /// Where an axis is after a way; exact at both ends.
+    pub(super) fn position(&self, axis: usize, way: f64) -> f64 {
+        if way <= 0.0 {
+            return self.from[axis];
+        }
+        if way >= self.length {
+            return self.to[axis];
+        }
+        let part = way / self.length;
+        match self.circle {
+            Some(circle) if circle.axes.contains(&axis) => {
+                let (along, across) = circle.direction(part);
+                let (centre, share) = if axis == circle.axes[0] {
+                    (circle.centre[0], along)
+                } else {
+                    (circle.centre[1], across)
+                };
+                centre + circle.radius * share
+            }
+            _ => self.from[axis] + (self.to[axis] - self.from[axis]) * part,
+        }
+    }
+
+    /// The change of an axis with the way, after a way.
+    pub(super) fn slope(&self, axis: usize, way: f64) -> f64 {
+        let slope = match self.circle {
+            Some(circle) if circle.axes.contains(&axis) => {
+                let (along, across) = circle.direction(way / self.length);
+                let turn = circle.radius * circle.sweep / self.length;
+                if axis == circle.axes[0] {
+                    -across * turn
+                } else {
+                    along * turn
+                }
+            }
+            _ => (self.to[axis] - self.from[axis]) / self.length,
+        };
+        if slope.abs() < NO_SLOPE { 0.0 } else { slope }
+    }
+
+    /// The change of the slope of an axis with the way.
+    pub(super) fn bend(&self, axis: usize, way: f64) -> f64 {
+        match self.circle {
+            Some(circle) if circle.axes.contains(&axis) => {
+                let (along, across) = circle.direction(way / self.length);
+                let turn = circle.sweep / self.length;
+                let share = if axis == circle.axes[0] {
+                    along
+                } else {
+                    across
+                };
+                -share * circle.radius * turn * turn
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// What the limits of the axes leave along this leg (R5.2, R5.3). Along a circle position,
+    /// acceleration and jerk of the plane's axes are those of `r(φ)`: `v²/r` and `3va/r` across the
+    /// path, `a` and `j - v³/r²` along it.
+    pub(super) fn bounds(&self, limits: &[AxisLimits], share: Share) -> Bounds {
+        let mut bounds = Bounds {
+            velocity: self.feed,
+            acceleration: f64::INFINITY,
+            jerk: f64::INFINITY,
+        };
+        for (axis, limits) in limits.iter().enumerate() {
+            let straight = self
+                .circle
+                .is_none_or(|circle| !circle.axes.contains(&axis));
+            let slope = ((self.to[axis] - self.from[axis]) / self.length).abs();
+            if straight && slope > 0.0 {
+                let limits = share.of(limits);
+                bounds.velocity = bounds.velocity.min(limits.velocity / slope);
+                bounds.acceleration = bounds.acceleration.min(limits.acceleration / slope);
+                bounds.jerk = bounds.jerk.min(limits.jerk / slope);
+            }
+        }
+        if let Some(circle) = &self.circle {
+            let [one, two] = circle.axes.map(|axis| share.of(&limits[axis]));
+            let plane = Bounds {
+                velocity: one.velocity.min(two.velocity),
+                acceleration: one.acceleration.min(two.acceleration),
+                jerk: one.jerk.min(two.jerk),
+            };
+            circle.restrict(&mut bounds, plane, self.length);
+        }
+        bounds
+    }
+}
+
+impl Circle {
+    fn new(
+        axes: [usize; 2],
+        (from, to): (&[f64], &[f64]),
+        arc: &CircularArc,
+    ) -> Result<Self, &'static str> {
+        let (start, end) = (axes.map(|axis| from[axis]), axes.map(|axis| to[axis]));
+        let chord = [end[0] - start[0], end[1] - start[1]];
+        let distance = chord[0].hypot(chord[1]);
+        let full = distance < SAME_PLACE;
+        let middle = [
+            f64::midpoint(start[0], end[0]),
+            f64::midpoint(start[1], end[1]),
+        ];
+        let centre = match arc.centre {
+            Centre::Point(centre) if full => centre,
+            Centre::Point(centre) => {
+                // The nearest point that has the same distance to both ends.
+                let offset = [centre[0] - middle[0], centre[1] - middle[1]];
+                let astray = (offset[0] * chord[0] + offset[1] * chord[1]) / distance;
+                let given = (centre[0] - start[0]).hypot(centre[1] - start[1]);
+                if astray.abs() > CENTRE_TOLERANCE * given {
+                    return Err("the centre of the circle does not fit its ends");
+                }
+                [
+                    centre[0] - astray * chord[0] / distance,
+                    centre[1] - astray * chord[1] / distance,
+                ]
+            }
+            Centre::Radius(_) if full => return Err("`R` cannot make a full circle"),
+            Centre::Radius(radius) => {
+                let height = radius * radius - distance * distance / 4.0;
+                // A radius that rounding made too small gives half a circle.
+                if height < -1e-3 * radius * radius {
+                    return Err("the radius is less than half the distance of the ends");
+                }
+                let height = height.max(0.0).sqrt() * radius.signum();
+                // The short arc against the clock has its centre on the left.
+                let side = match arc.turn {
+                    Turn::Clockwise => -height,
+                    Turn::CounterClockwise => height,
+                };
+                [
+                    middle[0] - side * chord[1] / distance,
+                    middle[1] + side * chord[0] / distance,
+                ]
+            }
+        };
+        let angle = |point: [f64; 2]| (point[1] - centre[1]).atan2(point[0] - centre[0]);
+        let radius = (start[0] - centre[0]).hypot(start[1] - centre[1]);
+        if radius < SAME_PLACE || !radius.is_finite() {
+            return Err("the circle has no radius");
+        }
+        let turned = (angle(end) - angle(start)).rem_euclid(TAU);
+        let sweep = match arc.turn {
+            _ if full => TAU,
+            Turn::CounterClockwise => turned,
+            Turn::Clockwise => TAU - turned,
+        };
+        Ok(Self {
+            axes,
+            centre,
+            radius,
+            start: angle(start),
+            sweep: match arc.turn {
+                Turn::CounterClockwise => sweep,
+                Turn::Clockwise => -sweep,
+            },
+        })
+    }
+
+    /// Cosine and sine of the angle after a part of the arc.
+    fn direction(&self, part: f64) -> (f64, f64) {
+        let (sine, cosine) = (self.start + self.sweep * part).sin_cos();
+        (cosine, sine)
+    }
+
+    /// What the axes of the plane leave along the path.
+    fn restrict(&self, bounds: &mut Bounds, plane: Bounds, length: f64) {
+        // The part of the path velocity that lies in the plane; all of it without a helix.
+        let flat = self.radius * self.sweep.abs() / length;
+        let radius = self.radius;
+        let velocity = (bounds.velocity * flat)
+            .min(plane.velocity)
+            .min((CIRCLE_ACCELERATION * plane.acceleration * radius).sqrt())
+            .min((CIRCLE_JERK * plane.jerk * radius * radius).cbrt());
+        let across = velocity * velocity / radius;
+        let acceleration = (plane.acceleration * plane.acceleration - across * across)
+            .sqrt()
+            .min(CROSS_JERK * plane.jerk * radius / (3.0 * velocity));
+        let jerk = plane.jerk * (1.0 - CROSS_JERK * CROSS_JERK).sqrt()
+            - velocity.powi(3) / (radius * radius);
+        bounds.velocity = velocity / flat;
+        bounds.acceleration = bounds.acceleration.min(acceleration / flat);
+        bounds.jerk = bounds.jerk.min(jerk / flat);
+    }
+}

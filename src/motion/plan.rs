@@ -1,0 +1,283 @@
+//! Full look-ahead over a queue of legs: which velocity at each transition.
+//!
+//! First without the jerk, forth and back over all legs: the highest velocity that the
+//! accelerations allow at each transition. Where it meets the bound of a transition, the path has
+//! no acceleration; those transitions are the knots. Between two knots the path speeds up and
+//! slows down at most once, in one profile over all legs between them. Then back and forth over
+//! the knots with the jerk, and knots that the path does not touch any more are given up. A profile between knots stays below the velocities of the first step,
+//! so that it keeps the bounds of all legs under it.
+
+use super::junction::Junction;
+use super::profile::{Bounds, Profile, fits, reach};
+
+/// What the plan needs to know of a leg.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stage {
+    pub(super) length: f64,
+    pub(super) bounds: Bounds,
+    /// The transition into it.
+    pub(super) entry: Junction,
+}
+
+/// One profile over one or several legs.
+#[derive(Debug, Clone)]
+pub(super) struct Stretch {
+    /// How many legs it spans.
+    pub(super) legs: usize,
+    pub(super) profile: Profile,
+    /// The path velocities at its ends.
+    pub(super) start_velocity: f64,
+    pub(super) end_velocity: f64,
+    bounds: Bounds,
+}
+
+impl Stretch {
+    fn new((start, end): (f64, f64), span: &Span, bounds: Bounds) -> Self {
+        Self {
+            legs: span.legs,
+            profile: Profile::between(start, end, span.length, &bounds),
+            start_velocity: start,
+            end_velocity: end,
+            bounds,
+        }
+    }
+
+    /// Cuts the stretch in two behind one of its legs, given by their lengths: the last one where
+    /// the path has neither acceleration nor jerk. The motion stays as it is.
+    pub(super) fn cut(&self, lengths: impl Iterator<Item = f64>) -> Option<(Self, Self)> {
+        let (steady, velocity) = self.profile.steady();
+        let mut way = 0.0;
+        let behind = (1..self.legs).zip(lengths).map(|(legs, length)| {
+            way += length;
+            (legs, way)
+        });
+        let (legs, way) = behind.filter(|(_, way)| steady.contains(way)).last()?;
+        let part = |legs, length, ends| {
+            let bounds = Bounds {
+                velocity,
+                ..self.bounds
+            };
+            Self::new(
+                ends,
+                &Span {
+                    legs,
+                    length,
+                    bounds,
+                    start: 0.0,
+                    end: 0.0,
+                },
+                bounds,
+            )
+        };
+        Some((
+            part(legs, way, (self.start_velocity, velocity)),
+            part(
+                self.legs - legs,
+                self.profile.length() - way,
+                (velocity, self.end_velocity),
+            ),
+        ))
+    }
+}
+
+/// A velocity this close to a bound touches it.
+const TOUCH: f64 = 1e-9;
+
+/// How often knots that turned out to bind are put back, before every knot is kept.
+const ROUNDS: usize = 12;
+
+/// Plans a motion over all stages that begins with a velocity and ends at rest. `None` where the
+/// stages cannot be followed from that velocity.
+pub(super) fn plan(stages: &[Stage], start: f64) -> Option<Vec<Stretch>> {
+    let velocities = envelope(stages, start);
+    let course = Envelope { stages, velocities };
+    let knots = course.knots();
+    let mut slack = course.slack(&knots, start);
+    for _ in 0..ROUNDS {
+        if slack.is_empty() {
+            break;
+        }
+        let fewer: Vec<usize> = knots
+            .iter()
+            .copied()
+            .filter(|at| slack.binary_search(at).is_err())
+            .collect();
+        let Some(stretches) = course.stretches(&fewer, start) else {
+            break;
+        };
+        let binding = course.broken(&slack, &fewer, &stretches);
+        if binding.is_empty() {
+            return Some(stretches);
+        }
+        slack.retain(|at| binding.binary_search(at).is_err());
+    }
+    course.stretches(&knots, start)
+}
+
+/// The stages with the highest velocities at their transitions.
+struct Envelope<'a> {
+    stages: &'a [Stage],
+    velocities: Vec<f64>,
+}
+
+impl Envelope<'_> {
+    fn bound(&self, at: usize) -> f64 {
+        bound(self.stages, at)
+    }
+
+    /// The transitions in which the path has no acceleration.
+    fn knots(&self) -> Vec<usize> {
+        let inner = (1..self.stages.len()).filter(|&at| {
+            let touches = self.velocities[at] >= self.bound(at) * (1.0 - TOUCH);
+            touches || self.stages[at].entry.is_fixed()
+        });
+        let ends = std::iter::once(0).chain(inner);
+        ends.chain(std::iter::once(self.stages.len())).collect()
+    }
+
+    /// The knots that the path passes so slowly, with the jerk, that their bounds do not matter; to
+    /// be there without acceleration would only cost time.
+    fn slack(&self, knots: &[usize], start: f64) -> Vec<usize> {
+        let spans = self.spans(knots);
+        let mut velocity = start;
+        let mut slack = Vec::new();
+        for (span, &at) in spans.iter().zip(&knots[1..]) {
+            velocity = span.end.min(reach(velocity, span.length, &span.bounds));
+            let inner = at < self.stages.len() && !self.stages[at].entry.is_fixed();
+            if inner && velocity < self.bound(at) * (1.0 - TOUCH) {
+                slack.push(at);
+            }
+        }
+        slack
+    }
+
+    /// The legs between the knots, with the velocities that the way to the end allows.
+    fn spans(&self, knots: &[usize]) -> Vec<Span> {
+        let mut spans: Vec<Span> = knots
+            .windows(2)
+            .map(|pair| Span::new(self.stages, &self.velocities, (pair[0], pair[1])))
+            .collect();
+        let mut end = 0.0;
+        for span in spans.iter_mut().rev() {
+            span.end = end;
+            end = span.start.min(reach(end, span.length, &span.bounds));
+            span.start = end;
+        }
+        spans
+    }
+
+    /// The profiles from knot to knot.
+    fn stretches(&self, knots: &[usize], start: f64) -> Option<Vec<Stretch>> {
+        let spans = self.spans(knots);
+        let first = spans.first()?;
+        if !fits(start, first.end.min(start), first.length, &first.bounds) {
+            return None;
+        }
+        let mut velocity = start;
+        let stretches = spans.iter().map(|span| {
+            let bounds = Bounds {
+                velocity: span.bounds.velocity.max(velocity),
+                ..span.bounds
+            };
+            let end = span.end.min(reach(velocity, span.length, &bounds));
+            let start = std::mem::replace(&mut velocity, end);
+            Stretch::new((start, end), span, bounds)
+        });
+        Some(stretches.collect())
+    }
+
+    /// The transitions that were no knots and are passed too fast.
+    fn broken(&self, passed: &[usize], knots: &[usize], stretches: &[Stretch]) -> Vec<usize> {
+        let mut broken = Vec::new();
+        let mut passed = passed.iter().copied().peekable();
+        for (pair, stretch) in knots.windows(2).zip(stretches) {
+            let (mut way, mut leg) = (0.0, pair[0]);
+            while let Some(at) = passed.next_if(|&at| at < pair[1]) {
+                way += self.stages[leg..at]
+                    .iter()
+                    .map(|stage| stage.length)
+                    .sum::<f64>();
+                leg = at;
+                let bound = self.bound(at) * (1.0 + TOUCH);
+                let profile = &stretch.profile;
+                if profile.top_velocity() > bound && profile.velocity_after(way) > bound {
+                    broken.push(at);
+                }
+            }
+        }
+        broken
+    }
+}
+
+/// The highest velocities at the transitions, from the start to the rest at the end, that the
+/// accelerations allow.
+fn envelope(stages: &[Stage], start: f64) -> Vec<f64> {
+    let mut velocities = vec![0.0; stages.len() + 1];
+    for (at, stage) in stages.iter().enumerate().rev() {
+        let ahead = velocities[at + 1];
+        velocities[at] = bound(stages, at).min(gained(ahead, stage));
+    }
+    velocities[0] = start;
+    for (at, stage) in stages.iter().enumerate() {
+        velocities[at + 1] = velocities[at + 1].min(gained(velocities[at], stage));
+    }
+    velocities
+}
+
+/// The bound of the transition into a stage.
+fn bound(stages: &[Stage], at: usize) -> f64 {
+    let stage = &stages[at];
+    let before = match at.checked_sub(1) {
+        Some(before) => stages[before].bounds.velocity,
+        None => f64::INFINITY,
+    };
+    let own = stage.bounds.velocity.min(stage.entry.velocity());
+    own.min(before)
+}
+
+/// The velocity that a stage's acceleration makes of another one.
+fn gained(velocity: f64, stage: &Stage) -> f64 {
+    (velocity * velocity + 2.0 * stage.bounds.acceleration * stage.length).sqrt()
+}
+
+/// The legs between two knots.
+struct Span {
+    legs: usize,
+    length: f64,
+    bounds: Bounds,
+    /// The highest velocities at its ends.
+    start: f64,
+    end: f64,
+}
+
+impl Span {
+    fn new(stages: &[Stage], velocities: &[f64], (from, to): (usize, usize)) -> Self {
+        let mut span = Self {
+            legs: to - from,
+            length: 0.0,
+            bounds: Bounds {
+                velocity: 0.0,
+                acceleration: f64::INFINITY,
+                jerk: f64::INFINITY,
+            },
+            start: velocities[from],
+            end: velocities[to],
+        };
+        let mut touched = f64::INFINITY;
+        for (at, stage) in stages.iter().enumerate().take(to).skip(from) {
+            let (start, end) = (velocities[at], velocities[at + 1]);
+            let squares = f64::midpoint(start * start, end * end);
+            let apex = (squares + stage.bounds.acceleration * stage.length).sqrt();
+            if apex >= stage.bounds.velocity {
+                touched = touched.min(stage.bounds.velocity);
+            }
+            span.length += stage.length;
+            let bounds = &mut span.bounds;
+            bounds.velocity = bounds.velocity.max(apex);
+            bounds.acceleration = bounds.acceleration.min(stage.bounds.acceleration);
+            bounds.jerk = bounds.jerk.min(stage.bounds.jerk);
+        }
+        span.bounds.velocity = span.bounds.velocity.min(touched);
+        span
+    }
+}

@@ -1,0 +1,267 @@
+//! Motion along the path in time: seven phases of constant jerk at most.
+//!
+//! A ramp leads from one velocity to another, without acceleration at both ends: the acceleration
+//! rises with the jerk, stays at its bound, and falls again (Biagiotti, Melchiorri: *Trajectory
+//! Planning for Automatic Machines and Robots*, section 3.4). A profile is a ramp to the highest
+//! velocity that length and bounds allow, a stretch at that velocity, and a ramp to the end: the
+//! fastest motion between two states without acceleration.
+
+use std::ops::RangeInclusive;
+
+/// Bounds along the path, per second: mm or degrees by the path's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// The highest velocity.
+    pub velocity: f64,
+    /// The greatest acceleration and deceleration.
+    pub acceleration: f64,
+    /// The greatest jerk.
+    pub jerk: f64,
+}
+
+/// The state along the path at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathState {
+    /// The way behind.
+    pub way: f64,
+    /// The path velocity.
+    pub velocity: f64,
+}
+
+/// A change of velocity: jerk, constant acceleration, jerk.
+#[derive(Debug, Clone, Copy)]
+struct Ramp {
+    /// Seconds of each jerk phase.
+    jerking: f64,
+    /// Seconds of constant acceleration between them.
+    steady: f64,
+    /// The way that the ramp takes.
+    way: f64,
+}
+
+impl Ramp {
+    fn new(from: f64, to: f64, bounds: &Bounds) -> Self {
+        let change = (to - from).abs();
+        let Bounds {
+            acceleration, jerk, ..
+        } = *bounds;
+        let (jerking, steady) = if change * jerk <= acceleration * acceleration {
+            ((change / jerk).sqrt(), 0.0)
+        } else {
+            let jerking = acceleration / jerk;
+            (jerking, change / acceleration - jerking)
+        };
+        Self {
+            jerking,
+            steady,
+            way: f64::midpoint(from, to) * (2.0 * jerking + steady),
+        }
+    }
+}
+
+/// How many halvings find a velocity to the last bit of its bracket.
+const HALVINGS: usize = 60;
+
+/// The highest velocity to which a ramp from `from` leads within `length`; the same backwards, for
+/// ramps are symmetrical.
+pub(super) fn reach(from: f64, length: f64, bounds: &Bounds) -> f64 {
+    let mut low = from;
+    let mut high = (from * from + 2.0 * bounds.acceleration * length)
+        .sqrt()
+        .min(bounds.velocity);
+    if high <= low {
+        return low.min(bounds.velocity);
+    }
+    if Ramp::new(from, high, bounds).way <= length {
+        return high;
+    }
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        if Ramp::new(from, middle, bounds).way <= length {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+/// Whether a ramp between two velocities fits into a length.
+pub(super) fn fits(from: f64, to: f64, length: f64, bounds: &Bounds) -> bool {
+    Ramp::new(from, to, bounds).way <= length * (1.0 + 1e-9)
+}
+
+/// One phase: a constant jerk.
+#[derive(Debug, Clone, Copy, Default)]
+struct Phase {
+    start: f64,
+    way: f64,
+    velocity: f64,
+    acceleration: f64,
+    jerk: f64,
+}
+
+/// The motion along a length of the path.
+#[derive(Debug, Clone)]
+pub struct Profile {
+    phases: [Phase; 7],
+    duration: f64,
+    length: f64,
+    end_velocity: f64,
+}
+
+impl Profile {
+    /// The fastest motion over `length` that begins and ends with the given velocities, without
+    /// acceleration at both ends. Lengths are in mm or degrees, times in seconds.
+    pub fn between(start: f64, end: f64, length: f64, bounds: &Bounds) -> Self {
+        let ways = |peak: f64| {
+            let (up, down) = (Ramp::new(start, peak, bounds), Ramp::new(peak, end, bounds));
+            (up, down, up.way + down.way)
+        };
+        let mut peak = bounds.velocity.max(start).max(end);
+        if ways(peak).2 > length {
+            let mut low = start.max(end);
+            for _ in 0..HALVINGS {
+                let middle = f64::midpoint(low, peak);
+                if ways(middle).2 <= length {
+                    low = middle;
+                } else {
+                    peak = middle;
+                }
+            }
+            // What rounding leaves is travelled at the peak.
+            peak = if low > 0.0 { low } else { peak };
+        }
+        let (up, down, way) = ways(peak);
+        let cruise = ((length - way) / peak).max(0.0);
+        let mut profile = Self {
+            phases: [Phase::default(); 7],
+            duration: 0.0,
+            length,
+            end_velocity: end,
+        };
+        let (rise, fall) = (sign(peak - start), sign(end - peak));
+        let jerk = bounds.jerk;
+        profile.lay(
+            start,
+            [
+                (up.jerking, rise * jerk),
+                (up.steady, 0.0),
+                (up.jerking, -rise * jerk),
+                (cruise, 0.0),
+                (down.jerking, fall * jerk),
+                (down.steady, 0.0),
+                (down.jerking, -fall * jerk),
+            ],
+        );
+        // Neither ramp leaves an acceleration behind, whatever rounding says.
+        profile.phases[3].acceleration = 0.0;
+        profile.phases[3].velocity = peak;
+        profile
+    }
+
+    /// Lays the phases one behind the other: their seconds and jerks.
+    fn lay(&mut self, start: f64, phases: [(f64, f64); 7]) {
+        let mut state = Phase {
+            velocity: start,
+            ..Phase::default()
+        };
+        for (place, (seconds, jerk)) in self.phases.iter_mut().zip(phases) {
+            state.jerk = jerk;
+            if seconds <= 0.0 {
+                // Nothing happens in it, and nobody looks at it.
+                *place = state;
+                continue;
+            }
+            *place = state;
+            let (way, velocity, acceleration) = state.after(seconds);
+            state = Phase {
+                start: state.start + seconds,
+                way,
+                velocity,
+                acceleration,
+                jerk: 0.0,
+            };
+        }
+        self.duration = state.start;
+    }
+
+    /// How long it takes, in seconds.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// The length of the way.
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The ways between which the velocity is steady, and that velocity.
+    pub(super) fn steady(&self) -> (RangeInclusive<f64>, f64) {
+        let (from, to) = (self.phases[3], self.phases[4]);
+        (from.way..=to.way, from.velocity)
+    }
+
+    /// The highest velocity on the way.
+    pub(super) fn top_velocity(&self) -> f64 {
+        let phases = self.phases.iter().map(|phase| phase.velocity);
+        phases.fold(self.end_velocity, f64::max)
+    }
+
+    /// The velocity after a way.
+    pub(super) fn velocity_after(&self, way: f64) -> f64 {
+        let (mut early, mut late) = (0.0, self.duration);
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(early, late);
+            if self.at(middle).way <= way {
+                early = middle;
+            } else {
+                late = middle;
+            }
+        }
+        self.at(early).velocity
+    }
+
+    /// The state at a time behind the start.
+    pub fn at(&self, time: f64) -> PathState {
+        if time >= self.duration {
+            return PathState {
+                way: self.length,
+                velocity: self.end_velocity,
+            };
+        }
+        let later = self.phases.iter().skip(1);
+        let phase = later
+            .take_while(|phase| phase.start <= time)
+            .last()
+            .unwrap_or(&self.phases[0]);
+        let (way, velocity, _) = phase.after(time - phase.start);
+        PathState {
+            way: way.clamp(0.0, self.length),
+            velocity: velocity.max(0.0),
+        }
+    }
+}
+
+impl Phase {
+    /// Way, velocity and acceleration some time into the phase.
+    fn after(&self, seconds: f64) -> (f64, f64, f64) {
+        let Self {
+            way,
+            velocity,
+            acceleration,
+            jerk,
+            ..
+        } = *self;
+        (
+            way + seconds * (velocity + seconds * (acceleration / 2.0 + seconds * jerk / 6.0)),
+            velocity + seconds * (acceleration + seconds * jerk / 2.0),
+            acceleration + seconds * jerk,
+        )
+    }
+}
+
+/// The sign of a change, 0 for none.
+fn sign(change: f64) -> f64 {
+    if change == 0.0 { 0.0 } else { change.signum() }
+}

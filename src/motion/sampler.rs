@@ -1,0 +1,134 @@
+//! The path in CNC cycles.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::leg::Leg;
+use super::profile::Profile;
+use super::{Cause, Cycle, Cycles};
+use crate::machine::AxisIndex;
+
+/// Goes along profiles in steps of a CNC cycle.
+pub(super) struct Sampler {
+    followed: Vec<usize>,
+    /// Seconds of a cycle.
+    cycle: f64,
+    /// The number of the next cycle.
+    next: u64,
+    /// When the path planned so far ends, in seconds.
+    end: f64,
+    positions: Vec<f64>,
+    velocities: Vec<f64>,
+    /// The block that was followed last.
+    last: Option<Arc<Cause>>,
+    /// How many cycles there may be.
+    budget: u64,
+}
+
+impl Sampler {
+    pub(super) fn new(followed: &[AxisIndex], cycle: f64, budget: u64) -> Self {
+        Self {
+            followed: followed.iter().map(|axis| axis.get()).collect(),
+            cycle,
+            next: 0,
+            end: 0.0,
+            positions: vec![0.0; followed.len()],
+            velocities: vec![0.0; followed.len()],
+            last: None,
+            budget,
+        }
+    }
+
+    pub(super) fn cycle(&self) -> f64 {
+        self.cycle
+    }
+
+    /// The time of the next cycle, in seconds.
+    pub(super) fn time(&self) -> f64 {
+        #[allow(clippy::cast_precision_loss)] // a trace is shorter than 2^53 cycles
+        let next = self.next as f64;
+        next * self.cycle
+    }
+
+    /// Follows legs with a profile that spans them.
+    pub(super) fn follow(
+        &mut self,
+        legs: impl Iterator<Item = Leg>,
+        profile: &Profile,
+        cycles: &mut dyn Cycles,
+    ) -> ControlFlow<()> {
+        let start = self.end;
+        self.end = start + profile.duration();
+        let mut legs = legs.peekable();
+        // The way at which the leg begins.
+        let mut behind = 0.0;
+        while let Some(leg) = legs.next() {
+            let is_last = legs.peek().is_none();
+            while self.time() <= self.end {
+                let state = profile.at(self.time() - start);
+                let way = state.way - behind;
+                if way > leg.length && !is_last {
+                    break;
+                }
+                for (place, &axis) in self.followed.iter().enumerate() {
+                    self.positions[place] = leg.position(axis, way);
+                    self.velocities[place] = leg.slope(axis, way) * state.velocity;
+                }
+                self.emit(&leg.cause, cycles)?;
+            }
+            behind += leg.length;
+            if is_last {
+                for (place, &axis) in self.followed.iter().enumerate() {
+                    self.positions[place] = leg.position(axis, leg.length);
+                }
+                self.last = Some(leg.cause);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Rests for some seconds where the path ends.
+    pub(super) fn rest(
+        &mut self,
+        seconds: f64,
+        cause: &Arc<Cause>,
+        cycles: &mut dyn Cycles,
+    ) -> ControlFlow<()> {
+        self.end += seconds;
+        self.velocities.fill(0.0);
+        self.last = Some(Arc::clone(cause));
+        while self.time() <= self.end {
+            self.emit(cause, cycles)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// One more cycle, so that the axes are seen at rest at the end of the path.
+    pub(super) fn settle(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+        self.velocities.fill(0.0);
+        if let Some(cause) = self.last.take() {
+            self.emit(&cause, cycles)?;
+            self.end = self.time();
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Whether all cycles are used up.
+    pub(super) fn is_over(&self) -> bool {
+        self.next >= self.budget
+    }
+
+    fn emit(&mut self, cause: &Arc<Cause>, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+        if self.is_over() {
+            return ControlFlow::Break(());
+        }
+        let time = self.time();
+        self.next += 1;
+        cycles.cycle(&Cycle {
+            time,
+            positions: &self.positions,
+            velocities: &self.velocities,
+            cause,
+        })
+    }
+}

@@ -1,0 +1,202 @@
+//! A bench that runs a program and keeps its commanded trace.
+
+mod forms;
+mod limits;
+mod unknown;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use frictcomp::machine::{AxisIndex, Machine};
+use frictcomp::motion::{AxisLimits, Cause, Cycle, Cycles, Tracer, TracerOptions};
+use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
+use frictcomp::source::SourceFile;
+use frictcomp::timeline::{Record, Sink};
+
+/// The CNC cycle of these tests, in seconds.
+pub(crate) const CYCLE: f64 = 0.001;
+
+/// X, Y, Z with 12 m/min, 2 m/s² and 50 m/s³, and a slower rotary axis.
+pub(crate) const MACHINE: &str = r#"
+[[axis]]
+name = "X"
+max_velocity = 12000
+max_acceleration = 2
+max_jerk = 50
+[[axis]]
+name = "Y"
+max_velocity = 12000
+max_acceleration = 1.5
+max_jerk = 40
+[[axis]]
+name = "Z"
+max_velocity = 6000
+max_acceleration = 1
+max_jerk = 30
+[[axis]]
+name = "C"
+type = "R"
+max_velocity = 7200
+max_acceleration = 400
+max_jerk = 8000
+"#;
+
+/// A commanded trace, column by column.
+#[derive(Debug, Default)]
+pub(crate) struct Trace {
+    /// The positions of the followed axes, cycle by cycle.
+    pub(crate) positions: Vec<Vec<f64>>,
+    pub(crate) velocities: Vec<Vec<f64>>,
+    pub(crate) lines: Vec<u32>,
+    /// The cycles at which the trace begins, or begins anew.
+    pub(crate) begins: Vec<usize>,
+    /// The codes that were said, with their lines.
+    pub(crate) said: Vec<(String, u32)>,
+}
+
+impl Trace {
+    /// The last position.
+    pub(crate) fn end(&self) -> &[f64] {
+        self.positions.last().expect("a trace")
+    }
+
+    /// Seconds from the first to the last cycle.
+    pub(crate) fn seconds(&self) -> f64 {
+        let cycles = u32::try_from(self.positions.len()).expect("a short trace");
+        f64::from(cycles - 1) * CYCLE
+    }
+
+    /// The highest speed of an axis.
+    pub(crate) fn top_speed(&self, axis: usize) -> f64 {
+        let speeds = self.velocities.iter().map(|cycle| cycle[axis].abs());
+        speeds.fold(0.0, f64::max)
+    }
+}
+
+impl Cycles for Trace {
+    fn begin(&mut self, _: f64, _: &Arc<Cause>) -> ControlFlow<()> {
+        self.begins.push(self.positions.len());
+        ControlFlow::Continue(())
+    }
+
+    fn cycle(&mut self, cycle: &Cycle<'_>) -> ControlFlow<()> {
+        self.positions.push(cycle.positions.to_vec());
+        self.velocities.push(cycle.velocities.to_vec());
+        self.lines.push(cycle.cause.line);
+        ControlFlow::Continue(())
+    }
+}
+
+struct Bench {
+    tracer: Tracer,
+    trace: Trace,
+}
+
+impl Sink for Bench {
+    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Block(row) => self.tracer.block(&row, &mut self.trace),
+            _ => ControlFlow::Continue(()),
+        }
+    }
+}
+
+/// The trace of the named axes.
+pub(crate) fn trace_of(
+    machine: &str,
+    program: &str,
+    axes: &[&str],
+    options: TracerOptions,
+) -> Trace {
+    let machine = Machine::from_toml(machine).expect("a machine");
+    let followed: Vec<AxisIndex> = axes
+        .iter()
+        .map(|name| machine.find(name).expect("an axis"))
+        .collect();
+    let mut bench = Bench {
+        tracer: Tracer::new(&machine, &followed, options),
+        trace: Trace::default(),
+    };
+    let mut session = Session::new(
+        machine,
+        SessionOptions {
+            motions: Motions::Taken,
+            ..SessionOptions::default()
+        },
+    );
+    let source = SourceFile::new("a.nc", program);
+    let flow = session.program("a.nc", Program::Whole(source), &mut NoFiles, &mut bench);
+    if flow.is_continue() {
+        let _ = bench.tracer.finish(&mut bench.trace);
+    }
+    let said = bench.tracer.diagnostics().iter();
+    bench.trace.said = said
+        .map(|diagnostic| (diagnostic.code.to_string(), diagnostic.place.first_line))
+        .collect();
+    bench.trace
+}
+
+/// The trace of the named axes on the machine of these tests.
+pub(crate) fn trace(program: &str, axes: &[&str]) -> Trace {
+    trace_of(MACHINE, program, axes, TracerOptions::default())
+}
+
+/// Asserts that every cycle keeps velocity, acceleration and jerk of each axis.
+///
+/// The differences of a trace are means over cycles, so that they keep whatever the motion keeps;
+/// `1e-6` of a limit is left to the rounding of positions, which a third difference magnifies.
+pub(crate) fn assert_limits(machine: &str, axes: &[&str], trace: &Trace) {
+    let machine = Machine::from_toml(machine).expect("a machine");
+    for (column, name) in axes.iter().enumerate() {
+        let axis = machine.find(name).expect("an axis");
+        let limits = AxisLimits::of(machine.axis(axis));
+        let mut parts = trace.begins.clone();
+        parts.push(trace.positions.len());
+        for part in parts.windows(2) {
+            let cycles = &trace.positions[part[0]..part[1]];
+            let positions: Vec<f64> = cycles.iter().map(|cycle| cycle[column]).collect();
+            // The axis stands before and behind.
+            let rest = |at: Option<&f64>| vec![*at.expect("a cycle"); 3];
+            let positions = [
+                rest(positions.first()),
+                positions.clone(),
+                rest(positions.last()),
+            ];
+            let velocity = difference(&positions.concat());
+            let acceleration = difference(&velocity);
+            let jerk = difference(&acceleration);
+            let magnitude = positions[1].iter().fold(1.0_f64, |top, x| top.max(x.abs()));
+            for (what, found, limit, order) in [
+                ("velocity", &velocity, limits.velocity, 1),
+                ("acceleration", &acceleration, limits.acceleration, 2),
+                ("jerk", &jerk, limits.jerk, 3),
+            ] {
+                let noise = 8.0 * f64::EPSILON * magnitude / CYCLE.powi(order);
+                let worst = found
+                    .iter()
+                    .enumerate()
+                    .fold((0, 0.0_f64), |top, (at, value)| {
+                        if value.abs() > top.1 {
+                            (at, value.abs())
+                        } else {
+                            top
+                        }
+                    });
+                assert!(
+                    worst.1 <= limit * (1.0 + 1e-6) + noise,
+                    "{what} of {name} is {} of {limit} at cycle {} (line {})",
+                    worst.1,
+                    part[0] + worst.0,
+                    trace.lines[(part[0] + worst.0).min(part[1] - 1)],
+                );
+            }
+        }
+    }
+}
+
+fn difference(values: &[f64]) -> Vec<f64> {
+    values
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]) / CYCLE)
+        .collect()
+}

@@ -1,0 +1,1 @@
+//! R5.1 and R5.4: what is not known.

@@ -1,0 +1,3 @@
+//! Chapter 5.1: from programs to commanded traces, rule by rule.
+
+mod motion;

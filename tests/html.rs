@@ -340,8 +340,8 @@ fn a_report_is_whole_or_not_there() {
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.contains(word), "{said}");
     };
-    refused("no/report.html", "there is no folder `no`");
-    refused(".", "is a folder");
+    refused("no/report.html", "`no/report.html` cannot be written");
+    refused(".", "cannot be written");
     refused("a.nc", "would overwrite the program");
     assert_eq!(
         fs::read_to_string(bench.path("a.nc")).expect("text"),

@@ -11,7 +11,7 @@ use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
 use frictcomp::machine::AcceptedList;
 use frictcomp::report::pictures::{
-    CurrentTrace, FeedGlitches, current_over_time, tuning, value_curve, value_curves,
+    AxisPlot, CurrentPlot, FeedGlitches, tuning, value_curve, value_curves,
 };
 use frictcomp::report::svg::{
     Axis, Band, BandChart, BandRow, BandState, Drawn, Frame, LineChart, Panel, PolarChart,
@@ -70,21 +70,16 @@ fn current() -> LineChart {
         .map(|time| -40000.0 * (time * 4.0).cos())
         .collect();
     let cycles = AdditiveCurrent::new(&list(), Reading::default()).trace(&positions, &velocities);
-    let states = [BandRow {
-        label: "X".to_owned(),
-        bands: vec![
-            band(0.0, 1.4, BandState::One(State::Active)),
-            band(1.4, 2.1, BandState::One(State::Inactive)),
-            band(2.1, 4.0, BandState::One(State::Unknown)),
-        ],
-    }];
-    current_over_time(&CurrentTrace {
-        axis: "X",
-        times: &times,
-        velocities: &velocities,
-        cycles: &cycles,
-        states: &states,
-    })
+    let mut plot = CurrentPlot::new(vec![AxisPlot::new("X", Some(AxisType::Linear))]);
+    for ((&time, &velocity), cycle) in times.iter().zip(&velocities).zip(&cycles) {
+        let state = match time {
+            1.4..2.1 => State::Inactive,
+            3.0.. => State::Unknown,
+            _ => State::Active,
+        };
+        plot.push(time, [(velocity, state, cycle)]);
+    }
+    plot.chart()
 }
 
 fn circle() -> PolarChart {

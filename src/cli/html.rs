@@ -3,9 +3,10 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use super::console::Console;
 use super::failure::Failure;
 use super::lines::LineReader;
-use super::replace;
+use super::sheet::Sheet;
 use crate::machine::AxisReport;
 use crate::report::html::{Given, RunStory, Sources, render_run};
 use crate::source::LineSource;
@@ -13,14 +14,18 @@ use crate::syntax::KindSet;
 
 /// A report that is written when the session has ended.
 pub(super) struct HtmlFile {
+    sheet: Sheet,
     path: PathBuf,
     story: RunStory,
 }
 
 impl HtmlFile {
     /// A report in a file, which must not be one of the programs.
-    pub(super) fn new(path: &Path, programs: &[PathBuf], kinds: KindSet) -> Result<Self, Failure> {
-        replace::probe(path)?;
+    pub(super) fn create(
+        (path, kinds): (&Path, KindSet),
+        programs: &[PathBuf],
+        console: Console,
+    ) -> Result<Self, Failure> {
         let same = |program: &PathBuf| match (program.canonicalize(), path.canonicalize()) {
             (Ok(program), Ok(report)) => program == report,
             _ => false,
@@ -33,6 +38,7 @@ impl HtmlFile {
             .with_help("name another file behind `--html`"));
         }
         Ok(Self {
+            sheet: Sheet::create(Some(path), console)?,
             path: path.to_owned(),
             story: RunStory::new(kinds),
         })
@@ -45,7 +51,7 @@ impl HtmlFile {
 
     /// Writes the report with what the user gave and the parameters in effect.
     pub(super) fn write(
-        &self,
+        mut self,
         settings: &[(String, String)],
         parameters: &[AxisReport],
     ) -> Result<(), Failure> {
@@ -53,9 +59,9 @@ impl HtmlFile {
             settings,
             parameters,
         };
-        replace::replace_with(&self.path, |out| {
-            render_run(&self.story, &given, &mut Files, out)
-        })
+        render_run(&self.story, &given, &mut Files, &mut self.sheet)
+            .and_then(|()| self.sheet.finish())
+            .map_err(|error| Failure::writing(&self.path, &error))
     }
 }
 

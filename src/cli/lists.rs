@@ -1,5 +1,6 @@
 //! `frictcomp lists`: axis, value, channel and start-up lists.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -10,7 +11,7 @@ use super::discovery::Lists;
 use super::exit;
 use super::failure::Failure;
 use super::files::read_text;
-use super::replace::write_picture;
+use super::sheet::Sheet;
 use crate::codes::Code;
 use crate::diagnostic::Severity;
 use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
@@ -78,7 +79,7 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
 }
 
 /// Draws the curves of all accepted value lists.
-fn draw(path: &Path, reports: &[ListsReport]) -> Result<(), Failure> {
+fn draw(path: &Path, reports: &[ListsReport], console: Console) -> Result<(), Failure> {
     let accepted: Vec<&AcceptedList> = reports.iter().flat_map(|it| &it.accepted).collect();
     if accepted.is_empty() {
         return Err(Failure::new(
@@ -86,7 +87,12 @@ fn draw(path: &Path, reports: &[ListsReport]) -> Result<(), Failure> {
         )
         .with_help("leave `--svg` out to see why"));
     }
-    write_picture(path, &value_curves(&accepted).render(Frame::Alone))
+    let svg = value_curves(&accepted).render(Frame::Alone);
+    let mut sheet = Sheet::create(Some(path), console)?;
+    let written = sheet.write_all(svg.as_bytes());
+    written
+        .and_then(|()| sheet.finish())
+        .map_err(|error| Failure::writing(path, &error))
 }
 
 /// Runs the command.
@@ -109,7 +115,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
         }
     }
     if let Some(path) = &args.svg {
-        draw(path, &reports)?;
+        draw(path, &reports, console)?;
     }
     let target = console.target(args.listing.output.as_deref())?;
     let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);

@@ -19,7 +19,6 @@ mod html;
 mod lines;
 mod lists;
 mod man;
-mod replace;
 mod run;
 mod settings;
 mod sheet;

@@ -179,7 +179,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         input.probe()?;
     }
     let html = args.html.as_deref();
-    let html = html.map(|path| HtmlFile::new(path, &args.files, args.kinds));
+    let html = html.map(|path| HtmlFile::create((path, args.kinds), &args.files, console));
     let mut html = html.transpose()?;
     let mut machines = Machines::new(&args.machine);
     let loaded = machines.for_folder(inputs[0].folder())?;

@@ -27,7 +27,9 @@ impl Sheet {
         if path.exists() && !path.is_file() {
             return Ok(Self::Open(console.target(file)?.writer));
         }
-        let folder = match path.parent() {
+        // A link stays a link: the file that it names is replaced.
+        let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let folder = match target.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
@@ -35,14 +37,21 @@ impl Sheet {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let beside = builder.prefix(".frictcomp-").tempfile_in(folder);
+        let beside = beside.and_then(|beside| {
+            if let Ok(old) = std::fs::metadata(&target) {
+                beside.as_file().set_permissions(old.permissions())?;
+            }
+            Ok(beside)
+        });
         let beside = beside.map_err(|error| Failure::writing(path, &error))?;
-        Ok(Self::Beside(beside, path.to_owned()))
+        Ok(Self::Beside(beside, target))
     }
 
     /// Everything is written: a file takes its place.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         match std::mem::replace(self, Self::Done) {
             Self::Beside(file, path) => {
+                file.as_file().sync_all()?;
                 file.persist(path)?;
                 Ok(())
             }

@@ -20,6 +20,7 @@ mod scale;
 pub use bands::{Band, BandChart, BandRow, BandState};
 pub use line::{Drawn, LineChart, Panel, Series};
 pub use polar::{PolarChart, PolarSeries};
+pub use reduce::Curve;
 pub use scale::{Axis, Spacing};
 
 /// Where a picture stands.

@@ -30,6 +30,7 @@
 
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod circle;
 pub mod codes;
 pub mod compensation;
 pub mod current;

@@ -10,11 +10,11 @@ pub const POSITION_LOOP: f64 = 250e-6;
 /// The cycle of the speed loop in seconds.
 pub const SPEED_LOOP: f64 = 125e-6;
 
-/// Simulation steps in a cycle of the position loop.
-pub const STEPS: usize = 4;
+/// Cycles of the speed loop in one of the position loop.
+pub(super) const SPEED_LOOPS: usize = 2;
 
 /// Simulation steps in a cycle of the speed loop.
-const STEPS_PER_SPEED_LOOP: usize = 2;
+pub(super) const STEPS: usize = 2;
 
 /// The parameters of one feed drive, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -65,12 +65,22 @@ pub struct Drive {
     velocity: f64,
     /// Force of the motor in N.
     force: f64,
-    /// Force that the speed loop asked for a cycle ago, in N: the dead time.
+    /// Velocity in m/s that the position loop asks for.
+    target: f64,
+    /// Force in N of the feed forward and the additive current.
+    forward: f64,
+    /// Force in N that the speed loop asked for last.
     asked: f64,
+    /// Force in N that it asked for a cycle before: the dead time.
+    command: f64,
     /// Integral part of the speed loop in N.
     integral: f64,
+    /// What a velocity error of 1 m/s adds to the integral part in a cycle, in N.
+    integral_gain: f64,
     /// What is left of a difference of forces after a step of the current loop.
     current_decay: f64,
+    /// The step divided by the mass, in s/kg.
+    per_mass: f64,
     /// Cycles of the speed loop in which the force was cut.
     saturated: u64,
 }
@@ -86,8 +96,13 @@ impl Drive {
             position: setpoint.position,
             velocity: setpoint.velocity,
             force,
+            target: setpoint.velocity,
+            forward: 0.0,
             asked: force,
+            command: force,
             integral: force - parameters.force_per_unit * setpoint.added,
+            integral_gain: parameters.speed_gain / parameters.integral_time * SPEED_LOOP,
+            per_mass: STEP / parameters.mass,
             current_decay: (-STEP / parameters.current_time).exp(),
             saturated: 0,
             parameters: parameters.clone(),
@@ -109,47 +124,45 @@ impl Drive {
         self.saturated
     }
 
-    /// A cycle of the position loop. Gives the positions in m after each simulation step.
+    /// Begins a cycle of the position loop.
     #[inline]
-    pub fn advance(&mut self, setpoint: Setpoint) -> [f64; STEPS] {
+    pub fn follow(&mut self, setpoint: Setpoint) {
         let drive = &self.parameters;
-        let target = drive.position_gain * (setpoint.position - self.position)
+        self.target = drive.position_gain * (setpoint.position - self.position)
             + drive.velocity_forward * setpoint.velocity;
-        let forward = drive.acceleration_forward * drive.mass * setpoint.acceleration
+        self.forward = drive.acceleration_forward * drive.mass * setpoint.acceleration
             + drive.force_per_unit * setpoint.added;
-        let per_mass = STEP / drive.mass;
-        let mut positions = [0.0; STEPS];
-        for steps in positions.chunks_exact_mut(STEPS_PER_SPEED_LOOP) {
-            let command = self.asked;
-            self.control(target, forward);
-            for position in steps {
-                self.force = command + (self.force - command) * self.current_decay;
-                self.velocity = self.contact.push(Push {
-                    velocity: self.velocity,
-                    force: self.force,
-                    per_mass,
-                });
-                self.position += STEP * self.velocity;
-                *position = self.position;
-            }
-        }
-        positions
     }
 
-    /// A cycle of the speed loop: F = Kp·e + I + forward, cut to what the drive can give. The
-    /// integral part stands still while it would drive the force further into its limit.
+    /// Begins a cycle of the speed loop: F = Kp·e + I + forward, cut to what the drive can give. The
+    /// integral part stands still while it would drive the force further into its limit. The motor
+    /// gets what was asked a cycle ago.
     #[inline]
-    fn control(&mut self, target: f64, forward: f64) {
+    pub fn control(&mut self) {
+        self.command = self.asked;
         let drive = &self.parameters;
-        let error = target - self.velocity;
-        let asked = drive.speed_gain * error + self.integral + forward;
+        let error = self.target - self.velocity;
+        let asked = drive.speed_gain * error + self.integral + self.forward;
         self.asked = asked.clamp(-drive.max_force, drive.max_force);
         let is_cut = asked.abs() > drive.max_force;
         if is_cut {
             self.saturated += 1;
         }
         if !is_cut || asked * error < 0.0 {
-            self.integral += drive.speed_gain / drive.integral_time * SPEED_LOOP * error;
+            self.integral += self.integral_gain * error;
         }
+    }
+
+    /// A simulation step. Gives the position in m at its end.
+    #[inline]
+    pub fn step(&mut self) -> f64 {
+        self.force = self.command + (self.force - self.command) * self.current_decay;
+        self.velocity = self.contact.push(Push {
+            velocity: self.velocity,
+            force: self.force,
+            per_mass: self.per_mass,
+        });
+        self.position += STEP * self.velocity;
+        self.position
     }
 }

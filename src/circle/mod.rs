@@ -17,7 +17,7 @@ mod test;
 mod zone;
 
 pub use default_list::plant_list;
-pub use drive::{Drive, DriveParameters, POSITION_LOOP, SPEED_LOOP, STEPS, Setpoint};
+pub use drive::{Drive, DriveParameters, POSITION_LOOP, SPEED_LOOP, Setpoint};
 pub use figures::{Centre, Figures, PathFigures, Paths};
 pub use friction::{Friction, FrictionModel, GmsElement, STEP};
 pub use glitch::{Crossing, Glitch};

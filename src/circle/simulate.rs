@@ -1,6 +1,6 @@
 //! The drives on the circle.
 
-use super::drive::{Drive, STEPS, Setpoint};
+use super::drive::{Drive, SPEED_LOOPS, STEPS, Setpoint};
 use super::reference::{Circle, CircleError, Stretch};
 use super::{CircularTest, Compensation};
 use crate::current::AdditiveCurrent;
@@ -121,9 +121,14 @@ fn follow(
     let part = circle.cycle_time / f64::from(ticks);
     let [first, second] = drives;
     for _ in 0..ticks {
-        let (xs, ys) = (first.advance(x), second.advance(y));
-        for step in 0..STEPS {
-            take(xs[step], ys[step]);
+        first.follow(x);
+        second.follow(y);
+        for _ in 0..SPEED_LOOPS {
+            first.control();
+            second.control();
+            for _ in 0..STEPS {
+                take(first.step(), second.step());
+            }
         }
         x.position += part * x.velocity;
         y.position += part * y.velocity;

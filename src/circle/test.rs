@@ -1,6 +1,6 @@
 //! The circular test: one plant, one circle, one value list.
 
-use std::f64::consts::{FRAC_PI_4, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use super::figures::{Figures, Nominal, Paths};
 use super::friction::FrictionModel;
@@ -105,7 +105,7 @@ impl CircularTest {
     pub fn run(&self, job: Job) -> Result<Lap, CircleError> {
         self.circle.check()?;
         let stretch = Stretch {
-            start: FRAC_PI_4 - job.direction.sign() * PI,
+            start: 0.0,
             length: TURNS * TAU,
             direction: job.direction,
         };

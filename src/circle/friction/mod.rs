@@ -83,7 +83,7 @@ impl Friction {
         let power = if self.shape == 1.0 {
             ratio
         } else {
-            ratio.powf(self.shape)
+            raised(ratio, self.shape)
         };
         self.coulomb + (self.breakaway - self.coulomb) * (-power).exp()
     }
@@ -112,8 +112,22 @@ impl Friction {
     #[inline]
     fn micro_damping(&self, velocity: f64) -> f64 {
         let ratio = velocity / self.damping_velocity;
-        self.damping * (-ratio * ratio).exp()
+        let exponent = ratio * ratio;
+        if exponent > FADED {
+            return 0.0;
+        }
+        self.damping * (-exponent).exp()
     }
+}
+
+/// From this exponent on nothing is left of the damping in the digits of the force.
+const FADED: f64 = 40.0;
+
+/// A function of its own, so that it is not computed where it is not needed.
+#[cold]
+#[inline(never)]
+fn raised(ratio: f64, exponent: f64) -> f64 {
+    ratio.powf(exponent)
 }
 
 /// A contact with its state.

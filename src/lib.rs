@@ -28,9 +28,9 @@
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are
 //! handed to it. The command line, the feature `cli`, is on by default.
 
+pub mod circle;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod circle;
 pub mod codes;
 pub mod compensation;
 pub mod current;

@@ -10,16 +10,6 @@ use super::zone::{least_squares, minimum_zone, zone_about};
 /// µm in a metre.
 pub(super) const MICROMETRES: f64 = 1e6;
 
-/// Where the centre of a path is taken to be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Centre {
-    /// The commanded centre, the same for both directions.
-    Commanded,
-    /// The centre of the least-squares circle of each recorded path.
-    LeastSquares,
-}
-
 /// The figures of one path in µm (R5.21).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PathFigures {
@@ -111,7 +101,10 @@ impl Figures {
         let (ccw, cw) = (one(Direction::Ccw), one(Direction::Cw));
         let both = paths.ccw.as_ref().zip(paths.cw.as_ref());
         let mean = |a: f64, b: f64| f64::midpoint(a, b);
-        let ds = ccw.as_ref().and_then(|it| it.d).zip(cw.as_ref().and_then(|it| it.d));
+        let ds = ccw
+            .as_ref()
+            .and_then(|it| it.d)
+            .zip(cw.as_ref().and_then(|it| it.d));
         Self {
             g_b: both.map(|(ccw, cw)| minimum_zone(&[ccw, cw]).width * MICROMETRES),
             h: both.map(|(ccw, cw)| hysteresis(ccw, cw) * MICROMETRES),

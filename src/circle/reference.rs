@@ -114,7 +114,9 @@ pub enum CircleError {
         cycles: f64,
     },
     /// A plant whose loops do not settle.
-    #[error("the drive of {axis} is unstable: it left the circle {angle:.0}\u{b0} behind the start")]
+    #[error(
+        "the drive of {axis} is unstable: it left the circle {angle:.0}\u{b0} behind the start"
+    )]
     Unstable {
         /// `X` or `Y`.
         axis: &'static str,
@@ -147,6 +149,8 @@ pub(super) struct Stretch {
     pub(super) start: f64,
     /// The length in radians.
     pub(super) length: f64,
+    /// CNC cycles at the start in which only the additive current takes part.
+    pub(super) lead: usize,
     /// The direction of travel.
     pub(super) direction: Direction,
 }

@@ -3,7 +3,8 @@
 use super::drive::{Drive, SPEED_LOOPS, STEPS, Setpoint};
 use super::reference::{Circle, CircleError, Stretch};
 use super::{CircularTest, Compensation};
-use crate::current::AdditiveCurrent;
+use crate::current::{AdditiveCurrent, Reading};
+use crate::lists::FrictionList;
 
 /// A point of the path and the place on the stretch that was commanded there.
 pub(super) struct Sample {
@@ -33,9 +34,8 @@ struct Additive {
 }
 
 impl Additive {
-    fn new(test: &CircularTest, compensation: Compensation, velocities: Vec<f64>) -> Self {
-        let current = (compensation == Compensation::On)
-            .then(|| AdditiveCurrent::new(&test.list, test.reading));
+    fn new(list: Option<&FrictionList>, reading: Reading, velocities: Vec<f64>) -> Self {
+        let current = list.map(|list| AdditiveCurrent::new(list, reading));
         Self {
             current,
             velocities,
@@ -72,10 +72,23 @@ pub(super) fn simulate(
             .map(|k| circle.at(stretch, k)[axis].1 * VELOCITY_UNITS)
             .collect()
     };
-    let mut added = [0, 1].map(|axis| Additive::new(test, compensation, velocity(axis)));
+    let mut added = [0, 1].map(|axis| {
+        let list = match compensation {
+            Compensation::On => Some(&test.lists[axis]),
+            Compensation::Off => None,
+        };
+        Additive::new(list, test.reading, velocity(axis))
+    });
     let plants = [&test.plant.x, &test.plant.y];
-    let mut from = circle.at(stretch, 0);
-    let mut to = circle.at(stretch, 1);
+    // Before the drives begin the additive current has already seen the motion of the lead.
+    for k in 0..stretch.lead {
+        for (axis, added) in added.iter_mut().enumerate() {
+            added.at(k, circle.at(stretch, k)[axis].0);
+        }
+    }
+    let begin = stretch.lead;
+    let mut from = circle.at(stretch, begin);
+    let mut to = circle.at(stretch, begin + 1);
     let slope = |to: f64, from: f64| (to - from) / circle.cycle_time;
     let mut drives = [0, 1].map(|axis| {
         let setpoint = Setpoint {
@@ -86,7 +99,7 @@ pub(super) fn simulate(
         Drive::settled(plants[axis], test.model, setpoint)
     });
     let mut slopes = [0, 1].map(|axis| slope(to[axis].0, from[axis].0));
-    for k in 0..cycles {
+    for k in begin..cycles {
         to = circle.at(stretch, k + 1);
         let cycle = [0, 1].map(|axis| {
             let velocity = slope(to[axis].0, from[axis].0);

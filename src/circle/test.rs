@@ -32,8 +32,8 @@ pub struct CircularTest {
     pub plant: Plant,
     /// How its friction is computed.
     pub model: FrictionModel,
-    /// The value list of both axes.
-    pub list: FrictionList,
+    /// The value lists of X and Y.
+    pub lists: [FrictionList; 2],
     /// How the documents are read.
     pub reading: Reading,
 }
@@ -97,8 +97,9 @@ impl Job {
 }
 
 impl CircularTest {
-    /// Makes one run (R5.20). It begins half a turn before a point half-way between two
-    /// crossings, so that no crossing falls on the ends of the turn.
+    /// Makes one run (R5.20). It begins at X+ with half a turn of run-in, as machines do: the turn
+    /// that is evaluated begins and ends at X-. Where a reversal falls within a CNC cycle follows
+    /// from that, and at high feeds it shows in what the compensation leaves.
     ///
     /// # Errors
     /// A circle that cannot be simulated, or a drive that is unstable.
@@ -107,6 +108,7 @@ impl CircularTest {
         let stretch = Stretch {
             start: 0.0,
             length: TURNS * TAU,
+            lead: 0,
             direction: job.direction,
         };
         let run_in = self.circle.cycles(PI) - 1;

@@ -5,7 +5,7 @@
 //! F = Σ (kᵢ zᵢ + σᵢ żᵢ) + fv·v. The damping is shared among the elements that stick, each by its
 //! part of the stiffness.
 
-use super::{Friction, GmsElement, STEP};
+use super::{Friction, GmsElement, LEAST, STEP};
 
 /// A contact with its elements.
 #[derive(Debug, Clone)]
@@ -45,7 +45,7 @@ impl Gms {
 
     /// The friction in N over a step at this velocity.
     pub(super) fn friction(&mut self, velocity: f64) -> f64 {
-        let level = self.friction.level(velocity.abs());
+        let level = self.friction.level(velocity.abs()).max(LEAST);
         let damping = self.friction.micro_damping(velocity) * velocity / self.stiffness;
         let approach = (-self.friction.attraction / level * STEP).exp();
         let mut force = self.friction.viscous * velocity;

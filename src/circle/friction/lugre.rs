@@ -1,6 +1,6 @@
 //! The `LuGre` model: the contact is a bristle that bends before it slides (R5.11).
 
-use super::{Friction, STEP};
+use super::{Friction, LEAST, STEP};
 
 /// A contact with its bristle.
 #[derive(Debug, Clone)]
@@ -26,7 +26,7 @@ impl Lugre {
     pub(super) fn friction(&mut self, velocity: f64) -> f64 {
         let contact = &self.friction;
         let speed = velocity.abs();
-        let level = contact.level(speed);
+        let level = contact.level(speed).max(LEAST);
         let rate = contact.stiffness * speed / level;
         let steady = (level / contact.stiffness).copysign(velocity);
         self.deflection = steady + (self.deflection - steady) * (-rate * STEP).exp();

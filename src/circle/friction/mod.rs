@@ -14,6 +14,9 @@ use stribeck::Stribeck;
 /// The simulation step in seconds (chapter 5.2 of the rules).
 pub const STEP: f64 = 62.5e-6;
 
+/// The friction in N that stands for none: the bristle's equation divides by it.
+const LEAST: f64 = 1e-9;
+
 /// How friction is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]

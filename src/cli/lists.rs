@@ -1,6 +1,5 @@
 //! `frictcomp lists`: axis, value, channel and start-up lists.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -11,7 +10,6 @@ use super::discovery::Lists;
 use super::exit;
 use super::failure::Failure;
 use super::files::read_text;
-use super::sheet::Sheet;
 use crate::codes::Code;
 use crate::diagnostic::Severity;
 use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
@@ -87,12 +85,7 @@ fn draw(path: &Path, reports: &[ListsReport], console: Console) -> Result<(), Fa
         )
         .with_help("leave `--svg` out to see why"));
     }
-    let svg = value_curves(&accepted).render(Frame::Alone);
-    let mut sheet = Sheet::create(Some(path), console)?;
-    let written = sheet.write_all(svg.as_bytes());
-    written
-        .and_then(|()| sheet.finish())
-        .map_err(|error| Failure::writing(path, &error))
+    console.deliver(Some(path), &value_curves(&accepted).render(Frame::Alone))
 }
 
 /// Runs the command.

@@ -4,6 +4,7 @@
 //! kept and ends the dry run; a closed pipe is no error for the caller.
 
 mod advice;
+pub mod circle;
 mod concise;
 mod csv;
 mod diagnostics;
@@ -20,6 +21,7 @@ mod sarif;
 mod strings;
 pub mod svg;
 mod text;
+pub mod tune;
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;

@@ -171,7 +171,7 @@ fn say_saturated(axis: &str, cycles: u64) {
 }
 
 /// The values that a list would give the control.
-fn value_list(path: &Path) -> Result<FrictionList, Failure> {
+pub(super) fn value_list(path: &Path) -> Result<FrictionList, Failure> {
     let source = Arc::new(SourceFile::new(
         path.display().to_string(),
         read_text(path)?,
@@ -208,7 +208,7 @@ fn value_list(path: &Path) -> Result<FrictionList, Failure> {
 }
 
 /// `standstill=zero,below=origin,delay=reversal`, each of them optional.
-fn parse_reading(text: &str) -> Result<Reading, String> {
+pub(super) fn parse_reading(text: &str) -> Result<Reading, String> {
     const OPTIONS: [&str; 6] = [
         "standstill=hold",
         "standstill=zero",

@@ -91,7 +91,9 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         table.drain();
     }
     let cycles = table.cycles;
-    if let Some(plot) = table.plot.take() {
+    if let Some(plot) = table.plot.take()
+        && cycles > 0
+    {
         plot.finish()?;
     }
     match table.finish() {

@@ -93,7 +93,10 @@ impl AxisPlot {
             drawn: Drawn::Line,
         };
         let panel = |label: &str, series| Panel {
-            y: Axis::linear(format!("{label}{of_axis}")),
+            y: Axis::linear(match of_axis {
+                "" => label.to_owned(),
+                _ => format!("axis {}: {label}", self.name),
+            }),
             series,
         };
         [

@@ -6,17 +6,17 @@ use std::f64::consts::TAU;
 
 use roxmltree::Document;
 
+use frictcomp::circle::{Candidate, FeedResult, Tuned};
 use frictcomp::compensation::State;
 use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
 use frictcomp::machine::AcceptedList;
-use frictcomp::report::pictures::{
-    AxisPlot, CurrentPlot, FeedGlitches, tuning, value_curve, value_curves,
-};
+use frictcomp::report::pictures::{AxisPlot, CurrentPlot, tuning, value_curve, value_curves};
 use frictcomp::report::svg::{
     Axis, Band, BandChart, BandRow, BandState, Drawn, Frame, LineChart, Panel, PolarChart,
     PolarSeries, Series,
 };
+use frictcomp::report::tune::TuneReport;
 
 fn list() -> FrictionList {
     let points = [
@@ -118,16 +118,30 @@ fn glitches() -> LineChart {
         [2000.0, 19.2, 0.8, 3.9, 4.2],
         [5000.0, 23.3, 1.0, 4.4, 4.9],
     ];
-    let feeds = feeds.map(
-        |[feed, off, on, friction_minus20, friction_plus20]| FeedGlitches {
-            feed,
-            off,
-            on,
-            friction_minus20,
-            friction_plus20,
+    let feeds = feeds.map(|[feed, off, on, minus20, plus20]| FeedResult {
+        feed,
+        glitch_off: off,
+        glitch_on: on,
+        glitch_friction_minus20: minus20,
+        glitch_friction_plus20: plus20,
+    });
+    tuning(&[TuneReport {
+        plant: "stiff".to_owned(),
+        model: "lugre",
+        diameter: 200.0,
+        reading: Reading::default().words(),
+        tuned: Tuned {
+            candidate: Candidate {
+                position_delay: 9,
+                reversal_lookahead: 2,
+                delay_cycles: 1,
+                scaling_factor: 1000,
+            },
+            list: list(),
+            feeds: feeds.to_vec(),
+            trials: 1,
         },
-    );
-    tuning("Glitch at reversals before and after tuning", &feeds)
+    }])
 }
 
 fn states() -> BandChart {

@@ -11,9 +11,13 @@ use super::failure::Failure;
 use super::jobs::Jobs;
 use super::plants::{Model, plant};
 use super::recorded;
+use super::sheet::Sheet;
 use crate::circle::{Circle, CircularTest, Job, Outcome, plant_list};
 use crate::current::Reading;
 use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
+use crate::report::html::render_circle;
+use crate::report::pictures::circle;
+use crate::report::svg::Frame;
 
 /// Drives a circle with two simulated axes, with friction compensation off and on
 ///
@@ -49,6 +53,12 @@ pub(super) struct CircleArgs {
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
+    /// Draw the magnified circle, compensation off and on, into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a report with the picture and the figures into this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// Write the result into this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -78,6 +88,15 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         Format::Json => render_json(&report),
         Format::Csv => render_csv(&report),
     };
+    if let Some(path) = &args.svg {
+        console.deliver(Some(path), &circle(&report).render(Frame::Alone))?;
+    }
+    if let Some(path) = &args.html {
+        let mut sheet = Sheet::create(Some(path), console)?;
+        render_circle(&report, &mut sheet)
+            .and_then(|()| sheet.finish())
+            .map_err(|error| Failure::writing(path, &error))?;
+    }
     console.deliver(args.output.as_deref(), &text)?;
     Ok(exit::CLEAN)
 }

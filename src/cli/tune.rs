@@ -13,6 +13,8 @@ use super::plants::{Model, plant};
 use crate::circle::{Circle, FrictionModel, Plant, Ranges, Search, Task, Tuned};
 use crate::current::Reading;
 use crate::lists::Field;
+use crate::report::pictures::tuning;
+use crate::report::svg::Frame;
 use crate::report::tune::{TuneReport, render_json, render_list, render_text};
 
 /// Feeds that are tuned at once, at most.
@@ -62,6 +64,9 @@ pub(super) struct TuneArgs {
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
+    /// Draw the glitch over the feed, before and after, into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     /// Write the value list of the first plant into this file
     #[arg(long, short, value_name = "LIST")]
     output: Option<PathBuf>,
@@ -121,6 +126,9 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     }
     if let (Some(path), Some(first)) = (&args.output, reports.first()) {
         console.deliver(Some(path), &render_list(first))?;
+    }
+    if let Some(path) = &args.svg {
+        console.deliver(Some(path), &tuning(&reports).render(Frame::Alone))?;
     }
     console.print(&match args.format {
         Format::Text => render_text(&reports),

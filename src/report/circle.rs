@@ -106,13 +106,49 @@ pub fn render_text(report: &CircleReport) -> String {
     let columns = columns(report);
     let _ = writeln!(out);
     header(&mut out, &columns);
-    figure_rows(&mut out, &columns);
+    for row in figure_rows(&columns) {
+        row.append(&mut out);
+    }
     let _ = writeln!(out);
-    glitch_rows(&mut out, &columns);
+    for row in glitch_rows(&columns) {
+        row.append(&mut out);
+    }
     for side in &report.sides {
-        advice_lines(&mut out, side);
+        let lines = advice_lines(side);
+        if !lines.is_empty() {
+            let _ = writeln!(out);
+        }
+        for line in lines {
+            let _ = writeln!(out, "{line}");
+        }
     }
     out
+}
+
+/// The figures of all paths, in µm.
+pub(super) struct Table {
+    /// `off ccw`, `on cw`.
+    pub(super) columns: Vec<String>,
+    /// The figures of ISO 230-4, then the glitches.
+    pub(super) rows: Vec<Row>,
+}
+
+/// One figure of all paths.
+pub(super) struct Row {
+    pub(super) name: String,
+    /// One a path; a figure of both directions stands in the first column of its side.
+    pub(super) values: Vec<Option<f64>>,
+}
+
+/// The figures as a table.
+pub(super) fn table(report: &CircleReport) -> Table {
+    let columns = columns(report);
+    let mut rows = figure_rows(&columns);
+    rows.extend(glitch_rows(&columns));
+    Table {
+        columns: columns.iter().map(Column::name).collect(),
+        rows,
+    }
 }
 
 /// One path of the table.
@@ -120,6 +156,12 @@ struct Column<'a> {
     side: &'a NamedSide,
     direction: Direction,
     figures: &'a PathFigures,
+}
+
+impl Column<'_> {
+    fn name(&self) -> String {
+        format!("{} {}", self.side.name, self.direction.name())
+    }
 }
 
 fn columns(report: &CircleReport) -> Vec<Column<'_>> {
@@ -139,7 +181,7 @@ fn columns(report: &CircleReport) -> Vec<Column<'_>> {
 }
 
 /// The conditions of the test, a line each (R5.21).
-fn conditions(report: &CircleReport) -> Vec<String> {
+pub(super) fn conditions(report: &CircleReport) -> Vec<String> {
     match &report.subject {
         Subject::Simulated {
             test,
@@ -225,8 +267,7 @@ fn recorded_conditions(recording: &Recording) -> Vec<String> {
 fn header(out: &mut String, columns: &[Column<'_>]) {
     let _ = write!(out, "{:<34}", "µm");
     for column in columns {
-        let name = format!("{} {}", column.side.name, column.direction.name());
-        let _ = write!(out, "{name:>13}");
+        let _ = write!(out, "{:>13}", column.name());
     }
     let _ = writeln!(out);
 }
@@ -237,7 +278,7 @@ type Figure = (&'static str, fn(&PathFigures) -> Option<f64>);
 /// A figure of both paths by its name.
 type SharedFigure = (&'static str, fn(&Figures) -> Option<f64>);
 
-fn figure_rows(out: &mut String, columns: &[Column<'_>]) {
+fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
     let own: [Figure; 5] = [
         ("G     minimum zone", |it| Some(it.g_mz)),
         ("G     least-squares circle", |it| Some(it.g_lsc)),
@@ -245,20 +286,19 @@ fn figure_rows(out: &mut String, columns: &[Column<'_>]) {
         ("Fmin  smallest radial deviation", |it| it.f_min),
         ("D     mean radial deviation", |it| it.d),
     ];
-    for (name, figure) in own {
-        row(
-            out,
-            name,
-            columns.iter().map(|column| figure(column.figures)),
-        );
-    }
+    let own = own.into_iter().map(|(name, figure)| Row {
+        name: name.to_owned(),
+        values: columns
+            .iter()
+            .map(|column| figure(column.figures))
+            .collect(),
+    });
     let shared: [SharedFigure; 3] = [
         ("G(b)  bidirectional", |it| it.g_b),
         ("H     circular hysteresis", |it| it.h),
         ("D     bidirectional", |it| it.d),
     ];
-    for (name, figure) in shared {
-        // A figure of both directions stands in the first column of its side.
+    let shared = shared.into_iter().map(|(name, figure)| {
         let mut last = "";
         let values = columns.iter().map(|column| {
             let is_first = std::mem::replace(&mut last, column.side.name) != column.side.name;
@@ -266,33 +306,43 @@ fn figure_rows(out: &mut String, columns: &[Column<'_>]) {
                 .then(|| figure(&column.side.side.figures))
                 .flatten()
         });
-        row(out, name, values);
-    }
+        Row {
+            name: name.to_owned(),
+            values: values.collect(),
+        }
+    });
+    own.chain(shared).filter(Row::says_something).collect()
 }
 
-fn glitch_rows(out: &mut String, columns: &[Column<'_>]) {
-    for (at, crossing) in Crossing::ALL.into_iter().enumerate() {
-        let name = format!("glitch at {}", crossing.name());
-        let glitch = |column: &Column<'_>| column.figures.glitch.get(at).map(|it| it.height);
-        row(out, &name, columns.iter().map(glitch));
-    }
+fn glitch_rows(columns: &[Column<'_>]) -> Vec<Row> {
+    let rows = Crossing::ALL.into_iter().enumerate();
+    let rows = rows.map(|(at, crossing)| Row {
+        name: format!("glitch at {}", crossing.name()),
+        values: columns
+            .iter()
+            .map(|column| column.figures.glitch.get(at).map(|it| it.height))
+            .collect(),
+    });
+    rows.filter(Row::says_something).collect()
 }
 
-fn row(out: &mut String, name: &str, values: impl Iterator<Item = Option<f64>>) {
-    let values: Vec<_> = values.collect();
-    if values.iter().all(Option::is_none) {
-        return;
+impl Row {
+    fn says_something(&self) -> bool {
+        self.values.iter().any(Option::is_some)
     }
-    let mut line = format!("{name:<33}");
-    for value in values {
-        let text = value.map(|value| format!("{value:.3}")).unwrap_or_default();
-        let _ = write!(line, "{text:>13}");
+
+    fn append(&self, out: &mut String) {
+        let mut line = format!("{:<33}", self.name);
+        for value in &self.values {
+            let text = value.map(|value| format!("{value:.3}")).unwrap_or_default();
+            let _ = write!(line, "{text:>13}");
+        }
+        let _ = writeln!(out, "{}", line.trim_end());
     }
-    let _ = writeln!(out, "{}", line.trim_end());
 }
 
 /// What the shapes suggest: the same finding at several crossings is said once.
-fn advice_lines(out: &mut String, side: &NamedSide) {
+pub(super) fn advice_lines(side: &NamedSide) -> Vec<String> {
     let mut said: Vec<(Finding, Vec<&Advice>)> = Vec::new();
     for advice in &side.advice {
         match said
@@ -303,9 +353,7 @@ fn advice_lines(out: &mut String, side: &NamedSide) {
             None => said.push((advice.finding, vec![advice])),
         }
     }
-    if !said.is_empty() {
-        let _ = writeln!(out);
-    }
+    let mut lines = Vec::new();
     for (finding, same) in said {
         let mut places = Vec::new();
         for advice in &same {
@@ -321,8 +369,13 @@ fn advice_lines(out: &mut String, side: &NamedSide) {
         } else {
             format!(" at {}", places.join(" "))
         };
-        let _ = writeln!(out, "{}{at}: {size:.1} µm, {}", side.name, words(finding));
+        lines.push(format!(
+            "{}{at}: {size:.1} µm, {}",
+            side.name,
+            words(finding)
+        ));
     }
+    lines
 }
 
 /// What a finding means and what to do.

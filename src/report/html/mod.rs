@@ -7,6 +7,7 @@
 //! active.
 
 mod assumptions;
+mod circle;
 mod machine;
 mod messages;
 mod page;
@@ -15,6 +16,7 @@ mod source;
 mod story;
 mod track;
 
+pub use circle::render_circle;
 pub use run::{Given, render_run};
 pub use source::Sources;
 pub use story::RunStory;

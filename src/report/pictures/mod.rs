@@ -1,12 +1,14 @@
 //! What the results of the tool look like as charts.
 
+mod circle;
 mod current;
 mod lists;
 mod tuning;
 
+pub use circle::circle;
 pub use current::{AxisPlot, CurrentPlot};
 pub use lists::{value_curve, value_curves};
-pub use tuning::{FeedGlitches, tuning};
+pub use tuning::tuning;
 
 use crate::lists::AxisType;
 

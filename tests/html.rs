@@ -375,6 +375,42 @@ fn a_program_from_a_pipe_has_a_report() {
     assert!(part(&report, "source").contains("cannot be read a second time"));
 }
 
+#[test]
+fn a_circular_test_has_a_report() {
+    // R9.50, R5.23
+    let bench = Bench::new(&[]);
+    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+        .current_dir(bench.0.path())
+        .args([
+            "circle",
+            "--feed",
+            "5000",
+            "--radius",
+            "50",
+            "--html",
+            "report.html",
+        ])
+        .output()
+        .expect("the tool starts");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let report = fs::read_to_string(bench.path("report.html")).expect("a report");
+    assert_sound(&report);
+    assert!(part(&report, "picture").contains("deviation magnified"));
+    let figures = part(&report, "figures");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let zone = text
+        .lines()
+        .find(|line| line.starts_with("G     minimum zone"));
+    for value in zone.expect("a figure").split_whitespace().skip(3) {
+        assert!(figures.contains(value), "no {value} in {figures}");
+    }
+    assert!(part(&report, "conditions").contains("reading: standstill=hold"));
+}
+
 /// The browser of this machine: `FRICTCOMP_BROWSER`, or what Debian and others call Chromium.
 fn browser() -> Option<PathBuf> {
     if let Some(named) = std::env::var_os("FRICTCOMP_BROWSER") {

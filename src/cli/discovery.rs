@@ -234,7 +234,7 @@ fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
     let report = reports.iter_mut().filter(|report| report.axis == name);
     let rows = report.flat_map(|report| &mut report.parameters);
     for row in rows.filter(|row| row.number == "P-AXIS-00522") {
-        row.value = "1".to_owned();
+        "1".clone_into(&mut row.value);
         row.origin = Origin::Assumed;
     }
 }

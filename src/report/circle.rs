@@ -363,14 +363,14 @@ pub(super) fn advice_lines(side: &NamedSide) -> Vec<String> {
                 places.push(crossing.name());
             }
         }
-        let size = same.iter().map(|advice| advice.size).fold(0.0, f64::max);
+        let largest = same.iter().map(|advice| advice.size).fold(0.0, f64::max);
         let at = if places.is_empty() {
             String::new()
         } else {
             format!(" at {}", places.join(" "))
         };
         lines.push(format!(
-            "{}{at}: {size:.1} µm, {}",
+            "{}{at}: {largest:.1} µm, {}",
             side.name,
             words(finding)
         ));

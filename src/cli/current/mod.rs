@@ -119,7 +119,7 @@ pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
 struct Plot {
     sheet: Sheet,
     path: PathBuf,
-    plot: CurrentPlot,
+    traces: CurrentPlot,
 }
 
 impl Plot {
@@ -135,13 +135,13 @@ impl Plot {
         Ok(Some(Self {
             sheet: Sheet::create(Some(path), console)?,
             path: path.clone(),
-            plot: CurrentPlot::new(axes),
+            traces: CurrentPlot::new(axes),
         }))
     }
 
     /// Writes the picture.
     fn finish(mut self) -> Result<(), Failure> {
-        let svg = self.plot.chart().render(Frame::Alone);
+        let svg = self.traces.chart().render(Frame::Alone);
         let written = self.sheet.write_all(svg.as_bytes());
         written
             .and_then(|()| self.sheet.finish())

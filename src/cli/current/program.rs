@@ -280,7 +280,7 @@ impl Table {
             };
             if self.written.is_ok() {
                 self.written = write_row(&mut self.writer, &self.columns, head, moments);
-                draw(self.plot.as_mut(), head.0, moments);
+                draw(&mut self.plot, head.0, moments);
             }
         }
     }
@@ -296,8 +296,8 @@ impl Cycles for Table {
     fn begin(&mut self, time: f64, cause: &Arc<Cause>) -> ControlFlow<()> {
         self.drain();
         self.followers.restart();
-        if let Some(Plot { plot, .. }) = &mut self.plot {
-            plot.interrupt();
+        if let Some(plot) = &mut self.plot {
+            plot.traces.interrupt();
         }
         self.begins.push((time, cause.line));
         ControlFlow::Continue(())
@@ -323,7 +323,7 @@ impl Cycles for Table {
             && let Some(head) = self.waiting.pop_front()
         {
             self.written = write_row(&mut self.writer, &self.columns, head, moments);
-            draw(self.plot.as_mut(), head.0, moments);
+            draw(&mut self.plot, head.0, moments);
         }
         match self.written {
             Ok(()) => ControlFlow::Continue(()),
@@ -339,10 +339,10 @@ fn plotted(loaded: &LoadedMachine, followed: &[AxisIndex]) -> Vec<AxisPlot> {
         .collect()
 }
 
-fn draw(plot: Option<&mut Plot>, time: f64, moments: &[Moment]) {
-    if let Some(Plot { plot, .. }) = plot {
+fn draw(plot: &mut Option<Plot>, time: f64, moments: &[Moment]) {
+    if let Some(plot) = plot {
         let moments = moments.iter();
-        plot.push(
+        plot.traces.push(
             time,
             moments.map(|it| (it.input.velocity, it.input.friction, &it.cycle)),
         );

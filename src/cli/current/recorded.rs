@@ -57,8 +57,9 @@ fn write_csv(
         let end = trace.velocities.len().min(at + 1 + lookahead);
         let cycle = current.step(x, v, &trace.velocities[at + 1..end]);
         let t = trace.times[at];
-        if let Some(Plot { plot, .. }) = &mut plot {
-            plot.push(t, [(v, state(trace.switched[at]), &cycle)]);
+        if let Some(plot) = &mut plot {
+            plot.traces
+                .push(t, [(v, state(trace.switched[at]), &cycle)]);
         }
         let Cycle {
             w_before,

@@ -114,7 +114,7 @@ fn lists(report: &CircleReport) -> Vec<AcceptedList> {
     };
     let [x, y] = &test.lists;
     if x == y {
-        vec![accepted("X, Y", x)]
+        vec![accepted("X and Y", x)]
     } else {
         vec![accepted("X", x), accepted("Y", y)]
     }

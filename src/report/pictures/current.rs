@@ -179,8 +179,8 @@ impl CurrentPlot {
                 [one] if one.name.is_empty() => "Additive current".to_owned(),
                 [one] => format!("Additive current of axis {}", one.name),
                 axes => {
-                    let names: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-                    format!("Additive current of axes {}", names.join(", "))
+                    let all: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
+                    format!("Additive current of axes {}", all.join(", "))
                 }
             },
             description: format!(

@@ -23,7 +23,9 @@
 //!
 //! [`interpreter::Interpreter`] runs a program block by block and can be saved and resumed;
 //! [`session::Session`] runs programs one after the other, with lints, and gives the records of
-//! [`timeline`]. A [`machine::Machine`] comes from the control's lists or from `frictcomp.toml`.
+//! [`timeline`], of which a [`motion::Tracer`] makes commanded traces and a
+//! [`current::AdditiveCurrent`] currents. A [`machine::Machine`] comes from the control's lists or
+//! from `frictcomp.toml`.
 //!
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are
 //! handed to it. The command line, the feature `cli`, is on by default.

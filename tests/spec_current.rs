@@ -1,6 +1,9 @@
 //! Chapter 4: the additive current, rule by rule, against values computed by hand.
 
-use frictcomp::current::{AdditiveCurrent, Below, Delay, Reading, Standstill, Switched};
+use frictcomp::compensation::State;
+use frictcomp::current::{
+    AdditiveCurrent, Below, Delay, Followers, Input, Reading, Standstill, Switched,
+};
 use frictcomp::lists::{FrictionList, TablePoint};
 
 /// 12 drive units at rest, falling to 10 at 1000 µm/s, then held.
@@ -216,4 +219,154 @@ fn the_drive_gets_whole_numbers_of_16_bit() {
     assert_eq!(outputs(1000, [0.0, 40_000.0]), (32_767, -32_768, 2));
     // The manual's sample: 3722 at 1 % are 37.22 drive units.
     assert_eq!(outputs(10, [0.0, 3722.0]), (37, -37, 0));
+}
+
+/// A reversal at a constant speed: cycles forth and back, and what each cycle yields.
+struct Reversal {
+    /// µm/s.
+    speed: f64,
+    forth: usize,
+    /// Weight before, weight after, current.
+    cycles: &'static [(f64, f64, f64)],
+}
+
+/// 0.1, 1 and 10 mm/s with position_delay 9, reversal_lookahead 2, delay_cycles 1 and the points
+/// (0, 12), (1800, 10.5). A cycle of 1 ms covers 1, 10 and 100 units of 0.1 µm, so that the
+/// build-up takes nine cycles, one and one. The list yields 12 - 0.1/1.2 = 11.9167 at 100 µm/s,
+/// 12 - 1/1.2 = 11.1667 at 1000 µm/s and 10.5 at 10 000 µm/s; every current comes a cycle late.
+const REVERSALS: [Reversal; 3] = [
+    Reversal {
+        speed: 100.0,
+        forth: 13,
+        cycles: &[
+            (1.0, 0.0, 0.0),
+            (1.0, 0.111_111_111, 0.0),
+            (1.0, 0.222_222_222, 1.324_074_074),
+            (1.0, 0.333_333_333, 2.648_148_148),
+            (1.0, 0.444_444_444, 3.972_222_222),
+            (1.0, 0.555_555_556, 5.296_296_296),
+            (1.0, 0.666_666_667, 6.620_370_37),
+            (1.0, 0.777_777_778, 7.944_444_444),
+            (1.0, 0.888_888_889, 9.268_518_519),
+            (1.0, 1.0, 10.592_592_593),
+            (1.0, 1.0, 11.916_666_667),
+            (0.5, 1.0, 11.916_666_667),
+            (0.0, 1.0, 5.958_333_333),
+            (1.0, 0.111_111_111, 0.0),
+            (1.0, 0.222_222_222, -1.324_074_074),
+            (1.0, 0.333_333_333, -2.648_148_148),
+            (1.0, 0.444_444_444, -3.972_222_222),
+            (1.0, 0.555_555_556, -5.296_296_296),
+            (1.0, 0.666_666_667, -6.620_370_37),
+            (1.0, 0.777_777_778, -7.944_444_444),
+            (1.0, 0.888_888_889, -9.268_518_519),
+            (1.0, 1.0, -10.592_592_593),
+            (1.0, 1.0, -11.916_666_667),
+            (1.0, 1.0, -11.916_666_667),
+            (1.0, 1.0, -11.916_666_667),
+        ],
+    },
+    Reversal {
+        speed: 1000.0,
+        forth: 5,
+        cycles: &[
+            (1.0, 0.0, 0.0),
+            (1.0, 1.0, 0.0),
+            (1.0, 1.0, 11.166_666_667),
+            (0.5, 1.0, 11.166_666_667),
+            (0.0, 1.0, 5.583_333_333),
+            (1.0, 1.0, 0.0),
+            (1.0, 1.0, -11.166_666_667),
+            (1.0, 1.0, -11.166_666_667),
+            (1.0, 1.0, -11.166_666_667),
+            (1.0, 1.0, -11.166_666_667),
+        ],
+    },
+    Reversal {
+        speed: 10_000.0,
+        forth: 4,
+        cycles: &[
+            (1.0, 0.0, 0.0),
+            (1.0, 1.0, 0.0),
+            (0.5, 1.0, 10.5),
+            (0.0, 1.0, 5.25),
+            (1.0, 1.0, 0.0),
+            (1.0, 1.0, -10.5),
+            (1.0, 1.0, -10.5),
+            (1.0, 1.0, -10.5),
+        ],
+    },
+];
+
+#[test]
+fn reversals_at_three_speeds_cycle_by_cycle() {
+    // R4.1 R4.2 R4.3 R4.5
+    let list = FrictionList {
+        position_delay: 9,
+        reversal_lookahead: 2,
+        delay_cycles: 1,
+        table: vec![
+            TablePoint {
+                input: 0.0,
+                output: 12.0,
+            },
+            TablePoint {
+                input: 1800.0,
+                output: 10.5,
+            },
+        ],
+        ..list()
+    };
+    for reversal in &REVERSALS {
+        let speeds = |at| {
+            if at < reversal.forth {
+                reversal.speed
+            } else {
+                -reversal.speed
+            }
+        };
+        let velocities: Vec<f64> = (0..reversal.cycles.len()).map(speeds).collect();
+        let mut current = AdditiveCurrent::new(&list, Reading::default());
+        let found = current.trace(&positions(&velocities), &velocities);
+        for (at, (found, (before, after, current))) in found.iter().zip(reversal.cycles).enumerate()
+        {
+            let said = format!("cycle {at} at {} µm/s: {found:?}", reversal.speed);
+            assert!((found.w_before - before).abs() < 1e-9, "{said}");
+            assert!((found.w_after - after).abs() < 1e-9, "{said}");
+            assert!((found.current - current).abs() < 1e-9, "{said}");
+        }
+    }
+}
+
+#[test]
+fn a_trace_cycle_by_cycle_is_the_trace_as_a_whole() {
+    // R4.2
+    let list = FrictionList {
+        reversal_lookahead: 3,
+        position_delay: 25,
+        delay_cycles: 2,
+        ..list()
+    };
+    let velocities: Vec<f64> = (0..400)
+        .map(|at| (f64::from(at) * 0.37).sin() * f64::from(at % 7) * 300.0)
+        .collect();
+    let positions = positions(&velocities);
+    let whole = AdditiveCurrent::new(&list, Reading::default()).trace(&positions, &velocities);
+    let mut single = AdditiveCurrent::new(&list, Reading::default());
+    let mut followers = Followers::new(vec![AdditiveCurrent::new(&list, Reading::default())]);
+    let mut followed = Vec::new();
+    for (at, whole) in whole.iter().enumerate() {
+        let later = &velocities[at + 1..velocities.len().min(at + 4)];
+        assert_eq!(single.step(positions[at], velocities[at], later), *whole);
+        let input = Input {
+            position: positions[at],
+            velocity: velocities[at],
+            friction: State::Active,
+        };
+        followed.extend(followers.push([input]).map(|moments| moments[0].cycle));
+    }
+    while let Some(moments) = followers.pop() {
+        followed.push(moments[0].cycle);
+    }
+    assert_eq!(followed, whole);
 }

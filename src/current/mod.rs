@@ -232,7 +232,8 @@ impl AdditiveCurrent {
             0.0
         };
         let raw = self.direction * value * self.scaling * w_before.min(w_after);
-        let current = self.delayed(raw);
+        // No negative zero.
+        let current = self.delayed(raw) + 0.0;
         Cycle {
             w_before,
             w_after,

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
+use super::motion::BlockEnd;
 use crate::machine::AxisIndex;
 
 /// A group of G functions of which one is in force.
@@ -89,8 +90,8 @@ pub struct Modal {
     pub offset: u32,
     /// Whether the circle centre is absolute, G161.
     pub centre_absolute: bool,
-    /// Whether every block ends with an exact stop, G360.
-    pub exact_stop: bool,
+    /// How blocks end, G359 and G360.
+    pub block_end: BlockEnd,
     /// The radius of circles without a centre, R; `None` where it is not known.
     pub radius: Option<f64>,
     /// What takes positions away from the machine's: names of `#` commands and G functions.
@@ -114,7 +115,7 @@ pub(super) struct Saved {
     feeds: [Option<f64>; 3],
     offset: u32,
     centre_absolute: bool,
-    exact_stop: bool,
+    block_end: BlockEnd,
     transformed: [bool; 2],
     unknown: BTreeSet<Group>,
 }
@@ -134,7 +135,7 @@ impl Modal {
             feeds: [None; 3],
             offset: 53,
             centre_absolute: false,
-            exact_stop: false,
+            block_end: BlockEnd::Through,
             radius: None,
             transformed: BTreeSet::new(),
             unknown: BTreeSet::new(),
@@ -167,7 +168,7 @@ impl Modal {
             feeds: self.feeds,
             offset: self.offset,
             centre_absolute: self.centre_absolute,
-            exact_stop: self.exact_stop,
+            block_end: self.block_end,
             transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
             unknown: self.unknown.clone(),
         }
@@ -186,7 +187,7 @@ impl Modal {
         self.feeds = saved.feeds;
         self.offset = saved.offset;
         self.centre_absolute = saved.centre_absolute;
-        self.exact_stop = saved.exact_stop;
+        self.block_end = saved.block_end;
         self.unknown.clone_from(&saved.unknown);
         for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
             self.transform(name, on);
@@ -227,7 +228,8 @@ impl Modal {
             }
             Some(Group::CutterRadius) => self.transform("G41", number != 40),
             Some(Group::CircleCentre) => self.centre_absolute = number == 161,
-            Some(Group::ExactStop) => self.exact_stop = number == 360,
+            Some(Group::ExactStop) if number == 360 => self.block_end = BlockEnd::ExactStop,
+            Some(Group::ExactStop) => self.block_end = BlockEnd::Through,
             // G20 switches mirroring off, G21 to G23 switch it on.
             None if (20..=23).contains(&number) => self.transform("G21", number != 20),
             None => return false,

@@ -2,8 +2,11 @@
 //!
 //! It is made only where [`Motions::Taken`] asks for it.
 
+use serde::{Deserialize, Serialize};
+
+use super::value::rounded;
 use super::words::AxisWords;
-use super::{Group, Interpreter};
+use super::{Group, Interpreter, Value};
 use crate::machine::AxisIndex;
 
 /// Whether blocks say what they move.
@@ -94,7 +97,7 @@ pub enum PathFeed {
 }
 
 /// What happens at the end of a block.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum BlockEnd {
     /// The path goes on as fast as its corner allows.
     #[default]
@@ -151,6 +154,16 @@ impl Interpreter {
         }
     }
 
+    /// `G04 P1`: the parameter holds the seconds (PM/206132747).
+    pub(super) fn dwell_parameter(&mut self, index: Option<f64>) {
+        let index = index
+            .and_then(rounded)
+            .and_then(|index| u32::try_from(index).ok());
+        let value = index.and_then(|index| self.state.memory.parameter(index));
+        let seconds = value.and_then(Value::number);
+        self.geometry().dwell = Some(seconds);
+    }
+
     /// Where every axis stands, for a block that may move.
     pub(super) fn stand(&self) -> Option<Vec<Option<f64>>> {
         (self.options.motions == Motions::Taken).then(|| self.state.modal.positions().to_vec())
@@ -174,8 +187,7 @@ impl Interpreter {
         from: Vec<Option<f64>>,
         words: AxisWords,
     ) -> Option<Motion> {
-        let dwells = self.work.dwells;
-        if dwells {
+        if self.work.dwells {
             let by_axis = self.work.coordinates.first().map(|&(_, seconds)| seconds);
             return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
         }
@@ -189,16 +201,14 @@ impl Interpreter {
             AxisWords::Reference | AxisWords::Other => return None,
         };
         let modal = &self.state.modal;
-        let exact = modal.exact_stop || geometry.end == BlockEnd::ExactStop;
         Some(Motion::Travel(Travel {
             form,
             from,
             to: modal.positions().to_vec(),
             feed: self.path_feed(),
-            end: if exact {
-                BlockEnd::ExactStop
-            } else {
-                BlockEnd::Through
+            end: match geometry.end {
+                BlockEnd::Through => modal.block_end,
+                BlockEnd::ExactStop => BlockEnd::ExactStop,
             },
         }))
     }

@@ -165,6 +165,7 @@ impl Interpreter {
                 self.circle_word(letter, number);
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number),
+            (b'P', _) if self.work.dwells => self.dwell_parameter(number),
             (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'N', _) => {}
             _ => self.pass_over(&char::from(letter).to_string(), word.span, at),
         }

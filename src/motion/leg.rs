@@ -9,8 +9,9 @@ use super::limits::AxisLimits;
 use super::profile::Bounds;
 use crate::interpreter::{BlockEnd, Centre, CircularArc, Turn};
 
-/// Ends of an arc that lie closer than this, in mm, make it a full circle.
-const SAME_PLACE: f64 = 1e-6;
+/// Places closer than this, in mm or degrees, are one: the ends of a full circle, and the end of a
+/// motion and the start of the next.
+pub(super) const SAME_PLACE: f64 = 1e-6;
 
 /// The centre of an arc may miss the places that its ends allow by this part of the radius; it is
 /// moved then, as G165 does (PM/206551563).
@@ -69,8 +70,16 @@ impl Leg {
                 .map(|((from, to), _)| to - from)
                 .fold(0.0, f64::hypot)
         };
-        // Axes behind the main ones follow; moving alone, the feed is theirs.
-        let length = [way(true), way(false)].into_iter().find(|way| *way > 0.0)?;
+        // Axes beside the main ones follow; moving alone, the feed is theirs.
+        let (main, beside) = (way(true), way(false));
+        let length = if main > SAME_PLACE || beside == 0.0 {
+            main
+        } else {
+            beside
+        };
+        if length == 0.0 {
+            return None;
+        }
         Some(Self::new(ends, None, length, cause))
     }
 
@@ -103,6 +112,11 @@ impl Leg {
             end: BlockEnd::Through,
             cause,
         }
+    }
+
+    /// Where the axes are at its end.
+    pub(super) fn ends(&self) -> &[f64] {
+        &self.to
     }
 
     /// How many axes there are.

@@ -13,6 +13,8 @@ pub(super) struct Sampler {
     followed: Vec<usize>,
     /// Seconds of a cycle.
     cycle: f64,
+    /// Cycles in a second, where they are whole: times are decimals then, as 0.003 is.
+    rate: Option<f64>,
     /// The number of the next cycle.
     next: u64,
     /// When the path planned so far ends, in seconds.
@@ -23,6 +25,7 @@ pub(super) struct Sampler {
     last: Option<Arc<Cause>>,
     /// How many cycles there may be.
     budget: u64,
+    over: bool,
 }
 
 impl Sampler {
@@ -30,12 +33,14 @@ impl Sampler {
         Self {
             followed: followed.iter().map(|axis| axis.get()).collect(),
             cycle,
+            rate: whole(1.0 / cycle),
             next: 0,
             end: 0.0,
             positions: vec![0.0; followed.len()],
             velocities: vec![0.0; followed.len()],
             last: None,
             budget,
+            over: false,
         }
     }
 
@@ -47,7 +52,10 @@ impl Sampler {
     pub(super) fn time(&self) -> f64 {
         #[allow(clippy::cast_precision_loss)] // a trace is shorter than 2^53 cycles
         let next = self.next as f64;
-        next * self.cycle
+        match self.rate {
+            Some(rate) => next / rate,
+            None => next * self.cycle,
+        }
     }
 
     /// Follows legs with a profile that spans them.
@@ -72,7 +80,8 @@ impl Sampler {
                 }
                 for (place, &axis) in self.followed.iter().enumerate() {
                     self.positions[place] = leg.position(axis, way);
-                    self.velocities[place] = leg.slope(axis, way) * state.velocity;
+                    // No negative zero.
+                    self.velocities[place] = leg.slope(axis, way) * state.velocity + 0.0;
                 }
                 self.emit(&leg.cause, cycles)?;
             }
@@ -113,13 +122,14 @@ impl Sampler {
         ControlFlow::Continue(())
     }
 
-    /// Whether all cycles are used up.
+    /// Whether more cycles than the budget were wanted.
     pub(super) fn is_over(&self) -> bool {
-        self.next >= self.budget
+        self.over
     }
 
     fn emit(&mut self, cause: &Arc<Cause>, cycles: &mut dyn Cycles) -> ControlFlow<()> {
-        if self.is_over() {
+        self.over = self.next >= self.budget;
+        if self.over {
             return ControlFlow::Break(());
         }
         let time = self.time();
@@ -131,4 +141,10 @@ impl Sampler {
             cause,
         })
     }
+}
+
+/// A number that is whole but for its rounding.
+fn whole(number: f64) -> Option<f64> {
+    let near = number.round();
+    (near >= 1.0 && (number - near).abs() <= 1e-12 * near).then_some(near)
 }

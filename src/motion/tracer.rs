@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::course::Course;
-use super::leg::{Ends, Leg};
+use super::leg::{Ends, Leg, SAME_PLACE};
 use super::limits::AxisLimits;
 use super::sampler::Sampler;
 use super::{Cause, Cycles};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::diagnostic::{Diagnostic, Place};
-use crate::interpreter::{Form, Motion, PathFeed, PositionFrame, Travel};
+use crate::interpreter::{Form, Motion, PathFeed, Travel};
 use crate::machine::{AxisIndex, Machine};
 use crate::source::Span;
 use crate::syntax::Kind;
@@ -48,12 +48,29 @@ pub struct Tracer {
     main: Vec<bool>,
     /// Where the path ends, by axis; empty before it begins.
     stand: Vec<Option<f64>>,
+    /// The same, to the last bit of the last leg.
+    end: Vec<f64>,
     running: Running,
     friction: Arc<[State]>,
     version: Option<u64>,
+    /// The last block that moved something.
     file: Arc<str>,
+    text: String,
+    line: u32,
     diagnostics: Vec<Diagnostic>,
     named: BTreeSet<(Code, Arc<str>, u32)>,
+}
+
+/// A difference, in mm or degrees, that rounding makes and no program.
+const NOTHING: f64 = 1e-9;
+
+/// Whether a straight motion goes nowhere.
+fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
+    let stays = from
+        .iter()
+        .zip(to)
+        .all(|(from, to)| (to - from).abs() < NOTHING);
+    stays && !matches!(travel.form, Form::Arc(_))
 }
 
 /// Whether the path is known.
@@ -71,6 +88,23 @@ enum Obstacle {
     Reason(&'static str),
 }
 
+/// The place of a block.
+struct At<'a> {
+    file: &'a str,
+    text: &'a str,
+    line: u32,
+}
+
+impl<'a> At<'a> {
+    fn of(row: &Row<'a>) -> Self {
+        Self {
+            file: row.file,
+            text: row.text,
+            line: row.line,
+        }
+    }
+}
+
 impl Tracer {
     /// A tracer for some axes of a machine, before the first block.
     pub fn new(machine: &Machine, followed: &[AxisIndex], options: TracerOptions) -> Self {
@@ -85,10 +119,13 @@ impl Tracer {
                 .map(|axis| matches!(axis.name.as_str(), "X" | "Y" | "Z"))
                 .collect(),
             stand: Vec::new(),
+            end: Vec::new(),
             running: Running::No,
             friction: Arc::new([]),
             version: None,
             file: Arc::from(""),
+            text: String::new(),
+            line: 0,
             diagnostics: Vec::new(),
             named: BTreeSet::new(),
         }
@@ -103,18 +140,37 @@ impl Tracer {
             Motion::Travel(travel) => self.travel(row, travel, cycles),
             Motion::Dwell(seconds) => self.dwell(row, *seconds, cycles),
         };
+        self.text.clear();
+        self.text.push_str(row.text);
+        self.line = row.line;
+        self.check_budget();
+        flow
+    }
+
+    /// FC915 at the last block that moved something.
+    fn check_budget(&mut self) {
         if self.course.is_over() {
+            let at = At {
+                file: &Arc::clone(&self.file),
+                text: &std::mem::take(&mut self.text),
+                line: self.line,
+            };
             let help = "ask for more with `--max-cycles`";
             let message = "the trace is longer than its bound and ends here";
-            self.say(row, (Code::Fc915, message), help);
+            self.say(&at, (Code::Fc915, message), help);
         }
-        flow
+    }
+
+    fn follows(&self, axis: usize) -> bool {
+        self.followed.iter().any(|followed| followed.get() == axis)
     }
 
     /// Follows the path to its end.
     pub fn finish(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
         self.running = Running::No;
-        self.course.stop(cycles)
+        let flow = self.course.stop(cycles);
+        self.check_budget();
+        flow
     }
 
     /// What there is to say about the motions, each once a place.
@@ -143,13 +199,16 @@ impl Tracer {
             Err(Obstacle::Reason(reason)) => return self.lose(row, reason, cycles),
         };
         let Some(leg) = leg else {
+            if self.running == Running::Yes {
+                self.stand.clone_from(&travel.to);
+            }
             return ControlFlow::Continue(());
         };
-        if row.modal.position(self.followed[0]).frame == PositionFrame::Programmed {
+        if !row.modal.transformed.is_empty() {
             let message = "from here on the trace is that of the program, not of the machine: a \
                            transformation is in force";
             self.say(
-                row,
+                &At::of(row),
                 (Code::Fc904, message),
                 "the axes of the machine move in another way",
             );
@@ -168,6 +227,8 @@ impl Tracer {
             self.running = Running::Yes;
         }
         self.stand.clone_from(&travel.to);
+        self.end.clear();
+        self.end.extend_from_slice(leg.ends());
         self.course.add(leg, cycles)
     }
 
@@ -200,19 +261,23 @@ impl Tracer {
         let message = format!("the trace leaves this motion out: {reason}");
         let help = "write what is missing into the program (`F`, absolute positions), or give \
                     values with `--set`; the trace begins anew behind it";
-        self.say(row, (Code::Fc903, &message), help);
+        self.say(&At::of(row), (Code::Fc903, &message), help);
         self.running = Running::No;
         self.course.stop(cycles)
     }
 
     /// The leg of a motion; `None` where nothing moves.
     fn leg(&mut self, row: &Row<'_>, travel: &Travel) -> Result<Option<Leg>, Obstacle> {
-        if let Form::Unknown(reason) = travel.form {
-            return Err(Obstacle::Reason(reason));
+        let moves = travel.from.iter().zip(&travel.to).enumerate();
+        let mut unknown = moves.filter(|(_, (from, _))| from.is_none());
+        if unknown.any(|(axis, (_, to))| to.is_some() || self.follows(axis)) {
+            return Err(Obstacle::Start);
         }
         let feed = match (travel.form, travel.feed) {
             (Form::Rapid, _) => PathFeed::PerMinute(f64::INFINITY),
-            (_, PathFeed::Unknown(reason)) => return Err(Obstacle::Reason(reason)),
+            (Form::Unknown(reason), _) | (_, PathFeed::Unknown(reason)) => {
+                return Err(Obstacle::Reason(reason));
+            }
             (_, PathFeed::PerMinute(feed) | PathFeed::Seconds(feed)) if feed <= 0.0 => {
                 return Err(Obstacle::Reason("F is not above 0"));
             }
@@ -220,20 +285,28 @@ impl Tracer {
         };
         let mut from = Vec::with_capacity(travel.from.len());
         let mut to = Vec::with_capacity(travel.from.len());
-        for (axis, ends) in travel.from.iter().zip(&travel.to).enumerate() {
-            let followed = self.followed.iter().any(|followed| followed.get() == axis);
+        for ends in travel.from.iter().zip(&travel.to) {
             let (start, end) = match ends {
                 (Some(start), Some(end)) => (*start, *end),
-                (None, None) if followed => return Err(Obstacle::Start),
-                // It does not move: where it stands does not matter.
-                (None, None) => (0.0, 0.0),
-                (None, Some(_)) => return Err(Obstacle::Start),
                 (Some(_), None) => {
                     return Err(Obstacle::Reason("where it ends is not known"));
                 }
+                // It does not move: where it stands does not matter.
+                (None, _) => (0.0, 0.0),
             };
             from.push(start);
             to.push(end);
+        }
+        if self.running == Running::Yes {
+            // What was too short to be a motion is made up for by the next one.
+            for (start, end) in from.iter_mut().zip(&self.end) {
+                if (*start - end).abs() < SAME_PLACE {
+                    *start = *end;
+                }
+            }
+        }
+        if is_nothing(travel, &from, &to) {
+            return Ok(None);
         }
         let cause = self.cause(row);
         let ends = Ends {
@@ -279,16 +352,16 @@ impl Tracer {
 
     /// Says something about a block, once a place; of what holds for the rest of the program only
     /// the first.
-    fn say(&mut self, row: &Row<'_>, (code, message): (Code, &str), help: &str) {
+    fn say(&mut self, at: &At<'_>, (code, message): (Code, &str), help: &str) {
         let place = Place {
-            file: row.file.into(),
-            text: row.text.into(),
-            first_line: row.line,
-            span: Span::new(0, row.text.len()),
+            file: at.file.into(),
+            text: at.text.into(),
+            first_line: at.line,
+            span: Span::new(0, at.text.len()),
         };
         let key = match code {
-            Code::Fc904 => (code, Arc::from(""), 0),
-            _ => (code, Arc::clone(&place.file), row.line),
+            Code::Fc903 => (code, Arc::clone(&place.file), at.line),
+            _ => (code, Arc::from(""), 0),
         };
         if self.named.len() < MAX_NAMED && self.named.insert(key) {
             let diagnostic = Diagnostic::new(code, place, message).with_help(help);

@@ -172,7 +172,7 @@ fn groups_of_g_functions() {
       2 line 2 -
       3 line 3 -
       end 3 M30 X:active Y:active Z:unconfigured B:ineffective
-    opaque {"G60": 1, "G61": 1, "G999": 1}
+    opaque {"G61": 1, "G999": 1}
     "#);
 }
 

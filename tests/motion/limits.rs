@@ -2,7 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::{MACHINE, assert_limits, trace};
+use frictcomp::motion::{Bounds, Profile};
+
+use super::{CYCLE, MACHINE, assert_limits, trace};
 
 const AXES: [&str; 4] = ["X", "Y", "Z", "C"];
 
@@ -64,14 +66,11 @@ fn rapid_motions_go_as_fast_as_one_of_the_axes_can() {
 fn a_line_in_many_blocks_takes_the_time_of_one() {
     // R5.2: full look-ahead over any number of blocks, also beyond the queue.
     let whole = trace("G01 X0 Y0 F9000\nX300 Y150\nM30", &["X", "Y"]).seconds();
-    let mut program = String::from("G01 X0 Y0 F9000\n");
-    for block in 1..=30_000 {
-        program.push_str(&format!(
-            "X{:.2} Y{:.3}\n",
-            f64::from(block) * 0.01,
-            f64::from(block) * 0.005
-        ));
-    }
+    let blocks = (1..=30_000).map(f64::from);
+    let blocks: Vec<String> = blocks
+        .map(|block| format!("X{:.2} Y{:.3}", block * 0.01, block * 0.005))
+        .collect();
+    let program = format!("G01 X0 Y0 F9000\n{}", blocks.join("\n"));
     let pieces = trace(&program, &["X", "Y"]);
     assert!(
         pieces.seconds() <= whole * 1.01,
@@ -80,6 +79,37 @@ fn a_line_in_many_blocks_takes_the_time_of_one() {
     );
     assert_eq!(pieces.end(), [300.0, 150.0]);
     assert_limits(MACHINE, &["X", "Y"], &pieces);
+}
+
+#[test]
+fn a_queue_full_of_short_blocks_keeps_the_limits() {
+    // R5.2: a circle in 12 000 chords; 10 mm in blocks of half a micrometre, too short to reach
+    // the feed within half of the queue.
+    let turns = (0..=12_000).map(|chord| f64::from(chord) * std::f64::consts::TAU / 12_000.0);
+    let chords: Vec<String> = turns
+        .map(|angle| format!("X{:.5} Y{:.5}", 20.0 * angle.cos(), 20.0 * angle.sin()))
+        .collect();
+    let circle = trace(
+        &format!("G01 F1200\n{}\nM30", chords.join("\n")),
+        &["X", "Y"],
+    );
+    assert_limits(MACHINE, &["X", "Y"], &circle);
+    assert_eq!(
+        (circle.begins.len(), circle.end()),
+        (1, [20.0, 0.0].as_slice())
+    );
+    let steps: Vec<String> = (0..=20_000)
+        .map(|step| format!("X{:.4}", f64::from(step) * 0.0005))
+        .collect();
+    let line = trace(&format!("G01 F12000\n{}\nM30", steps.join("\n")), &["X"]);
+    assert_limits(MACHINE, &["X"], &line);
+    assert_eq!(line.end(), [10.0]);
+    let shortest = shortest(10.0, 200.0, 2000.0, 50_000.0);
+    assert!(
+        line.seconds() < 2.0 * shortest,
+        "{} of {shortest}",
+        line.seconds()
+    );
 }
 
 #[test]
@@ -160,5 +190,47 @@ proptest! {
         let trace = trace(&program, &AXES);
         prop_assume!(!trace.positions.is_empty());
         assert_limits(MACHINE, &AXES, &trace);
+    }
+}
+
+/// Seconds that rsruckig takes for a change of state without acceleration at both ends.
+fn reference(start: f64, end: f64, length: f64, bounds: &Bounds) -> f64 {
+    use rsruckig::prelude::*;
+    let mut input = InputParameter::<1>::new(None);
+    input.current_position = daov_stack![0.0];
+    input.current_velocity = daov_stack![start];
+    input.current_acceleration = daov_stack![0.0];
+    input.target_position = daov_stack![length];
+    input.target_velocity = daov_stack![end];
+    input.target_acceleration = daov_stack![0.0];
+    input.max_velocity = daov_stack![bounds.velocity];
+    input.max_acceleration = daov_stack![bounds.acceleration];
+    input.max_jerk = daov_stack![bounds.jerk];
+    let mut trajectory = Trajectory::<1>::new(None);
+    let mut generator = Ruckig::<1, ThrowErrorHandler>::new(None, CYCLE);
+    let result = generator.calculate(&input, &mut trajectory);
+    assert!(result.is_ok(), "{result:?}");
+    trajectory.get_duration()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn profiles_take_the_time_of_the_reference(
+        (velocity, acceleration, jerk) in (0.1_f64..1000.0, 100.0_f64..20_000.0, 1e3_f64..1e6),
+        (start, end) in (prop_oneof![Just(0.0), 0.0_f64..1.0], prop_oneof![Just(0.0), 0.0_f64..1.0]),
+        room in 1e-2_f64..1000.0,
+    ) {
+        // R5.2
+        let bounds = Bounds { velocity, acceleration, jerk };
+        let (start, end) = (start * velocity, end * velocity);
+        // More than the change of velocity needs, at the lowest acceleration that it can have.
+        let change = velocity / acceleration + acceleration / jerk + (velocity / jerk).sqrt();
+        let length = 2.0 * velocity * change + room;
+        let profile = Profile::between(start, end, length, &bounds);
+        let expected = reference(start, end, length, &bounds);
+        let found = profile.duration();
+        prop_assert!((found - expected).abs() <= 1e-6 * expected, "{found} s, not {expected} s");
     }
 }

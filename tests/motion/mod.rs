@@ -1,5 +1,7 @@
 //! A bench that runs a program and keeps its commanded trace.
 
+#[cfg(feature = "cli")]
+mod command;
 mod forms;
 mod limits;
 mod unknown;
@@ -145,9 +147,9 @@ pub(crate) fn trace(program: &str, axes: &[&str]) -> Trace {
 ///
 /// The differences of a trace are means over cycles, so that they keep whatever the motion keeps;
 /// `1e-6` of a limit is left to the rounding of positions, which a third difference magnifies.
-pub(crate) fn assert_limits(machine: &str, axes: &[&str], trace: &Trace) {
+pub(crate) fn assert_limits(machine: &str, names: &[&str], trace: &Trace) {
     let machine = Machine::from_toml(machine).expect("a machine");
-    for (column, name) in axes.iter().enumerate() {
+    for (column, name) in names.iter().enumerate() {
         let axis = machine.find(name).expect("an axis");
         let limits = AxisLimits::of(machine.axis(axis));
         let mut parts = trace.begins.clone();

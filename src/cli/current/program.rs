@@ -254,7 +254,7 @@ struct Table {
 impl Table {
     /// `t,x,v,…` for one axis, `t,x.X,v.X,…` for several.
     fn header(&mut self, names: &[String]) {
-        let mut header = String::from("t");
+        let mut header = vec!["t".to_owned()];
         for name in names {
             let suffix = match names.len() {
                 1 => String::new(),
@@ -263,13 +263,13 @@ impl Table {
             let comp = self.columns.contains(&Column::Comp).then_some("comp");
             let columns = ["x", "v", "w_before", "w_after", "current", "output"];
             for column in columns.into_iter().chain(comp) {
-                header.push_str(&format!(",{column}{suffix}"));
+                header.push(format!("{column}{suffix}"));
             }
         }
         if self.columns.contains(&Column::Line) {
-            header.push_str(",line");
+            header.push("line".to_owned());
         }
-        self.written = writeln!(self.writer, "{header}");
+        self.written = writeln!(self.writer, "{}", header.join(","));
     }
 
     /// Writes the cycles that wait for others.
@@ -398,8 +398,8 @@ impl Told<'_> {
     fn nothing(&self) -> String {
         let names = self.names.join(", ");
         format!(
-            "no motion is known of an axis that stands where it is known: program {names} with \
-             absolute positions, twice"
+            "no cycle: no motion is known whose start is known too; where {names} and the axes \
+             that move with it stand, the first absolute positions say"
         )
     }
 

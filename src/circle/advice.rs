@@ -18,7 +18,7 @@ use super::test::Compensation;
 pub const NOTICEABLE: f64 = 1.0;
 
 /// One of two bulges counts as alone if the other is less than this part of it.
-const ALONE: f64 = 0.4;
+const ALONE: f64 = 0.25;
 
 /// A step is one if it is at least this part of the height.
 const STEP_PART: f64 = 0.5;

@@ -13,7 +13,7 @@ use super::test::Side;
 pub const MIN_POINTS: usize = 72;
 
 /// A gap between two points that is bridged, in degrees.
-pub const WIDEST_GAP: f64 = 6.0;
+pub(super) const WIDEST_GAP: f64 = 6.0;
 
 /// Steps of the fit; it converges in a few.
 const FIT_STEPS: usize = 12;

@@ -369,7 +369,7 @@ fn the_glitch_is_that_of_its_window() {
     let path = |angle: f64| spike(angle, 93.0, 5.0) - spike(angle, 189.0, 2.0);
     let figures = recording(path, |_| 0.0, None).side.figures;
     let glitch = &figures.ccw.expect("ccw").glitch;
-    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 0.05, "{glitch:?}");
+    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 0.1, "{glitch:?}");
     assert_eq!(glitch[1].crossing, Crossing::YPlus);
     close(glitch[1].height, 5.0);
     close(glitch[1].outward, 5.0);
@@ -505,6 +505,9 @@ fn circles_beyond_all_bounds_are_refused() {
     // A loop that does not settle is said so.
     let mut test = circular_test(5000.0);
     test.plant.x.position_gain = 1900.0;
+    let limited = test.run(Job::ALL[0]).expect("held by the largest force");
+    assert!(limited.saturated > 1000, "{limited:?}");
+    test.plant.x.max_force = 1e12;
     let unstable = test.run(Job::ALL[0]).expect_err("an unstable loop");
     assert!(
         matches!(unstable, CircleError::Unstable { axis: "X", .. }),

@@ -103,10 +103,10 @@ fn at_crossing(
     if glitch.step.abs() >= NOTICEABLE && glitch.step.abs() >= STEP_PART * glitch.height {
         return Some(Finding::Backlash);
     }
-    if glitch.height < NOTICEABLE {
+    let (outward, inward) = (glitch.outward.max(0.0), (-glitch.inward).max(0.0));
+    if outward.max(inward) < NOTICEABLE {
         return None;
     }
-    let (outward, inward) = (glitch.outward.max(0.0), (-glitch.inward).max(0.0));
     if compensation == Some(Compensation::Off) {
         return (inward < ALONE * outward).then_some(Finding::Friction);
     }

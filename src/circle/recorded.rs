@@ -117,7 +117,7 @@ impl RecordedCircle {
             let found = fit.radius;
             return Err(RecordedError::Radius { commanded, found });
         }
-        let mut gatherer = Gatherer::new(commanded.unwrap_or(fit.radius) / 1000.0);
+        let mut gatherer = Gatherer::new(commanded.unwrap_or(fit.radius) / 1000.0, WIDEST_GAP);
         let [cx, cy] = fit.centre;
         for [x, y] in turn {
             gatherer.take((x - cx) / 1000.0, (y - cy) / 1000.0);
@@ -128,7 +128,7 @@ impl RecordedCircle {
             centre: fit.centre,
             radius: fit.radius,
             points: turn.len(),
-            profile: gatherer.finish(WIDEST_GAP).map_err(gaps)?,
+            profile: gatherer.finish().map_err(gaps)?,
         })
     }
 }

@@ -18,7 +18,7 @@ use super::test::Compensation;
 pub const NOTICEABLE: f64 = 1.0;
 
 /// One of two bulges counts as alone if the other is less than this part of it.
-const ALONE: f64 = 0.4;
+const ALONE: f64 = 0.25;
 
 /// A step is one if it is at least this part of the height.
 const STEP_PART: f64 = 0.5;
@@ -103,10 +103,10 @@ fn at_crossing(
     if glitch.step.abs() >= NOTICEABLE && glitch.step.abs() >= STEP_PART * glitch.height {
         return Some(Finding::Backlash);
     }
-    if glitch.height < NOTICEABLE {
+    let (outward, inward) = (glitch.outward.max(0.0), (-glitch.inward).max(0.0));
+    if outward.max(inward) < NOTICEABLE {
         return None;
     }
-    let (outward, inward) = (glitch.outward.max(0.0), (-glitch.inward).max(0.0));
     if compensation == Some(Compensation::Off) {
         return (inward < ALONE * outward).then_some(Finding::Friction);
     }

@@ -119,6 +119,11 @@ impl Drive {
         self.velocity
     }
 
+    /// Force of the motor in N; at constant velocity that is the friction.
+    pub fn force(&self) -> f64 {
+        self.force
+    }
+
     /// In how many cycles of the speed loop the force was cut.
     pub fn saturated(&self) -> u64 {
         self.saturated

@@ -65,7 +65,8 @@ pub struct Glitch {
     pub outward: f64,
     /// The smallest deviation from the undisturbed path; negative is inwards.
     pub inward: f64,
-    /// How much farther out the path runs behind the crossing than before it, 8° to 20° away.
+    /// How much farther out the path runs behind the crossing than before it: the difference of
+    /// straight lines through what lies 8° to 20° away on each side, at the crossing.
     pub step: f64,
 }
 
@@ -94,7 +95,7 @@ fn glitch(profile: &Profile, direction: Direction, crossing: Crossing) -> Glitch
         sides.swap(0, 1);
     }
     let [mut before, mut behind] = sides;
-    let step = median(&mut behind) - median(&mut before);
+    let step = at_crossing(&behind) - at_crossing(&before);
     before.append(&mut behind);
     let undisturbed = median(&mut before);
     let [outward, inward] = profile.within(at, WINDOW * PER_DEGREE);
@@ -105,6 +106,22 @@ fn glitch(profile: &Profile, direction: Direction, crossing: Crossing) -> Glitch
         inward: (inward - undisturbed) * MICROMETRES,
         step: step * MICROMETRES,
     }
+}
+
+/// Where the least-squares line through the deviations beside a crossing meets it.
+fn at_crossing(beside: &[f64]) -> f64 {
+    #[allow(clippy::cast_precision_loss)] // at most 36000
+    let real = |count: usize| count as f64;
+    let count = real(beside.len());
+    let centre = (count - 1.0) / 2.0;
+    let mean = beside.iter().sum::<f64>() / count;
+    let (mut slope, mut spread) = (0.0, 0.0);
+    for (at, deviation) in beside.iter().enumerate() {
+        let way = real(at) - centre;
+        slope += way * deviation;
+        spread += way * way;
+    }
+    mean - slope / spread * (centre + real(BESIDE.start * PER_DEGREE))
 }
 
 /// The middle value, the mean of both middle ones of an even number; 0 of none.

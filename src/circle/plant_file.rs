@@ -168,7 +168,7 @@ fn overridden(
     let mut drive = drive.clone();
     let mut friction = drive.friction.clone();
     let value = |key: &str| real(table, key);
-    let mut set = |key: &str, place: &mut f64| -> Result<bool, ConfigError> {
+    let set = |key: &str, place: &mut f64| -> Result<bool, ConfigError> {
         let given = value(key)?;
         if let Some(given) = &given {
             *place = given.value;

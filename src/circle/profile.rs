@@ -6,6 +6,7 @@
 //! and the innermost are kept as they are, so that no extreme of the path is lost.
 
 use std::f64::consts::TAU;
+use std::fmt;
 
 /// Fixed angles of a turn, every 0.01°.
 pub const ANGLES: usize = 36_000;
@@ -29,6 +30,8 @@ pub(super) struct Gatherer {
     outer: Vec<Option<Point>>,
     inner: Vec<Option<Point>>,
     last: Option<Place>,
+    /// Sectors between two points that are bridged at most.
+    widest: f64,
 }
 
 /// A place on the path: the angle in sectors.
@@ -39,7 +42,7 @@ struct Place {
 }
 
 /// The radial deviations of one turn.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Profile {
     radius: f64,
     at: Vec<f64>,
@@ -55,10 +58,14 @@ pub(super) struct Gap {
 }
 
 impl Gatherer {
-    /// For a path around the origin, deviations against `radius` in m.
-    pub(super) fn new(radius: f64) -> Self {
+    /// For a path around the origin, deviations against `radius` in m. A gap of more than `widest`
+    /// degrees between two points is not bridged.
+    pub(super) fn new(radius: f64, widest: f64) -> Self {
+        #[allow(clippy::cast_precision_loss)] // 100
+        let widest = widest * PER_DEGREE as f64;
         Self {
             radius,
+            widest,
             at: vec![f64::NAN; ANGLES],
             outer: vec![None; ANGLES],
             inner: vec![None; ANGLES],
@@ -107,6 +114,9 @@ impl Gatherer {
         } else if way < -turn / 2.0 {
             way += turn;
         }
+        if way.abs() > self.widest {
+            return;
+        }
         let (low, high) = if way < 0.0 {
             (from.sector + way, from.sector)
         } else {
@@ -125,8 +135,8 @@ impl Gatherer {
         }
     }
 
-    /// The turn, if no gap is wider than `widest` degrees.
-    pub(super) fn finish(mut self, widest: f64) -> Result<Profile, Gap> {
+    /// The turn, if it has no gap; small ones, where its ends meet, are bridged.
+    pub(super) fn finish(mut self) -> Result<Profile, Gap> {
         let missing = |from: usize| {
             let rest = (1..=ANGLES).map(|step| (from + step) % ANGLES);
             rest.take_while(|&at| self.at[at].is_nan()).count()
@@ -146,7 +156,8 @@ impl Gatherer {
         #[allow(clippy::cast_precision_loss)] // at most 36000
         let degrees = |angles: usize| angles as f64 / PER_DEGREE as f64;
         let longest = gaps.iter().map(|gap| gap.1).max().unwrap_or_default();
-        if degrees(longest) > widest {
+        #[allow(clippy::cast_precision_loss)] // at most 36000
+        if longest as f64 > self.widest {
             let missing = degrees(gaps.iter().map(|gap| gap.1).sum());
             return Err(Gap { missing });
         }
@@ -171,6 +182,15 @@ fn index(sector: f64) -> usize {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 0 to 36000
     let index = sector as usize;
     index.min(ANGLES - 1)
+}
+
+impl fmt::Debug for Profile {
+    /// The radius; 36 000 deviations are of no use to anybody.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Profile")
+            .field("radius", &self.radius)
+            .finish_non_exhaustive()
+    }
 }
 
 impl Profile {

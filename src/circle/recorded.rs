@@ -13,7 +13,7 @@ use super::test::Side;
 pub const MIN_POINTS: usize = 72;
 
 /// A gap between two points that is bridged, in degrees.
-pub const WIDEST_GAP: f64 = 6.0;
+pub(super) const WIDEST_GAP: f64 = 6.0;
 
 /// Steps of the fit; it converges in a few.
 const FIT_STEPS: usize = 12;
@@ -117,7 +117,7 @@ impl RecordedCircle {
             let found = fit.radius;
             return Err(RecordedError::Radius { commanded, found });
         }
-        let mut gatherer = Gatherer::new(commanded.unwrap_or(fit.radius) / 1000.0);
+        let mut gatherer = Gatherer::new(commanded.unwrap_or(fit.radius) / 1000.0, WIDEST_GAP);
         let [cx, cy] = fit.centre;
         for [x, y] in turn {
             gatherer.take((x - cx) / 1000.0, (y - cy) / 1000.0);
@@ -128,7 +128,7 @@ impl RecordedCircle {
             centre: fit.centre,
             radius: fit.radius,
             points: turn.len(),
-            profile: gatherer.finish(WIDEST_GAP).map_err(gaps)?,
+            profile: gatherer.finish().map_err(gaps)?,
         })
     }
 }

@@ -81,9 +81,10 @@ pub(super) fn simulate(
     });
     let plants = [&test.plant.x, &test.plant.y];
     // Before the drives begin the additive current has already seen the motion of the lead.
+    let mut already = [0.0; 2];
     for k in 0..stretch.lead {
         for (axis, added) in added.iter_mut().enumerate() {
-            added.at(k, circle.at(stretch, k)[axis].0);
+            already[axis] = added.at(k, circle.at(stretch, k)[axis].0);
         }
     }
     let begin = stretch.lead;
@@ -94,6 +95,7 @@ pub(super) fn simulate(
         let setpoint = Setpoint {
             position: from[axis].0,
             velocity: slope(to[axis].0, from[axis].0),
+            added: already[axis],
             ..Setpoint::default()
         };
         Drive::settled(plants[axis], test.model, setpoint)

@@ -112,13 +112,13 @@ impl CircularTest {
             direction: job.direction,
         };
         let run_in = self.circle.cycles(PI) - 1;
-        let mut turn = Gatherer::new(self.circle.radius_m());
+        let mut turn = Gatherer::new(self.circle.radius_m(), WIDEST_GAP);
         let remarks = simulate(self, job.compensation, stretch, |cycle, sample| {
             if cycle >= run_in {
                 turn.take(sample.x, sample.y);
             }
         })?;
-        let profile = turn.finish(WIDEST_GAP).map_err(|_| CircleError::Unstable {
+        let profile = turn.finish().map_err(|_| CircleError::Unstable {
             axis: "X or Y",
             angle: 360.0,
         })?;

@@ -31,7 +31,7 @@ impl Axis {
 const WINDOW: f64 = 8.0 * PI / 180.0;
 
 /// So long before the window, at least, the drives begin, in s.
-const SETTLING: f64 = 0.1;
+const SETTLING: f64 = 0.15;
 
 /// The window is not looked at farther from the reversal than this, in s: by then the loops have
 /// settled.

@@ -1,6 +1,7 @@
 //! What the documents leave open and how this run read it, from the one list of assumptions.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
 use super::page::Page;
 use crate::codes::Code;
@@ -98,7 +99,7 @@ pub(super) fn with_code(text: &str) -> String {
         if at % 2 == 0 {
             push_escaped(&mut out, piece);
         } else {
-            out.push_str(&format!("<code>{}</code>", escaped(piece)));
+            let _ = write!(out, "<code>{}</code>", escaped(piece));
         }
     }
     out

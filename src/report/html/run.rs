@@ -269,7 +269,7 @@ fn chart(story: &RunStory, program: &ProgramStory) -> BandChart {
         listed && (track.kind == Kind::Frict || track.is_configured())
     });
     let rows: Vec<BandRow> = shown.map(|track| row(story, program, track)).collect();
-    let told: Vec<String> = rows.iter().map(|row| describe(row)).collect();
+    let told: Vec<String> = rows.iter().map(describe).collect();
     BandChart {
         title: "States over the executed blocks".to_owned(),
         description: if told.is_empty() {

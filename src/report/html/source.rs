@@ -125,8 +125,7 @@ impl Listing<'_, '_> {
             } else if *self.room > 0 {
                 *self.room -= 1;
                 let mut row = String::new();
-                let runs = file.runs.get(self.row_of(number)).copied();
-                push_gutter(&mut row, number, runs.unwrap_or_default());
+                push_gutter(&mut row, number, file.runs_of(number));
                 push_source_line(&mut row, text);
                 row.push('\n');
                 self.quiet.push((number, row));
@@ -143,12 +142,6 @@ impl Listing<'_, '_> {
             self.event(line, &story.text, story)?;
         }
         Ok(())
-    }
-
-    fn row_of(&self, line: u32) -> usize {
-        usize::try_from(line)
-            .unwrap_or(usize::MAX)
-            .saturating_sub(1)
     }
 
     /// Writes the lines that wait.
@@ -200,11 +193,11 @@ impl Listing<'_, '_> {
 
     fn event(&mut self, line: u32, text: &str, event: &LineStory) -> io::Result<()> {
         let story = self.story;
-        let runs = story.files[self.file].runs.get(self.row_of(line)).copied();
+        let runs = story.files[self.file].runs_of(line);
         let id = line_id((self.file, line));
         let out = self.page.buffer();
         let _ = write!(out, "<div class=\"ev\" id=\"{id}\" tabindex=\"-1\"><pre>");
-        push_gutter(out, line, runs.unwrap_or_default());
+        push_gutter(out, line, runs);
         self.marked(line, text, event);
         let out = self.page.buffer();
         out.push_str("</pre><ul>\n");

@@ -86,6 +86,16 @@ pub(super) struct FileStory {
     pub(super) events: BTreeMap<u32, LineStory>,
 }
 
+impl FileStory {
+    /// How often a line was executed, as far as that was counted.
+    pub(super) fn runs_of(&self, line: u32) -> u32 {
+        let row = usize::try_from(line)
+            .unwrap_or(usize::MAX)
+            .saturating_sub(1);
+        self.runs.get(row).copied().unwrap_or_default()
+    }
+}
+
 /// A line with something to say.
 #[derive(Debug, Default)]
 pub(super) struct LineStory {

@@ -90,7 +90,7 @@ impl BandChart {
             height: height(&self.rows),
         };
         let rows = Rows {
-            rows: &self.rows,
+            bars: &self.rows,
             scale: &scale,
             area,
         };
@@ -134,7 +134,7 @@ pub(super) fn label_width(rows: &[BandRow]) -> f64 {
 
 /// Rows on their way into a picture.
 pub(super) struct Rows<'a> {
-    pub(super) rows: &'a [BandRow],
+    pub(super) bars: &'a [BandRow],
     pub(super) scale: &'a Scale,
     pub(super) area: Area,
 }
@@ -146,7 +146,7 @@ impl Rows<'_> {
         let mut drawn = Vec::new();
         let Area { x, y, width, .. } = self.area;
         let mut top = y;
-        for row in self.rows {
+        for row in self.bars {
             let middle = top + ROW / 2.0 + 4.0;
             canvas.text("", (x - 8.0, middle), Anchor::End, &row.label);
             let place = |value: f64| x + self.scale.share(value) * width;

@@ -93,7 +93,7 @@ impl LineChart {
             height: bands::height(&self.bands),
         };
         let rows = Rows {
-            rows: &self.bands,
+            bars: &self.bands,
             scale: &x,
             area,
         };

@@ -119,7 +119,13 @@ const MAX_POINTS: usize = 20_000;
 /// `column` gives the column of the picture in which a point falls.
 pub(super) fn reduce(points: &[[f64; 2]], column: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
     let mut kept = Vec::new();
-    for run in points.chunk_by(|&one, &other| column(one).floor() == column(other).floor()) {
+    let same = |one, other| {
+        column(one)
+            .floor()
+            .total_cmp(&column(other).floor())
+            .is_eq()
+    };
+    for run in points.chunk_by(|&one, &other| same(one, other)) {
         keep(run, &mut kept);
     }
     if kept.len() <= MAX_POINTS {

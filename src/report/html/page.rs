@@ -188,7 +188,7 @@ nav ul{display:flex;flex-wrap:wrap;gap:.25rem 1.1rem;list-style:none;padding:0;m
 table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
 caption{text-align:left;padding:.2rem 0;font-size:.9rem}
 th,td{text-align:left;vertical-align:top;padding:.28rem .9rem .28rem 0;border-bottom:1px solid var(--rule)}
-thead th{color:var(--quiet);font-weight:600}tbody th{font-weight:600}
+thead th{color:var(--quiet);font-weight:600}tbody th{font-weight:600;white-space:nowrap}
 td code,p code,li code{font-size:.92em}
 code,pre{font-family:ui-monospace,SFMono-Regular,Consolas,'DejaVu Sans Mono',monospace}
 .state{white-space:nowrap}.state.active::before{content:'\\25A0\\00A0';color:#0072b2}

@@ -193,7 +193,15 @@ fn changed_by(story: &RunStory, blocks: &[ChangedBy], total: u64) -> String {
         return "\u{2013}".to_owned();
     }
     let mut cell = String::new();
-    for (at, block) in blocks.iter().take(NAMED_BLOCKS).enumerate() {
+    let mut named: Vec<&ChangedBy> = Vec::new();
+    for block in blocks {
+        // A block of a loop is named once.
+        let same = |known: &&ChangedBy| known.line == block.line && known.file == block.file;
+        if named.len() < NAMED_BLOCKS && !named.iter().any(same) {
+            named.push(block);
+        }
+    }
+    for (at, block) in named.iter().enumerate() {
         let comma = if at == 0 { "" } else { ", " };
         let name = match block.number {
             Some(number) => format!("N{number} ({}:{})", block.file, block.line),
@@ -211,7 +219,7 @@ fn changed_by(story: &RunStory, blocks: &[ChangedBy], total: u64) -> String {
             None => write!(cell, "{comma}{}", escaped(&name)),
         };
     }
-    let named = u64::try_from(blocks.len().min(NAMED_BLOCKS)).unwrap_or(u64::MAX);
+    let named = u64::try_from(named.len()).unwrap_or(u64::MAX);
     if total > named {
         let _ = write!(cell, " and {} more", total - named);
     }

@@ -250,9 +250,11 @@ pub(super) fn draw_ticks(canvas: &mut Canvas, scale: &Scale, area: Area, label: 
         let x = area.x + scale.share(*value) * area.width;
         canvas.line("fc-axis", (x, area.y), (x, area.y + 5.0));
         let half = text_width(text) / 2.0;
-        if x - half > free {
-            canvas.text("fc-quiet", (x, area.y + 18.0), Anchor::Middle, text);
-            free = x + half + 6.0;
+        // The last label would be cut at the edge.
+        let middle = x.min(WIDTH - half - 4.0);
+        if middle - half > free {
+            canvas.text("fc-quiet", (middle, area.y + 18.0), Anchor::Middle, text);
+            free = middle + half + 6.0;
         }
     }
     let middle = area.x + area.width / 2.0;

@@ -230,7 +230,7 @@ struct Reversal {
     cycles: &'static [(f64, f64, f64)],
 }
 
-/// 0.1, 1 and 10 mm/s with position_delay 9, reversal_lookahead 2, delay_cycles 1 and the points
+/// 0.1, 1 and 10 mm/s with `position_delay` 9, `reversal_lookahead` 2, `delay_cycles` 1 and the points
 /// (0, 12), (1800, 10.5). A cycle of 1 ms covers 1, 10 and 100 units of 0.1 µm, so that the
 /// build-up takes nine cycles, one and one. The list yields 12 - 0.1/1.2 = 11.9167 at 100 µm/s,
 /// 12 - 1/1.2 = 11.1667 at 1000 µm/s and 10.5 at 10 000 µm/s; every current comes a cycle late.

@@ -107,6 +107,8 @@ pub struct Cycle {
 #[derive(Debug, Clone)]
 pub struct AdditiveCurrent {
     table: Vec<TablePoint>,
+    /// How many points of it lie at or below the last speed.
+    above: usize,
     /// `scaling_factor` as a factor.
     scaling: f64,
     /// Distance of the build-up in units of the position.
@@ -141,6 +143,7 @@ impl AdditiveCurrent {
         let delay_cycles = usize::try_from(list.delay_cycles).unwrap_or_default();
         Self {
             table: list.table.clone(),
+            above: 0,
             scaling: f64::from(list.scaling_factor) / 1000.0,
             position_delay: f64::from(list.position_delay),
             lookahead: usize::from(list.reversal_lookahead),
@@ -301,8 +304,19 @@ impl AdditiveCurrent {
     }
 
     /// The value list: linear between points, held outside (R4.7).
-    fn friction(&self, speed: f64) -> f64 {
-        let above = self.table.partition_point(|point| point.input <= speed);
+    fn friction(&mut self, speed: f64) -> f64 {
+        // Mostly the speed lies between the same points as in the last cycle.
+        let below = self
+            .above
+            .checked_sub(1)
+            .map(|below| self.table[below].input);
+        let beyond = self.table.get(self.above).map(|point| point.input);
+        let same =
+            below.is_none_or(|input| input <= speed) && beyond.is_none_or(|input| input > speed);
+        if !same {
+            self.above = self.table.partition_point(|point| point.input <= speed);
+        }
+        let above = self.above;
         match (above.checked_sub(1), self.table.get(above)) {
             (None, None) => 0.0,
             (None, Some(first)) => match self.reading.below {
@@ -335,15 +349,17 @@ impl AdditiveCurrent {
     }
 
     fn rounded(&mut self, current: f64) -> i16 {
-        let rounded = current.round();
-        let range = f64::from(i16::MIN)..=f64::from(i16::MAX);
-        if !range.contains(&rounded) {
+        let bounds = (f64::from(i16::MIN), f64::from(i16::MAX));
+        let limited = current.clamp(bounds.0, bounds.1);
+        // A call of the mathematical library would cost more than all the rest.
+        #[allow(clippy::cast_possible_truncation)] // clamped just above
+        let whole = limited as i16;
+        let rest = limited - f64::from(whole);
+        let away = i16::from(rest >= 0.5) - i16::from(rest <= -0.5);
+        if current >= bounds.1 + 0.5 || current <= bounds.0 - 0.5 {
             self.saturated += 1;
         }
-        let limited = rounded.clamp(*range.start(), *range.end());
-        #[allow(clippy::cast_possible_truncation)] // clamped just above
-        let output = limited as i16;
-        output
+        whole + away
     }
 }
 

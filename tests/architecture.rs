@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     // These three are plain data about text and know each other.
     ("source", &["diagnostic", "codes"]),
     ("diagnostic", &["source", "codes"]),
@@ -89,6 +89,10 @@ const ROOMS: [(&str, &[&str]); 15] = [
         ],
     ),
     (
+        "circle",
+        &["source", "diagnostic", "lists", "machine", "current"],
+    ),
+    (
         "report",
         &[
             "source",
@@ -100,6 +104,8 @@ const ROOMS: [(&str, &[&str]); 15] = [
             "compensation",
             "interpreter",
             "timeline",
+            "current",
+            "circle",
         ],
     ),
     (
@@ -116,6 +122,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
             "session",
             "current",
             "motion",
+            "circle",
             "report",
         ],
     ),

@@ -11,7 +11,7 @@ use super::files::read_text;
 use super::settings::{self, SetVariable};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
-use crate::machine::{Configuration, ListFiles, Machine, Setting};
+use crate::machine::{AxisReport, Configuration, ListFiles, Machine, Origin, Setting};
 use crate::source::SourceFile;
 
 /// The name of the configuration file.
@@ -51,6 +51,8 @@ pub(super) struct LoadedMachine {
     pub(super) program_dirs: Vec<PathBuf>,
     /// What there is to say about the lists.
     pub(super) diagnostics: Vec<Diagnostic>,
+    /// The effective parameters, by axis.
+    pub(super) reports: Vec<AxisReport>,
     /// The configuration or the start-up list that was read.
     pub(super) origin: Option<PathBuf>,
 }
@@ -65,6 +67,7 @@ impl LoadedMachine {
             levels: configuration.levels,
             program_dirs: folders.map(|written| folder.join(written)).collect(),
             diagnostics: configuration.diagnostics,
+            reports: configuration.reports,
             origin: Some(path.to_owned()),
         }
     }
@@ -165,10 +168,12 @@ fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachi
         let axes = read_startup(path)?;
         loaded.machine = axes.machine;
         loaded.diagnostics = axes.diagnostics;
+        loaded.reports = axes.reports;
         loaded.origin = axes.origin;
     }
     for name in &args.enable {
         enable(&mut loaded.machine, name.trim())?;
+        assume(&mut loaded.reports, &loaded.machine, name.trim());
         // What is assumed need not be found missing.
         loaded.diagnostics.retain(|said| {
             let assumed = matches!(said.code, Code::Fc135 | Code::Fc303);
@@ -232,6 +237,20 @@ fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {
         Some(near) => failure.with_help(format!("did you mean `{near}`?")),
         None => failure.with_help(format!("its axes are {}", names.join(", "))),
     })
+}
+
+/// Shows an assumed P-AXIS-00522 among the parameters of its axis.
+fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
+    let axis = machine.axes.iter().find(|axis| axis.name == name);
+    if axis.is_none_or(|axis| axis.frict_comp_origin != Origin::Assumed) {
+        return;
+    }
+    let report = reports.iter_mut().filter(|report| report.axis == name);
+    let rows = report.flat_map(|report| &mut report.parameters);
+    for row in rows.filter(|row| row.number == "P-AXIS-00522") {
+        "1".clone_into(&mut row.value);
+        row.origin = Origin::Assumed;
+    }
 }
 
 /// The nearest configuration from a folder upwards, as a path from the current folder.

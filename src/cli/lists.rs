@@ -12,9 +12,11 @@ use super::failure::Failure;
 use super::files::read_text;
 use crate::codes::Code;
 use crate::diagnostic::Severity;
-use crate::machine::{CncBuild, Configuration, ListsReport, check_list};
+use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
 use crate::report::Listing;
 use crate::report::lists::render_parameters;
+use crate::report::pictures::value_curves;
+use crate::report::svg::Frame;
 use crate::source::SourceFile;
 
 /// Reads and checks axis, value, channel and start-up lists
@@ -29,6 +31,9 @@ pub(super) struct ListsArgs {
     /// Print the effective parameters of every axis and where each came from
     #[arg(long)]
     show: bool,
+    /// Draw the value lists that the control would take into this file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     /// The CNC build that the lists are for, `3.1.3132.0`
     #[arg(long, value_name = "BUILD")]
     cnc_build: Option<CncBuild>,
@@ -56,6 +61,7 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
     Ok(match Configuration::from_toml(source, &mut Lists) {
         Ok(configuration) => ListsReport {
             kind: None,
+            accepted: AcceptedList::of(&configuration.machine),
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
             files: configuration.files,
@@ -64,9 +70,22 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
             kind: None,
             diagnostics: vec![*error.diagnostic],
             reports: Vec::new(),
+            accepted: Vec::new(),
             files: vec![name],
         },
     })
+}
+
+/// Draws the curves of all accepted value lists.
+fn draw(path: &Path, reports: &[ListsReport], console: Console) -> Result<(), Failure> {
+    let accepted: Vec<&AcceptedList> = reports.iter().flat_map(|it| &it.accepted).collect();
+    if accepted.is_empty() {
+        return Err(Failure::new(
+            "there is no value list to draw: the control would take none of these",
+        )
+        .with_help("leave `--svg` out to see why"));
+    }
+    console.deliver(Some(path), &value_curves(&accepted).render(Frame::Alone))
 }
 
 /// Runs the command.
@@ -87,6 +106,9 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
             render_parameters(&report.reports, &mut table)
                 .map_err(|_| Failure::new("the table of the parameters cannot be written"))?;
         }
+    }
+    if let Some(path) = &args.svg {
+        draw(path, &reports, console)?;
     }
     let target = console.target(args.listing.output.as_deref())?;
     let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);

@@ -4,40 +4,69 @@
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 use super::failure::Failure;
 
 /// The end of the name of a file that is not whole yet.
 const SUFFIX: &str = ".tmp";
 
-/// Writes a file beside the old one, syncs it and lets it take the old one's place. It keeps the
-/// rights of the old one; a link stays a link.
+/// A file that is written beside the old one. Dropped before [`commit`](Self::commit), it leaves
+/// the old one as it was.
+pub(super) struct Replacement {
+    file: NamedTempFile,
+    target: PathBuf,
+}
+
+impl Replacement {
+    /// Begins a file beside the old one. It keeps the rights of the old one; a link stays a link.
+    pub(super) fn begin(path: &Path) -> io::Result<Self> {
+        let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let prefix = prefix(&target);
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(&prefix).suffix(SUFFIX);
+        #[cfg(unix)]
+        builder.permissions(new_file_permissions());
+        let file = builder.tempfile_in(folder(&target))?;
+        if let Ok(old) = std::fs::metadata(&target) {
+            file.as_file().set_permissions(old.permissions())?;
+        }
+        Ok(Self { file, target })
+    }
+
+    /// Syncs the file and lets it take the old one's place.
+    pub(super) fn commit(self) -> io::Result<()> {
+        self.file.as_file().sync_all()?;
+        self.file.persist(&self.target)?;
+        #[cfg(unix)]
+        File::open(folder(&self.target))?.sync_all()?;
+        Ok(())
+    }
+}
+
+impl Write for Replacement {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// Replaces a file by these bytes.
 ///
 /// # Errors
 /// The file cannot be written. The old one is as it was.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let target = std::fs::canonicalize(path);
-    write(target.as_deref().unwrap_or(path), bytes).map_err(|error| Failure::writing(path, &error))
-}
-
-fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = folder(path);
-    let prefix = prefix(path);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(SUFFIX);
-    #[cfg(unix)]
-    builder.permissions(new_file_permissions());
-    let mut file = builder.tempfile_in(folder)?;
-    if let Ok(old) = std::fs::metadata(path) {
-        file.as_file().set_permissions(old.permissions())?;
-    }
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    #[cfg(unix)]
-    File::open(folder)?.sync_all()?;
-    Ok(())
+    Replacement::begin(path)
+        .and_then(|mut file| {
+            file.write_all(bytes)?;
+            file.commit()
+        })
+        .map_err(|error| Failure::writing(path, &error))
 }
 
 /// Takes away what killed runs left half written. The caller holds the lock of the file, so that
@@ -82,6 +111,21 @@ fn new_file_permissions() -> std::fs::Permissions {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("v.lis");
+        replace(&path, b"old").unwrap();
+        let mut unfinished = Replacement::begin(&path).unwrap();
+        unfinished.write_all(b"hal").unwrap();
+        drop(unfinished);
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        replace(&path, b"new").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert!(replace(&folder.path().join("no/v.lis"), b"x").is_err());
+    }
 
     #[test]
     fn only_unfinished_files_of_the_same_name_are_taken_away() {

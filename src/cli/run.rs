@@ -12,9 +12,12 @@ use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{ExecutionArgs, Surroundings, run_program};
 use super::failure::Failure;
 use super::files::{Input, Naming};
+use super::html::HtmlFile;
 use super::settings;
 use super::state::StateFile;
 use crate::diagnostic::Diagnostic;
+use crate::machine::Setting;
+use crate::report::html::RunStory;
 use crate::report::{Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View};
 use crate::session::{Session, StopPolicy};
 use crate::syntax::KindSet;
@@ -55,6 +58,9 @@ pub(super) struct RunArgs {
     /// Write the timeline into this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Write a report with charts and the annotated source into this file, beside the timeline
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// The severity from which on the exit status is 1
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     fail_on: FailOn,
@@ -110,6 +116,40 @@ impl RunArgs {
         }
     }
 
+    /// What the user gave for the run, for the HTML report.
+    fn given(&self, loaded: &LoadedMachine) -> Vec<(String, String)> {
+        let mut given = Vec::new();
+        let mut say = |name: &str, value: String| given.push((name.to_owned(), value));
+        match &loaded.origin {
+            Some(path) => say("machine", path.display().to_string()),
+            None => say("machine", "not configured".to_owned()),
+        }
+        if !self.machine.enable.is_empty() {
+            say("--enable", self.machine.enable.join(", "));
+        }
+        for (name, setting) in &loaded.settings {
+            let value = match setting {
+                Setting::Number(number) => number.to_string(),
+                Setting::Text(text) => format!("\"{text}\""),
+            };
+            say("variable", format!("{name} = {value}"));
+        }
+        match &self.state {
+            Some(path) => say("--state", path.display().to_string()),
+            None => say(
+                "state at start",
+                "that of a restart of the control".to_owned(),
+            ),
+        }
+        let policy = if self.keep_going {
+            "the command is passed over (--keep-going)"
+        } else {
+            "the session stops, as the control does"
+        };
+        say("at an error", policy.to_owned());
+        given
+    }
+
     fn stop_policy(&self) -> StopPolicy {
         if self.keep_going {
             StopPolicy::KeepGoing
@@ -139,6 +179,9 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     for input in &inputs {
         input.probe()?;
     }
+    let html = args.html.as_deref();
+    let html = html.map(|path| HtmlFile::create((path, args.kinds), &args.files, console));
+    let mut html = html.transpose()?;
     let mut machines = Machines::new(&args.machine);
     let loaded = machines.for_folder(inputs[0].folder())?;
     if let Some(remark) = loaded.remark() {
@@ -173,12 +216,25 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         state,
     };
     let report = args.report(console.target(args.output.as_deref())?);
-    play(start, report, args.fail_on)
+    let given = args.given(&loaded);
+    let status = play(start, (report, html.as_mut()), args.fail_on)?;
+    if let Some(html) = html {
+        html.write(&given, &loaded.reports)?;
+    }
+    Ok(status)
 }
 
-fn play(mut start: Start<'_>, report: Box<dyn Report>, fail_on: FailOn) -> Result<u8, Failure> {
+fn play(
+    mut start: Start<'_>,
+    (report, html): (Box<dyn Report>, Option<&mut HtmlFile>),
+    fail_on: FailOn,
+) -> Result<u8, Failure> {
     let shared = RefCell::new(report);
-    let mut sink = Sinkhole(&shared);
+    let goes_on_alone = html.is_some();
+    let mut sink = Outputs {
+        report: &shared,
+        html: html.map(HtmlFile::story),
+    };
     let mut counted = Counted::new(&mut sink);
     // Between two reads of a program no record is on its way.
     let flow = start.programs(&mut counted, &|| {
@@ -188,7 +244,7 @@ fn play(mut start: Start<'_>, report: Box<dyn Report>, fail_on: FailOn) -> Resul
     let tally = counted.finish();
     let mut report = shared.into_inner();
     report.finish().map_err(|error| Failure::output(&error))?;
-    if report.is_closed() {
+    if report.is_closed() && !goes_on_alone {
         // The reader has seen enough; a run that was cut short leaves no state.
         return Ok(super::exit::CLEAN);
     }
@@ -232,11 +288,19 @@ impl Start<'_> {
     }
 }
 
-/// A report as a sink, shared with who flushes it.
-struct Sinkhole<'a>(&'a RefCell<Box<dyn Report>>);
+/// The timeline, shared with who flushes it, and the story of the HTML report.
+struct Outputs<'a> {
+    report: &'a RefCell<Box<dyn Report>>,
+    html: Option<&'a mut RunStory>,
+}
 
-impl Sink for Sinkhole<'_> {
+impl Sink for Outputs<'_> {
+    /// A reader of the timeline that has seen enough ends the run, unless there is a report.
     fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
-        self.0.borrow_mut().record(record)
+        let flow = self.report.borrow_mut().record(record);
+        match &mut self.html {
+            Some(story) => story.record(record),
+            None => flow,
+        }
     }
 }

@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::load::{ListFiles, ValueList};
-use super::{AxisReport, CncBuild, Configuration};
+use super::{AxisReport, CncBuild, Configuration, Machine, Parameterisation};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
-use crate::lists::{AxisType, AxisValues, ChannelList, Conditions, Entries, ListKind};
+use crate::lists::{
+    AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Verdict,
+};
 use crate::source::{SourceFile, Span};
 
 /// What there is to say about a list.
@@ -19,8 +21,36 @@ pub struct ListsReport {
     pub diagnostics: Vec<Diagnostic>,
     /// The effective parameters of each axis that the list describes.
     pub reports: Vec<AxisReport>,
+    /// The value lists that the control would take.
+    pub accepted: Vec<AcceptedList>,
     /// The lists that were read, in the order of reading.
     pub files: Vec<Arc<str>>,
+}
+
+/// A value list that the control would take, and the axis that it is for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AcceptedList {
+    /// The name of the axis; empty when a list is looked at by itself and names none.
+    pub axis: String,
+    /// The type of the axis, for the unit of the velocities.
+    pub axis_type: AxisType,
+    /// The list.
+    pub list: FrictionList,
+}
+
+impl AcceptedList {
+    /// The value lists of a machine, in the order of its axes.
+    pub fn of(machine: &Machine) -> Vec<Self> {
+        let lists = machine.axes.iter().filter_map(|axis| match &axis.friction {
+            Parameterisation::Accepted(list) => Some(Self {
+                axis: axis.name.clone(),
+                axis_type: axis.axis_type,
+                list: list.clone(),
+            }),
+            _ => None,
+        });
+        lists.collect()
+    }
 }
 
 /// Checks one list of any kind, under a kernel version where that is known. A start-up list is
@@ -42,11 +72,13 @@ pub fn check_list(
             kind,
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
+            accepted: AcceptedList::of(&configuration.machine),
             files: configuration.files,
         };
     }
     let mut diagnostics = entries.diagnostics.clone();
     let mut reports = Vec::new();
+    let mut accepted = Vec::new();
     match kind {
         Some(ListKind::Startup) => {}
         Some(ListKind::Channel) => {
@@ -68,6 +100,13 @@ pub fn check_list(
                 ..Conditions::default()
             });
             diagnostics.extend(reading.diagnostics);
+            if let Verdict::Accepted(list) = reading.verdict {
+                accepted.push(AcceptedList {
+                    axis: report.axis.clone(),
+                    axis_type: report.axis_type,
+                    list,
+                });
+            }
             // A value list has no selectors; their defaults would say nothing.
             report.parameters = list.head.parameters();
             report
@@ -89,6 +128,7 @@ pub fn check_list(
         kind,
         diagnostics,
         reports,
+        accepted,
         files: vec![source.name().clone()],
     }
 }

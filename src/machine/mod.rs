@@ -6,14 +6,14 @@ mod check;
 mod config;
 mod load;
 #[cfg(feature = "toml")]
-mod section;
+pub(crate) mod section;
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 pub use assemble::AxisReport;
-pub use check::{ListsReport, check_list};
+pub use check::{AcceptedList, ListsReport, check_list};
 #[cfg(feature = "toml")]
 pub use config::ConfigError;
 pub use load::{ListFiles, NoLists};

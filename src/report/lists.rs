@@ -51,7 +51,8 @@ fn render_axis(report: &AxisReport, out: &mut dyn fmt::Write) -> fmt::Result {
     Ok(())
 }
 
-fn cells(row: &Parameter) -> [String; 4] {
+/// Number, key, value with its unit, and origin of a parameter.
+pub(super) fn cells(row: &Parameter) -> [String; 4] {
     let value = if row.unit.is_empty() {
         row.value.clone()
     } else if row.unit.starts_with(|first: char| first.is_ascii_digit()) {

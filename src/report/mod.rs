@@ -3,18 +3,25 @@
 //! Every timeline format is a [`Sink`] over a generic writer. The first error of the writer is
 //! kept and ends the dry run; a closed pipe is no error for the caller.
 
+mod advice;
+pub mod circle;
 mod concise;
 mod csv;
 mod diagnostics;
 mod github;
+pub mod html;
 mod json;
 mod listing;
 pub mod lists;
+mod markup;
 mod ndjson;
+pub mod pictures;
 mod records;
 mod sarif;
 mod strings;
+pub mod svg;
 mod text;
+pub mod tune;
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;

@@ -4,6 +4,7 @@
 mod program;
 mod recorded;
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,10 +15,13 @@ use super::discovery::MachineArgs;
 use super::dry_run::ExecutionArgs;
 use super::failure::Failure;
 use super::files::read_text;
+use super::sheet::Sheet;
 use crate::current::{Below, Delay, Reading, Standstill};
 use crate::diagnostic::{Severity, did_you_mean};
 use crate::lists::{Conditions, Entries, FrictionDraft, FrictionList, Verdict};
 use crate::motion::TracerOptions;
+use crate::report::pictures::{AxisPlot, CurrentPlot};
+use crate::report::svg::Frame;
 use crate::source::SourceFile;
 
 /// Computes the additive current of a program or of a recorded trace, cycle by cycle
@@ -71,6 +75,9 @@ pub(super) struct CurrentArgs {
     #[arg(long, value_name = "N", default_value_t = TracerOptions::default().max_cycles)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_cycles: u64,
+    /// Draw currents, velocities, weights and states of compensation over time into this file
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// Write the result into this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -108,6 +115,40 @@ pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
     }
 }
 
+/// A picture that is drawn while the cycles come in, and the file that it goes into.
+struct Plot {
+    sheet: Sheet,
+    path: PathBuf,
+    traces: CurrentPlot,
+}
+
+impl Plot {
+    /// The picture that the user asked for.
+    fn create(
+        args: &CurrentArgs,
+        console: Console,
+        axes: Vec<AxisPlot>,
+    ) -> Result<Option<Self>, Failure> {
+        let Some(path) = &args.plot else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            sheet: Sheet::create(Some(path), console)?,
+            path: path.clone(),
+            traces: CurrentPlot::new(axes),
+        }))
+    }
+
+    /// Writes the picture.
+    fn finish(mut self) -> Result<(), Failure> {
+        let svg = self.traces.chart().render(Frame::Alone);
+        let written = self.sheet.write_all(svg.as_bytes());
+        written
+            .and_then(|()| self.sheet.finish())
+            .map_err(|error| Failure::writing(&self.path, &error))
+    }
+}
+
 /// A CNC cycle that can be one, in seconds.
 fn check_cycle(cycle: f64) -> Result<f64, Failure> {
     if cycle.is_finite() && cycle > 0.0 {
@@ -130,7 +171,7 @@ fn say_saturated(axis: &str, cycles: u64) {
 }
 
 /// The values that a list would give the control.
-fn value_list(path: &Path) -> Result<FrictionList, Failure> {
+pub(super) fn value_list(path: &Path) -> Result<FrictionList, Failure> {
     let source = Arc::new(SourceFile::new(
         path.display().to_string(),
         read_text(path)?,
@@ -167,7 +208,7 @@ fn value_list(path: &Path) -> Result<FrictionList, Failure> {
 }
 
 /// `standstill=zero,below=origin,delay=reversal`, each of them optional.
-fn parse_reading(text: &str) -> Result<Reading, String> {
+pub(super) fn parse_reading(text: &str) -> Result<Reading, String> {
     const OPTIONS: [&str; 6] = [
         "standstill=hold",
         "standstill=zero",

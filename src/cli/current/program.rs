@@ -13,13 +13,14 @@ use super::super::exit;
 use super::super::failure::Failure;
 use super::super::files::{Input, Naming};
 use super::super::sheet::Sheet;
-use super::{Column, CurrentArgs, check_cycle, say_saturated, value_list};
+use super::{Column, CurrentArgs, Plot, check_cycle, say_saturated, value_list};
 use crate::compensation::State;
 use crate::current::{AdditiveCurrent, Followers, Input as Commanded, Moment};
 use crate::diagnostic::{Diagnostic, Severity, did_you_mean};
 use crate::lists::FrictionList;
 use crate::machine::{AxisIndex, AxisType, Parameterisation};
 use crate::motion::{AxisLimits, Cause, Cycle, Cycles, Tracer, TracerOptions};
+use crate::report::pictures::AxisPlot;
 use crate::session::{Motions, SessionOptions, StopPolicy};
 use crate::timeline::{Record, Sink};
 
@@ -33,7 +34,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let input = Input::new(program);
     input.probe()?;
     let mut machines = Machines::new(&args.machine);
-    let mut loaded = machines.for_folder(input.folder())?.clone();
+    let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
     if let Some(remark) = loaded.remark() {
         Console::talk(&remark);
     }
@@ -62,6 +63,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
             cycles: 0,
             begins: Vec::new(),
             seen: vec![Vec::new(); followed.len()],
+            plot: Plot::create(args, console, plotted(&loaded, &followed))?,
         },
         errors: Vec::new(),
         over: ControlFlow::Continue(()),
@@ -89,6 +91,11 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         table.drain();
     }
     let cycles = table.cycles;
+    if let Some(plot) = table.plot.take()
+        && cycles > 0
+    {
+        plot.finish()?;
+    }
     match table.finish() {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),
         written => written.map_err(|error| Failure::output(&error))?,
@@ -241,6 +248,7 @@ struct Table {
     begins: Vec<(f64, u32)>,
     /// The states that each axis was in, other than active.
     seen: Vec<Vec<State>>,
+    plot: Option<Plot>,
 }
 
 impl Table {
@@ -272,6 +280,7 @@ impl Table {
             };
             if self.written.is_ok() {
                 self.written = write_row(&mut self.writer, &self.columns, head, moments);
+                draw(&mut self.plot, head.0, moments);
             }
         }
     }
@@ -287,6 +296,9 @@ impl Cycles for Table {
     fn begin(&mut self, time: f64, cause: &Arc<Cause>) -> ControlFlow<()> {
         self.drain();
         self.followers.restart();
+        if let Some(plot) = &mut self.plot {
+            plot.traces.interrupt();
+        }
         self.begins.push((time, cause.line));
         ControlFlow::Continue(())
     }
@@ -311,11 +323,29 @@ impl Cycles for Table {
             && let Some(head) = self.waiting.pop_front()
         {
             self.written = write_row(&mut self.writer, &self.columns, head, moments);
+            draw(&mut self.plot, head.0, moments);
         }
         match self.written {
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
         }
+    }
+}
+
+/// The axes of the picture.
+fn plotted(loaded: &LoadedMachine, followed: &[AxisIndex]) -> Vec<AxisPlot> {
+    let axes = followed.iter().map(|axis| loaded.machine.axis(*axis));
+    axes.map(|axis| AxisPlot::new(&axis.name, Some(axis.axis_type)))
+        .collect()
+}
+
+fn draw(plot: &mut Option<Plot>, time: f64, moments: &[Moment]) {
+    if let Some(plot) = plot {
+        let moments = moments.iter();
+        plot.traces.push(
+            time,
+            moments.map(|it| (it.input.velocity, it.input.friction, &it.cycle)),
+        );
     }
 }
 

@@ -7,8 +7,10 @@ use super::super::console::Console;
 use super::super::exit;
 use super::super::failure::Failure;
 use super::super::files::read_text;
-use super::{CurrentArgs, check_cycle, say_saturated, value_list};
+use super::{CurrentArgs, Plot, check_cycle, say_saturated, value_list};
+use crate::compensation::State;
 use crate::current::{AdditiveCurrent, Cycle, Switched};
+use crate::report::pictures::AxisPlot;
 
 /// A commanded trace: positions and velocities of each cycle.
 struct Trace {
@@ -28,7 +30,11 @@ pub(super) fn run(
     let trace = Trace::read(trace, args.cycle_time)?;
     let mut current = AdditiveCurrent::new(&list, args.reading);
     let mut writer = console.target(args.output.as_deref())?.writer;
-    let written = write_csv(&mut writer, &trace, &mut current);
+    let mut plot = Plot::create(args, console, vec![AxisPlot::new("", None)])?;
+    let written = write_csv(&mut writer, &trace, (&mut current, plot.as_mut()));
+    if let Some(plot) = plot {
+        plot.finish()?;
+    }
     match written {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),
         written => written.map_err(|error| Failure::output(&error))?,
@@ -41,7 +47,7 @@ pub(super) fn run(
 fn write_csv(
     writer: &mut dyn Write,
     trace: &Trace,
-    current: &mut AdditiveCurrent,
+    (current, mut plot): (&mut AdditiveCurrent, Option<&mut Plot>),
 ) -> std::io::Result<()> {
     let mut writer = std::io::BufWriter::new(writer);
     writeln!(writer, "t,x,v,w_before,w_after,current,output")?;
@@ -49,19 +55,32 @@ fn write_csv(
     for (at, (&x, &v)) in trace.positions.iter().zip(&trace.velocities).enumerate() {
         current.switch(trace.switched[at]);
         let end = trace.velocities.len().min(at + 1 + lookahead);
+        let cycle = current.step(x, v, &trace.velocities[at + 1..end]);
+        let t = trace.times[at];
+        if let Some(plot) = &mut plot {
+            plot.traces
+                .push(t, [(v, state(trace.switched[at]), &cycle)]);
+        }
         let Cycle {
             w_before,
             w_after,
             current,
             output,
-        } = current.step(x, v, &trace.velocities[at + 1..end]);
-        let t = trace.times[at];
+        } = cycle;
         writeln!(
             writer,
             "{t},{x},{v},{w_before},{w_after},{current},{output}"
         )?;
     }
     writer.flush()
+}
+
+/// What a picture says of a switch.
+fn state(switched: Switched) -> State {
+    match switched {
+        Switched::On => State::Active,
+        Switched::Off => State::Inactive,
+    }
 }
 
 impl Trace {

@@ -2,9 +2,9 @@
 
 use unicode_width::UnicodeWidthStr;
 
-use crate::compensation::State;
 use crate::diagnostic::Severity;
 use crate::report::Look;
+use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice};
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
 use super::line::{BOLD, DIM, Line, grouped, style};
@@ -160,56 +160,19 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
             continue;
         };
         said = true;
-        // R1.27: the state outlives the program.
         let mut line = Line::new(out, look.paint);
         line.styled(style(axis.end).bold(), name);
         line.plain(&text);
         line.end();
     }
-    if let Some(text) = error_advice(summary, by) {
+    if let Some(text) = error_advice(summary.count(Severity::Error), by) {
         let mut line = Line::new(out, look.paint);
         line.plain(text);
         line.end();
     } else if !said {
         let mut line = Line::new(out, look.paint);
-        line.styled(DIM, "Nothing to do: every axis is left as it was found.");
+        line.styled(DIM, NOTHING_TO_DO);
         line.end();
-    }
-}
-
-/// What an error means for the states above.
-fn error_advice(summary: &Summary<'_>, by: Option<EndedBy>) -> Option<&'static str> {
-    match by {
-        Some(EndedBy::Error) => {
-            Some("Stopped by an error: these are the states at the stop, the rest did not run.")
-        }
-        Some(EndedBy::Budget) => {
-            Some("Stopped at a bound: these are the states at the stop, the rest did not run.")
-        }
-        _ if summary.count(Severity::Error) > 0 => {
-            Some("The control stops at the first error: mend it, then look at the states again.")
-        }
-        _ => None,
-    }
-}
-
-/// What the operator has to know or to do, behind the name of the axis.
-fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
-    let changed = axis.start != axis.end;
-    match axis.end {
-        State::Inactive if changed => Some(format!(
-            " stays inactive for the next program: switch it on with {name}[COMP ON FRICT]"
-        )),
-        State::Active if changed => Some(format!(
-            " stays active for the next program: switch it off with {name}[COMP OFF FRICT]"
-        )),
-        State::Ineffective => Some(
-            " is selected without effect, it has no accepted value list (explain FC303)".to_owned(),
-        ),
-        State::Unknown => Some(format!(
-            " is not known offline: begin the next program with {name}[COMP ON FRICT] or OFF"
-        )),
-        State::Active | State::Inactive | State::Unconfigured => None,
     }
 }
 
@@ -221,34 +184,18 @@ fn count(number: u64, noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compensation::State;
     use crate::machine::AxisIndex;
-
-    fn axis(start: State, end: State) -> AxisSummary {
-        AxisSummary {
-            axis: AxisIndex::new(0),
-            start,
-            end,
-            changed_by: Vec::new(),
-            changes: 0,
-        }
-    }
-
-    #[test]
-    fn advice_follows_what_is_left() {
-        // R1.27
-        let advice = |start, end| axis_advice(&axis(start, end), "X").unwrap_or_default();
-        assert_eq!(advice(State::Active, State::Active), "");
-        assert_eq!(advice(State::Inactive, State::Inactive), "");
-        assert_eq!(advice(State::Unconfigured, State::Unconfigured), "");
-        assert!(advice(State::Active, State::Inactive).ends_with("X[COMP ON FRICT]"));
-        assert!(advice(State::Inactive, State::Active).ends_with("X[COMP OFF FRICT]"));
-        assert!(advice(State::Active, State::Unknown).contains("not known offline"));
-        assert!(advice(State::Ineffective, State::Ineffective).contains("FC303"));
-    }
 
     #[test]
     fn as_many_blocks_are_named_as_have_room() {
-        let mut axis = axis(State::Active, State::Inactive);
+        let mut axis = AxisSummary {
+            axis: AxisIndex::new(0),
+            start: State::Active,
+            end: State::Inactive,
+            changed_by: Vec::new(),
+            changes: 0,
+        };
         assert_eq!(changed_by(&axis, 40), "-");
         for line in 1..=100 {
             axis.changed_by.push(ChangedBy {

@@ -1,0 +1,73 @@
+//! What the operator has to know or to do behind a session, for every report that tells it.
+
+use crate::compensation::State;
+use crate::timeline::{AxisSummary, EndedBy};
+
+/// What the operator has to know or to do about an axis, behind its name (R1.27: the state
+/// outlives the program).
+pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
+    let changed = axis.start != axis.end;
+    match axis.end {
+        State::Inactive if changed => Some(format!(
+            " stays inactive for the next program: switch it on with {name}[COMP ON FRICT]"
+        )),
+        State::Active if changed => Some(format!(
+            " stays active for the next program: switch it off with {name}[COMP OFF FRICT]"
+        )),
+        State::Ineffective => Some(
+            " is selected without effect, it has no accepted value list (explain FC303)".to_owned(),
+        ),
+        State::Unknown => Some(format!(
+            " is not known offline: begin the next program with {name}[COMP ON FRICT] or OFF"
+        )),
+        State::Active | State::Inactive | State::Unconfigured => None,
+    }
+}
+
+/// What an error means for the states that are left, where `errors` were said and the last program
+/// ended so.
+pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static str> {
+    match by {
+        Some(EndedBy::Error) => {
+            Some("Stopped by an error: these are the states at the stop, the rest did not run.")
+        }
+        Some(EndedBy::Budget) => {
+            Some("Stopped at a bound: these are the states at the stop, the rest did not run.")
+        }
+        _ if errors > 0 => {
+            Some("The control stops at the first error: mend it, then look at the states again.")
+        }
+        _ => None,
+    }
+}
+
+/// Said where there is nothing else to say.
+pub(super) const NOTHING_TO_DO: &str = "Nothing to do: every axis is left as it was found.";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::AxisIndex;
+
+    #[test]
+    fn advice_follows_what_is_left() {
+        // R1.27
+        let advice = |start, end| {
+            let axis = AxisSummary {
+                axis: AxisIndex::new(0),
+                start,
+                end,
+                changed_by: Vec::new(),
+                changes: 0,
+            };
+            axis_advice(&axis, "X").unwrap_or_default()
+        };
+        assert_eq!(advice(State::Active, State::Active), "");
+        assert_eq!(advice(State::Inactive, State::Inactive), "");
+        assert_eq!(advice(State::Unconfigured, State::Unconfigured), "");
+        assert!(advice(State::Active, State::Inactive).ends_with("X[COMP ON FRICT]"));
+        assert!(advice(State::Inactive, State::Active).ends_with("X[COMP OFF FRICT]"));
+        assert!(advice(State::Active, State::Unknown).contains("not known offline"));
+        assert!(advice(State::Ineffective, State::Ineffective).contains("FC303"));
+    }
+}

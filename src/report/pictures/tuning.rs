@@ -1,0 +1,65 @@
+//! What tuning is worth, over the feed.
+
+use crate::circle::FeedResult;
+use crate::report::svg::{Axis, Drawn, LineChart, Panel, Series};
+use crate::report::tune::TuneReport;
+
+/// The glitch over the feed before and after tuning, with its sensitivity to the friction (R5.25);
+/// one panel a plant.
+pub fn tuning(reports: &[TuneReport]) -> LineChart {
+    let told: Vec<String> = reports.iter().map(describe).collect();
+    LineChart {
+        title: match reports {
+            [one] => format!("Glitch before and after tuning, plant {}", one.plant),
+            _ => "Glitch before and after tuning".to_owned(),
+        },
+        description: format!(
+            "The largest glitch without and with compensation, in µm at feeds in mm/min. {}",
+            told.join(" ")
+        ),
+        x: Axis::logarithmic("feed in mm/min"),
+        bands: Vec::new(),
+        panels: reports
+            .iter()
+            .map(|report| panel(report, reports.len()))
+            .collect(),
+    }
+}
+
+fn describe(report: &TuneReport) -> String {
+    let feeds = report.tuned.feeds.iter();
+    let feeds: Vec<String> = feeds
+        .map(|it| {
+            format!(
+                "{:.1} and {:.1} at {}",
+                it.glitch_off, it.glitch_on, it.feed
+            )
+        })
+        .collect();
+    format!("Plant {}: {}.", report.plant, feeds.join("; "))
+}
+
+fn panel(report: &TuneReport, panels: usize) -> Panel {
+    let mut feeds: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
+    feeds.sort_by(|one, other| one.feed.total_cmp(&other.feed));
+    let series = |name: &str, value: fn(&FeedResult) -> f64| Series {
+        name: name.to_owned(),
+        points: feeds.iter().map(|it| [it.feed, value(it)]).collect(),
+        drawn: Drawn::Marked,
+    };
+    let quantity = "largest glitch in µm, peak to peak";
+    Panel {
+        y: Axis::linear(match panels {
+            1 => quantity.to_owned(),
+            _ => format!("plant {}: {quantity}", report.plant),
+        }),
+        series: vec![
+            series("without compensation", |it| it.glitch_off),
+            series("tuned", |it| it.glitch_on),
+            series("tuned, friction \u{2212}20 %", |it| {
+                it.glitch_friction_minus20
+            }),
+            series("tuned, friction +20 %", |it| it.glitch_friction_plus20),
+        ],
+    }
+}

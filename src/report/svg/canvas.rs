@@ -1,0 +1,268 @@
+//! The elements of a picture, appended one after another.
+
+use std::fmt::Write as _;
+
+use unicode_width::UnicodeWidthStr;
+
+use super::{Frame, STYLE};
+use crate::report::markup::push_escaped;
+
+/// The width of every chart in units of the picture.
+pub(super) const WIDTH: f64 = 860.0;
+
+/// Where a text stands relative to its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A rectangle in units of the picture, `y` down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Area {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+}
+
+impl Area {
+    pub(super) fn right(self) -> f64 {
+        self.x + self.width
+    }
+
+    pub(super) fn bottom(self) -> f64 {
+        self.y + self.height
+    }
+}
+
+/// The body of a picture while it is drawn.
+#[derive(Debug, Default)]
+pub(super) struct Canvas {
+    body: String,
+}
+
+impl Canvas {
+    pub(super) fn line(&mut self, class: &str, (x1, y1): (f64, f64), (x2, y2): (f64, f64)) {
+        let (x1, y1, x2, y2) = (px(x1), px(y1), px(x2), px(y2));
+        self.raw(&format!(
+            "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>\n"
+        ));
+    }
+
+    pub(super) fn rect(&mut self, class: &str, area: Area) {
+        let (x, y) = (px(area.x), px(area.y));
+        let (width, height) = (px(area.width), px(area.height));
+        self.raw(&format!(
+            "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>\n"
+        ));
+    }
+
+    pub(super) fn circle(&mut self, class: &str, (x, y): (f64, f64), radius: f64) {
+        let (x, y, radius) = (px(x), px(y), px(radius));
+        self.raw(&format!(
+            "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>\n"
+        ));
+    }
+
+    pub(super) fn text(&mut self, class: &str, (x, y): (f64, f64), anchor: Anchor, text: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let (x, y) = (px(x), px(y));
+        let class = if class.is_empty() {
+            String::new()
+        } else {
+            format!(" class=\"{class}\"")
+        };
+        self.raw(&format!("<text{class} x=\"{x}\" y=\"{y}\"{anchor}>"));
+        push_escaped(&mut self.body, text);
+        self.raw("</text>\n");
+    }
+
+    /// A line through points; one that is not finite interrupts it.
+    pub(super) fn path(&mut self, class: &str, points: impl IntoIterator<Item = (f64, f64)>) {
+        self.raw(&format!("<path class=\"{class}\" d=\""));
+        let mut pen_is_down = false;
+        for (x, y) in points {
+            if x.is_finite() && y.is_finite() {
+                let command = if pen_is_down { 'L' } else { 'M' };
+                let _ = write!(self.body, "{command}{} {}", px(x), px(y));
+                pen_is_down = true;
+            } else {
+                pen_is_down = false;
+            }
+        }
+        self.raw("\"/>\n");
+    }
+
+    /// A marker of the series with this number: circle, square, triangle, diamond.
+    pub(super) fn marker(&mut self, series: usize, (x, y): (f64, f64)) {
+        let class = format!("fc-m{}", series % SERIES);
+        match series % SERIES {
+            0 => self.circle(&class, (x, y), 3.4),
+            1 => self.rect(
+                &class,
+                Area {
+                    x: x - 3.2,
+                    y: y - 3.2,
+                    width: 6.4,
+                    height: 6.4,
+                },
+            ),
+            2 => self.path(
+                &class,
+                [(x, y - 4.4), (x + 4.2, y + 3.2), (x - 4.2, y + 3.2)],
+            ),
+            _ => self.path(
+                &class,
+                [(x, y - 4.6), (x + 4.2, y), (x, y + 4.6), (x - 4.2, y)],
+            ),
+        }
+    }
+
+    /// Opens a link, or a group where there is none, with what a pointer and a screen reader say.
+    pub(super) fn open_link(&mut self, href: Option<&str>, title: &str) {
+        match href {
+            Some(href) => {
+                self.raw("<a href=\"");
+                push_escaped(&mut self.body, href);
+                self.raw("\" aria-label=\"");
+                push_escaped(&mut self.body, title);
+                self.raw("\"><title>");
+            }
+            None => self.raw("<g><title>"),
+        }
+        push_escaped(&mut self.body, title);
+        self.raw("</title>\n");
+    }
+
+    /// Closes what [`open_link`](Self::open_link) opened.
+    pub(super) fn close_link(&mut self, href: Option<&str>) {
+        self.raw(if href.is_some() { "</a>\n" } else { "</g>\n" });
+    }
+
+    /// The whole picture.
+    pub(super) fn finish(self, frame: Frame<'_>, head: &Head<'_>) -> String {
+        let (prefix, alone) = match frame {
+            Frame::Alone => ("picture", true),
+            Frame::Inside(name) => (name, false),
+        };
+        let (width, height) = (px(WIDTH), px(head.height));
+        let role = match head.role {
+            Role::Image => "img",
+            Role::Group => "group",
+        };
+        let mut out = String::with_capacity(self.body.len() + 4096);
+        out.push_str("<svg ");
+        if alone {
+            out.push_str("xmlns=\"http://www.w3.org/2000/svg\" ");
+        }
+        let _ = write!(
+            out,
+            "class=\"fc-picture\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
+             height=\"{height}\" role=\"{role}\" aria-labelledby=\"{prefix}-title\" \
+             aria-describedby=\"{prefix}-desc\">\n<title id=\"{prefix}-title\">"
+        );
+        push_escaped(&mut out, head.title);
+        let _ = write!(out, "</title>\n<desc id=\"{prefix}-desc\">");
+        push_escaped(&mut out, head.description);
+        out.push_str("</desc>\n");
+        if alone {
+            // Nothing in it ends the element: it is a constant of ours.
+            let _ = writeln!(out, "<style>\n{STYLE}</style>");
+        }
+        let _ = writeln!(
+            out,
+            "<rect class=\"fc-ground\" width=\"{width}\" height=\"{height}\"/>"
+        );
+        out.push_str(&self.body);
+        out.push_str("</svg>\n");
+        out
+    }
+
+    fn raw(&mut self, markup: &str) {
+        self.body.push_str(markup);
+    }
+}
+
+/// What stands at the head of a picture.
+pub(super) struct Head<'a> {
+    pub(super) title: &'a str,
+    pub(super) description: &'a str,
+    pub(super) height: f64,
+    pub(super) role: Role,
+}
+
+/// What a picture is for a screen reader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    /// One image, told by title and description.
+    Image,
+    /// Parts that can be reached one by one.
+    Group,
+}
+
+/// How many series look different.
+pub(super) const SERIES: usize = 4;
+
+/// The width of a text, about.
+pub(super) fn text_width(text: &str) -> f64 {
+    f64::from(u32::try_from(text.width()).unwrap_or(u32::MAX)) * 6.5
+}
+
+/// A length with at most one decimal.
+pub(super) fn px(length: f64) -> String {
+    let mut text = format!("{length:.1}");
+    if let Some(whole) = text.strip_suffix(".0") {
+        text.truncate(whole.len());
+    }
+    if text == "-0" {
+        text.remove(0);
+    }
+    text
+}
+
+/// The names of series with their looks, in rows.
+pub(super) struct Legend<'a> {
+    /// Each series' number, its name, and whether it has markers.
+    pub(super) items: Vec<(usize, &'a str, Marks)>,
+}
+
+/// Whether the points of a series are marked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Marks {
+    With,
+    Without,
+}
+
+const LEGEND_ROW: f64 = 20.0;
+
+impl Legend<'_> {
+    /// Draws it from a place on and gives the height that it takes.
+    pub(super) fn draw(&self, canvas: &mut Canvas, (left, top): (f64, f64)) -> f64 {
+        let (mut x, mut y) = (left, top);
+        for &(series, name, marks) in &self.items {
+            let width = 34.0 + text_width(name) + 22.0;
+            if x > left && x + width > WIDTH - 10.0 {
+                x = left;
+                y += LEGEND_ROW;
+            }
+            let class = format!("fc-curve fc-s{}", series % SERIES);
+            canvas.line(&class, (x, y + 8.0), (x + 28.0, y + 8.0));
+            if marks == Marks::With {
+                canvas.marker(series, (x + 14.0, y + 8.0));
+            }
+            canvas.text("", (x + 34.0, y + 12.0), Anchor::Start, name);
+            x += width;
+        }
+        if self.items.is_empty() {
+            0.0
+        } else {
+            y + LEGEND_ROW - top
+        }
+    }
+}

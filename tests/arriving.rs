@@ -6,6 +6,9 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+/// No program of the tests needs more blocks; some never end.
+const BUDGET: [&str; 2] = ["--max-blocks", "2000"];
+
 fn tool() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
     command
@@ -18,7 +21,11 @@ fn tool() -> Command {
 
 /// What a call prints that is given a text on standard input.
 fn output(arguments: &[&str], input: &[u8]) -> String {
-    let mut child = tool().args(arguments).spawn().expect("the tool starts");
+    let mut child = tool()
+        .args(arguments)
+        .args(BUDGET)
+        .spawn()
+        .expect("the tool starts");
     let mut stdin = child.stdin.take().expect("it is piped");
     let input = input.to_vec();
     // A program that ended reads no further; the pipe is closed then.

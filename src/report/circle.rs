@@ -315,13 +315,18 @@ fn advice_lines(out: &mut String, side: &NamedSide) {
                 places.push(crossing.name());
             }
         }
-        let size = same.iter().map(|advice| advice.size).fold(0.0, f64::max);
+        let largest = same.iter().map(|it| it.size).fold(0.0, f64::max);
         let at = if places.is_empty() {
             String::new()
         } else {
             format!(" at {}", places.join(" "))
         };
-        let _ = writeln!(out, "{}{at}: {size:.1} µm, {}", side.name, words(finding));
+        let _ = writeln!(
+            out,
+            "{}{at}: {largest:.1} µm, {}",
+            side.name,
+            words(finding)
+        );
     }
 }
 

@@ -2,6 +2,7 @@
 
 #![cfg(feature = "cli")]
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -96,7 +97,7 @@ fn write_circle(path: &Path, header: &str, scale: f64) {
         let angle = f64::from(point) * std::f64::consts::TAU / 3600.0;
         let radius = 50.0 + 0.004 * (2.0 * angle).sin();
         let (x, y) = (scale * radius * angle.cos(), scale * radius * angle.sin());
-        text.push_str(&format!("{},{x},{y}\n", f64::from(point) * 0.001));
+        writeln!(text, "{},{x},{y}", f64::from(point) * 0.001).expect("text");
     }
     fs::write(path, text).expect("written");
 }

@@ -1,11 +1,14 @@
 //! Chapters 5.2 and 5.3: friction, drives, the circular test, its figures, advice and tuning.
 
+#![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
+
 use std::f64::consts::{PI, TAU};
 
 use frictcomp::circle::{
     Circle, CircleError, CircularTest, Compensation, Crossing, Direction, Drive, DriveParameters,
     Figures, Finding, FrictionModel, Job, Lap, POSITION_LOOP, Place, Plant, Preset, Ranges,
-    RecordedCircle, RecordedError, Recording, Setpoint, Task, Tuned, advise, plant_list, tune,
+    RecordedCircle, RecordedError, Recording, Setpoint, Task, Tuned, advise, advise_on, plant_list,
+    tune,
 };
 use frictcomp::current::Reading;
 use frictcomp::lists::Field;
@@ -62,8 +65,7 @@ fn follow(drive: &mut Drive, setpoints: impl IntoIterator<Item = Setpoint>) -> V
     positions
 }
 
-fn constant_speed(speed: f64, seconds: f64) -> impl Iterator<Item = Setpoint> {
-    let ticks = (seconds / POSITION_LOOP).round() as u32;
+fn constant_speed(speed: f64, ticks: u32) -> impl Iterator<Item = Setpoint> {
     (0..ticks).map(move |tick| Setpoint {
         position: f64::from(tick) * POSITION_LOOP * speed,
         velocity: speed,
@@ -117,7 +119,7 @@ fn a_sliding_contact_of_any_model_has_the_static_friction() {
                 ..Setpoint::default()
             };
             let mut drive = Drive::settled(&parameters, model, start);
-            follow(&mut drive, constant_speed(speed, 0.3));
+            follow(&mut drive, constant_speed(speed, 1200));
             let force = drive.force();
             within(force, parameters.friction.steady(speed), 1e-3);
         }
@@ -257,6 +259,15 @@ fn the_wrong_sign_makes_it_worse() {
         list.scaling_factor = -1000;
     }
     within(figures(&test, Compensation::On).glitch_max(), 24.8, 0.05);
+    // R5.24: it is told from a compensation that is too weak.
+    let laps = [Compensation::Off, Compensation::On];
+    let laps = laps.map(|compensation| lap(&test, compensation, Direction::Ccw));
+    let advice = advise_on(&frictcomp::circle::Outcome::of(laps));
+    assert!(
+        advice.iter().all(|it| it.finding == Finding::WrongSign),
+        "{advice:?}"
+    );
+    assert_eq!(advice.len(), 4);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use super::figures::{MICROMETRES, Paths};
 use super::glitch::{Crossing, Glitch, glitches};
 use super::profile::{ANGLES, PER_DEGREE, Profile};
 use super::reference::Direction;
-use super::test::Compensation;
+use super::test::{Compensation, Outcome, Side};
 
 /// Below this many µm there is nothing to say.
 pub const NOTICEABLE: f64 = 1.0;
@@ -31,6 +31,8 @@ pub enum Finding {
     Friction,
     /// A bulge outwards is left: the compensation is too weak.
     TooWeak,
+    /// The bulge is larger than without compensation: it pushes the wrong way.
+    WrongSign,
     /// A cut inwards alone: it is too strong.
     TooStrong,
     /// First inwards, then outwards: it comes too early.
@@ -91,6 +93,22 @@ pub fn advise(paths: &Paths, compensation: Option<Compensation>) -> Vec<Advice> 
         }
     }
     advice.extend(ellipses(paths));
+    advice
+}
+
+/// What the paths of a test with compensation suggest, knowing those without.
+pub fn advise_on(outcome: &Outcome) -> Vec<Advice> {
+    let mut advice = advise(&outcome.on.paths, Some(Compensation::On));
+    let height = |side: &Side, it: &Advice| {
+        let path = side.figures.get(it.direction?)?;
+        let here = |glitch: &&Glitch| it.place == Place::Crossing(glitch.crossing);
+        path.glitch.iter().find(here).map(|glitch| glitch.height)
+    };
+    for it in &mut advice {
+        if it.finding == Finding::TooWeak && height(&outcome.on, it) > height(&outcome.off, it) {
+            it.finding = Finding::WrongSign;
+        }
+    }
     advice
 }
 

@@ -12,7 +12,7 @@ const FASTEST: f64 = 500_000.0;
 /// The value list whose outputs are the friction of a drive at constant velocity, in drive units:
 /// standstill and 19 velocities from 0.2 mm/s to 0.5 m/s, each the same factor above the one
 /// before. The other values are those with which the rules give their reference figures:
-/// position_delay 9, reversal_lookahead 2, delay_cycles 1, scaling_factor 1000.
+/// `position_delay` 9, `reversal_lookahead` 2, `delay_cycles` 1, `scaling_factor` 1000.
 pub fn plant_list(drive: &DriveParameters) -> FrictionList {
     let steps = DEFAULT_MAX_POINTS - 2;
     let factor = (FASTEST / SLOWEST).powf(1.0 / f64::from(steps));

@@ -21,7 +21,7 @@ mod test;
 mod tune;
 mod zone;
 
-pub use advice::{Advice, Finding, NOTICEABLE, Place, advise};
+pub use advice::{Advice, Finding, NOTICEABLE, Place, advise, advise_on};
 pub use default_list::plant_list;
 pub use drive::{Drive, DriveParameters, POSITION_LOOP, SPEED_LOOP, Setpoint};
 pub use figures::{Figures, PathFigures, Paths};

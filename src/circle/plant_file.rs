@@ -332,14 +332,11 @@ fn gms(table: &Section<'_>) -> Result<Option<Vec<GmsElement>>, ConfigError> {
     for [share, stiffness] in &pairs {
         let share = value(share).filter(|share| (0.0..=1.0).contains(share));
         let stiffness = value(stiffness).filter(|stiffness| (1.0..=1e12).contains(stiffness));
-        match (share, stiffness) {
-            (Some(share), Some(stiffness)) => elements.push(GmsElement { share, stiffness }),
-            _ => {
-                let message =
-                    "an element of `gms` is `[share, stiffness]`: 0 to 1, and 1 to 1e12 N/m";
-                return Err(ConfigError::at(&place, message));
-            }
-        }
+        let (Some(share), Some(stiffness)) = (share, stiffness) else {
+            let message = "an element of `gms` is `[share, stiffness]`: 0 to 1, and 1 to 1e12 N/m";
+            return Err(ConfigError::at(&place, message));
+        };
+        elements.push(GmsElement { share, stiffness });
     }
     let sum: f64 = elements.iter().map(|element| element.share).sum();
     if (sum - 1.0).abs() > 1e-6 {

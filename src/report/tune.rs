@@ -132,6 +132,7 @@ pub fn render_list(report: &TuneReport) -> String {
     let list: &FrictionList = &report.tuned.list;
     let mut out = format!(
         "# Friction compensation for the plant {}, tuned with the model {}\n\
+         # The table is the friction curve of its X axis\n\
          # Outputs with decimals need the build V3.1.3132.0 or V4.29.0\n",
         report.plant.replace(['\r', '\n'], " "),
         report.model

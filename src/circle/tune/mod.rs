@@ -59,8 +59,8 @@ impl Default for Ranges {
 }
 
 impl Ranges {
-    /// The same with a parameter beyond its documented range: position_delay up to 200 µm,
-    /// reversal_lookahead up to 50 cycles. The others are wide enough.
+    /// The same with a parameter beyond its documented range: `position_delay` up to 200 µm,
+    /// `reversal_lookahead` up to 50 cycles. The others are wide enough.
     #[must_use]
     pub fn free(mut self, field: Field) -> Self {
         match field {

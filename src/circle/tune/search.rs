@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::{Candidate, Ranges};
 
-/// Steps of the neighbours, the largest first: position_delay as a part of its value plus one,
-/// and the scaling factor.
+/// Steps of the neighbours, the largest first: `position_delay` as a part of its value, at
+/// least one unit, and the scaling factor.
 const STEPS: [Step; 5] = [
     Step {
         distance: 0.5,

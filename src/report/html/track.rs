@@ -70,8 +70,10 @@ impl Track {
             spot: Some(spot),
         });
         while self.stretches.len() > MAX_STRETCHES {
-            self.grain *= 2;
             self.coarsen(seq);
+            if self.stretches.len() > MAX_STRETCHES / 2 {
+                self.grain = self.grain.saturating_mul(2);
+            }
         }
     }
 
@@ -92,7 +94,7 @@ impl Track {
                 Some(last)
                     if short
                         && last.state == BandState::Changing
-                        && end.saturating_sub(last.from) <= 64 * self.grain => {}
+                        && end.saturating_sub(last.from) <= self.grain.saturating_mul(64) => {}
                 _ => self.stretches.push(Stretch {
                     state: if short {
                         BandState::Changing

@@ -77,7 +77,7 @@ impl Scale {
         }
         // Beyond this, differences of values are not finite any more.
         (low, high) = (low.max(-1e300), high.min(1e300));
-        if spacing == Spacing::Logarithmic && low > 0.0 {
+        if spacing == Spacing::Logarithmic && low > 1e-300 {
             return Self::logarithmic(low, high);
         }
         if high - low <= (low.abs().max(high.abs()) * 1e-9).max(1e-300) {
@@ -121,13 +121,17 @@ impl Scale {
         };
         let skip = (decades / 12.0).ceil().max(1.0);
         let first = low.log10().floor();
-        let ticks = (0..MAX_TICKS)
+        let mut ticks: Vec<_> = (0..MAX_TICKS)
             .map(|count| 10_f64.powf(first + f64::from(count) * skip))
             .take_while(|&decade| decade <= high)
             .flat_map(|decade| factors.iter().map(move |factor| decade * factor))
             .filter(|value| (low..=high).contains(value))
             .map(|value| (value, label(value, value)))
             .collect();
+        if ticks.len() < 2 {
+            // A range within a decade.
+            ticks = Self::over([low, high].into_iter(), Spacing::Linear, Ends::Exact, 4).ticks;
+        }
         Self {
             low,
             high,

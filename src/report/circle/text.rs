@@ -1,0 +1,321 @@
+//! The circular test for people.
+
+use std::fmt::Write as _;
+
+use super::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
+use crate::circle::{
+    Advice, CircularTest, Crossing, Direction, Figures, Finding, PathFigures, Place, Recording,
+};
+
+/// The report for people.
+pub fn render_text(report: &CircleReport) -> String {
+    let mut out = String::new();
+    for line in conditions(report) {
+        let _ = writeln!(out, "{line}");
+    }
+    let columns = columns(report);
+    let _ = writeln!(out);
+    header(&mut out, &columns);
+    for row in figure_rows(&columns) {
+        row.append(&mut out);
+    }
+    let _ = writeln!(out);
+    for row in glitch_rows(&columns) {
+        row.append(&mut out);
+    }
+    for side in &report.sides {
+        let lines = advice_lines(side);
+        if !lines.is_empty() {
+            let _ = writeln!(out);
+        }
+        for line in lines {
+            let _ = writeln!(out, "{line}");
+        }
+    }
+    out
+}
+
+/// The figures of all paths, in µm.
+pub(in crate::report) struct Table {
+    /// `off ccw`, `on cw`.
+    pub(in crate::report) columns: Vec<String>,
+    /// The figures of ISO 230-4, then the glitches.
+    pub(in crate::report) rows: Vec<Row>,
+}
+
+/// One figure of all paths.
+pub(in crate::report) struct Row {
+    pub(in crate::report) name: String,
+    /// One a path; a figure of both directions stands in the first column of its side.
+    pub(in crate::report) values: Vec<Option<f64>>,
+}
+
+/// The figures as a table.
+pub(in crate::report) fn table(report: &CircleReport) -> Table {
+    let columns = columns(report);
+    let mut rows = figure_rows(&columns);
+    rows.extend(glitch_rows(&columns));
+    Table {
+        columns: columns.iter().map(Column::name).collect(),
+        rows,
+    }
+}
+
+/// One path of the table.
+struct Column<'a> {
+    side: &'a NamedSide,
+    direction: Direction,
+    figures: &'a PathFigures,
+}
+
+impl Column<'_> {
+    fn name(&self) -> String {
+        format!("{} {}", self.side.name, self.direction.name())
+    }
+}
+
+fn columns(report: &CircleReport) -> Vec<Column<'_>> {
+    let pairs = report.sides.iter().flat_map(|side| {
+        Direction::ALL
+            .into_iter()
+            .map(move |direction| (side, direction))
+    });
+    let found = pairs.filter_map(|(side, direction)| {
+        Some(Column {
+            side,
+            direction,
+            figures: side.side.figures.get(direction)?,
+        })
+    });
+    found.collect()
+}
+
+/// The conditions of the test, a line each (R5.21).
+pub(in crate::report) fn conditions(report: &CircleReport) -> Vec<String> {
+    match &report.subject {
+        Subject::Simulated {
+            test,
+            origin,
+            saturated,
+        } => simulated_conditions(test, origin, *saturated),
+        Subject::Recorded(recording) => recorded_conditions(recording),
+    }
+}
+
+fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64) -> Vec<String> {
+    let circle = &test.circle;
+    let mut lines = vec![
+        format!(
+            "circular test, simulated: diameter {} mm, feed {} mm/min, ccw and cw",
+            2.0 * circle.radius,
+            circle.feed
+        ),
+        format!(
+            "plant {}, friction {}, CNC cycle {} ms, {}",
+            test.plant.name,
+            test.model.name(),
+            round(1000.0 * circle.cycle_time),
+            unit_force(test)
+        ),
+    ];
+    let [x, y] = &test.lists;
+    let list = match origin {
+        ListOrigin::Plant => "the plant's own friction curve".to_owned(),
+        ListOrigin::File(name) => name.clone(),
+    };
+    lines.push(format!("value list: {list}, {} points", x.table.len()));
+    let each = if x == y {
+        vec![("", x)]
+    } else {
+        vec![("X: ", x), ("Y: ", y)]
+    };
+    for (axis, list) in each {
+        lines.push(format!(
+            "  {axis}position_delay {}, reversal_lookahead {}, delay_cycles {}, scaling_factor {}",
+            list.position_delay, list.reversal_lookahead, list.delay_cycles, list.scaling_factor
+        ));
+    }
+    lines.push(format!("reading: {}", test.reading.words()));
+    lines.push(format!("centre: the commanded one; {TREATMENT}"));
+    if saturated > 0 {
+        lines.push(format!(
+            "the drives reached their largest force in {saturated} cycles of the speed loop"
+        ));
+    }
+    lines
+}
+
+fn unit_force(test: &CircularTest) -> String {
+    let [x, y] = [&test.plant.x, &test.plant.y].map(|drive| round(drive.force_per_unit));
+    #[allow(clippy::float_cmp)] // the same text
+    if x == y {
+        format!("{x} N a drive unit")
+    } else {
+        format!("{x} N (X), {y} N (Y) a drive unit")
+    }
+}
+
+fn recorded_conditions(recording: &Recording) -> Vec<String> {
+    let commanded = match recording.radius {
+        Some(radius) => format!("commanded diameter {} mm", 2.0 * radius),
+        None => "commanded diameter unknown (`--radius` for F and D)".to_owned(),
+    };
+    let mut lines = vec![format!("circular test, recorded: {commanded}")];
+    for circle in &recording.circles {
+        let [x, y] = circle.centre;
+        lines.push(format!(
+            "{}: {} points of a turn, least-squares centre ({x:.4}, {y:.4}) mm, diameter {:.4} mm",
+            circle.direction.name(),
+            circle.points,
+            2.0 * circle.radius
+        ));
+    }
+    lines.push(format!("centre: least squares, for each path; {TREATMENT}"));
+    lines
+}
+
+fn header(out: &mut String, columns: &[Column<'_>]) {
+    let _ = write!(out, "{:<34}", "µm");
+    for column in columns {
+        let _ = write!(out, "{:>13}", column.name());
+    }
+    let _ = writeln!(out);
+}
+
+/// A figure of one path by its name.
+type Figure = (&'static str, fn(&PathFigures) -> Option<f64>);
+
+/// A figure of both paths by its name.
+type SharedFigure = (&'static str, fn(&Figures) -> Option<f64>);
+
+fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
+    let own: [Figure; 5] = [
+        ("G     minimum zone", |it| Some(it.g_mz)),
+        ("G     least-squares circle", |it| Some(it.g_lsc)),
+        ("Fmax  largest radial deviation", |it| it.f_max),
+        ("Fmin  smallest radial deviation", |it| it.f_min),
+        ("D     mean radial deviation", |it| it.d),
+    ];
+    let own = own.into_iter().map(|(name, figure)| Row {
+        name: name.to_owned(),
+        values: columns
+            .iter()
+            .map(|column| figure(column.figures))
+            .collect(),
+    });
+    let shared: [SharedFigure; 3] = [
+        ("G(b)  bidirectional", |it| it.g_b),
+        ("H     circular hysteresis", |it| it.h),
+        ("D     bidirectional", |it| it.d),
+    ];
+    let shared = shared.into_iter().map(|(name, figure)| {
+        let mut last = "";
+        let values = columns.iter().map(|column| {
+            let is_first = std::mem::replace(&mut last, column.side.name) != column.side.name;
+            is_first
+                .then(|| figure(&column.side.side.figures))
+                .flatten()
+        });
+        Row {
+            name: name.to_owned(),
+            values: values.collect(),
+        }
+    });
+    own.chain(shared).filter(Row::says_something).collect()
+}
+
+fn glitch_rows(columns: &[Column<'_>]) -> Vec<Row> {
+    let rows = Crossing::ALL.into_iter().enumerate();
+    let rows = rows.map(|(at, crossing)| Row {
+        name: format!("glitch at {}", crossing.name()),
+        values: columns
+            .iter()
+            .map(|column| column.figures.glitch.get(at).map(|it| it.height))
+            .collect(),
+    });
+    rows.filter(Row::says_something).collect()
+}
+
+impl Row {
+    fn says_something(&self) -> bool {
+        self.values.iter().any(Option::is_some)
+    }
+
+    fn append(&self, out: &mut String) {
+        let mut line = format!("{:<33}", self.name);
+        for value in &self.values {
+            let text = value.map(|value| format!("{value:.3}")).unwrap_or_default();
+            let _ = write!(line, "{text:>13}");
+        }
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+}
+
+/// What the shapes suggest: the same finding at several crossings is said once.
+pub(in crate::report) fn advice_lines(side: &NamedSide) -> Vec<String> {
+    let mut said: Vec<(Finding, Vec<&Advice>)> = Vec::new();
+    for advice in &side.advice {
+        match said
+            .iter_mut()
+            .find(|(finding, _)| *finding == advice.finding)
+        {
+            Some((_, same)) => same.push(advice),
+            None => said.push((advice.finding, vec![advice])),
+        }
+    }
+    let mut lines = Vec::new();
+    for (finding, same) in said {
+        let mut places = Vec::new();
+        for advice in &same {
+            if let Place::Crossing(crossing) = advice.place
+                && !places.contains(&crossing.name())
+            {
+                places.push(crossing.name());
+            }
+        }
+        let largest = same.iter().map(|it| it.size).fold(0.0, f64::max);
+        let at = if places.is_empty() {
+            String::new()
+        } else {
+            format!(" at {}", places.join(" "))
+        };
+        lines.push(format!(
+            "{}{at}: {largest:.1} µm, {}",
+            side.name,
+            words(finding)
+        ));
+    }
+    lines
+}
+
+/// What a finding means and what to do.
+pub fn words(finding: Finding) -> &'static str {
+    match finding {
+        Finding::Friction => "a peak that decays: friction at the reversal",
+        Finding::TooWeak => {
+            "a peak outwards is left: too weak, raise scaling_factor or the outputs"
+        }
+        Finding::WrongSign => {
+            "larger than without compensation: it pushes the wrong way, change the sign of the \
+             outputs"
+        }
+        Finding::TooStrong => "a cut inwards: too strong, lower scaling_factor or the outputs",
+        Finding::TooEarly => {
+            "inwards, then outwards: too early, raise position_delay or delay_cycles, or lower \
+             reversal_lookahead"
+        }
+        Finding::TooLate => {
+            "outwards, then inwards: too late, lower position_delay or delay_cycles, or raise \
+             reversal_lookahead"
+        }
+        Finding::Backlash => "a step that stays: backlash, compensate it as such",
+        Finding::GainMismatch => {
+            "an ellipse at 45° that turns with the direction: the position loops of the axes \
+             differ, make Kv and feed forward equal"
+        }
+        Finding::Squareness => {
+            "an ellipse at 45° that stays with the direction: the axes are not square"
+        }
+        Finding::ScaleMismatch => "an ellipse along the axes: their scales differ",
+    }
+}

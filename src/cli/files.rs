@@ -111,11 +111,12 @@ impl Input {
 }
 
 fn open_file(path: &Path, name: String) -> io::Result<Opened> {
-    let mut file = Steady::open(path)?;
-    let metadata = file.metadata().clone();
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
+    let mut file = Steady::new(file, &metadata);
     if metadata.is_file() && !needs_whole_text(&mut file)? {
         file.rewind()?;
         return Ok(Opened::Lines(LineReader::new(file)));

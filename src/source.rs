@@ -75,6 +75,8 @@ impl fmt::Display for Position {
 #[derive(Debug, Clone)]
 pub struct LineIndex {
     starts: Vec<u32>,
+    /// The number of the first line.
+    first: u32,
 }
 
 impl LineIndex {
@@ -88,18 +90,19 @@ impl LineIndex {
                 starts.push(Span::new(at + 1, at + 1).start);
             }
         }
-        Self { starts }
+        Self { starts, first: 1 }
     }
 
-    /// The 1-based line that holds a byte offset.
+    /// The number of the line that holds a byte offset.
     pub fn line(&self, offset: u32) -> u32 {
         let before = self.starts.partition_point(|&start| start <= offset);
-        u32::try_from(before.max(1)).unwrap_or(u32::MAX)
+        let behind_first = u32::try_from(before.max(1) - 1).unwrap_or(u32::MAX);
+        self.first.saturating_add(behind_first)
     }
 
-    /// The span of a 1-based line in `text`, without its line end.
+    /// The span in `text` of the line with a number, without its line end.
     pub fn line_span(&self, text: &str, line: u32) -> Span {
-        let index = (line.max(1) - 1) as usize;
+        let index = line.saturating_sub(self.first) as usize;
         let Some(&start) = self.starts.get(index) else {
             return Span::new(text.len(), text.len());
         };
@@ -112,6 +115,11 @@ impl LineIndex {
         Span::new(start as usize, start as usize + trimmed.len())
     }
 
+    /// The number of the first line: 1, unless the text is the rest of a longer one.
+    pub fn first(&self) -> u32 {
+        self.first
+    }
+
     /// How many lines the text has; a text without any line end has one.
     pub fn lines(&self) -> usize {
         self.starts.len()
@@ -122,7 +130,7 @@ impl LineIndex {
 #[derive(Debug, Clone)]
 pub struct SourceFile {
     name: std::sync::Arc<str>,
-    text: String,
+    text: std::sync::Arc<String>,
     lines: LineIndex,
 }
 
@@ -137,8 +145,14 @@ impl SourceFile {
         Self {
             name: name.into(),
             lines: LineIndex::new(&text),
-            text,
+            text: text.into(),
         }
+    }
+
+    /// The same text as the rest of a longer one, whose first line here has a number there.
+    pub fn from_line(mut self, first: u32) -> Self {
+        self.lines.first = first;
+        self
     }
 
     /// The name that diagnostics and records show.
@@ -149,6 +163,11 @@ impl SourceFile {
     /// The whole text.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The whole text, for who keeps it beside the file.
+    pub(crate) fn shared_text(&self) -> std::sync::Arc<String> {
+        self.text.clone()
     }
 
     /// The line index of the text.
@@ -198,6 +217,15 @@ pub trait LineSource {
     fn offset(&self) -> usize {
         0
     }
+
+    /// Appends the lines to come, each with a line end. A source that may have no end stops where
+    /// the text is too big to be kept.
+    fn append_rest(&mut self, text: &mut String) {
+        while self.advance() {
+            text.push_str(self.line().text);
+            text.push('\n');
+        }
+    }
 }
 
 impl<S: LineSource + ?Sized> LineSource for &mut S {
@@ -211,6 +239,10 @@ impl<S: LineSource + ?Sized> LineSource for &mut S {
 
     fn offset(&self) -> usize {
         (**self).offset()
+    }
+
+    fn append_rest(&mut self, text: &mut String) {
+        (**self).append_rest(text);
     }
 }
 

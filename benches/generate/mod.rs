@@ -22,6 +22,12 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
+    /// The shape that a name means.
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
+        let all = [Self::ThreeAxes, Self::FiveAxes, Self::Damaged, Self::Loop];
+        all.into_iter().find(|shape| format!("{shape:?}") == name)
+    }
+
     /// Writes a program; a loop counts its passes as blocks.
     pub(crate) fn write(self, blocks: u32, out: &mut dyn Write) -> io::Result<()> {
         if self == Self::Loop {

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
+use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,7 +15,7 @@ use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::failure::Failure;
 use super::files::{Input, Naming};
-use super::walk;
+use super::{walk, workers};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::{Listing, ListingFormat, Tally};
@@ -35,6 +36,9 @@ pub(super) struct CheckArgs {
     /// List what was accepted and passed over, with its places, in place of the diagnostics
     #[arg(long)]
     opaque: bool,
+    /// Check so many programs at once, as many as there are processors unless it is given
+    #[arg(long, short, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
     #[command(flatten)]
     listing: ListingArgs,
     #[command(flatten)]
@@ -101,9 +105,26 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let mut listed: Vec<Option<PathBuf>> = Vec::new();
     let target = console.target(args.listing.output.as_deref())?;
     let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
-    let mut flow = ControlFlow::Continue(());
-    for input in &inputs {
-        let loaded = machines.for_folder(input.folder())?;
+    let mut failure = None;
+    let jobs = inputs
+        .iter()
+        .map(|input| (input, machines.for_folder(input.folder())));
+    let workers = args.jobs.unwrap_or_else(workers::processors);
+    let workers = workers.min(NonZeroUsize::new(inputs.len()).unwrap_or(NonZeroUsize::MIN));
+    let check = |(input, loaded): (&Input, Result<Arc<LoadedMachine>, Failure>)| {
+        let loaded = loaded?;
+        let found = check_file(input, &loaded, &args.execution)?;
+        Ok((loaded, found))
+    };
+    workers::in_order(jobs, workers, check, |checked| {
+        let (loaded, found) = match checked {
+            Ok(checked) => checked,
+            Err(error) => {
+                failure = Some(error);
+                return ControlFlow::Break(());
+            }
+        };
+        let mut flow = ControlFlow::Continue(());
         if !listed.contains(&loaded.origin) {
             listed.push(loaded.origin.clone());
             for diagnostic in loaded.errors() {
@@ -111,12 +132,13 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
             }
         }
         listing.file();
-        for diagnostic in check_file(input, loaded, &args.execution)? {
-            flow = listing.diagnostic(&diagnostic);
+        for diagnostic in &found {
+            flow = listing.diagnostic(diagnostic);
         }
-        if flow.is_break() {
-            break;
-        }
+        flow
+    });
+    if let Some(failure) = failure {
+        return Err(failure);
     }
     listing.finish().map_err(|error| Failure::output(&error))?;
     if listing.is_closed() {
@@ -142,13 +164,13 @@ fn list_notes(
     let mut lines = BTreeSet::new();
     for input in inputs {
         let loaded = machines.for_folder(input.folder())?;
-        let mut options = args.execution.options(loaded, StopPolicy::CheckAll);
+        let mut options = args.execution.options(&loaded, StopPolicy::CheckAll);
         options.notes = Notes::Taken;
         let alone = Alone {
             options,
             naming: Naming::AsGiven,
         };
-        let session = run_alone(input, loaded, alone, &mut Found::default())?;
+        let session = run_alone(input, &loaded, alone, &mut Found::default())?;
         for (name, place) in session.notes(kind) {
             lines.insert((name.to_owned(), place.file.to_string(), place.start()));
         }

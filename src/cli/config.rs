@@ -36,7 +36,7 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
     let mut machines = Machines::new(&args.machine);
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();
-    append_machine(&mut output, loaded);
+    append_machine(&mut output, &loaded);
     console.print(&output)?;
     Ok(exit::CLEAN)
 }

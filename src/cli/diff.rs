@@ -143,7 +143,7 @@ fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
     input.probe()?;
     let mut machines = Machines::new(&args.machine);
     let loaded = machines.for_folder(input.folder())?;
-    let options = args.execution.options(loaded, StopPolicy::FirstError);
+    let options = args.execution.options(&loaded, StopPolicy::FirstError);
     let mut switches = Switches {
         kinds: args.kinds,
         list: Vec::new(),
@@ -151,7 +151,7 @@ fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
     };
     run_alone(
         input,
-        loaded,
+        &loaded,
         Alone {
             options,
             naming: Naming::AsGiven,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 
@@ -110,7 +111,9 @@ impl LoadedMachine {
 /// The machines of the programs of one command; each configuration is read once.
 pub(super) struct Machines<'a> {
     args: &'a MachineArgs,
-    loaded: BTreeMap<Option<PathBuf>, LoadedMachine>,
+    loaded: BTreeMap<Option<PathBuf>, Arc<LoadedMachine>>,
+    /// The nearest configuration of each folder that was asked for.
+    nearest: BTreeMap<PathBuf, Option<PathBuf>>,
 }
 
 impl<'a> Machines<'a> {
@@ -118,26 +121,37 @@ impl<'a> Machines<'a> {
         Self {
             args,
             loaded: BTreeMap::new(),
+            nearest: BTreeMap::new(),
         }
     }
 
     /// The machine of a program in a folder.
-    pub(super) fn for_folder(&mut self, folder: &Path) -> Result<&LoadedMachine, Failure> {
+    pub(super) fn for_folder(&mut self, folder: &Path) -> Result<Arc<LoadedMachine>, Failure> {
         let config = match (&self.args.config, self.args.isolated) {
             (Some(path), _) => Some(path.clone()),
             (None, true) => None,
-            (None, false) => nearest_config(folder),
+            (None, false) => self.nearest(folder),
         };
-        if !self.loaded.contains_key(&config) {
-            let loaded = load_machine(config.as_deref(), self.args)?;
-            self.loaded.insert(config.clone(), loaded);
+        if let Some(loaded) = self.loaded.get(&config) {
+            return Ok(Arc::clone(loaded));
         }
-        Ok(self.loaded.entry(config).or_default())
+        let loaded = Arc::new(load_machine(config.as_deref(), self.args)?);
+        self.loaded.insert(config, Arc::clone(&loaded));
+        Ok(loaded)
+    }
+
+    fn nearest(&mut self, folder: &Path) -> Option<PathBuf> {
+        if let Some(found) = self.nearest.get(folder) {
+            return found.clone();
+        }
+        let found = nearest_config(folder);
+        self.nearest.insert(folder.to_owned(), found.clone());
+        found
     }
 
     /// Every machine that was asked for, in the order of its configuration's path.
     pub(super) fn loaded(&self) -> impl Iterator<Item = &LoadedMachine> {
-        self.loaded.values()
+        self.loaded.values().map(Arc::as_ref)
     }
 }
 

@@ -57,17 +57,27 @@ impl ExecutionArgs {
 }
 
 /// Where called programs are looked for, and how files are named.
-#[derive(Debug, Clone)]
-pub(super) struct Surroundings {
-    pub(super) program_dirs: Vec<PathBuf>,
-    pub(super) naming: Naming,
+#[derive(Clone)]
+pub(super) struct Surroundings<'a> {
+    program_dirs: Vec<PathBuf>,
+    naming: Naming,
+    before_waiting: &'a dyn Fn(),
 }
 
-impl Surroundings {
+impl<'a> Surroundings<'a> {
     pub(super) fn new(loaded: &LoadedMachine, naming: Naming) -> Self {
         Self {
             program_dirs: loaded.program_dirs.clone(),
             naming,
+            before_waiting: &|| (),
+        }
+    }
+
+    /// The same; what is called whenever a pipe may have to wait for more of a program.
+    pub(super) fn before_waiting(self, before_waiting: &'a dyn Fn()) -> Self {
+        Self {
+            before_waiting,
+            ..self
         }
     }
 }
@@ -76,12 +86,12 @@ impl Surroundings {
 pub(super) fn run_program(
     session: &mut Session,
     input: &Input,
-    surroundings: &Surroundings,
+    surroundings: &Surroundings<'_>,
     sink: &mut dyn Sink,
 ) -> Result<ControlFlow<()>, Failure> {
     let name = input.name(surroundings.naming);
     let mut finder = ProgramFinder::new(input, &surroundings.program_dirs, surroundings.naming);
-    let flow = match input.open(surroundings.naming)? {
+    let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
         Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
         Opened::Lines(mut lines) => {
             let flow = session.program(&name, Program::Lines(&mut lines), &mut finder, sink);

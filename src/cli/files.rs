@@ -8,16 +8,13 @@ use std::path::{Path, PathBuf};
 use encoding_rs::WINDOWS_1252;
 
 use super::failure::Failure;
-use super::lines::LineReader;
+use super::lines::{LineReader, MOST_KEPT, too_big};
 use super::steady::Steady;
 use crate::session::Finder;
-use crate::source::{FlowScan, SourceFile};
+use crate::source::SourceFile;
 
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
-
-/// More than that is not kept in memory: programs with flow, lists, configurations, states.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// How files are named in records and diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,11 +44,24 @@ pub(super) enum Input {
 }
 
 /// A program that is ready to run.
-pub(super) enum Opened {
-    /// A file without flow: its lines come one after another.
-    Lines(LineReader<Steady>),
-    /// A program with flow, or one that can be read only once.
+pub(super) enum Opened<'a> {
+    /// A file without flow, or what can be read only once: the lines come one after another.
+    Lines(LineReader<Box<dyn Read + 'a>>),
+    /// A program with flow.
     Whole(SourceFile),
+}
+
+/// A reader that may have to wait for more, and says so before it does.
+struct Waiting<'a, R> {
+    reader: R,
+    before: &'a dyn Fn(),
+}
+
+impl<R: Read> Read for Waiting<'_, R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        (self.before)();
+        self.reader.read(buffer)
+    }
 }
 
 impl Input {
@@ -95,67 +105,61 @@ impl Input {
         Ok(())
     }
 
-    /// Opens the program.
-    pub(super) fn open(&self, naming: Naming) -> Result<Opened, Failure> {
+    /// Opens the program. Standard input or a pipe calls `before_waiting` whenever it may have to
+    /// wait for more.
+    pub(super) fn open<'a>(
+        &self,
+        naming: Naming,
+        before_waiting: &'a dyn Fn(),
+    ) -> Result<Opened<'a>, Failure> {
         match self {
-            Self::File(path) => {
-                open_file(path, self.name(naming)).map_err(|error| Failure::reading(path, &error))
-            }
-            Self::Stdin => {
-                let bytes = read_whole(io::stdin().lock(), 0)
-                    .map_err(|error| Failure::reading(Path::new(STDIN), &error))?;
-                Ok(Opened::Whole(SourceFile::new(STDIN, decode(bytes))))
-            }
+            Self::File(path) => open_file(path, self.name(naming), before_waiting)
+                .map_err(|error| Failure::reading(path, &error)),
+            Self::Stdin => Ok(arriving(io::stdin().lock(), before_waiting)),
         }
     }
 }
 
-fn open_file(path: &Path, name: String) -> io::Result<Opened> {
+fn open_file<'a>(
+    path: &Path,
+    name: String,
+    before_waiting: &'a dyn Fn(),
+) -> io::Result<Opened<'a>> {
     let file = File::open(path)?;
     let metadata = file.metadata()?;
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
-    let mut file = Steady::new(file, &metadata);
-    if metadata.is_file() && !needs_whole_text(&mut file)? {
-        file.rewind()?;
-        return Ok(Opened::Lines(LineReader::new(file)));
+    if !metadata.is_file() {
+        return Ok(arriving(file, before_waiting));
     }
-    if metadata.is_file() {
-        file.rewind()?;
+    let mut lines = LineReader::new(Steady::new(file, &metadata));
+    if !lines.scan()?.needs_whole_text() {
+        return Ok(Opened::Lines(lines.boxed()));
     }
+    let mut file = lines.into_reader();
+    file.rewind()?;
     let bytes = read_whole(file, metadata.len())?;
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
 }
 
-/// Reads what is kept in memory, from a file of a length or from a pipe, whose length is 0.
+/// Reads a file of a length that is kept in memory.
 fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    if length <= MOST_BYTES {
-        reader.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    let most = u64::try_from(MOST_KEPT).expect("1 GiB is below 2^64");
+    if length > most {
+        return Err(too_big());
     }
-    let read = u64::try_from(bytes.len()).expect("a length is below 2^64");
-    if length.max(read) > MOST_BYTES {
-        let reason = "it has more than 1 GiB, which is too much to be kept in memory";
-        return Err(io::Error::new(io::ErrorKind::FileTooLarge, reason));
+    let mut bytes = Vec::new();
+    reader.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > MOST_KEPT {
+        return Err(too_big());
     }
     Ok(bytes)
 }
 
-fn needs_whole_text(file: &mut Steady) -> io::Result<bool> {
-    let mut scan = FlowScan::default();
-    let mut piece = vec![0; 256 * 1024];
-    loop {
-        match file.read(&mut piece) {
-            Ok(0) => return Ok(false),
-            Ok(count) => scan.feed(&piece[..count]),
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-        if scan.needs_whole_text() {
-            return Ok(true);
-        }
-    }
+/// Lines that are given out as they arrive.
+fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
+    Opened::Lines(LineReader::new(Box::new(Waiting { reader, before })))
 }
 
 /// The text of a file: UTF-8 when it is valid, else code page 1252. A byte order mark is passed
@@ -314,7 +318,7 @@ mod tests {
         let path = root.path().join("a.nc");
         std::fs::write(&path, "N10 X1\nN20 M30").unwrap();
         let input = Input::new(&path);
-        match input.open(Naming::FileName).unwrap() {
+        match input.open(Naming::FileName, &|| ()).unwrap() {
             Opened::Lines(mut lines) => {
                 assert!(lines.advance());
                 assert_eq!(lines.line().text, "N10 X1");
@@ -322,7 +326,7 @@ mod tests {
             Opened::Whole(_) => panic!("a straight program is streamed"),
         }
         std::fs::write(&path, b"$IF 1\n(\xdc)").unwrap();
-        match input.open(Naming::FileName).unwrap() {
+        match input.open(Naming::FileName, &|| ()).unwrap() {
             Opened::Whole(file) => assert_eq!(file.text(), "$IF 1\n(Ü)"),
             Opened::Lines(_) => panic!("flow needs the whole text"),
         }

@@ -44,7 +44,7 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
             ));
         };
         let loaded = machines.for_folder(input.folder())?;
-        let now = timeline(input, loaded, &args.execution)?;
+        let now = timeline(input, &loaded, &args.execution)?;
         let golden = golden_path(path);
         let before = read_golden(&golden)?;
         if before.as_deref() == Some(now.as_str()) {

@@ -1,11 +1,11 @@
 //! The lines of a file of any size, in a buffer of one size.
 
-use std::io::{self, Read};
+use std::io::{self, Read, Seek};
 use std::ops::Range;
 
 use encoding_rs::WINDOWS_1252;
 
-use crate::source::{LineSource, PhysicalLine};
+use crate::source::{FlowScan, LineSource, PhysicalLine};
 
 /// Bytes that are read at once.
 const BUFFER: usize = 128 * 1024;
@@ -15,6 +15,9 @@ const LONGEST: usize = 4000;
 
 /// So many bytes hold at least one character more than the longest line.
 const KEPT: usize = 4 * (LONGEST + 1);
+
+/// More bytes than that are not kept in memory.
+pub(super) const MOST_KEPT: usize = 1 << 30;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
@@ -38,6 +41,8 @@ pub(super) struct LineReader<R> {
     /// Where the next line begins, in `text`.
     next: usize,
     failure: Option<io::Error>,
+    /// How many bytes may be kept of the lines to come.
+    most_kept: usize,
 }
 
 impl<R: Read> LineReader<R> {
@@ -54,6 +59,7 @@ impl<R: Read> LineReader<R> {
             cut: false,
             next: 0,
             failure: None,
+            most_kept: MOST_KEPT,
         };
         while lines.unread.len() < BYTE_ORDER_MARK.len() && !lines.at_end {
             lines.fill();
@@ -62,6 +68,31 @@ impl<R: Read> LineReader<R> {
             lines.unread.start += BYTE_ORDER_MARK.len();
         }
         lines
+    }
+
+    /// The reader, wherever it stands.
+    pub(super) fn into_reader(self) -> R {
+        self.reader
+    }
+
+    /// The same lines, of whatever kind the reader is.
+    pub(super) fn boxed<'a>(self) -> LineReader<Box<dyn Read + 'a>>
+    where
+        R: 'a,
+    {
+        LineReader {
+            reader: Box::new(self.reader),
+            buffer: self.buffer,
+            unread: self.unread,
+            at_end: self.at_end,
+            legacy: self.legacy,
+            text: self.text,
+            line: self.line,
+            cut: self.cut,
+            next: self.next,
+            failure: self.failure,
+            most_kept: self.most_kept,
+        }
     }
 
     /// The error that ended the lines before the end of the file.
@@ -177,6 +208,32 @@ impl<R: Read> LineReader<R> {
     }
 }
 
+impl<R: Read + Seek> LineReader<R> {
+    /// Looks through all lines to come, and comes back. What fits into the buffer is read once.
+    pub(super) fn scan(&mut self) -> io::Result<FlowScan> {
+        let mut scan = FlowScan::default();
+        while self.unread.len() < self.buffer.len() && !self.at_end {
+            self.fill();
+        }
+        scan.feed(&self.buffer[self.unread.clone()]);
+        if self.at_end || scan.needs_whole_text() {
+            return Ok(scan);
+        }
+        let here = self.reader.stream_position()?;
+        let mut piece = vec![0; BUFFER];
+        while !scan.needs_whole_text() {
+            match self.reader.read(&mut piece) {
+                Ok(0) => break,
+                Ok(count) => scan.feed(&piece[..count]),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        self.reader.seek(io::SeekFrom::Start(here))?;
+        Ok(scan)
+    }
+}
+
 impl<R: Read> LineSource for LineReader<R> {
     fn advance(&mut self) -> bool {
         if self.next == self.text.len() && !self.refill() {
@@ -204,6 +261,23 @@ impl<R: Read> LineSource for LineReader<R> {
             cut: self.cut,
         }
     }
+
+    fn append_rest(&mut self, text: &mut String) {
+        while self.advance() {
+            text.push_str(self.line().text);
+            text.push('\n');
+            if text.len() > self.most_kept {
+                self.failure = Some(too_big());
+                return;
+            }
+        }
+    }
+}
+
+/// The error for a text that is too big to be kept in memory.
+pub(super) fn too_big() -> io::Error {
+    let reason = "it has more than 1 GiB, which is too much to be kept in memory";
+    io::Error::new(io::ErrorKind::FileTooLarge, reason)
 }
 
 /// Bytes without a character that was cut at their end.
@@ -269,6 +343,23 @@ mod tests {
     }
 
     #[test]
+    fn a_look_ahead_loses_no_line() {
+        for lines in [1, 5_000, 40_000] {
+            let text = "N10 G01 X1.5 Y2.5\n".repeat(lines);
+            for (behind, found) in [("M30", false), ("$IF 1", true)] {
+                let text = format!("\u{feff}{text}{behind}");
+                let mut reader = LineReader::new(io::Cursor::new(text.as_bytes()));
+                assert_eq!(reader.scan().unwrap().needs_whole_text(), found);
+                let mut count = 0;
+                while reader.advance() {
+                    count += 1;
+                }
+                assert!(found || count == lines + 1, "{lines}");
+            }
+        }
+    }
+
+    #[test]
     fn a_line_beyond_the_limit_is_cut() {
         for length in [3999, 4000, 4001, 4002, 20_000, 300_000, 900_000] {
             let text = format!("A\n{}\r\nB", "Ü".repeat(length));
@@ -288,6 +379,17 @@ mod tests {
         let found = lines(&mut LineReader::new(&bytes[..]));
         let texts: Vec<&str> = found.iter().map(|(text, _)| text.as_str()).collect();
         assert_eq!(texts, ["N1 (Ü)", "N2 (Ü)", "N3 (Ãœ)", "N4"]);
+    }
+
+    #[test]
+    fn what_has_no_end_is_not_kept() {
+        let mut reader = LineReader::new(io::repeat(b'\n'));
+        reader.most_kept = 1000;
+        let mut text = String::new();
+        reader.append_rest(&mut text);
+        assert_eq!(text.len(), 1001);
+        let failure = reader.take_failure().map(|error| error.kind());
+        assert_eq!(failure, Some(io::ErrorKind::FileTooLarge));
     }
 
     #[test]

@@ -24,6 +24,7 @@ mod settings;
 mod state;
 mod steady;
 mod walk;
+mod workers;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -1,5 +1,6 @@
 //! `frictcomp run`: programs one after the other in one session of the control.
 
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -158,7 +159,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
-    let options = args.execution.options(loaded, args.stop_policy());
+    let options = args.execution.options(&loaded, args.stop_policy());
     let (session, said) = match (saved, &state) {
         (Some(saved), Some(file)) => Session::resume(loaded.machine.clone(), options, saved)
             .map_err(|error| file.refused(&error))?,
@@ -166,20 +167,26 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     };
     let start = Start {
         inputs,
-        loaded,
+        loaded: &loaded,
         session,
         said,
         state,
     };
-    let mut report = args.report(console.target(args.output.as_deref())?);
-    play(start, report.as_mut(), args.fail_on)
+    let report = args.report(console.target(args.output.as_deref())?);
+    play(start, report, args.fail_on)
 }
 
-fn play(mut start: Start<'_>, report: &mut dyn Report, fail_on: FailOn) -> Result<u8, Failure> {
-    let mut sink = Sinkhole(report);
+fn play(mut start: Start<'_>, report: Box<dyn Report>, fail_on: FailOn) -> Result<u8, Failure> {
+    let shared = RefCell::new(report);
+    let mut sink = Sinkhole(&shared);
     let mut counted = Counted::new(&mut sink);
-    let flow = start.programs(&mut counted);
+    // Between two reads of a program no record is on its way.
+    let flow = start.programs(&mut counted, &|| {
+        // A writer that takes no more says so at the next record.
+        let _ = shared.borrow_mut().flush();
+    });
     let tally = counted.finish();
+    let mut report = shared.into_inner();
     report.finish().map_err(|error| Failure::output(&error))?;
     if report.is_closed() {
         // The reader has seen enough; a run that was cut short leaves no state.
@@ -194,10 +201,15 @@ fn play(mut start: Start<'_>, report: &mut dyn Report, fail_on: FailOn) -> Resul
 }
 
 impl Start<'_> {
-    fn programs(&mut self, sink: &mut dyn Sink) -> Result<ControlFlow<()>, Failure> {
+    fn programs(
+        &mut self,
+        sink: &mut dyn Sink,
+        before_waiting: &dyn Fn(),
+    ) -> Result<ControlFlow<()>, Failure> {
         let lists: Vec<Diagnostic> = self.loaded.errors().chain(&self.said).cloned().collect();
         let mut flow = self.session.begin(&lists, sink);
         let surroundings = Surroundings::new(self.loaded, Naming::AsGiven);
+        let surroundings = surroundings.before_waiting(before_waiting);
         let mut left = self.inputs.len();
         for input in &self.inputs {
             if flow.is_break() || self.session.is_stopped() {
@@ -220,11 +232,11 @@ impl Start<'_> {
     }
 }
 
-/// A report as a sink.
-struct Sinkhole<'a>(&'a mut dyn Report);
+/// A report as a sink, shared with who flushes it.
+struct Sinkhole<'a>(&'a RefCell<Box<dyn Report>>);
 
 impl Sink for Sinkhole<'_> {
     fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
-        self.0.record(record)
+        self.0.borrow_mut().record(record)
     }
 }

@@ -34,7 +34,7 @@ pub(super) struct Intent {
     /// A jump, or a control block's business.
     step: Option<Step>,
     /// A call.
-    pub(super) call: Option<Wanted>,
+    pub(super) call: Option<Box<Wanted>>,
     /// The G functions of the block, to find two of one group.
     pub(super) groups: [Option<u32>; Group::COUNT],
     /// What axis words are: G04, G92 … make them something else than coordinates.
@@ -69,7 +69,7 @@ impl Interpreter {
             self.forget_called(finder);
         }
         let call = intent.call.take();
-        let call = call.and_then(|wanted| self.resolve(wanted, at, finder));
+        let call = call.and_then(|wanted| self.resolve(*wanted, at, finder));
         let refused = self.work.diagnostics.iter().any(stops);
         let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
         self.take_faults(block, at, stopped);
@@ -85,13 +85,15 @@ impl Interpreter {
             Step::End(ended_by(&self.work.diagnostics))
         } else {
             let moved = !self.work.moved.is_empty();
-            self.step((intent, call), moved, at, finder)
+            intent.step = call.or(intent.step);
+            self.step(&mut intent, moved, at, finder)
         };
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
             file: at.file,
             line: at.line,
             text: at.text,
+            comments: at.comments,
             remark: at.remark,
             number,
             level: (at.level > 0).then_some(at.level),
@@ -99,7 +101,7 @@ impl Interpreter {
             outcomes: &self.work.outcomes,
             changes: &self.work.changes,
             moved: if stopped { &[] } else { &self.work.moved },
-            notes: &self.work.notes.take(),
+            notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
             stopped,
             compensation: &self.state.compensation,
@@ -179,7 +181,7 @@ impl Interpreter {
     /// What the control does next.
     fn step(
         &mut self,
-        (intent, call): (Intent, Option<Step>),
+        intent: &mut Intent,
         moved: bool,
         at: &At<'_>,
         finder: &mut dyn Finder,
@@ -207,7 +209,9 @@ impl Interpreter {
         if intent.returns {
             return Step::Return;
         }
-        call.or(intent.step)
+        intent
+            .step
+            .take()
             .or_else(|| self.repetition(moved, at))
             .unwrap_or(Step::Next)
     }
@@ -255,7 +259,7 @@ impl Interpreter {
             }
             Item::GCall(call) => self.g_call(call, block, at, intent),
             Item::Call(call) => {
-                intent.call = self.wanted(call, block, at)?;
+                intent.call = self.wanted(call, block, at)?.map(Box::new);
                 Ok(())
             }
             Item::Flow(flow, span) => {

@@ -10,8 +10,8 @@ use crate::compensation::{Change, Compensation, CompensationError};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::machine::AxisIndex;
 use crate::source::Span;
-use crate::syntax::CompCommand;
 use crate::syntax::ast::Block;
+use crate::syntax::{Comments, CompCommand};
 
 /// Why a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -93,6 +93,8 @@ pub struct Executed<'a> {
     pub line: u32,
     /// The source lines joined by `\n`, without trailing blanks.
     pub text: &'a str,
+    /// Whether comments stand in the text.
+    pub comments: Comments,
     /// The comment line directly above that speaks to this tool, with its line.
     pub remark: Option<(&'a str, u32)>,
     /// Its block number, where it is known.

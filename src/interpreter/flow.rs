@@ -5,6 +5,7 @@
 
 use std::ops::ControlFlow;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::expression::Place as Target;
 use super::program::{EntryIndex, LabelName};
@@ -16,7 +17,7 @@ use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{Block, Flow, JumpTarget, Operand};
-use crate::syntax::{Fault, Stretch};
+use crate::syntax::{Comments, Fault, Stretch};
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
@@ -46,11 +47,11 @@ impl Interpreter {
                 .last_mut()
                 .and_then(|frame| frame.called_from.take());
             let level = self.state.frames.last().map_or(0, |frame| frame.level);
-            let file = self.units[unit].index.source.name().clone();
             let at = At {
-                file: &file,
+                file: &parsed.file,
                 text: &parsed.text,
-                line: self.units[unit].index.entries[next as usize].line,
+                line: parsed.line,
+                comments: parsed.comments,
                 remark: parsed
                     .remark
                     .as_ref()
@@ -129,18 +130,23 @@ impl Interpreter {
         unit.executed[place] = true;
         let mut block = Block::default();
         let mut text = String::new();
+        let mut comments = Comments::Possible;
         let mut remark = None;
         if let Some(mut reader) = unit.index.reader(entry)
             && let Some(raw) = reader.next(&mut block)
         {
             debug_assert_eq!(raw.stretch, Stretch::Block);
             raw.text.clone_into(&mut text);
+            comments = raw.comments;
             remark = raw.remark.map(|(text, line)| (text.to_owned(), line));
         }
         let remark = remark.or_else(|| unit.index.remark(entry));
         let parsed = Rc::new(Parsed {
             block,
+            file: Arc::clone(unit.index.source.name()),
+            line: unit.index.entries[place].line,
             text,
+            comments,
             remark,
         });
         let again = entry < unit.high;
@@ -404,10 +410,9 @@ impl Interpreter {
             return Ok(None);
         };
         let parsed = self.parsed(unit, opener);
-        let line = self.units[unit].index.entries[opener as usize].line;
         let head = At {
             text: &parsed.text,
-            line,
+            line: parsed.line,
             ..*at
         };
         let block = &parsed.block;

@@ -46,7 +46,7 @@ use crate::diagnostic::{Diagnostic, Place, Severity};
 use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
 use crate::source::{SourceFile, Span};
 use crate::syntax::ast::{Block, Call, CallForm, Repetition};
-use crate::syntax::{FastPath, Fault};
+use crate::syntax::{Comments, FastPath, Fault};
 use call::Found;
 use memory::Memory;
 use program::{EntryIndex, Index};
@@ -220,10 +220,13 @@ struct Unit {
     executed: Vec<bool>,
 }
 
-/// A parsed block with its text.
+/// A parsed block with its text and its place.
 struct Parsed {
     block: Block,
+    file: Arc<str>,
+    line: u32,
     text: String,
+    comments: Comments,
     remark: Option<(String, u32)>,
 }
 
@@ -306,6 +309,7 @@ struct At<'a> {
     file: &'a Arc<str>,
     text: &'a str,
     line: u32,
+    comments: Comments,
     remark: Option<(&'a str, u32)>,
     level: u32,
     called_from: Option<&'a Place>,
@@ -486,32 +490,56 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> Outlook {
         self.start();
+        self.whole(source, finder, observer)
+    }
+
+    /// Announces and runs a program whose text is in memory, in a state that is prepared.
+    fn whole(
+        &mut self,
+        source: SourceFile,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
         let index = Index::new(source, self.options.limits.nesting);
         let main = index.main();
         let name = main.and_then(|main| index.sections[main].name.clone());
-        self.units.push(Unit::new(index));
+        self.units = vec![Unit::new(index)];
         if self.announce(name.as_deref(), observer).is_break() {
             self.park(Step::Begin);
             return Outlook::Paused;
         }
-        self.begin(finder, observer)
+        self.begin(main, finder, observer)
     }
 
-    /// Runs the program that was announced.
-    fn begin(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
-        let refused = self.refused();
-        if !refused.is_empty() && self.options.stop == StopPolicy::FirstError {
-            let by = ended_by(&refused);
-            return self.ended(by, &refused, observer);
+    /// Runs the program that was announced, from the start of a section on.
+    fn begin(
+        &mut self,
+        main: Option<usize>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
+        if self.is_refused() {
+            return self.refuse(observer);
         }
-        if let Some(section) = self.units[0].index.main() {
+        if let Some(section) = main {
             self.enter(0, section);
         }
         if let Err(missing) = self.start_program(finder) {
             return self.ended(EndedBy::Error, &[*missing], observer);
         }
         let outlook = self.run(finder, observer);
-        self.close(outlook, refused, observer)
+        self.close(outlook, observer)
+    }
+
+    /// Whether what is wrong with the main program keeps it from running.
+    fn is_refused(&self) -> bool {
+        !self.refused().is_empty() && self.options.stop == StopPolicy::FirstError
+    }
+
+    /// Ends a program that does not run.
+    fn refuse(&mut self, observer: &mut dyn Observer) -> Outlook {
+        let refused = self.refused();
+        self.ended(ended_by(&refused), &refused, observer)
     }
 
     /// What keeps the main program from running at all.
@@ -523,15 +551,17 @@ impl Interpreter {
     /// Goes on with a run that an observer stopped.
     pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
         let outlook = match self.state.parked.take() {
-            Some(Step::Begin) => return self.begin(finder, observer),
+            Some(Step::Begin) => {
+                let main = self.units[0].index.main();
+                return self.begin(main, finder, observer);
+            }
             Some(step) => match self.follow(step) {
                 ControlFlow::Break(by) => Outlook::Ended(by),
                 ControlFlow::Continue(()) => self.run(finder, observer),
             },
             None => self.run(finder, observer),
         };
-        let refused = self.refused();
-        self.close(outlook, refused, observer)
+        self.close(outlook, observer)
     }
 
     /// Prepares the state for a program start.
@@ -573,16 +603,11 @@ impl Interpreter {
     }
 
     /// Ends a program whose text is in memory.
-    fn close(
-        &mut self,
-        outlook: Outlook,
-        refused: Vec<Diagnostic>,
-        observer: &mut dyn Observer,
-    ) -> Outlook {
+    fn close(&mut self, outlook: Outlook, observer: &mut dyn Observer) -> Outlook {
         let Outlook::Ended(by) = outlook else {
             return outlook;
         };
-        let mut notes = refused;
+        let mut notes = self.refused();
         notes.extend(self.work.over.take());
         if by == EndedBy::EndOfFile && !self.state.frames.is_empty() {
             notes.extend(self.missing_end());
@@ -664,6 +689,7 @@ impl Interpreter {
             file,
             text,
             line,
+            comments: Comments::Possible,
             remark: None,
             level: 0,
             called_from: None,

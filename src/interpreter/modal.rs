@@ -28,6 +28,17 @@ pub enum Group {
 }
 
 impl Group {
+    const ALL: [Self; Self::COUNT] = [
+        Self::Motion,
+        Self::Plane,
+        Self::Unit,
+        Self::Distance,
+        Self::Feed,
+        Self::Offset,
+        Self::CutterRadius,
+        Self::CircleCentre,
+    ];
+
     /// How many groups there are.
     pub(super) const COUNT: usize = Self::CircleCentre as usize + 1;
 
@@ -44,6 +55,46 @@ impl Group {
             161 | 162 => Self::CircleCentre,
             _ => return None,
         })
+    }
+}
+
+/// A set of groups, a bit each; serialised as the list of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<Group>", from = "Vec<Group>")]
+struct GroupSet(u8);
+
+impl GroupSet {
+    fn contains(self, group: Group) -> bool {
+        self.0 & 1 << group as u8 != 0
+    }
+
+    fn insert(&mut self, group: Group) {
+        self.0 |= 1 << group as u8;
+    }
+
+    fn remove(&mut self, group: Group) {
+        self.0 &= !(1 << group as u8);
+    }
+}
+
+impl FromIterator<Group> for GroupSet {
+    fn from_iter<I: IntoIterator<Item = Group>>(groups: I) -> Self {
+        let mut set = Self::default();
+        groups.into_iter().for_each(|group| set.insert(group));
+        set
+    }
+}
+
+impl From<Vec<Group>> for GroupSet {
+    fn from(groups: Vec<Group>) -> Self {
+        groups.into_iter().collect()
+    }
+}
+
+impl From<GroupSet> for Vec<Group> {
+    fn from(set: GroupSet) -> Self {
+        let groups = Group::ALL.into_iter();
+        groups.filter(|&group| set.contains(group)).collect()
     }
 }
 
@@ -89,7 +140,7 @@ pub struct Modal {
     /// What takes positions away from the machine's: names of `#` commands and G functions.
     pub transformed: BTreeSet<String>,
     /// Groups of which nobody knows offline what is in force (R2.51).
-    unknown: BTreeSet<Group>,
+    unknown: GroupSet,
     /// Absolute positions: the programmed coordinate and the offset of G92.
     positions: Vec<Option<f64>>,
     /// G92; `None` where it is not known.
@@ -108,7 +159,7 @@ pub(super) struct Saved {
     offset: u32,
     centre_absolute: bool,
     transformed: [bool; 2],
-    unknown: BTreeSet<Group>,
+    unknown: GroupSet,
 }
 
 /// G functions that take positions away from the machine's.
@@ -127,7 +178,7 @@ impl Modal {
             offset: 53,
             centre_absolute: false,
             transformed: BTreeSet::new(),
-            unknown: BTreeSet::new(),
+            unknown: GroupSet::default(),
             positions: vec![None; axes],
             references: vec![Some(0.0); axes],
         }
@@ -143,7 +194,7 @@ impl Modal {
 
     /// Whether it is known which G function of a group is in force.
     pub fn is_known(&self, group: Group) -> bool {
-        !self.unknown.contains(&group)
+        !self.unknown.contains(group)
     }
 
     /// What a cycle may change and its end brings back.
@@ -158,7 +209,7 @@ impl Modal {
             offset: self.offset,
             centre_absolute: self.centre_absolute,
             transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
-            unknown: self.unknown.clone(),
+            unknown: self.unknown,
         }
     }
 
@@ -175,7 +226,7 @@ impl Modal {
         self.feeds = saved.feeds;
         self.offset = saved.offset;
         self.centre_absolute = saved.centre_absolute;
-        self.unknown.clone_from(&saved.unknown);
+        self.unknown = saved.unknown;
         for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
             self.transform(name, on);
         }
@@ -198,7 +249,7 @@ impl Modal {
     pub fn set(&mut self, number: u32) -> bool {
         let group = Group::of(number);
         if let Some(group) = group {
-            self.unknown.remove(&group);
+            self.unknown.remove(group);
         }
         match group {
             Some(Group::Motion) => self.motion = number,
@@ -314,16 +365,7 @@ impl Modal {
     /// A G function that may or may not have been executed; `None` for one that is not known.
     pub(super) fn forget_g(&mut self, number: Option<i64>) {
         let Some(number) = number.and_then(|number| u32::try_from(number).ok()) else {
-            self.unknown.extend([
-                Group::Motion,
-                Group::Plane,
-                Group::Unit,
-                Group::Distance,
-                Group::Feed,
-                Group::Offset,
-                Group::CutterRadius,
-                Group::CircleCentre,
-            ]);
+            self.unknown = Group::ALL.into_iter().collect();
             self.forget_positions();
             self.references.fill(None);
             return;
@@ -334,7 +376,9 @@ impl Modal {
             None if (21..=23).contains(&number) => self.transform("G21", true),
             _ => {}
         }
-        self.unknown.extend(Group::of(number));
+        if let Some(group) = Group::of(number) {
+            self.unknown.insert(group);
+        }
     }
 
     /// A feed word in mm/min, or the unit of the mode in force.

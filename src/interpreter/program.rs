@@ -3,7 +3,7 @@
 //! It holds offsets, not trees: blocks are parsed when they are executed, and kept only when they
 //! are executed again.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::value::rounded;
 use crate::codes::Code;
@@ -64,7 +64,7 @@ pub(super) struct Index {
     pub(super) source: SourceFile,
     pub(super) entries: Vec<Entry>,
     pub(super) sections: Vec<Section>,
-    links: HashMap<EntryIndex, Links>,
+    links: BTreeMap<EntryIndex, Links>,
     /// The statements that open loops.
     loops: Vec<EntryIndex>,
     labels: HashMap<(usize, LabelName), EntryIndex>,
@@ -131,7 +131,7 @@ impl Index {
                 source,
                 entries: Vec::new(),
                 sections: Vec::new(),
-                links: HashMap::new(),
+                links: BTreeMap::new(),
                 loops: Vec::new(),
                 labels: HashMap::new(),
                 remarks: HashMap::new(),
@@ -244,8 +244,9 @@ struct Builder {
 
 impl Builder {
     fn build(mut self) -> Index {
-        let text = self.index.source.text().to_owned();
-        let mut reader = BlockReader::new(TextLines::new(&text), 1, FastPath::On);
+        let text = self.index.source.shared_text();
+        let first = self.index.source.lines().first();
+        let mut reader = BlockReader::new(TextLines::new(&text), first, FastPath::On);
         let mut block = Block::default();
         self.section(None, false);
         while let Some(raw) = reader.next(&mut block) {

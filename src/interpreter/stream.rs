@@ -1,15 +1,40 @@
-//! Programs whose lines come one after another and are forgotten.
+//! Programs whose lines come one after another.
+//!
+//! Straight blocks are executed and forgotten. A block that makes the rest of the text count, a jump
+//! label or a `$` statement say, is the first one that can be reached again: it and everything behind
+//! it is taken into memory, and the run goes on there. Nothing ever goes back to what was forgotten.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::{At, EndedBy, Finder, Interpreter, Observer, Outlook, StopPolicy};
+use super::program::Index;
+use super::{
+    At, Diagnostic, EndedBy, Finder, Interpreter, Observer, Outlook, SourceFile, Step, StopPolicy,
+    Unit,
+};
 use crate::source::LineSource;
-use crate::syntax::{BlockReader, Stretch};
+use crate::syntax::ast::{Block, CallScope, Item};
+use crate::syntax::{BlockReader, RawBlock, Stretch};
+
+/// How far the program has come.
+#[derive(Clone, Copy)]
+enum Stage {
+    /// Nothing was read yet.
+    Before,
+    /// The program was announced by its `%` line.
+    Announced,
+    /// Its first block was met.
+    Running,
+    /// It ended, by the command given or where another program begins; what follows is only checked.
+    Beyond(Option<EndedBy>),
+}
 
 impl Interpreter {
-    /// Runs a main program whose lines come one after another and are forgotten. Such a program
-    /// has no flow; [`crate::source::FlowScan`] tells which has.
+    /// Runs a main program whose lines come one after another. Memory does not grow with its length
+    /// until a block makes the rest count; from there on it is held in memory.
+    ///
+    /// Control blocks and labels are checked when the rest is read, where a program in memory is
+    /// refused before its first block; [`crate::source::FlowScan`] tells which program may have any.
     pub fn stream(
         &mut self,
         file: &str,
@@ -18,38 +43,47 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> Outlook {
         self.start();
+        let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
+        self.units.push(Unit::new(none));
         let file: Arc<str> = file.into();
         let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
         let mut block = std::mem::take(&mut self.work.block);
-        let mut announced = false;
-        let mut beyond = false;
-        let mut by = None;
+        let mut stage = Stage::Before;
         let mut notes = Vec::new();
         while let Some(raw) = reader.next(&mut block) {
+            if !raw.plain && needs_rest(&raw, &block) {
+                let (mut text, first) = opening(&raw);
+                reader.append_rest(&mut text);
+                let rest = SourceFile::new(file, text).from_line(first);
+                return self.go_on_with(rest, (stage, notes), finder, observer);
+            }
             if let Stretch::Program { name, .. } = raw.stretch {
-                if announced {
-                    // Another program of the file: never executed, as where the text is whole.
-                    if self.options.stop != StopPolicy::CheckAll {
-                        break;
+                if matches!(stage, Stage::Before) {
+                    stage = Stage::Announced;
+                    if self.announce(Some(name.of(raw.text)), observer).is_break() {
+                        return Outlook::Paused;
                     }
-                    beyond = true;
                     continue;
                 }
-                announced = true;
-                if self.announce(Some(name.of(raw.text)), observer).is_break() {
-                    return Outlook::Paused;
+                // Another program of the file: never executed, as where the text is whole.
+                if self.options.stop != StopPolicy::CheckAll {
+                    break;
+                }
+                if !matches!(stage, Stage::Beyond(_)) {
+                    stage = Stage::Beyond(None);
                 }
                 continue;
             }
-            if beyond || by.is_some() {
+            if let Stage::Beyond(_) = stage {
                 Self::check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
                 continue;
             }
-            if !announced {
-                announced = true;
-                if self.announce(None, observer).is_break() {
+            if !matches!(stage, Stage::Running) {
+                if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
                     return Outlook::Paused;
                 }
+                stage = Stage::Running;
+                self.enter(0, 0);
                 if let Err(missing) = self.start_program(finder) {
                     return self.ended(EndedBy::Error, &[*missing], observer);
                 }
@@ -61,6 +95,7 @@ impl Interpreter {
                 file: &file,
                 text: raw.text,
                 line: raw.line,
+                comments: raw.comments,
                 remark: raw.remark,
                 level: 0,
                 called_from: None,
@@ -76,13 +111,16 @@ impl Interpreter {
                 ControlFlow::Continue(step) => step,
                 ControlFlow::Break(()) => return Outlook::Paused,
             };
+            if step == Step::Next {
+                continue;
+            }
             match self.follow(step) {
                 ControlFlow::Continue(()) => match self.run_called(finder, observer) {
                     None => {}
                     Some(outlook) => return outlook,
                 },
                 ControlFlow::Break(ended) => {
-                    by = Some(ended);
+                    stage = Stage::Beyond(Some(ended));
                     if self.options.stop != StopPolicy::CheckAll {
                         break;
                     }
@@ -90,14 +128,10 @@ impl Interpreter {
             }
         }
         self.work.block = block;
-        if !announced && self.announce(None, observer).is_break() {
+        if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
             return Outlook::Paused;
         }
-        let by = by.unwrap_or_else(|| {
-            notes.splice(0..0, self.missing_end());
-            EndedBy::EndOfFile
-        });
-        self.ended(by, &notes, observer)
+        self.end_of_lines(stage, notes, observer)
     }
 
     /// Runs called programs until the one that called them goes on; `None` when it does.
@@ -106,7 +140,8 @@ impl Interpreter {
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> Option<Outlook> {
-        if self.state.frames.is_empty() {
+        let frame = self.state.frames.last();
+        if frame.is_none_or(|frame| frame.level == 0) {
             return None;
         }
         match self.run(finder, observer) {
@@ -117,5 +152,72 @@ impl Interpreter {
             }
             Outlook::Paused => Some(Outlook::Paused),
         }
+    }
+
+    /// Takes the rest of the text into memory and goes on in it.
+    fn go_on_with(
+        &mut self,
+        rest: SourceFile,
+        (stage, notes): (Stage, Vec<Diagnostic>),
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
+        if matches!(stage, Stage::Before) {
+            return self.whole(rest, finder, observer);
+        }
+        // The blocks so far stood in front of the first one of the index, and so does the frame.
+        self.units[0] = Unit::new(Index::new(rest, self.options.limits.nesting));
+        match stage {
+            Stage::Before | Stage::Announced => self.begin(Some(0), finder, observer),
+            Stage::Running if self.is_refused() => self.refuse(observer),
+            Stage::Running => {
+                let outlook = self.run(finder, observer);
+                self.close(outlook, observer)
+            }
+            Stage::Beyond(_) => self.end_of_lines(stage, notes, observer),
+        }
+    }
+
+    /// Ends a program all of whose lines were read; `notes` are about blocks behind its end.
+    fn end_of_lines(
+        &mut self,
+        stage: Stage,
+        mut notes: Vec<Diagnostic>,
+        observer: &mut dyn Observer,
+    ) -> Outlook {
+        let mut said = self.refused();
+        let by = if let Stage::Beyond(Some(by)) = stage {
+            by
+        } else {
+            said.extend(self.missing_end());
+            EndedBy::EndOfFile
+        };
+        said.append(&mut notes);
+        self.check_all_unexecuted(&mut said);
+        self.ended(by, &said, observer)
+    }
+}
+
+/// Whether a block can be reached again, or needs what stands behind it.
+fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
+    match raw.stretch {
+        Stretch::Program { local, .. } => local,
+        Stretch::Block => {
+            block.number.is_some_and(|number| number.label)
+                || block.items.iter().any(|item| match item {
+                    // A macro's code may be a jump or a call.
+                    Item::Label(_) | Item::Flow(..) | Item::MacroUse(_) => true,
+                    Item::Call(call) => call.scope == CallScope::Local,
+                    _ => false,
+                })
+        }
+    }
+}
+
+/// The text of a block with the remark above it, and the number of its first line.
+fn opening(raw: &RawBlock<'_>) -> (String, u32) {
+    match raw.remark {
+        Some((remark, line)) => (format!("{remark}\n{}\n", raw.text), line),
+        None => (format!("{}\n", raw.text), raw.line),
     }
 }

@@ -13,10 +13,10 @@ use super::{At, Interpreter, Step, Value};
 use crate::codes::Code;
 use crate::machine::AxisIndex;
 use crate::source::Span;
-use crate::syntax::Fault;
 use crate::syntax::ast::{
     Address, Block, Call, CallName, Expression, Flow, Hash, Item, Node, Operand, Word,
 };
+use crate::syntax::{Comments, Fault};
 
 /// A call found in a region that may or may not be executed.
 #[derive(Debug, Clone)]
@@ -69,6 +69,7 @@ impl Interpreter {
                 file: &file,
                 text: &text,
                 line: self.units[unit].index.entries[entry as usize].line,
+                comments: Comments::Possible,
                 remark: None,
                 level: 0,
                 called_from: None,

@@ -156,7 +156,7 @@ impl Interpreter {
                     let letter = char::from(letter).to_string();
                     let wanted =
                         self.configured([&format!("{letter}{number}"), &letter], word.span);
-                    intent.call = intent.call.take().or(wanted);
+                    intent.call = intent.call.take().or(wanted.map(Box::new));
                 }
             }
             (b'R', _) => intent.radius = Some(word.span),
@@ -198,7 +198,7 @@ impl Interpreter {
             _ => {
                 let name = format!("G{number}");
                 if let Some(wanted) = self.configured([&name, &name], span) {
-                    intent.call = Some(wanted);
+                    intent.call = Some(Box::new(wanted));
                     return Ok(());
                 }
                 if number == HOMING {
@@ -228,7 +228,7 @@ impl Interpreter {
         let word = format!("G{}", call.number);
         match self.configured([&word, &word], call.span) {
             Some(wanted) => {
-                intent.call = Some(super::call::Wanted { own, ..wanted });
+                intent.call = Some(Box::new(super::call::Wanted { own, ..wanted }));
             }
             None => self.pass_over(&word, call.span, at),
         }

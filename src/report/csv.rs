@@ -174,6 +174,10 @@ impl<W: Write> Sink for Csv<W> {
 }
 
 impl<W: Write> Report for Csv<W> {
+    fn flush(&mut self) -> ControlFlow<()> {
+        self.output.flush()
+    }
+
     fn finish(&mut self) -> io::Result<()> {
         self.release();
         self.output.finish()

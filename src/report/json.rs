@@ -55,6 +55,14 @@ impl<W: Write> Sink for Json<W> {
 }
 
 impl<W: Write> Report for Json<W> {
+    fn flush(&mut self) -> ControlFlow<()> {
+        match self.start {
+            // The opening waits for the first record.
+            Some(_) => ControlFlow::Continue(()),
+            None => self.output.flush(),
+        }
+    }
+
     fn finish(&mut self) -> io::Result<()> {
         self.output.bytes.extend_from_slice(b"\n]}\n");
         self.output.finish()

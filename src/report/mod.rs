@@ -81,6 +81,10 @@ impl View {
 
 /// A timeline format whose output can be ended.
 pub trait Report: Sink {
+    /// Writes what is ready while nobody knows when the next record comes. Formats that fold or
+    /// hold back records keep those.
+    fn flush(&mut self) -> ControlFlow<()>;
+
     /// Writes what is still held back.
     ///
     /// # Errors
@@ -118,7 +122,7 @@ impl<W: Write> Output<W> {
 
     /// Writes everything.
     fn flush(&mut self) -> ControlFlow<()> {
-        if self.failure.is_none() {
+        if self.failure.is_none() && !self.bytes.is_empty() {
             let written = self
                 .writer
                 .write_all(&self.bytes)

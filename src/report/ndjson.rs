@@ -40,6 +40,10 @@ impl<W: Write> Sink for Ndjson<W> {
 }
 
 impl<W: Write> Report for Ndjson<W> {
+    fn flush(&mut self) -> ControlFlow<()> {
+        self.output.flush()
+    }
+
     fn finish(&mut self) -> io::Result<()> {
         self.output.finish()
     }

@@ -12,7 +12,7 @@ use crate::interpreter::{Ended, Event, Executed, NoteKind};
 use crate::lint::Linter;
 use crate::machine::{AxisIndex, Machine};
 use crate::source::{Position, Span};
-use crate::syntax::{Kind, allow};
+use crate::syntax::{Comments, Kind, allow};
 use crate::timeline::{ChangedBy, End, EndNote, Record, Repeat, Row, Sink, StateView};
 
 /// How many blocks the summary of an axis names.
@@ -165,8 +165,7 @@ impl Desk<'_> {
     }
 
     fn note_allows(&mut self, executed: &Executed<'_>) {
-        let commented = memchr::memchr2(b';', b'(', executed.text.as_bytes()).is_some();
-        if commented && executed.text.contains(allow::MARK) {
+        if executed.comments == Comments::Possible && executed.text.contains(allow::MARK) {
             let span = Span::new(0, executed.text.len());
             self.note_allow(executed, (executed.text, executed.line), span);
         }

@@ -37,7 +37,14 @@ impl Block {
     pub fn clear(&mut self) {
         self.skip = None;
         self.number = None;
-        self.items.clear();
+        while let Some(last) = self.items.last() {
+            // A word owns nothing; asking is cheaper than dropping each.
+            let is_word = matches!(last, Item::Word(_));
+            let last = self.items.pop();
+            if is_word {
+                std::mem::forget(last);
+            }
+        }
         self.nodes.clear();
         self.spans.clear();
         self.faults.clear();

@@ -3,6 +3,7 @@
 //! It yields exactly what the grammar yields, or declines; a property test holds the two together.
 
 use super::ast::{Address, Block, Item, Number, Operand, Word};
+use super::lines::Comments;
 use crate::source::Span;
 
 /// Powers of ten that an `f64` holds exactly.
@@ -10,146 +11,201 @@ const POWERS: [f64; 16] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
 ];
 
-/// Powers of ten for the digits that are read at once.
-const TENS: [u64; 9] = [
-    1,
-    10,
-    100,
-    1_000,
-    10_000,
-    100_000,
-    1_000_000,
-    10_000_000,
-    100_000_000,
-];
-
-/// Parses a line into an empty block. Declines, with the block empty, whatever is not plain: only
-/// upper-case letters with a number behind each, blanks, and one comment per place.
-pub(super) fn parse(line: &str, block: &mut Block) -> bool {
-    let plain = words(line.as_bytes(), block);
-    if !plain {
+/// Parses a line into an empty block and says whether comments stand in it. Declines, with the
+/// block empty, whatever is not plain: only upper-case letters with a number behind each, blanks,
+/// and one comment per place.
+#[inline]
+pub(super) fn parse(line: &str, block: &mut Block) -> Option<Comments> {
+    let comments = words(line.as_bytes(), block);
+    if comments.is_none() {
         block.clear();
     }
-    plain
+    comments
 }
 
-fn words(bytes: &[u8], block: &mut Block) -> bool {
+fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
     let mut at = 0;
-    let mut number_may_follow = false;
-    loop {
-        match bytes.get(at) {
-            None | Some(b';') => break,
-            Some(b' ' | b'\t') => at += 1,
-            Some(b'(') => match memchr::memchr2(b'(', b')', &bytes[at + 1..]) {
-                Some(length) if bytes[at + 1 + length] == b')' => at += length + 2,
-                _ => return false,
-            },
-            Some(letter) if letter.is_ascii_uppercase() => {
-                let Some((value, end)) = number(bytes, at + 1) else {
-                    return false;
-                };
-                let span = Span::new(at, end);
-                match letter {
-                    b'N' if block.number.is_none() && block.items.is_empty() => {
-                        if !bytes[at + 1].is_ascii_digit() && bytes[at + 1] != b'.' {
-                            return false;
-                        }
-                        block.number = Some(Number {
-                            value: Operand::Number(value),
-                            label: false,
-                            span,
-                        });
-                        number_may_follow = true;
-                    }
-                    // A call, a parameter or a second number: the grammar's business.
-                    b'L' | b'P' | b'N' => return false,
-                    _ => block.items.push(Item::Word(Word {
-                        address: Address::Letter(*letter),
-                        value: Some(Operand::Number(value)),
-                        span,
-                    })),
-                }
-                at = end;
-                // What is glued to the number, or continues it as an expression, is not plain.
-                match bytes.get(at) {
-                    Some(byte) if !is_separator(*byte) => return false,
-                    _ => {}
-                }
+    let mut comments = Comments::Absent;
+    while let Some(&byte) = bytes.get(at) {
+        if is_blank(byte) {
+            at += 1;
+        } else if byte.is_ascii_uppercase() {
+            at = word(bytes, at, block)?;
+        } else {
+            comments = Comments::Possible;
+            if byte == b';' {
+                break;
             }
-            Some(_) => return false,
+            at = comment(bytes, at)?;
         }
     }
-    number_may_follow || !block.items.is_empty()
+    (block.number.is_some() || !block.items.is_empty()).then_some(comments)
+}
+
+/// Appends the word at a place; returns where it ends.
+#[inline]
+fn word(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
+    let letter = bytes[start];
+    let (value, end) = number(bytes, start + 1)?;
+    // What is glued to the number, or continues it as an expression, is not plain.
+    if bytes.get(end).is_some_and(|byte| !is_separator(*byte)) {
+        return None;
+    }
+    let value = Operand::Number(value);
+    let span = Span::new(start, end);
+    if matches!(letter, b'L' | b'N' | b'P') {
+        // A call, a parameter or a second number are the grammar's business.
+        let first = letter == b'N' && block.number.is_none() && block.items.is_empty();
+        let signed = matches!(bytes[start + 1], b'+' | b'-');
+        if !first || signed {
+            return None;
+        }
+        block.number = Some(Number {
+            value,
+            label: false,
+            span,
+        });
+    } else {
+        block.items.push(Item::Word(Word {
+            address: Address::Letter(letter),
+            value: Some(value),
+            span,
+        }));
+    }
+    Some(end)
+}
+
+/// Where the comment at a place ends; one that holds another is not plain.
+fn comment(bytes: &[u8], start: usize) -> Option<usize> {
+    if bytes[start] != b'(' {
+        return None;
+    }
+    let inside = &bytes[start + 1..];
+    let length = memchr::memchr2(b'(', b')', inside)?;
+    (inside[length] == b')').then_some(start + length + 2)
+}
+
+fn is_blank(byte: u8) -> bool {
+    byte == b' ' || byte == b'\t'
 }
 
 fn is_separator(byte: u8) -> bool {
-    byte.is_ascii_uppercase() || matches!(byte, b' ' | b'\t' | b';' | b'(')
+    is_blank(byte) || byte.is_ascii_uppercase() || matches!(byte, b';' | b'(')
 }
 
 /// A number with an optional sign: its value and where it ends. At most 15 digits, which an `f64`
 /// holds exactly, so that the quotient is the nearest `f64` as in the grammar's path.
+#[inline]
 fn number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
-    let (negative, mut at) = match bytes.get(start)? {
-        b'-' => (true, start + 1),
-        b'+' => (false, start + 1),
-        _ => (false, start),
+    let sign = *bytes.get(start)?;
+    let first = start + usize::from(matches!(sign, b'-' | b'+'));
+    let digits = match short_digits(eight_bytes(bytes, first)?) {
+        Some(digits) => digits,
+        None => long_digits(&bytes[first..])?,
     };
-    let first = at;
-    let mut mantissa = 0;
-    at = digits(bytes, at, &mut mantissa);
-    let mut count = at - first;
-    let mut decimals = 0;
-    if bytes.get(at) == Some(&b'.') {
-        let end = digits(bytes, at + 1, &mut mantissa);
-        decimals = end - at - 1;
-        count += decimals;
-        at = end;
-    }
-    if count == 0 || count > 15 {
-        return None;
-    }
-    let power = POWERS[decimals];
-    let mantissa = i64::try_from(mantissa).ok()?;
+    let power = POWERS[digits.decimals];
     #[allow(clippy::cast_precision_loss)] // below 10^15
-    let value = mantissa as f64 / if negative { -power } else { power };
-    Some((value, at))
+    let mantissa = digits.mantissa as f64;
+    let value = mantissa / if sign == b'-' { -power } else { power };
+    Some((value, first + digits.length))
 }
 
-/// Appends digits to a mantissa; returns where they end. The caller refuses what overflows.
-fn digits(bytes: &[u8], start: usize, mantissa: &mut u64) -> usize {
-    let mut at = start;
-    if let Some((eight, _)) = bytes[start..].split_first_chunk() {
-        let (value, count) = leading_digits(*eight);
-        *mantissa = mantissa.wrapping_mul(TENS[count]).wrapping_add(value);
-        at += count;
-        if count < eight.len() {
-            return at;
-        }
-    }
-    while let Some(&byte @ b'0'..=b'9') = bytes.get(at) {
-        *mantissa = mantissa
-            .wrapping_mul(10)
-            .wrapping_add(u64::from(byte - b'0'));
-        at += 1;
-    }
-    at
+/// The digits of a number, without its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Digits {
+    /// All of them as one whole number, below 10^15.
+    mantissa: i64,
+    /// How many stand behind the point.
+    decimals: usize,
+    /// The bytes of the number.
+    length: usize,
 }
 
-/// The number that eight bytes begin with, and how many digits it has. All bytes are taken at
-/// once: a branch for each digit is guessed wrong too often.
-fn leading_digits(eight: [u8; 8]) -> (u64, usize) {
+/// The eight bytes that begin at a place, the first one lowest; zeros behind the end of the line.
+#[inline]
+fn eight_bytes(bytes: &[u8], start: usize) -> Option<u64> {
+    let rest = bytes.get(start..)?;
+    if let Some(eight) = rest.first_chunk() {
+        return Some(u64::from_le_bytes(*eight));
+    }
+    if let Some(last) = bytes.last_chunk::<8>() {
+        // `rest` is shorter than eight bytes; what stands before it is shifted out.
+        let before = 8 - rest.len();
+        return u64::from_le_bytes(*last).checked_shr(u32::try_from(before).ok()? * 8);
+    }
+    let mut eight = [0; 8];
+    eight[..rest.len()].copy_from_slice(rest);
+    Some(u64::from_le_bytes(eight))
+}
+
+/// The digits that eight bytes begin with, when another byte shows where they end. All bytes are
+/// taken at once: a branch for each digit is guessed wrong too often.
+#[inline]
+fn short_digits(eight: u64) -> Option<Digits> {
     const ONES: u64 = 0x0101_0101_0101_0101;
     // Digits become 0 to 9, everything else something above.
-    let digits = u64::from_le_bytes(eight) ^ (ONES * u64::from(b'0'));
-    // The highest bit of each byte above 9; a carry touches only bytes behind the first of them.
-    let others = (digits.wrapping_add(ONES * (0x80 - 10)) | digits) & (ONES * 0x80);
-    let bits = others.trailing_zeros() / 8 * 8;
-    // Zeros in front instead of what stands behind.
-    let digits = digits.checked_shl(64 - bits).unwrap_or(0);
+    let digits = eight ^ (ONES * u64::from(b'0'));
+    // The highest bit of each byte above 9.
+    let others = (((digits & (ONES * 0x7f)) + ONES * (0x80 - 10)) | digits) & (ONES * 0x80);
+    let whole = others.trailing_zeros() & !7;
+    if whole == u64::BITS {
+        return None;
+    }
+    let (digits, count, length) = if (eight >> whole) & 0xff == u64::from(b'.') {
+        let end = (others & (others - 1)).trailing_zeros() & !7;
+        if end == u64::BITS {
+            return None;
+        }
+        // What stands behind the point moves over it.
+        let before = (1 << whole) - 1;
+        ((digits & before) | ((digits >> 8) & !before), end - 8, end)
+    } else {
+        (digits, whole, whole)
+    };
+    let mantissa = match count {
+        0 => return None,
+        // Zeros in front instead of what stands behind.
+        count => eight_digits(digits << (u64::BITS - count)),
+    };
+    Some(Digits {
+        mantissa,
+        decimals: usize::try_from((count - whole) / 8).ok()?,
+        length: usize::try_from(length / 8).ok()?,
+    })
+}
+
+/// The number that eight digits make, the first one in the lowest byte.
+#[inline]
+fn eight_digits(digits: u64) -> i64 {
     let pairs = (digits * 10 + (digits >> 8)) & 0x00ff_00ff_00ff_00ff;
     let fours = (pairs * 100 + (pairs >> 16)) & 0x0000_ffff_0000_ffff;
     let value = (fours * 10_000 + (fours >> 32)) & 0xffff_ffff;
-    (value, usize::try_from(bits / 8).unwrap_or(8))
+    value.cast_signed()
+}
+
+/// The digits that bytes begin with, one after another; `None` where there are none or too many.
+fn long_digits(bytes: &[u8]) -> Option<Digits> {
+    let mut mantissa = 0_i64;
+    let mut point = None;
+    let mut length = 0;
+    for byte in bytes {
+        match byte {
+            b'0'..=b'9' => {
+                mantissa = mantissa
+                    .wrapping_mul(10)
+                    .wrapping_add(i64::from(byte - b'0'));
+            }
+            b'.' if point.is_none() => point = Some(length),
+            _ => break,
+        }
+        length += 1;
+    }
+    let count = length - usize::from(point.is_some());
+    (1..=15).contains(&count).then_some(Digits {
+        mantissa,
+        decimals: point.map_or(0, |point| length - point - 1),
+        length,
+    })
 }
 
 #[cfg(test)]
@@ -157,18 +213,53 @@ mod tests {
     use super::*;
 
     #[test]
-    fn digits_are_read_eight_at_once() {
-        for (text, value, count) in [
-            ("12345678", 12_345_678, 8),
-            ("00000001", 1, 8),
-            ("123.5 X1", 123, 3),
-            ("9 Y12345", 9, 1),
-            (" 1234567", 0, 0),
-            ("1:;/0123", 1, 1),
-            ("42\u{dc}8888", 42, 2),
+    fn short_numbers_are_read_at_once_as_the_long_ones_are() {
+        for text in [
+            "1234567",
+            "0000001",
+            "123.5 X1",
+            "9 Y12345",
+            "1:;/0123",
+            "42\u{dc}8888",
+            "1.",
+            "1.;",
+            ".5",
+            ".5 X1.25",
+            "12.345 Y",
+            "-75",
+            " 1234567",
+            ".",
+            ". X",
+            "X",
+            "1..5",
+            "104.434",
+            "104.4345",
+            "12345678",
+            "1234567.",
+            "1.2.3 X",
+            "5(1)",
+            "0.000001",
         ] {
-            let eight = *text.as_bytes().first_chunk().expect("eight bytes");
-            assert_eq!(leading_digits(eight), (value, count), "{text}");
+            let all = text.as_bytes();
+            let padded = [b"N10 G01 X", all].concat();
+            let eight = eight_bytes(&padded, 9).expect("inside the line");
+            assert_eq!(
+                eight,
+                eight_bytes(all, 0).expect("inside the line"),
+                "{text}"
+            );
+            let long = long_digits(all);
+            match short_digits(eight) {
+                Some(digits) => assert_eq!(Some(digits), long, "{text}"),
+                None => assert!(long.is_none_or(|digits| digits.length > 7), "{text}"),
+            }
         }
+    }
+
+    #[test]
+    fn more_digits_than_a_float_holds_are_declined() {
+        assert!(long_digits(b"123456789012345").is_some());
+        assert!(long_digits(b"1234567890123.456").is_none());
+        assert!(long_digits(&[b'9'; 400]).is_none());
     }
 }

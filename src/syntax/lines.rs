@@ -40,8 +40,21 @@ pub struct RawBlock<'a> {
     pub line: u32,
     /// Where that line starts, in bytes from the start of the text.
     pub offset: usize,
+    /// Whether comments stand in it.
+    pub comments: Comments,
+    /// Whether it was parsed by hand, so that it is made of words with plain numbers.
+    pub plain: bool,
     /// The comment line directly above that speaks to this tool (R9.24), with its line.
     pub remark: Option<(&'a str, u32)>,
+}
+
+/// Whether comments stand in a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Comments {
+    /// There is none.
+    Absent,
+    /// There may be some.
+    Possible,
 }
 
 /// Whether blocks are parsed by hand where that is possible.
@@ -95,6 +108,11 @@ impl<S: LineSource> BlockReader<S> {
         &self.source
     }
 
+    /// Appends the lines that were not read yet, each with a line end.
+    pub fn append_rest(&mut self, text: &mut String) {
+        self.source.append_rest(text);
+    }
+
     /// Parses the next block into `block`, or finds the next `%` line. Blank lines, comment lines
     /// and `#COMMENT` regions are passed over (R9.11).
     pub fn next(&mut self, block: &mut Block) -> Option<RawBlock<'_>> {
@@ -106,12 +124,16 @@ impl<S: LineSource> BlockReader<S> {
             self.line += 1;
             if self.fast_path == FastPath::On {
                 let line = self.source.line();
-                if line.text.len() <= MAX_LINE && fast::parse(line.text, block) {
+                if line.text.len() <= MAX_LINE
+                    && let Some(comments) = fast::parse(line.text, block)
+                {
                     return Some(RawBlock {
                         stretch: Stretch::Block,
                         text: self.source.line().text.trim_ascii_end(),
                         line: self.line,
                         offset: self.source.offset(),
+                        comments,
+                        plain: true,
                         remark: remark(&self.remark, self.remark_line, self.line),
                     });
                 }
@@ -124,6 +146,8 @@ impl<S: LineSource> BlockReader<S> {
                     text: &self.text,
                     line,
                     offset,
+                    comments: Comments::Possible,
+                    plain: false,
                     remark: remark(&self.remark, self.remark_line, line),
                 });
             }

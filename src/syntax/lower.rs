@@ -178,7 +178,7 @@ impl Lowering<'_> {
             Rule::axis_bracket => self.axis_bracket(pair, span),
             Rule::named_word => self.named_word(pair, span),
             Rule::g_call => self.g_call(pair, span),
-            Rule::plain_word => self.plain_word(pair.as_str(), span),
+            Rule::plain_words | Rule::plain_word => self.plain_words(span),
             Rule::word => self.word(pair, span),
             Rule::bare_number => {
                 if let Some(value) = pair.into_inner().next() {
@@ -259,16 +259,24 @@ impl Lowering<'_> {
         }
     }
 
-    fn plain_word(&mut self, text: &str, span: Span) {
-        let (letter, number) = text.split_at(1);
-        let value = number.parse().map(Operand::Number).ok();
-        self.block.items.extend(letter.bytes().map(|letter| {
-            Item::Word(Word {
-                address: address(letter),
-                value,
-                span,
-            })
-        }));
+    /// Letters with a number behind each, and blanks between them.
+    fn plain_words(&mut self, words: Span) {
+        let mut start = words.start as usize;
+        for word in words.of(self.code).split(' ') {
+            let span = Span::new(start, start + word.len());
+            start += word.len() + 1;
+            let Some((letter, number)) = word.split_at_checked(1) else {
+                continue;
+            };
+            let value = number.parse().map(Operand::Number).ok();
+            self.block.items.extend(letter.bytes().map(|letter| {
+                Item::Word(Word {
+                    address: address(letter),
+                    value,
+                    span,
+                })
+            }));
+        }
     }
 
     fn word(&mut self, pair: Pair<'_, Rule>, span: Span) {

@@ -304,6 +304,10 @@ impl<W: Write> Sink for Text<W> {
 }
 
 impl<W: Write> Report for Text<W> {
+    fn flush(&mut self) -> ControlFlow<()> {
+        self.output.flush()
+    }
+
     fn finish(&mut self) -> io::Result<()> {
         self.release();
         self.output.finish()

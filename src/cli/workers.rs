@@ -1,0 +1,116 @@
+//! Work on many things at once, with the results in the order of the things.
+
+use std::collections::VecDeque;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::sync::mpsc::{self, Receiver, SyncSender};
+use std::sync::{Mutex, PoisonError};
+
+/// Results that may wait for their turn, for each worker.
+const AHEAD: usize = 16;
+
+/// Something to work on, and where its result goes.
+type Job<T, R> = (T, SyncSender<R>);
+
+/// As many workers as there are processors for this process.
+pub(super) fn processors() -> NonZeroUsize {
+    std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
+
+/// Gives each item to one of `workers` threads and the results to `take`, in the order of the items.
+/// The items are drawn by this thread, and never so fast that more than a bounded number of results
+/// wait. `Break` ends the work.
+pub(super) fn in_order<T: Send, R: Send>(
+    items: impl Iterator<Item = T>,
+    workers: NonZeroUsize,
+    work: impl Fn(T) -> R + Sync,
+    mut take: impl FnMut(R) -> ControlFlow<()>,
+) {
+    let (jobs, queue) = mpsc::channel::<Job<T, R>>();
+    let queue = Mutex::new(queue);
+    let (queue, work) = (&queue, &work);
+    std::thread::scope(|scope| {
+        for _ in 0..workers.get() {
+            scope.spawn(move || {
+                while let Some((item, result)) = next(queue) {
+                    // Nobody waits for it after a `Break`.
+                    let _ = result.send(work(item));
+                }
+            });
+        }
+        let mut waiting = VecDeque::new();
+        let mut settle = |waiting: &mut VecDeque<Receiver<R>>, most: usize| {
+            while waiting.len() > most {
+                let result = waiting.pop_front().and_then(|result| result.recv().ok());
+                take(result.map_or(ControlFlow::Break(()), ControlFlow::Continue)?)?;
+            }
+            ControlFlow::Continue(())
+        };
+        let mut flow = ControlFlow::Continue(());
+        for item in items {
+            let (sender, result) = mpsc::sync_channel(1);
+            waiting.push_back(result);
+            if jobs.send((item, sender)).is_err() {
+                break;
+            }
+            flow = settle(&mut waiting, AHEAD * workers.get());
+            if flow.is_break() {
+                break;
+            }
+        }
+        if flow.is_continue() {
+            flow = settle(&mut waiting, 0);
+        }
+        drop(jobs);
+        if flow.is_break() {
+            while next(queue).is_some() {}
+        }
+    });
+}
+
+/// The next job; `None` when there will be none.
+fn next<T, R>(queue: &Mutex<Receiver<Job<T, R>>>) -> Option<Job<T, R>> {
+    let queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+    queue.recv().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_come_in_the_order_of_the_items() {
+        for workers in [1, 2, 7] {
+            let workers = NonZeroUsize::new(workers).unwrap();
+            let mut taken = Vec::new();
+            let uneven = |item: u64| {
+                let rounds = if item.is_multiple_of(5) { 20_000 } else { 1 };
+                (0..rounds).fold(item, |sum, round| std::hint::black_box(sum + round - round))
+            };
+            in_order(0..500, workers, uneven, |result| {
+                taken.push(result);
+                ControlFlow::Continue(())
+            });
+            assert!(taken.into_iter().eq(0..500));
+        }
+    }
+
+    #[test]
+    fn a_break_ends_the_work() {
+        let mut taken = 0;
+        let workers = NonZeroUsize::new(2).unwrap();
+        in_order(
+            0..,
+            workers,
+            |item: u64| item,
+            |item| {
+                taken = item;
+                if item == 100 {
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            },
+        );
+        assert_eq!(taken, 100);
+    }
+}

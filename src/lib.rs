@@ -28,6 +28,7 @@
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are
 //! handed to it. The command line, the feature `cli`, is on by default.
 
+pub mod circle;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod codes;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     // These three are plain data about text and know each other.
     ("source", &["diagnostic", "codes"]),
     ("diagnostic", &["source", "codes"]),
@@ -73,6 +73,10 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ),
     ("current", &["codes", "diagnostic", "lists", "machine"]),
     (
+        "circle",
+        &["source", "diagnostic", "lists", "machine", "current"],
+    ),
+    (
         "report",
         &[
             "source",
@@ -84,6 +88,8 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "compensation",
             "interpreter",
             "timeline",
+            "current",
+            "circle",
         ],
     ),
     (
@@ -99,6 +105,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
             "timeline",
             "session",
             "current",
+            "circle",
             "report",
         ],
     ),

@@ -107,7 +107,7 @@ fn write_csv(
 }
 
 /// The values that a list would give the control.
-fn value_list(path: &Path) -> Result<FrictionList, Failure> {
+pub(super) fn value_list(path: &Path) -> Result<FrictionList, Failure> {
     let source = Arc::new(SourceFile::new(
         path.display().to_string(),
         read_text(path)?,
@@ -260,7 +260,7 @@ fn parse_switch(path: &Path, row: u64, word: Option<&str>) -> Result<Switched, F
 }
 
 /// `standstill=zero,below=origin,delay=reversal`, each of them optional.
-fn parse_reading(text: &str) -> Result<Reading, String> {
+pub(super) fn parse_reading(text: &str) -> Result<Reading, String> {
     const OPTIONS: [&str; 6] = [
         "standstill=hold",
         "standstill=zero",

@@ -1,6 +1,7 @@
 //! The command line: files, arguments, exit status. One file a command.
 
 mod check;
+mod circle;
 mod codes;
 mod completions;
 mod config;
@@ -15,14 +16,18 @@ mod explain;
 mod failure;
 mod files;
 mod golden;
+mod jobs;
 mod lines;
 mod lists;
 mod man;
+mod plants;
+mod recorded;
 mod replace;
 mod run;
 mod settings;
 mod state;
 mod steady;
+mod tune;
 mod walk;
 mod workers;
 
@@ -58,6 +63,8 @@ enum Command {
     Diff(diff::DiffArgs),
     Lists(lists::ListsArgs),
     Current(current::CurrentArgs),
+    Circle(circle::CircleArgs),
+    Tune(tune::TuneArgs),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     #[command(subcommand)]
@@ -97,6 +104,8 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Diff(args) => diff::run(args, console),
         Command::Lists(args) => lists::run(args, console),
         Command::Current(args) => current::run(args, console),
+        Command::Circle(args) => circle::run(args, console),
+        Command::Tune(args) => tune::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Config(command) => config::run(command, console),

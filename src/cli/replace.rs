@@ -6,10 +6,24 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::console::Console;
 use super::failure::Failure;
 
 /// The end of the name of a file that is not whole yet.
 const SUFFIX: &str = ".tmp";
+
+impl Console {
+    /// Writes a text into the file that the user named, or to stdout.
+    ///
+    /// # Errors
+    /// It cannot be written. An old file is as it was.
+    pub(super) fn deliver(self, file: Option<&Path>, text: &str) -> Result<(), Failure> {
+        match file {
+            None => self.print(text),
+            Some(path) => replace(path, text.as_bytes()),
+        }
+    }
+}
 
 /// Writes a file beside the old one, syncs it and lets it take the old one's place. It keeps the
 /// rights of the old one; a link stays a link.
@@ -17,24 +31,29 @@ const SUFFIX: &str = ".tmp";
 /// # Errors
 /// The file cannot be written. The old one is as it was.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let target = std::fs::canonicalize(path);
-    write(target.as_deref().unwrap_or(path), bytes).map_err(|error| Failure::writing(path, &error))
+    write(path, bytes).map_err(|error| Failure::writing(path, &error))
 }
 
 fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = folder(path);
-    let prefix = prefix(path);
+    let old = std::fs::metadata(path).ok();
+    // A device or a pipe cannot be replaced.
+    if old.as_ref().is_some_and(|old| !old.is_file()) {
+        return std::fs::write(path, bytes);
+    }
+    let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let folder = folder(&path);
+    let prefix = prefix(&path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(SUFFIX);
     #[cfg(unix)]
     builder.permissions(new_file_permissions());
     let mut file = builder.tempfile_in(folder)?;
-    if let Ok(old) = std::fs::metadata(path) {
+    if let Some(old) = old {
         file.as_file().set_permissions(old.permissions())?;
     }
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
+    file.persist(&path).map_err(|error| error.error)?;
     #[cfg(unix)]
     File::open(folder)?.sync_all()?;
     Ok(())
@@ -82,6 +101,17 @@ fn new_file_permissions() -> std::fs::Permissions {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("v.lis");
+        replace(&path, b"old").unwrap();
+        replace(&path, b"new").unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "new");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert!(replace(&folder.path().join("no/v.lis"), b"x").is_err());
+    }
 
     #[test]
     fn only_unfinished_files_of_the_same_name_are_taken_away() {

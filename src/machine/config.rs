@@ -24,26 +24,26 @@ pub struct ConfigError {
 }
 
 impl ConfigError {
-    pub(super) fn new(source: &SourceFile, span: Span, message: impl Into<String>) -> Self {
+    pub(crate) fn new(source: &SourceFile, span: Span, message: impl Into<String>) -> Self {
         let place = source.place(span);
         Self {
             diagnostic: Box::new(Diagnostic::new(Code::Fc110, place, message)),
         }
     }
 
-    pub(super) fn at<T>(given: &Given<T>, message: impl Into<String>) -> Self {
+    pub(crate) fn at<T>(given: &Given<T>, message: impl Into<String>) -> Self {
         Self {
             diagnostic: Box::new(Diagnostic::new(Code::Fc110, given.place(), message)),
         }
     }
 
-    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
         self.diagnostic.help.push(help.into());
         self
     }
 
     /// The same with "did you mean" where a known word is near.
-    pub(super) fn with_near<'a>(
+    pub(crate) fn with_near<'a>(
         self,
         found: &str,
         known: impl IntoIterator<Item = &'a str>,

@@ -6,7 +6,7 @@ mod check;
 mod config;
 mod load;
 #[cfg(feature = "toml")]
-mod section;
+pub(crate) mod section;
 
 use std::sync::Arc;
 

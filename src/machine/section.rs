@@ -10,21 +10,21 @@ use crate::lists::{Given, Number, Written};
 use crate::source::{SourceFile, Span};
 
 /// What a table is called and which keys it may have.
-pub(super) struct Shape {
+pub(crate) struct Shape {
     /// As the user writes it.
-    pub(super) name: &'static str,
+    pub(crate) name: &'static str,
     /// The keys; `None` when the user chooses them.
-    pub(super) keys: Option<&'static [&'static str]>,
+    pub(crate) keys: Option<&'static [&'static str]>,
 }
 
 /// The whole file.
-pub(super) const ROOT: Shape = Shape {
+pub(crate) const ROOT: Shape = Shape {
     name: "frictcomp.toml",
     keys: Some(&["machine", "axis", "variables", "lint"]),
 };
 
 /// One table whose keys are all known.
-pub(super) struct Section<'a> {
+pub(crate) struct Section<'a> {
     table: &'a DeTable<'a>,
     source: &'a Arc<SourceFile>,
     span: Span,
@@ -32,7 +32,7 @@ pub(super) struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// A table after a look at its keys.
-    pub(super) fn new(
+    pub(crate) fn new(
         table: &'a DeTable<'a>,
         source: &'a Arc<SourceFile>,
         shape: &Shape,
@@ -57,30 +57,30 @@ impl<'a> Section<'a> {
     }
 
     /// The place of the table itself.
-    pub(super) fn whole(&self) -> Given<()> {
+    pub(crate) fn whole(&self) -> Given<()> {
         Given::new((), self.source, self.span)
     }
 
     /// The place of a value.
-    pub(super) fn given(&self, key: &str) -> Option<Given<()>> {
+    pub(crate) fn given(&self, key: &str) -> Option<Given<()>> {
         let value = self.table.get(key)?;
         Some(Given::new((), self.source, span(value)))
     }
 
     /// The place of a value, or that of the table without it.
-    pub(super) fn given_or_whole(&self, key: &str) -> Given<()> {
+    pub(crate) fn given_or_whole(&self, key: &str) -> Given<()> {
         self.given(key).unwrap_or_else(|| self.whole())
     }
 
     /// The keys with their places.
-    pub(super) fn names(&self) -> impl Iterator<Item = Given<&'a str>> {
+    pub(crate) fn names(&self) -> impl Iterator<Item = Given<&'a str>> {
         self.table
             .keys()
             .map(|key| Given::new(key.get_ref().as_ref(), self.source, span(key)))
     }
 
     /// A table in this one.
-    pub(super) fn table(
+    pub(crate) fn table(
         &self,
         key: &str,
         shape: &Shape,
@@ -95,7 +95,7 @@ impl<'a> Section<'a> {
     }
 
     /// The tables of an array, `[[axis]]`.
-    pub(super) fn tables(&self, key: &str, shape: &Shape) -> Result<Vec<Section<'a>>, ConfigError> {
+    pub(crate) fn tables(&self, key: &str, shape: &Shape) -> Result<Vec<Section<'a>>, ConfigError> {
         let mut tables = Vec::new();
         for value in self.array(key, "an array of tables")? {
             let Some(table) = value.get_ref().as_table() else {
@@ -107,7 +107,7 @@ impl<'a> Section<'a> {
     }
 
     /// A text.
-    pub(super) fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
+    pub(crate) fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -118,7 +118,7 @@ impl<'a> Section<'a> {
     }
 
     /// A list of texts; empty without the key.
-    pub(super) fn strings(&self, key: &str) -> Result<Vec<Given<String>>, ConfigError> {
+    pub(crate) fn strings(&self, key: &str) -> Result<Vec<Given<String>>, ConfigError> {
         let mut texts = Vec::new();
         for value in self.array(key, "a list of texts")? {
             match value.get_ref().as_str() {
@@ -130,7 +130,7 @@ impl<'a> Section<'a> {
     }
 
     /// Every key with its text.
-    pub(super) fn string_pairs(&self) -> Result<Vec<(String, String)>, ConfigError> {
+    pub(crate) fn string_pairs(&self) -> Result<Vec<(String, String)>, ConfigError> {
         let mut pairs = Vec::new();
         for name in self.names() {
             if let Some(text) = self.string(name.value)? {
@@ -141,7 +141,7 @@ impl<'a> Section<'a> {
     }
 
     /// A truth value, also as `0` or `1`.
-    pub(super) fn truth(&self, key: &str) -> Result<Option<Given<bool>>, ConfigError> {
+    pub(crate) fn truth(&self, key: &str) -> Result<Option<Given<bool>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -156,13 +156,13 @@ impl<'a> Section<'a> {
 
     /// What stands where a number may stand; `None` without the key or for a value of another
     /// type.
-    pub(super) fn number(&self, key: &str) -> Option<Given<Written>> {
+    pub(crate) fn number(&self, key: &str) -> Option<Given<Written>> {
         let value = self.table.get(key)?;
         Some(self.place(value, self.written(value)?))
     }
 
     /// A whole number from 0 to 65535.
-    pub(super) fn whole_number(&self, key: &str) -> Result<Option<Given<u32>>, ConfigError> {
+    pub(crate) fn whole_number(&self, key: &str) -> Result<Option<Given<u32>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -177,7 +177,7 @@ impl<'a> Section<'a> {
     }
 
     /// A number above 0.
-    pub(super) fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
+    pub(crate) fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -189,7 +189,7 @@ impl<'a> Section<'a> {
     }
 
     /// A list of pairs of numbers, `[[0, 12.0], [1800, 10.5]]`.
-    pub(super) fn number_pairs(
+    pub(crate) fn number_pairs(
         &self,
         key: &str,
     ) -> Result<Option<Vec<[Given<Written>; 2]>>, ConfigError> {

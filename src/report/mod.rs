@@ -3,6 +3,7 @@
 //! Every timeline format is a [`Sink`] over a generic writer. The first error of the writer is
 //! kept and ends the dry run; a closed pipe is no error for the caller.
 
+pub mod circle;
 mod concise;
 mod csv;
 mod diagnostics;
@@ -15,6 +16,7 @@ mod records;
 mod sarif;
 mod strings;
 mod text;
+pub mod tune;
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;

@@ -1,0 +1,89 @@
+//! How long a circle and a tuning take: the time, the ratio to as many exponentials, and the goal.
+//!
+//! `cargo bench --bench circle`. The exponential is what the friction cannot do without: a step of
+//! one axis needs two.
+
+#![allow(clippy::print_stdout)] // The table is what it is for.
+
+use std::hint::black_box;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use frictcomp::circle::{Circle, CircularTest, FrictionModel, Job, Preset, plant_list};
+use frictcomp::current::Reading;
+
+const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
+
+/// Repetitions; the fastest counts, since other work on the machine only adds.
+const RUNS: usize = 7;
+
+fn fastest(mut work: impl FnMut()) -> Duration {
+    let once = |()| {
+        let start = Instant::now();
+        work();
+        start.elapsed()
+    };
+    let times = std::iter::repeat_n((), RUNS).map(once);
+    times.min().unwrap_or_default()
+}
+
+/// So many exponentials, one after the other.
+fn exponentials(count: u32) {
+    let mut sum = 0.0;
+    for number in 0..count {
+        sum += (-f64::from(number) * 1e-6).exp();
+    }
+    black_box(sum);
+}
+
+fn row(name: &str, took: Duration, base: Duration, goal: Duration) {
+    let ratio = took.as_secs_f64() / base.as_secs_f64();
+    let verdict = if took <= goal { "met" } else { "missed" };
+    println!(
+        "{name:<44}{:>9.1} ms{ratio:>8.1} x   goal {:>6.0} ms  {verdict}",
+        took.as_secs_f64() * 1e3,
+        goal.as_secs_f64() * 1e3
+    );
+}
+
+fn main() {
+    let plant = Preset::Stiff.plant();
+    let test = CircularTest {
+        circle: Circle {
+            feed: 2000.0,
+            ..Circle::default()
+        },
+        lists: [plant_list(&plant.x), plant_list(&plant.y)],
+        plant,
+        model: FrictionModel::Lugre,
+        reading: Reading::default(),
+    };
+    let base = fastest(|| exponentials(1_809_557));
+    println!(
+        "{:<44}{:>9.1} ms",
+        "2 exponentials a step and axis",
+        base.as_secs_f64() * 1e3
+    );
+    let circle = fastest(|| {
+        black_box(test.run(Job::ALL[2])).expect("a circle");
+    });
+    row(
+        "circle, 2 m/min, R 100 mm, 1.5 turns",
+        circle,
+        base,
+        Duration::from_millis(60),
+    );
+    let tune = fastest(|| {
+        let status = Command::new(TOOL)
+            .args(["tune", "--feeds", "500,1000,2000,5000"])
+            .stdout(Stdio::null())
+            .status();
+        assert!(status.is_ok_and(|status| status.success()));
+    });
+    row(
+        "tune, four feeds, all cores",
+        tune,
+        base,
+        Duration::from_secs(5),
+    );
+}

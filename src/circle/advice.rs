@@ -1,0 +1,206 @@
+//! What the shape of a path suggests (R5.24).
+//!
+//! At a crossing an axis turns round. Friction holds it a moment at its outermost place: the path
+//! bulges outwards behind the crossing and comes back. Compensation that is too strong or too
+//! early throws the axis back: the path is cut inwards.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use super::figures::{MICROMETRES, Paths};
+use super::glitch::{Crossing, Glitch, glitches};
+use super::profile::{ANGLES, PER_DEGREE, Profile};
+use super::reference::Direction;
+use super::test::{Compensation, Outcome, Side};
+
+/// Below this many µm there is nothing to say.
+pub const NOTICEABLE: f64 = 1.0;
+
+/// One of two bulges counts as alone if the other is less than this part of it.
+const ALONE: f64 = 0.25;
+
+/// A step is one if it is at least this part of the height.
+const STEP_PART: f64 = 0.5;
+
+/// What a shape suggests.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Finding {
+    /// A bulge outwards that decays: friction.
+    Friction,
+    /// A bulge outwards is left: the compensation is too weak.
+    TooWeak,
+    /// The bulge is larger than without compensation: it pushes the wrong way.
+    WrongSign,
+    /// A cut inwards alone: it is too strong.
+    TooStrong,
+    /// First inwards, then outwards: it comes too early.
+    TooEarly,
+    /// First outwards, then inwards: it comes too late.
+    TooLate,
+    /// A step that stays: backlash.
+    Backlash,
+    /// An ellipse at 45° that lies the other way in the other direction: the gains differ.
+    GainMismatch,
+    /// An ellipse at 45° that lies the same way in both directions: the axes are not square.
+    Squareness,
+    /// An ellipse along the axes: their scales differ.
+    ScaleMismatch,
+}
+
+/// Where a finding was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(untagged)]
+pub enum Place {
+    /// At a crossing.
+    Crossing(Crossing),
+    /// In the path as a whole.
+    Whole,
+}
+
+/// A piece of advice.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Advice {
+    /// Where.
+    pub place: Place,
+    /// The direction of travel; `None` for what concerns both.
+    pub direction: Option<Direction>,
+    /// What the shape suggests.
+    pub finding: Finding,
+    /// How large it is, in µm.
+    pub size: f64,
+}
+
+/// What the paths suggest, the crossings of each direction first. `compensation` says whether
+/// friction compensation was on when they were made; of recorded paths it may be unknown.
+pub fn advise(paths: &Paths, compensation: Option<Compensation>) -> Vec<Advice> {
+    let mut advice = Vec::new();
+    for (direction, profile) in paths.iter() {
+        for glitch in glitches(profile, direction) {
+            if let Some(finding) = at_crossing(profile, direction, &glitch, compensation) {
+                let size = match finding {
+                    Finding::Backlash => glitch.step.abs(),
+                    _ => glitch.height,
+                };
+                advice.push(Advice {
+                    place: Place::Crossing(glitch.crossing),
+                    direction: Some(direction),
+                    finding,
+                    size,
+                });
+            }
+        }
+    }
+    advice.extend(ellipses(paths));
+    advice
+}
+
+/// What the paths of a test with compensation suggest, knowing those without.
+pub fn advise_on(outcome: &Outcome) -> Vec<Advice> {
+    let mut advice = advise(&outcome.on.paths, Some(Compensation::On));
+    let height = |side: &Side, it: &Advice| {
+        let path = side.figures.get(it.direction?)?;
+        let here = |glitch: &&Glitch| it.place == Place::Crossing(glitch.crossing);
+        path.glitch.iter().find(here).map(|glitch| glitch.height)
+    };
+    for it in &mut advice {
+        if it.finding == Finding::TooWeak && height(&outcome.on, it) > height(&outcome.off, it) {
+            it.finding = Finding::WrongSign;
+        }
+    }
+    advice
+}
+
+fn at_crossing(
+    profile: &Profile,
+    direction: Direction,
+    glitch: &Glitch,
+    compensation: Option<Compensation>,
+) -> Option<Finding> {
+    if glitch.step.abs() >= NOTICEABLE && glitch.step.abs() >= STEP_PART * glitch.height {
+        return Some(Finding::Backlash);
+    }
+    let (outward, inward) = (glitch.outward.max(0.0), (-glitch.inward).max(0.0));
+    if outward.max(inward) < NOTICEABLE {
+        return None;
+    }
+    if compensation == Some(Compensation::Off) {
+        return (inward < ALONE * outward).then_some(Finding::Friction);
+    }
+    if inward < ALONE * outward {
+        // Without knowing what was on, what is left is friction.
+        return Some(match compensation {
+            Some(_) => Finding::TooWeak,
+            None => Finding::Friction,
+        });
+    }
+    if outward < ALONE * inward {
+        return Some(Finding::TooStrong);
+    }
+    let [most, least] = places(profile, direction, glitch.crossing);
+    Some(if least < most {
+        Finding::TooEarly
+    } else {
+        Finding::TooLate
+    })
+}
+
+/// Where within 8° of a crossing the path lies farthest out and farthest in, as fixed angles in
+/// the direction of travel.
+fn places(profile: &Profile, direction: Direction, crossing: Crossing) -> [usize; 2] {
+    let width = 8 * PER_DEGREE;
+    let at = usize::from(crossing.degrees()) * PER_DEGREE;
+    let deviation = |way: usize| {
+        let way = match direction {
+            Direction::Ccw => way,
+            Direction::Cw => 2 * width - way,
+        };
+        profile.deviations()[(at + ANGLES + way - width) % ANGLES]
+    };
+    let compare = |a: &usize, b: &usize| deviation(*a).total_cmp(&deviation(*b));
+    let most = (0..=2 * width).max_by(compare).unwrap_or_default();
+    let least = (0..=2 * width).min_by(compare).unwrap_or_default();
+    [most, least]
+}
+
+/// The second harmonic of a path in µm: along the axes and at 45°.
+fn second_harmonic(profile: &Profile) -> [f64; 2] {
+    let deviations = profile.deviations();
+    #[allow(clippy::cast_precision_loss)] // 36000
+    let count = deviations.len() as f64;
+    let mut sums = [0.0; 2];
+    for (at, deviation) in deviations.iter().enumerate() {
+        #[allow(clippy::cast_precision_loss)] // 36000
+        let (sin, cos) = (2.0 * TAU * at as f64 / count).sin_cos();
+        sums[0] += deviation * cos;
+        sums[1] += deviation * sin;
+    }
+    sums.map(|sum| 2.0 * sum / count * MICROMETRES)
+}
+
+/// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the
+/// direction of travel; one of axes that are not square keeps it. Both need both directions.
+fn ellipses(paths: &Paths) -> Vec<Advice> {
+    let (Some(ccw), Some(cw)) = (&paths.ccw, &paths.cw) else {
+        return Vec::new();
+    };
+    let [ccw, cw] = [ccw, cw].map(second_harmonic);
+    let found = [
+        (Finding::GainMismatch, (ccw[1] - cw[1]) / 2.0),
+        (Finding::Squareness, f64::midpoint(ccw[1], cw[1])),
+        (Finding::ScaleMismatch, f64::midpoint(ccw[0], cw[0])),
+    ];
+    let noticeable = found
+        .into_iter()
+        .filter(|(_, size)| size.abs() >= NOTICEABLE);
+    noticeable
+        .map(|(finding, amplitude)| Advice {
+            place: Place::Whole,
+            direction: None,
+            finding,
+            // From the short to the long axis.
+            size: 2.0 * amplitude.abs(),
+        })
+        .collect()
+}

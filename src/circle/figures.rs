@@ -1,0 +1,157 @@
+//! The figures of ISO 230-4 for a pair of paths, and the glitches at the quadrants.
+
+use serde::Serialize;
+
+use super::Direction;
+use super::glitch::{Glitch, glitches};
+use super::profile::Profile;
+use super::zone::{least_squares, minimum_zone, zone_about};
+
+/// µm in a metre.
+pub(super) const MICROMETRES: f64 = 1e6;
+
+/// The figures of one path in µm (R5.21).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PathFigures {
+    /// Circular deviation G about the centre of the minimum zone.
+    #[serde(rename = "G_mz")]
+    pub g_mz: f64,
+    /// Circular deviation G about the centre of the least-squares circle.
+    #[serde(rename = "G_lsc")]
+    pub g_lsc: f64,
+    /// Largest radial deviation, Fmax; only against a commanded radius.
+    #[serde(rename = "F_max")]
+    pub f_max: Option<f64>,
+    /// Smallest radial deviation, Fmin; only against a commanded radius.
+    #[serde(rename = "F_min")]
+    pub f_min: Option<f64>,
+    /// Mean radial deviation of this path: its least-squares radius less the commanded one.
+    #[serde(rename = "D")]
+    pub d: Option<f64>,
+    /// The glitch at each quadrant.
+    pub glitch: Vec<Glitch>,
+}
+
+/// The figures of the paths in both directions, in µm (R5.21).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Figures {
+    /// Of the counter-clockwise path.
+    pub ccw: Option<PathFigures>,
+    /// Of the clockwise path.
+    pub cw: Option<PathFigures>,
+    /// Bidirectional circular deviation G(b): the minimum zone of both paths together.
+    pub g_b: Option<f64>,
+    /// Circular hysteresis H: the largest radial distance of the two paths at one angle.
+    pub h: Option<f64>,
+    /// Mean bidirectional radial deviation D.
+    pub d: Option<f64>,
+}
+
+/// The profiles of the paths in both directions.
+#[derive(Debug, Clone, Default)]
+pub struct Paths {
+    /// The counter-clockwise path.
+    pub ccw: Option<Profile>,
+    /// The clockwise path.
+    pub cw: Option<Profile>,
+}
+
+impl Paths {
+    /// The profile of one direction.
+    pub fn get(&self, direction: Direction) -> Option<&Profile> {
+        match direction {
+            Direction::Ccw => self.ccw.as_ref(),
+            Direction::Cw => self.cw.as_ref(),
+        }
+    }
+
+    /// Keeps the profile of one direction.
+    pub(super) fn set(&mut self, direction: Direction, profile: Profile) {
+        match direction {
+            Direction::Ccw => self.ccw = Some(profile),
+            Direction::Cw => self.cw = Some(profile),
+        }
+    }
+
+    /// The directions whose paths are there.
+    pub fn iter(&self) -> impl Iterator<Item = (Direction, &Profile)> {
+        Direction::ALL
+            .into_iter()
+            .filter_map(|direction| Some((direction, self.get(direction)?)))
+    }
+}
+
+/// Against which radius the radial deviations F and D are meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Nominal {
+    /// That of the profiles is the commanded one.
+    Commanded,
+    /// That of the profiles was fitted; F and D have no meaning.
+    Fitted,
+}
+
+impl Figures {
+    /// The figures of one or two paths.
+    pub(super) fn of(paths: &Paths, nominal: Nominal) -> Self {
+        let one = |direction| {
+            paths
+                .get(direction)
+                .map(|profile| PathFigures::of(profile, direction, nominal))
+        };
+        let (ccw, cw) = (one(Direction::Ccw), one(Direction::Cw));
+        let both = paths.ccw.as_ref().zip(paths.cw.as_ref());
+        let mean = |a: f64, b: f64| f64::midpoint(a, b);
+        let ds = ccw
+            .as_ref()
+            .and_then(|it| it.d)
+            .zip(cw.as_ref().and_then(|it| it.d));
+        Self {
+            g_b: both.map(|(ccw, cw)| minimum_zone(&[ccw, cw]).width * MICROMETRES),
+            h: both.map(|(ccw, cw)| hysteresis(ccw, cw) * MICROMETRES),
+            d: ds.map(|(ccw, cw)| mean(ccw, cw)),
+            ccw,
+            cw,
+        }
+    }
+
+    /// The figures of one direction.
+    pub fn get(&self, direction: Direction) -> Option<&PathFigures> {
+        match direction {
+            Direction::Ccw => self.ccw.as_ref(),
+            Direction::Cw => self.cw.as_ref(),
+        }
+    }
+
+    /// The largest glitch of all quadrants and directions, in µm.
+    pub fn glitch_max(&self) -> f64 {
+        let paths = [&self.ccw, &self.cw].into_iter().flatten();
+        let glitches = paths.flat_map(|path| path.glitch.iter().map(|glitch| glitch.height));
+        glitches.fold(0.0, f64::max)
+    }
+}
+
+impl PathFigures {
+    fn of(profile: &Profile, direction: Direction, nominal: Nominal) -> Self {
+        let (centre, radius) = least_squares(profile);
+        let outer = profile.outer().map(|point| point.deviation);
+        let inner = profile.inner().map(|point| point.deviation);
+        let against = |value: f64| match nominal {
+            Nominal::Commanded => Some(value * MICROMETRES),
+            Nominal::Fitted => None,
+        };
+        Self {
+            g_mz: minimum_zone(&[profile]).width * MICROMETRES,
+            g_lsc: zone_about(&[profile], centre) * MICROMETRES,
+            f_max: against(outer.fold(f64::MIN, f64::max)),
+            f_min: against(inner.fold(f64::MAX, f64::min)),
+            d: against(radius),
+            glitch: glitches(profile, direction),
+        }
+    }
+}
+
+/// The largest difference of two paths at the fixed angles, in m.
+fn hysteresis(ccw: &Profile, cw: &Profile) -> f64 {
+    let pairs = ccw.deviations().iter().zip(cw.deviations());
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,83 @@
+//! The generalized Maxwell-slip model: elements in parallel, each sticking or slipping (R5.12).
+//!
+//! Al-Bender, Lampaert and Swevers, *The generalized Maxwell-slip model: a novel model for
+//! friction simulation and compensation*, IEEE Transactions on Automatic Control 50 (2005):
+//! F = Σ (kᵢ zᵢ + σᵢ żᵢ) + fv·v. The damping is shared among the elements that stick, each by its
+//! part of the stiffness.
+
+use super::{Friction, GmsElement, LEAST, STEP};
+
+/// A contact with its elements.
+#[derive(Debug, Clone)]
+pub(in crate::circle) struct Gms {
+    friction: Friction,
+    elements: Vec<Element>,
+    /// Σ kᵢ in N/m.
+    stiffness: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Element {
+    is: GmsElement,
+    /// The force kᵢ zᵢ in N.
+    force: f64,
+    slips: bool,
+}
+
+impl Gms {
+    pub(super) fn settled(friction: &Friction, velocity: f64) -> Self {
+        let level = if velocity == 0.0 {
+            0.0
+        } else {
+            friction.level(velocity.abs()).copysign(velocity)
+        };
+        let settle = |&is: &GmsElement| Element {
+            is,
+            force: is.share * level,
+            slips: velocity != 0.0,
+        };
+        Self {
+            elements: friction.elements.iter().map(settle).collect(),
+            stiffness: friction.elements.iter().map(|it| it.stiffness).sum(),
+            friction: friction.clone(),
+        }
+    }
+
+    /// The friction in N over a step at this velocity.
+    pub(super) fn friction(&mut self, velocity: f64) -> f64 {
+        let level = self.friction.level(velocity.abs()).max(LEAST);
+        let damping = self.friction.micro_damping(velocity) * velocity / self.stiffness;
+        let approach = (-self.friction.attraction / level * STEP).exp();
+        let mut force = self.friction.viscous * velocity;
+        for element in &mut self.elements {
+            element.step(velocity, level, approach);
+            force += element.force;
+            if !element.slips {
+                force += damping * element.is.stiffness;
+            }
+        }
+        force
+    }
+}
+
+impl Element {
+    fn step(&mut self, velocity: f64, level: f64, approach: f64) {
+        let limit = self.is.share * level;
+        if self.slips && velocity * self.force <= 0.0 {
+            self.slips = false;
+        }
+        if self.slips {
+            let steady = limit.copysign(velocity);
+            self.force = steady + (self.force - steady) * approach;
+            return;
+        }
+        let stuck = self.force + self.is.stiffness * velocity * STEP;
+        self.slips = stuck.abs() >= limit && velocity * stuck > 0.0;
+        self.force = if self.slips {
+            // What the element held before it broke loose it does not lose at once.
+            limit.max(self.force.abs()).copysign(stuck)
+        } else {
+            stuck
+        };
+    }
+}

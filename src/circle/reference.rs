@@ -1,0 +1,239 @@
+//! The circle as the control commands it, CNC cycle by CNC cycle.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+use thiserror::Error;
+
+use super::drive::POSITION_LOOP;
+use super::friction::STEP;
+
+/// Simulation steps of one run at most.
+pub const MAX_STEPS: f64 = 24e6;
+
+/// CNC cycles in a turn at least: fewer, and the chords alone are larger than what is measured.
+pub const MIN_CYCLES: f64 = 90.0;
+
+/// Turns of a whole run: half a turn of run-in and the one that is evaluated (R5.20).
+pub const TURNS: f64 = 1.5;
+
+/// The direction of travel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Counter-clockwise, G03.
+    Ccw,
+    /// Clockwise, G02.
+    Cw,
+}
+
+impl Direction {
+    /// Both directions, counter-clockwise first.
+    pub const ALL: [Self; 2] = [Self::Ccw, Self::Cw];
+
+    /// `ccw` or `cw`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ccw => "ccw",
+            Self::Cw => "cw",
+        }
+    }
+
+    /// 1 for counter-clockwise, -1 for clockwise.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Ccw => 1.0,
+            Self::Cw => -1.0,
+        }
+    }
+}
+
+/// A circle around the origin at a constant feed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Circle {
+    /// Radius in mm.
+    pub radius: f64,
+    /// Feed in mm/min.
+    pub feed: f64,
+    /// The CNC cycle in s.
+    pub cycle_time: f64,
+}
+
+impl Default for Circle {
+    fn default() -> Self {
+        Self {
+            radius: 100.0,
+            feed: 1000.0,
+            cycle_time: 0.001,
+        }
+    }
+}
+
+/// A circle that cannot be simulated.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CircleError {
+    /// `--radius 0`
+    #[error("a radius of {0} mm is not possible, it lies between 0.1 and 100000 mm")]
+    Radius(f64),
+    /// `--feed 0`
+    #[error("a feed of {0} mm/min is not possible, it lies between 0.1 and 1000000 mm/min")]
+    Feed(f64),
+    /// `--cycle-time 0.0001`
+    #[error(
+        "a CNC cycle of {0} s is not possible, it is a whole multiple of 0.00025 s, the cycle of \
+         the position loop, up to 0.1 s"
+    )]
+    CycleTime(f64),
+    /// `--feed 1`: the circle takes hours.
+    #[error(
+        "a circle of {radius} mm at {feed} mm/min takes {seconds:.0} s with its run-in, at most \
+         {} s are simulated", MAX_STEPS * STEP
+    )]
+    TooLong {
+        /// Radius in mm.
+        radius: f64,
+        /// Feed in mm/min.
+        feed: f64,
+        /// Duration in s.
+        seconds: f64,
+    },
+    /// `--radius 1 --feed 10000`: the circle has hardly a cycle.
+    #[error(
+        "a circle of {radius} mm at {feed} mm/min has only {cycles:.0} CNC cycles of {cycle_time} \
+         s, {MIN_CYCLES} are needed"
+    )]
+    TooFast {
+        /// Radius in mm.
+        radius: f64,
+        /// Feed in mm/min.
+        feed: f64,
+        /// The CNC cycle in s.
+        cycle_time: f64,
+        /// Cycles in a turn.
+        cycles: f64,
+    },
+    /// A plant whose loops do not settle.
+    #[error(
+        "the drive of {axis} is unstable: it left the circle {angle:.0}\u{b0} behind the start"
+    )]
+    Unstable {
+        /// `X` or `Y`.
+        axis: &'static str,
+        /// The commanded angle since the start, in degrees.
+        angle: f64,
+    },
+}
+
+/// What to do about it.
+impl CircleError {
+    /// Advice for the user.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Radius(_) => "write the radius in mm, `--radius 100`",
+            Self::Feed(_) => "write the feed in mm/min, `--feed 1000`",
+            Self::CycleTime(_) => "write the seconds of a cycle, `--cycle-time 0.001`",
+            Self::TooLong { .. } => "choose a smaller radius or a higher feed",
+            Self::TooFast { .. } => "choose a larger radius, a lower feed or a shorter cycle",
+            Self::Unstable { .. } => {
+                "lower `Kv` or `Kp` of the plant, or check the units of its values: they are SI"
+            }
+        }
+    }
+}
+
+/// A stretch of the circle: from an angle over so many radians in a direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stretch {
+    /// The commanded angle at the start in radians.
+    pub(super) start: f64,
+    /// The length in radians.
+    pub(super) length: f64,
+    /// CNC cycles at the start in which only the additive current takes part.
+    pub(super) lead: usize,
+    /// The direction of travel.
+    pub(super) direction: Direction,
+}
+
+impl Circle {
+    /// Checks that the circle can be simulated in bounded time.
+    ///
+    /// # Errors
+    /// What is out of range.
+    pub fn check(&self) -> Result<(), CircleError> {
+        if !(0.1..=100_000.0).contains(&self.radius) {
+            return Err(CircleError::Radius(self.radius));
+        }
+        if !(0.1..=1e6).contains(&self.feed) {
+            return Err(CircleError::Feed(self.feed));
+        }
+        let ticks = self.cycle_time / POSITION_LOOP;
+        let is_whole = (ticks - ticks.round()).abs() < 1e-6;
+        if !is_whole || !(0.5..=400.5).contains(&ticks) {
+            return Err(CircleError::CycleTime(self.cycle_time));
+        }
+        let (radius, feed) = (self.radius, self.feed);
+        let turn = TAU / self.angular_velocity();
+        let seconds = TURNS * turn;
+        if seconds > MAX_STEPS * STEP {
+            return Err(CircleError::TooLong {
+                radius,
+                feed,
+                seconds,
+            });
+        }
+        let cycles = turn / self.cycle_time;
+        if cycles < MIN_CYCLES {
+            return Err(CircleError::TooFast {
+                radius,
+                feed,
+                cycle_time: self.cycle_time,
+                cycles,
+            });
+        }
+        Ok(())
+    }
+
+    /// Radius in m.
+    pub(super) fn radius_m(&self) -> f64 {
+        self.radius / 1000.0
+    }
+
+    /// Angular velocity in rad/s.
+    pub(super) fn angular_velocity(&self) -> f64 {
+        self.feed / 60.0 / self.radius
+    }
+
+    /// Cycles of the position loop in a CNC cycle.
+    pub(super) fn ticks(&self) -> u32 {
+        let ticks = (self.cycle_time / POSITION_LOOP).round();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked: 1 to 400
+        let ticks = ticks as u32;
+        ticks.max(1)
+    }
+
+    /// CNC cycles of a stretch, one more than it takes.
+    pub(super) fn cycles(&self, length: f64) -> usize {
+        let cycles = (length / (self.angular_velocity() * self.cycle_time)).ceil();
+        let most = MAX_STEPS / 4.0;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // bounded just here
+        let cycles = cycles.clamp(0.0, most) as usize;
+        cycles + 1
+    }
+
+    /// Position in m and velocity in m/s of both axes at CNC cycle `k` of a stretch.
+    pub(super) fn at(&self, stretch: Stretch, k: usize) -> [(f64, f64); 2] {
+        #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
+        let time = k as f64 * self.cycle_time;
+        let turning = stretch.direction.sign() * self.angular_velocity();
+        let (sin, cos) = (stretch.start + turning * time).sin_cos();
+        let radius = self.radius_m();
+        let speed = radius * turning;
+        [(radius * cos, -speed * sin), (radius * sin, speed * cos)]
+    }
+
+    /// Simulation steps of a whole run.
+    pub fn steps(&self) -> f64 {
+        TURNS * TAU / self.angular_velocity() / STEP
+    }
+}

@@ -1,0 +1,112 @@
+//! `frictcomp circle`: the circular test, simulated or recorded.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::console::Console;
+use super::current::{parse_reading, value_list};
+use super::exit;
+use super::failure::Failure;
+use super::jobs::Jobs;
+use super::plants::{Model, plant};
+use super::recorded;
+use crate::circle::{Circle, CircularTest, Job, Outcome, plant_list};
+use crate::current::Reading;
+use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
+
+/// Drives a circle with two simulated axes, with friction compensation off and on
+///
+/// Gives the figures of ISO 230-4, the glitch at every quadrant, and what they suggest. With
+/// `--trace` the circle is one that was recorded: a CSV file with the columns `x` and `y` in mm (or
+/// `x_um` and `y_um` in µm); give two files for both directions.
+#[derive(Debug, Args)]
+pub(super) struct CircleArgs {
+    /// Radius in mm; for recorded circles the commanded one
+    #[arg(long, value_name = "MM")]
+    radius: Option<f64>,
+    /// Feed in mm/min
+    #[arg(long, value_name = "MM/MIN", default_value_t = 1000.0)]
+    feed: f64,
+    /// The machine: `stiff`, `mid`, `soft`, or a TOML file
+    #[arg(long, value_name = "PLANT", default_value = "stiff")]
+    plant: String,
+    /// The friction model
+    #[arg(long, default_value = "lugre")]
+    model: Model,
+    /// The compensation value list of both axes; without it that of the plant's own friction
+    #[arg(long, value_name = "LIST")]
+    value_list: Option<PathBuf>,
+    /// The CNC cycle in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.001)]
+    cycle_time: f64,
+    /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
+    #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
+    reading: Reading,
+    /// A recorded circle in place of a simulated one; twice for both directions
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["feed", "plant", "model", "value_list", "cycle_time", "reading"])]
+    trace: Vec<PathBuf>,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Write the result into this file
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// Tables for people.
+    #[default]
+    Text,
+    /// One document.
+    Json,
+    /// The radial deviation every 0.1°.
+    Csv,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
+    let report = if args.trace.is_empty() {
+        simulated(args)?
+    } else {
+        CircleReport::recorded(recorded::read(&args.trace, args.radius)?)
+    };
+    let text = match args.format {
+        Format::Text => render_text(&report),
+        Format::Json => render_json(&report),
+        Format::Csv => render_csv(&report),
+    };
+    console.deliver(args.output.as_deref(), &text)?;
+    Ok(exit::CLEAN)
+}
+
+fn simulated(args: &CircleArgs) -> Result<CircleReport, Failure> {
+    let plant = plant(&args.plant)?;
+    let (lists, origin) = match &args.value_list {
+        Some(path) => {
+            let list = value_list(path)?;
+            (
+                [list.clone(), list],
+                ListOrigin::File(path.display().to_string()),
+            )
+        }
+        None => ([&plant.x, &plant.y].map(plant_list), ListOrigin::Plant),
+    };
+    let test = CircularTest {
+        circle: Circle {
+            radius: args.radius.unwrap_or(Circle::default().radius),
+            feed: args.feed,
+            cycle_time: args.cycle_time,
+        },
+        plant,
+        model: args.model.into(),
+        lists,
+        reading: args.reading,
+    };
+    let laps = Jobs::new("circle").map(&Job::ALL, |&job| test.run(job));
+    let laps = laps.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let outcome = Outcome::of(laps);
+    Ok(CircleReport::simulated(test, outcome, origin))
+}

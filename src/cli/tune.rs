@@ -1,0 +1,175 @@
+//! `frictcomp tune`: the parameters of a value list that leave the smallest glitch.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::console::Console;
+use super::current::parse_reading;
+use super::exit;
+use super::failure::Failure;
+use super::jobs::Jobs;
+use super::plants::{Model, plant};
+use crate::circle::{Circle, FrictionModel, Plant, Ranges, Search, Task, Tuned};
+use crate::current::Reading;
+use crate::lists::Field;
+use crate::report::tune::{TuneReport, render_json, render_list, render_text};
+
+/// Feeds that are tuned at once, at most.
+const MAX_FEEDS: usize = 16;
+
+/// Plants at most.
+const MAX_PLANTS: usize = 16;
+
+/// Searches the parameters of a value list that leave the smallest glitch on a simulated machine
+///
+/// `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` are searched within
+/// their documented ranges, so that the worst glitch of all feeds is as small as possible. The
+/// table is the friction curve of the plant.
+#[derive(Debug, Args)]
+pub(super) struct TuneArgs {
+    /// The machine: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one by one
+    #[arg(
+        long,
+        value_name = "PLANT",
+        value_delimiter = ',',
+        default_value = "stiff"
+    )]
+    plant: Vec<String>,
+    /// The feeds in mm/min
+    #[arg(
+        long,
+        value_name = "MM/MIN",
+        value_delimiter = ',',
+        default_value = "500,1000,2000,5000"
+    )]
+    feeds: Vec<f64>,
+    /// A parameter that may leave its documented range
+    #[arg(long, value_name = "PARAMETER", value_delimiter = ',')]
+    free: Vec<Free>,
+    /// Radius in mm
+    #[arg(long, value_name = "MM", default_value_t = 100.0)]
+    radius: f64,
+    /// The friction model
+    #[arg(long, default_value = "lugre")]
+    model: Model,
+    /// The CNC cycle in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.001)]
+    cycle_time: f64,
+    /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
+    #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
+    reading: Reading,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Write the value list of the first plant into this file
+    #[arg(long, short, value_name = "LIST")]
+    output: Option<PathBuf>,
+}
+
+/// A parameter that may leave its documented range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Free {
+    /// Up to 200 µm.
+    #[value(name = "position_delay", alias = "position-delay")]
+    PositionDelay,
+    /// Up to 50 cycles.
+    #[value(name = "reversal_lookahead", alias = "reversal-lookahead")]
+    ReversalLookahead,
+}
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// A table for people.
+    #[default]
+    Text,
+    /// One document.
+    Json,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
+    let circles = circles(args)?;
+    if args.plant.len() > MAX_PLANTS {
+        let message = format!("{} plants were given", args.plant.len());
+        return Err(Failure::new(message).with_help(format!("give at most {MAX_PLANTS}")));
+    }
+    let plants: Vec<Plant> = args
+        .plant
+        .iter()
+        .map(|word| plant(word))
+        .collect::<Result<_, _>>()?;
+    let model = FrictionModel::from(args.model);
+    let mut reports = Vec::new();
+    for plant in plants {
+        let name = plant.name.clone();
+        let task = Task {
+            plant,
+            model,
+            circles: circles.clone(),
+            ranges: ranges(&args.free),
+            reading: args.reading,
+        };
+        reports.push(TuneReport {
+            plant: name,
+            model: model.name(),
+            diameter: 2.0 * args.radius,
+            reading: args.reading.words(),
+            tuned: tune(&task)?,
+        });
+    }
+    if let (Some(path), Some(first)) = (&args.output, reports.first()) {
+        console.deliver(Some(path), &render_list(first))?;
+    }
+    console.print(&match args.format {
+        Format::Text => render_text(&reports),
+        Format::Json => render_json(&reports),
+    })?;
+    Ok(exit::CLEAN)
+}
+
+fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {
+    if args.feeds.len() > MAX_FEEDS {
+        let message = format!("{} feeds were given", args.feeds.len());
+        return Err(Failure::new(message).with_help(format!("give at most {MAX_FEEDS}")));
+    }
+    let circle = |&feed: &f64| {
+        let circle = Circle {
+            radius: args.radius,
+            feed,
+            cycle_time: args.cycle_time,
+        };
+        circle.check().map(|()| circle).map_err(Failure::from)
+    };
+    args.feeds.iter().map(circle).collect()
+}
+
+fn ranges(free: &[Free]) -> Ranges {
+    free.iter().fold(Ranges::default(), |ranges, free| {
+        ranges.free(match free {
+            Free::PositionDelay => Field::PositionDelay,
+            Free::ReversalLookahead => Field::ReversalLookahead,
+        })
+    })
+}
+
+/// The search of the library with its trials on all cores.
+fn tune(task: &Task) -> Result<Tuned, Failure> {
+    let jobs = Jobs::new("tune");
+    let mut search = Search::new(&task.ranges);
+    while let Some(trials) = search.next_trials() {
+        let bound = search.bound();
+        let heights = jobs.map(&trials, |&candidate| task.worst(candidate, bound));
+        search.take(
+            &trials,
+            &heights.into_iter().collect::<Result<Vec<_>, _>>()?,
+        );
+    }
+    let best = search.best();
+    let glitches = jobs.map(&task.wholes(), |&(circle, variant)| {
+        task.whole(circle, best, variant)
+    });
+    let glitches = glitches.into_iter().collect::<Result<Vec<_>, _>>()?;
+    Ok(Tuned::new(task, &search, &glitches))
+}

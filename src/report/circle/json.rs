@@ -1,0 +1,199 @@
+//! The circular test for machines.
+
+use serde::Serialize;
+
+use super::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
+use crate::circle::{Advice, Crossing, Glitch, PathFigures};
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    #[serde(flatten)]
+    conditions: Conditions<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    off: Option<SideRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on: Option<SideRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recorded: Option<SideRecord>,
+}
+
+#[derive(Serialize)]
+struct Conditions<'a> {
+    source: &'static str,
+    diameter_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    feed_mm_min: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cycle_time_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plant: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value_list: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reading: Option<String>,
+    centre: &'static str,
+    data: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    saturated_cycles: Option<u64>,
+}
+
+#[derive(Serialize)]
+struct SideRecord {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ccw: Option<PathRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cw: Option<PathRecord>,
+    #[serde(rename = "G_b")]
+    g_b: Option<f64>,
+    #[serde(rename = "H")]
+    h: Option<f64>,
+    #[serde(rename = "D")]
+    d: Option<f64>,
+    glitch_max: f64,
+    advice: Vec<Advice>,
+}
+
+#[derive(Serialize)]
+struct PathRecord {
+    #[serde(rename = "G_mz")]
+    g_mz: f64,
+    #[serde(rename = "G_lsc")]
+    g_lsc: f64,
+    #[serde(rename = "F_max")]
+    f_max: Option<f64>,
+    #[serde(rename = "F_min")]
+    f_min: Option<f64>,
+    #[serde(rename = "D")]
+    d: Option<f64>,
+    glitch: ByCrossing<f64>,
+    shape: ByCrossing<Shape>,
+}
+
+/// A value for each crossing.
+#[derive(Serialize)]
+struct ByCrossing<T> {
+    #[serde(rename = "X+")]
+    x_plus: T,
+    #[serde(rename = "Y+")]
+    y_plus: T,
+    #[serde(rename = "X-")]
+    x_minus: T,
+    #[serde(rename = "Y-")]
+    y_minus: T,
+}
+
+#[derive(Serialize)]
+struct Shape {
+    outward: f64,
+    inward: f64,
+    step: f64,
+}
+
+impl<T> ByCrossing<T> {
+    fn of(glitches: &[Glitch], value: impl Fn(&Glitch) -> T) -> Self {
+        let at = |crossing: Crossing| {
+            let glitch = glitches.iter().find(|glitch| glitch.crossing == crossing);
+            value(glitch.expect("a path has a glitch for every crossing"))
+        };
+        Self {
+            x_plus: at(Crossing::XPlus),
+            y_plus: at(Crossing::YPlus),
+            x_minus: at(Crossing::XMinus),
+            y_minus: at(Crossing::YMinus),
+        }
+    }
+}
+
+impl PathRecord {
+    fn of(figures: &PathFigures) -> Self {
+        Self {
+            g_mz: round(figures.g_mz),
+            g_lsc: round(figures.g_lsc),
+            f_max: figures.f_max.map(round),
+            f_min: figures.f_min.map(round),
+            d: figures.d.map(round),
+            glitch: ByCrossing::of(&figures.glitch, |glitch| round(glitch.height)),
+            shape: ByCrossing::of(&figures.glitch, |glitch| Shape {
+                outward: round(glitch.outward),
+                inward: round(glitch.inward),
+                step: round(glitch.step),
+            }),
+        }
+    }
+}
+
+impl SideRecord {
+    fn of(side: &NamedSide) -> Self {
+        let figures = &side.side.figures;
+        let rounded = |advice: &Advice| Advice {
+            size: round(advice.size),
+            ..*advice
+        };
+        Self {
+            ccw: figures.ccw.as_ref().map(PathRecord::of),
+            cw: figures.cw.as_ref().map(PathRecord::of),
+            g_b: figures.g_b.map(round),
+            h: figures.h.map(round),
+            d: figures.d.map(round),
+            glitch_max: round(figures.glitch_max()),
+            advice: side.advice.iter().map(rounded).collect(),
+        }
+    }
+}
+
+/// The report for machines, all lengths in µm unless the key says otherwise.
+pub fn render_json(report: &CircleReport) -> String {
+    let side = |name: &str| {
+        let side = report.sides.iter().find(|side| side.name == name);
+        side.map(SideRecord::of)
+    };
+    let conditions = match &report.subject {
+        Subject::Simulated {
+            test,
+            origin,
+            saturated,
+        } => Conditions {
+            source: "simulated",
+            diameter_mm: Some(2.0 * test.circle.radius),
+            feed_mm_min: Some(test.circle.feed),
+            cycle_time_s: Some(test.circle.cycle_time),
+            plant: Some(&test.plant.name),
+            model: Some(test.model.name()),
+            value_list: Some(match origin {
+                ListOrigin::Plant => "plant",
+                ListOrigin::File(name) => name,
+            }),
+            reading: Some(test.reading.words()),
+            centre: "commanded",
+            data: TREATMENT,
+            saturated_cycles: Some(*saturated),
+        },
+        Subject::Recorded(recording) => Conditions {
+            source: "recorded",
+            diameter_mm: recording.radius.map(|radius| 2.0 * radius),
+            feed_mm_min: None,
+            cycle_time_s: None,
+            plant: None,
+            model: None,
+            value_list: None,
+            reading: None,
+            centre: "least-squares",
+            data: TREATMENT,
+            saturated_cycles: None,
+        },
+    };
+    let document = Document {
+        schema: 1,
+        conditions,
+        off: side("off"),
+        on: side("on"),
+        recorded: side("recorded"),
+    };
+    let mut text =
+        serde_json::to_string_pretty(&document).expect("numbers and texts are always JSON");
+    text.push('\n');
+    text
+}

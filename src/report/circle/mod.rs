@@ -1,0 +1,125 @@
+//! The result of a circular test as text, JSON and CSV.
+
+mod json;
+mod text;
+
+use std::fmt::Write as _;
+
+pub use json::render_json;
+pub use text::{render_text, words};
+
+use crate::circle::{
+    Advice, CircularTest, Compensation, Outcome, Recording, Side, advise, advise_on,
+};
+
+/// Rows of the CSV a turn: one every 0.1°.
+const ROWS: usize = 3600;
+
+/// How the radial deviations were treated; stands beside the figures (R5.21).
+const TREATMENT: &str = "every point of the path for G, F and the glitch; H at 36000 fixed angles, \
+                         linear between points; no filter, no mean";
+
+/// Where the value list came from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ListOrigin {
+    /// It is the friction curve of the plant.
+    Plant,
+    /// A file of the user.
+    File(String),
+}
+
+/// What is reported.
+#[derive(Debug, Clone)]
+pub struct CircleReport {
+    /// What was driven.
+    pub subject: Subject,
+    /// The paths without and with compensation, or what was recorded.
+    pub sides: Vec<NamedSide>,
+}
+
+/// What was driven.
+#[derive(Debug, Clone)]
+pub enum Subject {
+    /// A simulated test, with the origin of its value list and the cycles in which a force was cut.
+    Simulated {
+        /// The test.
+        test: Box<CircularTest>,
+        /// Where its list came from.
+        origin: ListOrigin,
+        /// Cycles of the speed loop in which a force was cut.
+        saturated: u64,
+    },
+    /// Recorded circles.
+    Recorded(Box<Recording>),
+}
+
+/// Paths under a name, with what they suggest.
+#[derive(Debug, Clone)]
+pub struct NamedSide {
+    /// `off`, `on` or `recorded`.
+    pub name: &'static str,
+    /// The paths.
+    pub side: Side,
+    /// What their shapes suggest.
+    pub advice: Vec<Advice>,
+}
+
+impl CircleReport {
+    /// The report of a simulated test.
+    pub fn simulated(test: CircularTest, outcome: Outcome, origin: ListOrigin) -> Self {
+        let side = |name, advice, side| NamedSide { name, side, advice };
+        let without = advise(&outcome.off.paths, Some(Compensation::Off));
+        let with = advise_on(&outcome);
+        Self {
+            subject: Subject::Simulated {
+                test: Box::new(test),
+                origin,
+                saturated: outcome.saturated,
+            },
+            sides: vec![
+                side("off", without, outcome.off),
+                side("on", with, outcome.on),
+            ],
+        }
+    }
+
+    /// The report of recorded circles.
+    pub fn recorded(recording: Recording) -> Self {
+        let side = recording.side.clone();
+        Self {
+            subject: Subject::Recorded(Box::new(recording)),
+            sides: vec![NamedSide {
+                name: "recorded",
+                advice: advise(&side.paths, None),
+                side,
+            }],
+        }
+    }
+}
+
+/// The radial deviations: a row every 0.1° for each path.
+pub fn render_csv(report: &CircleReport) -> String {
+    let mut out = String::from("compensation,direction,angle_deg,deviation_um\n");
+    for side in &report.sides {
+        for (direction, profile) in side.side.paths.iter() {
+            let deviations = profile.deviations();
+            for (row, deviation) in deviations
+                .iter()
+                .step_by(deviations.len() / ROWS)
+                .enumerate()
+            {
+                #[allow(clippy::cast_precision_loss)] // at most 3600
+                let angle = row as f64 / 10.0;
+                let deviation = round(deviation * 1e6);
+                let name = direction.name();
+                let _ = writeln!(out, "{},{name},{angle},{deviation}", side.name);
+            }
+        }
+    }
+    out
+}
+
+/// A number of µm as it is written for machines.
+fn round(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}

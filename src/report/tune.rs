@@ -1,0 +1,167 @@
+//! The result of a tuning as text, JSON and value list.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::circle::{Candidate, FeedResult, Tuned};
+use crate::lists::{Field, FrictionList};
+
+/// A tuned plant.
+#[derive(Debug, Clone)]
+pub struct TuneReport {
+    /// The name of the plant.
+    pub plant: String,
+    /// The name of the friction model.
+    pub model: &'static str,
+    /// The diameter of the circles in mm.
+    pub diameter: f64,
+    /// The reading of the documents, in words.
+    pub reading: String,
+    /// What was found.
+    pub tuned: Tuned,
+}
+
+/// The parameters and the glitches before and after, for people.
+pub fn render_text(reports: &[TuneReport]) -> String {
+    let mut out = String::new();
+    for (at, report) in reports.iter().enumerate() {
+        if at > 0 {
+            out.push('\n');
+        }
+        let Candidate {
+            position_delay,
+            reversal_lookahead,
+            delay_cycles,
+            scaling_factor,
+        } = report.tuned.candidate;
+        let _ = writeln!(
+            out,
+            "plant {}, friction {}, diameter {} mm, {} sets of parameters tried\nreading: {}",
+            report.plant, report.model, report.diameter, report.tuned.trials, report.reading
+        );
+        let _ = writeln!(
+            out,
+            "position_delay {position_delay}, reversal_lookahead {reversal_lookahead}, \
+             delay_cycles {delay_cycles}, scaling_factor {scaling_factor}\n"
+        );
+        let _ = writeln!(
+            out,
+            "feed mm/min   glitch \u{b5}m  off      on   friction -20 %   friction +20 %"
+        );
+        for row in &report.tuned.feeds {
+            let _ = writeln!(
+                out,
+                "{:>11}{:>16.3}{:>8.3}{:>17.3}{:>17.3}",
+                row.feed,
+                row.glitch_off,
+                row.glitch_on,
+                row.glitch_friction_minus20,
+                row.glitch_friction_plus20
+            );
+        }
+    }
+    out
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    #[serde(flatten)]
+    first: PlantRecord<'a>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    compared: Vec<PlantRecord<'a>>,
+}
+
+#[derive(Serialize)]
+struct PlantRecord<'a> {
+    plant: &'a str,
+    model: &'static str,
+    diameter_mm: f64,
+    reading: &'a str,
+    trials: usize,
+    parameters: Candidate,
+    feeds: Vec<FeedResult>,
+    glitch_max: f64,
+}
+
+impl<'a> PlantRecord<'a> {
+    fn of(report: &'a TuneReport) -> Self {
+        let round = |value: f64| (value * 1e6).round() / 1e6;
+        let feeds = report.tuned.feeds.iter().map(|row| FeedResult {
+            feed: row.feed,
+            glitch_off: round(row.glitch_off),
+            glitch_on: round(row.glitch_on),
+            glitch_friction_minus20: round(row.glitch_friction_minus20),
+            glitch_friction_plus20: round(row.glitch_friction_plus20),
+        });
+        let feeds: Vec<_> = feeds.collect();
+        Self {
+            plant: &report.plant,
+            model: report.model,
+            diameter_mm: report.diameter,
+            reading: &report.reading,
+            trials: report.tuned.trials,
+            parameters: report.tuned.candidate,
+            glitch_max: feeds.iter().map(|row| row.glitch_on).fold(0.0, f64::max),
+            feeds,
+        }
+    }
+}
+
+/// The same for machines; glitches in µm, feeds in mm/min. The first plant stands at the top, the
+/// others under `compared`.
+pub fn render_json(reports: &[TuneReport]) -> String {
+    let Some((first, others)) = reports.split_first() else {
+        return String::new();
+    };
+    let document = Document {
+        schema: 1,
+        first: PlantRecord::of(first),
+        compared: others.iter().map(PlantRecord::of).collect(),
+    };
+    let mut text =
+        serde_json::to_string_pretty(&document).expect("numbers and texts are always JSON");
+    text.push('\n');
+    text
+}
+
+/// The value list as the control reads it. Outputs are real numbers, which the control reads since
+/// V3.1.3132.0 and V4.29.0 (P-COMP-00047).
+pub fn render_list(report: &TuneReport) -> String {
+    let list: &FrictionList = &report.tuned.list;
+    let mut out = format!(
+        "# Friction compensation for the plant {}, tuned with the model {}\n\
+         # The table is the friction curve of its X axis\n\
+         # Outputs with decimals need the build V3.1.3132.0 or V4.29.0\n",
+        report.plant.replace(['\r', '\n'], " "),
+        report.model
+    );
+    let entries = list.table.len();
+    let values = [
+        (Field::Mode, "3".to_owned()),
+        (Field::MaxPoints, list.max_points.to_string()),
+        (Field::TableEntries, entries.to_string()),
+        (Field::PositionDelay, list.position_delay.to_string()),
+        (
+            Field::ReversalLookahead,
+            list.reversal_lookahead.to_string(),
+        ),
+        (Field::ScalingFactor, list.scaling_factor.to_string()),
+        (Field::DelayCycles, list.delay_cycles.to_string()),
+    ];
+    for (field, value) in values {
+        let key = format!("frict_comp.{}", field.name());
+        let _ = writeln!(out, "{key:<31} {value}");
+    }
+    for (at, point) in list.table.iter().enumerate() {
+        let (input, output) = (
+            format!("frict_comp.table[{at}].in"),
+            format!("frict_comp.table[{at}].out"),
+        );
+        let _ = writeln!(out, "{input:<31} {}", point.input);
+        let _ = writeln!(out, "{output:<31} {:.3}", point.output);
+    }
+    out.push_str("Ende\n");
+    out
+}

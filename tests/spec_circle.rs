@@ -1,0 +1,650 @@
+//! Chapters 5.2 and 5.3: friction, drives, the circular test, its figures, advice and tuning.
+
+#![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
+
+use std::f64::consts::{PI, TAU};
+
+use frictcomp::circle::{
+    Circle, CircleError, CircularTest, Compensation, Crossing, Direction, Drive, DriveParameters,
+    Figures, Finding, FrictionModel, Job, Lap, POSITION_LOOP, Place, Plant, Preset, Ranges,
+    RecordedCircle, RecordedError, Recording, Setpoint, Task, Tuned, advise, advise_on, plant_list,
+    tune,
+};
+use frictcomp::current::Reading;
+use frictcomp::lists::Field;
+use frictcomp::source::SourceFile;
+use proptest::prelude::{ProptestConfig, Strategy, proptest};
+
+fn circular_test(feed: f64) -> CircularTest {
+    let plant = Preset::Stiff.plant();
+    CircularTest {
+        circle: Circle {
+            feed,
+            ..Circle::default()
+        },
+        lists: [plant_list(&plant.x), plant_list(&plant.y)],
+        plant,
+        model: FrictionModel::Lugre,
+        reading: Reading::default(),
+    }
+}
+
+fn lap(test: &CircularTest, compensation: Compensation, direction: Direction) -> Lap {
+    test.run(Job {
+        compensation,
+        direction,
+    })
+    .expect("a circle that can be simulated")
+}
+
+/// The figures of the counter-clockwise path alone.
+fn figures(test: &CircularTest, compensation: Compensation) -> Figures {
+    let outcome = frictcomp::circle::Outcome::of([lap(test, compensation, Direction::Ccw)]);
+    match compensation {
+        Compensation::Off => outcome.off.figures,
+        Compensation::On => outcome.on.figures,
+    }
+}
+
+fn within(found: f64, expected: f64, part: f64) {
+    let error = (found / expected - 1.0).abs();
+    assert!(error <= part, "{found} is not {expected} within {part}");
+}
+
+/// Drives one axis with setpoints of the position loop and gives its positions.
+fn follow(drive: &mut Drive, setpoints: impl IntoIterator<Item = Setpoint>) -> Vec<f64> {
+    let mut positions = Vec::new();
+    for setpoint in setpoints {
+        drive.follow(setpoint);
+        for _ in 0..2 {
+            drive.control();
+            positions.push(drive.step());
+            positions.push(drive.step());
+        }
+    }
+    positions
+}
+
+fn constant_speed(speed: f64, ticks: u32) -> impl Iterator<Item = Setpoint> {
+    (0..ticks).map(move |tick| Setpoint {
+        position: f64::from(tick) * POSITION_LOOP * speed,
+        velocity: speed,
+        ..Setpoint::default()
+    })
+}
+
+fn without_friction(drive: &DriveParameters) -> DriveParameters {
+    let mut drive = drive.clone();
+    drive.friction.coulomb = 0.0;
+    drive.friction.breakaway = 0.0;
+    drive.friction.viscous = 0.0;
+    drive.friction.stiffness = 1e3;
+    drive.friction.damping = 0.0;
+    drive
+}
+
+#[test]
+fn the_static_curve_is_that_of_the_equation() {
+    // R5.10
+    let mut friction = DriveParameters::of(Preset::Stiff).friction;
+    // At vs the exponential is 1/e: 500 + 120/e + 4000·0.003.
+    within(
+        friction.steady(0.003),
+        500.0 + 120.0 / 1f64.exp() + 12.0,
+        1e-12,
+    );
+    assert_eq!(friction.steady(-0.003), -friction.steady(0.003));
+    assert_eq!(friction.steady(0.0), 0.0);
+    friction.shape = 2.0;
+    within(
+        friction.steady(0.006),
+        500.0 + 120.0 * (-4f64).exp() + 24.0,
+        1e-12,
+    );
+}
+
+#[test]
+fn a_sliding_contact_of_any_model_has_the_static_friction() {
+    // R5.10 R5.11 R5.12: at constant velocity every model carries the same force, so the
+    // position loop, whose speed loop integrates, holds the axis on its setpoint.
+    for model in [
+        FrictionModel::Stribeck,
+        FrictionModel::Lugre,
+        FrictionModel::Gms,
+    ] {
+        for speed in [0.001, -0.01, 0.08] {
+            let parameters = DriveParameters::of(Preset::Mid);
+            let start = Setpoint {
+                velocity: speed,
+                ..Setpoint::default()
+            };
+            let mut drive = Drive::settled(&parameters, model, start);
+            follow(&mut drive, constant_speed(speed, 1200));
+            let force = drive.force();
+            within(force, parameters.friction.steady(speed), 1e-3);
+        }
+    }
+}
+
+#[test]
+fn standstill_holds() {
+    // R5.10 R5.11 R5.12: a force below the breakaway friction moves the axis only as far as its
+    // contact bends.
+    for (model, bend) in [
+        (FrictionModel::Stribeck, 0.0),
+        // 300 N on 1e9 N/m, and a little for the oscillation of the beginning.
+        (FrictionModel::Lugre, 1e-6),
+        (FrictionModel::Gms, 1e-6),
+    ] {
+        let mut parameters = DriveParameters::of(Preset::Stiff);
+        // An open loop: only the additive current acts.
+        parameters.position_gain = 0.0;
+        parameters.speed_gain = 0.0;
+        let mut drive = Drive::settled(&parameters, model, Setpoint::default());
+        let pushed = Setpoint {
+            added: 60.0,
+            ..Setpoint::default()
+        };
+        let positions = follow(&mut drive, std::iter::repeat_n(pushed, 2000));
+        let farthest = positions.iter().copied().fold(0.0, f64::max);
+        assert!(farthest <= bend, "{model:?}: {farthest}");
+        // And more than the breakaway friction moves it.
+        let torn = Setpoint {
+            added: 200.0,
+            ..Setpoint::default()
+        };
+        let positions = follow(&mut drive, std::iter::repeat_n(torn, 400));
+        assert!(positions.last().is_some_and(|&x| x > 1e-4), "{model:?}");
+    }
+}
+
+#[test]
+fn pure_coulomb_friction_brakes_evenly() {
+    // R5.10: from 10 mm/s with 500 N on 1300 kg the axis stops after v²·m/(2·Fc) = 130 µm.
+    let mut parameters = DriveParameters::of(Preset::Stiff);
+    parameters.position_gain = 0.0;
+    parameters.speed_gain = 0.0;
+    parameters.friction.breakaway = 500.0;
+    parameters.friction.viscous = 0.0;
+    let start = Setpoint {
+        velocity: 0.01,
+        ..Setpoint::default()
+    };
+    let mut drive = Drive::settled(&parameters, FrictionModel::Stribeck, start);
+    // The motor lets go: what the integral part holds against friction is taken back.
+    let released = Setpoint {
+        added: -100.0,
+        ..Setpoint::default()
+    };
+    let positions = follow(&mut drive, std::iter::repeat_n(released, 400));
+    // In the dead time and the current loop's 0.6 ms the motor still pushes.
+    within(positions[positions.len() - 1], 130e-6 + 0.01 * 0.0007, 0.02);
+    assert_eq!(drive.velocity(), 0.0);
+}
+
+#[test]
+fn without_friction_the_circle_shrinks_as_the_linear_loop_says() {
+    // R5.20 R5.21: without feed forward the position loop is nearly a first-order lag, so that
+    // the radius shrinks to R/sqrt(1 + (ω/Kv)²) and both axes lag by the same angle. The speed
+    // loop adds a term of second order: |1/(1 + jω/Kv·(1 + jωT) …)|, below 2 % of the shrink here.
+    let mut test = circular_test(3000.0);
+    for drive in [&mut test.plant.x, &mut test.plant.y] {
+        *drive = without_friction(drive);
+        drive.velocity_forward = 0.0;
+    }
+    let omega: f64 = 3000.0 / 60.0 / 100.0;
+    let shrink = 100_000.0 * (1.0 / (1.0 + (omega / 33.3).powi(2)).sqrt() - 1.0);
+    let figures = figures(&test, Compensation::Off);
+    let path = figures.ccw.expect("a path");
+    within(path.d.expect("D"), shrink, 0.15);
+    // No friction, no glitch: the ellipse of a linear loop with equal axes is a circle.
+    assert!(path.g_mz < 0.02, "{path:?}");
+    // With full feed forward nothing of first order is left.
+    for drive in [&mut test.plant.x, &mut test.plant.y] {
+        drive.velocity_forward = 1.0;
+    }
+    let path = crate::figures(&test, Compensation::Off)
+        .ccw
+        .expect("a path");
+    assert!(path.d.expect("D").abs() < 0.1 * shrink.abs(), "{path:?}");
+}
+
+#[test]
+fn the_reference_figures_are_met() {
+    // R5.11 R5.20 R5.22: feed, glitch without and with compensation.
+    let reference = [
+        (500.0, 10.6, 1.43),
+        (1000.0, 14.8, 1.23),
+        (2000.0, 19.2, 0.79),
+        (5000.0, 23.3, 0.98),
+    ];
+    for (feed, off, on) in reference {
+        let test = circular_test(feed);
+        within(figures(&test, Compensation::Off).glitch_max(), off, 0.05);
+        within(figures(&test, Compensation::On).glitch_max(), on, 0.05);
+    }
+}
+
+#[test]
+fn both_directions_meet_the_reference() {
+    // R5.20 R5.21
+    let outcome = circular_test(2000.0).outcome().expect("a circle");
+    let (off, on) = (&outcome.off.figures, &outcome.on.figures);
+    within(off.ccw.as_ref().expect("ccw").g_mz, 19.16, 0.05);
+    within(on.ccw.as_ref().expect("ccw").g_mz, 0.78, 0.05);
+    within(off.h.expect("H"), 18.99, 0.05);
+    within(on.h.expect("H"), 0.57, 0.05);
+    // The clockwise circle is the mirror image.
+    let mirrored = |figures: &Figures, crossing: usize| {
+        figures.cw.as_ref().expect("cw").glitch[crossing].height
+    };
+    let straight = |figures: &Figures, crossing: usize| {
+        figures.ccw.as_ref().expect("ccw").glitch[crossing].height
+    };
+    for (ccw, cw) in [(0, 0), (1, 3), (2, 2), (3, 1)] {
+        within(mirrored(on, cw), straight(on, ccw), 1e-6);
+    }
+    // R5.24
+    let advice = advise(&outcome.off.paths, Some(Compensation::Off));
+    assert_eq!(advice.len(), 8, "{advice:?}");
+    assert!(advice.iter().all(|it| it.finding == Finding::Friction));
+    assert!(advise(&outcome.on.paths, Some(Compensation::On)).is_empty());
+}
+
+#[test]
+fn the_wrong_sign_makes_it_worse() {
+    // R5.22
+    let mut test = circular_test(1000.0);
+    for list in &mut test.lists {
+        list.scaling_factor = -1000;
+    }
+    within(figures(&test, Compensation::On).glitch_max(), 24.8, 0.05);
+    // R5.24: it is told from a compensation that is too weak.
+    let laps = [Compensation::Off, Compensation::On];
+    let laps = laps.map(|compensation| lap(&test, compensation, Direction::Ccw));
+    let advice = advise_on(&frictcomp::circle::Outcome::of(laps));
+    assert!(
+        advice.iter().all(|it| it.finding == Finding::WrongSign),
+        "{advice:?}"
+    );
+    assert_eq!(advice.len(), 4);
+}
+
+#[test]
+fn shapes_tell_what_is_wrong() {
+    // R5.24: strength and time of the compensation, wrong on purpose.
+    type Change = fn(&mut frictcomp::lists::FrictionList);
+    let cases: [(Change, Finding); 4] = [
+        (|list| list.scaling_factor = 1400, Finding::TooStrong),
+        (|list| list.scaling_factor = 600, Finding::TooWeak),
+        (|list| list.delay_cycles = 8, Finding::TooLate),
+        (
+            |list| {
+                list.delay_cycles = 0;
+                list.reversal_lookahead = 4;
+                list.position_delay = 0;
+            },
+            Finding::TooEarly,
+        ),
+    ];
+    for (change, finding) in cases {
+        let mut test = circular_test(3000.0);
+        test.lists.iter_mut().for_each(change);
+        let lap = lap(&test, Compensation::On, Direction::Ccw);
+        let outcome = frictcomp::circle::Outcome::of([lap]);
+        let advice = advise(&outcome.on.paths, Some(Compensation::On));
+        assert_eq!(advice.len(), 4, "{finding:?}: {advice:?}");
+        assert!(advice.iter().all(|it| it.finding == finding), "{advice:?}");
+    }
+}
+
+/// Points of a circle of 50 mm around (3, -7) with a radial deviation in µm over the angle.
+fn synthetic(direction: Direction, deviation: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    (0..=14_400)
+        .map(|point| {
+            let angle = direction.sign() * f64::from(point) / 14_400.0 * TAU + 0.4;
+            let radius = 50.0 + deviation(angle.rem_euclid(TAU)) / 1000.0;
+            [3.0 + radius * angle.cos(), -7.0 + radius * angle.sin()]
+        })
+        .collect()
+}
+
+fn recording(ccw: impl Fn(f64) -> f64, cw: impl Fn(f64) -> f64, radius: Option<f64>) -> Recording {
+    let circles = [
+        RecordedCircle::new(&synthetic(Direction::Ccw, ccw), radius).expect("a circle"),
+        RecordedCircle::new(&synthetic(Direction::Cw, cw), radius).expect("a circle"),
+    ];
+    Recording::new(circles.into(), radius).expect("both directions")
+}
+
+#[test]
+fn figures_of_known_circles_are_exact() {
+    // R5.21: three lobes of ±4 µm one way and ±2 µm the other, 6 µm too large.
+    let recording = recording(
+        |angle| 6.0 + 4.0 * (3.0 * angle).cos(),
+        |angle| 6.0 + 2.0 * (3.0 * angle).cos(),
+        Some(50.0),
+    );
+    let figures = &recording.side.figures;
+    let ccw = figures.ccw.as_ref().expect("ccw");
+    let close = |found: f64, expected: f64| {
+        assert!((found - expected).abs() < 2e-3, "{found} is not {expected}");
+    };
+    close(ccw.g_mz, 8.0);
+    close(ccw.g_lsc, 8.0);
+    close(ccw.f_max.expect("Fmax"), 10.0);
+    close(ccw.f_min.expect("Fmin"), 2.0);
+    close(ccw.d.expect("D"), 6.0);
+    let cw = figures.cw.as_ref().expect("cw");
+    close(cw.g_mz, 4.0);
+    close(figures.g_b.expect("G(b)"), 8.0);
+    // 4 cos - 2 cos: 2 µm apart.
+    close(figures.h.expect("H"), 2.0);
+    close(figures.d.expect("D"), 6.0);
+    for circle in &recording.circles {
+        close(1000.0 * (circle.centre[0] - 3.0), 0.0);
+        close(1000.0 * (circle.centre[1] + 7.0), 0.0);
+    }
+}
+
+#[test]
+fn the_minimum_zone_is_smaller_than_that_about_least_squares() {
+    // R5.21: one bump of 9 µm and 20°. The least-squares centre follows its whole area; the
+    // minimum zone is not wider, and not narrower than the bump less what a shift can take away.
+    let bump = |angle: f64| {
+        let way = (angle - 1.0).abs().min(TAU - (angle - 1.0).abs());
+        9.0 * (1.0 - way / (10.0 * PI / 180.0)).max(0.0)
+    };
+    let path = recording(bump, bump, None).side.figures.ccw.expect("ccw");
+    assert!(path.g_mz <= path.g_lsc + 1e-9, "{path:?}");
+    assert!((4.5..=9.0).contains(&path.g_mz), "{path:?}");
+    // Against every centre of a fine grid the minimum zone is the narrowest.
+    let points = synthetic(Direction::Ccw, bump);
+    for (i, j) in (-20..=20).flat_map(|i| (-20..=20).map(move |j| (i, j))) {
+        let centre = [3.0 + f64::from(i) * 5e-4, -7.0 + f64::from(j) * 5e-4];
+        let radius = |point: &[f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
+        let most = points.iter().map(radius).fold(f64::MIN, f64::max);
+        let least = points.iter().map(radius).fold(f64::MAX, f64::min);
+        assert!(1000.0 * (most - least) >= path.g_mz - 1e-3, "{centre:?}");
+    }
+    // F and D need the commanded radius.
+    assert_eq!((path.f_max, path.d), (None, None));
+}
+
+#[test]
+fn the_glitch_is_that_of_its_window() {
+    // R5.22: 5 µm outwards 3° behind Y+, 2 µm inwards 9° behind X-, outside the window.
+    let spike = |angle: f64, at: f64, height: f64| {
+        height * (1.0 - (angle - at.to_radians()).abs() / 0.01).max(0.0)
+    };
+    let path = |angle: f64| spike(angle, 93.0, 5.0) - spike(angle, 189.0, 2.0);
+    let figures = recording(path, |_| 0.0, None).side.figures;
+    let glitch = &figures.ccw.expect("ccw").glitch;
+    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 0.1, "{glitch:?}");
+    assert_eq!(glitch[1].crossing, Crossing::YPlus);
+    close(glitch[1].height, 5.0);
+    close(glitch[1].outward, 5.0);
+    close(glitch[0].height, 0.0);
+    close(glitch[2].height, 0.0);
+}
+
+#[test]
+fn backlash_and_ellipses_are_told_apart() {
+    // R5.24: an axis with 8 µm of backlash lags by 4 µm in either direction.
+    let backlash = |sign: f64| {
+        move |angle: f64| {
+            let lag = 4.0 * sign * angle.sin().signum();
+            lag * angle.cos()
+        }
+    };
+    let recording_of_backlash = recording(backlash(1.0), backlash(-1.0), None);
+    let advice = advise(&recording_of_backlash.side.paths, None);
+    let at = |crossing: Crossing| {
+        let here = advice
+            .iter()
+            .filter(|it| it.place == Place::Crossing(crossing));
+        here.map(|it| it.finding).collect::<Vec<_>>()
+    };
+    assert_eq!(at(Crossing::XPlus), [Finding::Backlash; 2], "{advice:?}");
+    assert_eq!(at(Crossing::XMinus), [Finding::Backlash; 2], "{advice:?}");
+    assert!(at(Crossing::YPlus).is_empty(), "{advice:?}");
+
+    let found = |ccw: f64, cw: f64| {
+        let side = recording(
+            move |angle| ccw * (2.0 * angle).sin(),
+            move |angle| cw * (2.0 * angle).sin(),
+            None,
+        );
+        let advice = advise(&side.side.paths, None);
+        let whole = advice.iter().filter(|it| it.place == Place::Whole);
+        whole.map(|it| it.finding).collect::<Vec<_>>()
+    };
+    assert_eq!(found(5.0, -5.0), [Finding::GainMismatch]);
+    assert_eq!(found(5.0, 5.0), [Finding::Squareness]);
+}
+
+#[test]
+fn axes_with_different_gains_make_an_ellipse_at_45_degrees() {
+    // R5.24: without feed forward the lags v/Kv differ.
+    let mut test = circular_test(4000.0);
+    for (drive, gain) in [(&mut test.plant.x, 33.3), (&mut test.plant.y, 32.0)] {
+        drive.velocity_forward = 0.0;
+        drive.position_gain = gain;
+    }
+    let laps = Direction::ALL.map(|direction| lap(&test, Compensation::Off, direction));
+    let outcome = frictcomp::circle::Outcome::of(laps);
+    let advice = advise(&outcome.off.paths, Some(Compensation::Off));
+    let whole: Vec<_> = advice
+        .iter()
+        .filter(|it| it.place == Place::Whole)
+        .collect();
+    assert!(
+        whole.iter().any(|it| it.finding == Finding::GainMismatch),
+        "{advice:?}"
+    );
+    assert!(
+        whole.iter().all(|it| it.finding != Finding::Squareness),
+        "{advice:?}"
+    );
+}
+
+#[test]
+fn recordings_that_are_no_circle_are_refused() {
+    // R5.20
+    let whole = synthetic(Direction::Cw, |_| 0.0);
+    let refused = |points: &[[f64; 2]]| RecordedCircle::new(points, None).expect_err("no circle");
+    assert_eq!(refused(&whole[..40]), RecordedError::TooFew(40));
+    assert_eq!(refused(&[[1.0, 1.0]; 100]), RecordedError::NoCircle);
+    let line: Vec<_> = (0..200).map(|x| [f64::from(x), 2.0]).collect();
+    assert_eq!(refused(&line), RecordedError::NoCircle);
+    let part = refused(&whole[..9000]);
+    assert!(matches!(part, RecordedError::NotATurn(covered) if (covered - 225.0).abs() < 0.1));
+    let mut holey = whole.clone();
+    holey.drain(4000..5000);
+    assert!(
+        matches!(refused(&holey), RecordedError::Gaps(missing) if (24.0..26.0).contains(&missing))
+    );
+    let circle = RecordedCircle::new(&whole, None).expect("a circle");
+    assert_eq!(circle.direction, Direction::Cw);
+    let twice = Recording::new(vec![circle.clone(), circle], None).expect_err("one direction");
+    assert_eq!(twice, RecordedError::SameDirection(Direction::Cw));
+    let wrong = RecordedCircle::new(&whole, Some(100.0)).expect_err("another radius");
+    assert!(matches!(wrong, RecordedError::Radius { .. }));
+}
+
+#[test]
+fn circles_beyond_all_bounds_are_refused() {
+    // R5.20
+    let check = |radius: f64, feed: f64, cycle_time: f64| {
+        let circle = Circle {
+            radius,
+            feed,
+            cycle_time,
+        };
+        circle.check()
+    };
+    assert_eq!(check(100.0, 1000.0, 0.001), Ok(()));
+    assert_eq!(check(100.0, 1000.0, 0.002), Ok(()));
+    assert!(matches!(
+        check(100.0, 0.0, 0.001),
+        Err(CircleError::Feed(_))
+    ));
+    assert!(matches!(
+        check(100.0, f64::NAN, 0.001),
+        Err(CircleError::Feed(_))
+    ));
+    assert!(matches!(
+        check(1e9, 1000.0, 0.001),
+        Err(CircleError::Radius(_))
+    ));
+    assert!(matches!(
+        check(100.0, 1000.0, 1.0),
+        Err(CircleError::CycleTime(_))
+    ));
+    assert!(matches!(
+        check(100.0, 1000.0, 1e-12),
+        Err(CircleError::CycleTime(_))
+    ));
+    assert!(matches!(
+        check(100.0, 1.0, 0.001),
+        Err(CircleError::TooLong { .. })
+    ));
+    assert!(matches!(
+        check(1.0, 50_000.0, 0.001),
+        Err(CircleError::TooFast { .. })
+    ));
+    // A loop that does not settle is said so.
+    let mut test = circular_test(5000.0);
+    test.plant.x.position_gain = 1900.0;
+    let limited = test.run(Job::ALL[0]).expect("held by the largest force");
+    assert!(limited.saturated > 1000, "{limited:?}");
+    test.plant.x.max_force = 1e12;
+    let unstable = test.run(Job::ALL[0]).expect_err("an unstable loop");
+    assert!(
+        matches!(unstable, CircleError::Unstable { axis: "X", .. }),
+        "{unstable}"
+    );
+}
+
+#[test]
+fn a_plant_file_overrides_what_it_names() {
+    // R5.20
+    let plant = |text: &str| Plant::from_toml(SourceFile::new("p.toml", text));
+    let read = plant("base = \"soft\"\nm = 800\n[y]\nKv = 20.0\nFc = 300\n").expect("a plant");
+    assert_eq!(
+        (read.x.mass, read.x.position_gain, read.y.position_gain),
+        (800.0, 33.3, 20.0)
+    );
+    assert_eq!(
+        (read.x.friction.coulomb, read.y.friction.coulomb),
+        (500.0, 300.0)
+    );
+    // What follows from the mass follows from the new one.
+    within(read.x.speed_gain, 800.0 * TAU * 45.0, 1e-12);
+    within(
+        read.x.friction.damping,
+        0.6 * (8e7_f64 * 800.0).sqrt(),
+        1e-12,
+    );
+    for (text, message) in [
+        ("Kw = 1", "no key `Kw`"),
+        ("base = \"stif\"", "no plant `stif`"),
+        ("m = -1", "`m` is -1 kg"),
+        ("vs = 3.0", "`vs` is 3 m/s"),
+        ("Fs = 100", "`Fs` is 100 N and less than `Fc`"),
+        ("Kv = \"fast\"", "`Kv` is a number"),
+        ("sigma0 = 1e12", "too stiff"),
+        ("k_I = 5\nrated_force = 5000", "two ways"),
+        ("gms = [[0.5, 1e9]]", "make 0.5 together"),
+        ("m = [", ""),
+    ] {
+        let error = plant(text).expect_err(text);
+        assert!(
+            error.diagnostic.message.contains(message),
+            "{text}: {error}"
+        );
+        assert_eq!(error.diagnostic.code.text(), "FC110");
+    }
+}
+
+#[test]
+fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
+    // R5.25
+    let task = Task {
+        plant: Preset::Stiff.plant(),
+        model: FrictionModel::Lugre,
+        circles: vec![Circle {
+            feed: 4000.0,
+            ..Circle::default()
+        }],
+        ranges: Ranges::default(),
+        reading: Reading::default(),
+    };
+    let tuned: Tuned = tune(&task).expect("a circle");
+    let best = tuned.candidate;
+    assert!((0..=10).contains(&best.position_delay), "{best:?}");
+    assert!(
+        best.reversal_lookahead <= 4 && best.delay_cycles >= 0,
+        "{best:?}"
+    );
+    let row = tuned.feeds[0];
+    within(row.glitch_off, 22.7, 0.05);
+    assert!(row.glitch_on <= 1.5, "{row:?}");
+    assert!(row.glitch_friction_minus20 > row.glitch_on, "{row:?}");
+    assert!(row.glitch_friction_plus20 > row.glitch_on, "{row:?}");
+    assert_eq!(tune(&task).expect("a circle"), tuned, "the same again");
+    let free = Ranges::default().free(Field::PositionDelay);
+    assert_eq!(free.position_delay, 0..=2000);
+    // A reversal by itself says what the whole circle says.
+    let alone = task.worst(best, f64::INFINITY).expect("a circle");
+    within(alone, row.glitch_on, 0.2);
+}
+
+fn any_plant() -> impl Strategy<Value = Plant> {
+    let values = (
+        (50.0..5000.0, 5.0..60.0, 0.0..1.0),
+        (0.0..2000.0, 0.0..800.0, 0.0005..0.02, 0.0..20_000.0),
+        (1e7..2e9, 0.3..3.0),
+    );
+    values.prop_map(
+        |((mass, gain, forward), (coulomb, more, vs, viscous), (sigma, shape))| {
+            let text = format!(
+                "m = {mass}\nKv = {gain}\nk_ff = {forward}\nFc = {}\nFs = {}\nvs = {vs}\n\
+             fv = {viscous}\nsigma0 = {}\ndelta = {shape}\nsigma1 = {}\n",
+                coulomb + 1.0,
+                coulomb + more + 1.0,
+                f64::min(sigma, mass * 1e7),
+                f64::min(0.1 * mass / 62.5e-6, 1e6),
+            );
+            Plant::from_toml(SourceFile::new("random.toml", text))
+                .expect("a plant within its limits")
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// R5.10 R5.11 R5.12: whatever the plant, a run ends, with numbers or with the reason.
+    #[test]
+    fn every_plant_gives_numbers_or_a_reason(plant in any_plant(), model in 0_usize..3) {
+        let models = [FrictionModel::Stribeck, FrictionModel::Lugre, FrictionModel::Gms];
+        let test = CircularTest {
+            circle: Circle { radius: 10.0, feed: 3000.0, cycle_time: 0.002 },
+            model: models[model],
+            lists: [plant_list(&plant.x), plant_list(&plant.y)],
+            plant,
+            reading: Reading::default(),
+        };
+        match test.run(Job::ALL[2]) {
+            Ok(lap) => {
+                let outcome = frictcomp::circle::Outcome::of([lap]);
+                let path = outcome.on.figures.ccw.expect("a path");
+                assert!(path.g_mz.is_finite() && path.g_mz >= 0.0, "{path:?}");
+                assert!(path.g_mz <= path.g_lsc + 1e-6, "{path:?}");
+                assert!(path.g_lsc < 20_000.0, "inside twice the radius: {path:?}");
+            }
+            Err(error) => assert!(matches!(error, CircleError::Unstable { .. }), "{error}"),
+        }
+    }
+}

@@ -183,13 +183,15 @@ impl SourceFile {
             .lines
             .line_span(&self.text, first_line)
             .to(self.lines.line_span(&self.text, last_line));
+        // A span that goes on behind the end of its last line ends with it.
+        let inside = |offset: u32| offset.clamp(lines.start, lines.end) - lines.start;
         crate::diagnostic::Place {
             file: self.name.clone(),
             text: lines.of(&self.text).into(),
             first_line,
             span: Span {
-                start: span.start.saturating_sub(lines.start),
-                end: span.end.saturating_sub(lines.start),
+                start: inside(span.start),
+                end: inside(span.end),
             },
         }
     }
@@ -217,6 +219,15 @@ pub trait LineSource {
     fn offset(&self) -> usize {
         0
     }
+
+    /// Appends the lines to come, each with a line end. A source that may have no end stops where
+    /// the text is too big to be kept.
+    fn append_rest(&mut self, text: &mut String) {
+        while self.advance() {
+            text.push_str(self.line().text);
+            text.push('\n');
+        }
+    }
 }
 
 impl<S: LineSource + ?Sized> LineSource for &mut S {
@@ -230,6 +241,10 @@ impl<S: LineSource + ?Sized> LineSource for &mut S {
 
     fn offset(&self) -> usize {
         (**self).offset()
+    }
+
+    fn append_rest(&mut self, text: &mut String) {
+        (**self).append_rest(text);
     }
 }
 
@@ -338,6 +353,16 @@ mod tests {
             found.push(lines.line().text.to_owned());
         }
         assert_eq!(found, ["a", "b", "c", "", "d"]);
+    }
+
+    #[test]
+    fn a_place_ends_with_its_last_line() {
+        let file = SourceFile::new("a.nc", "N1 X\r\r\rY");
+        for (start, end, text, span) in [(3, 6, "N1 X\r", (3, 5)), (4, 5, "N1 X", (4, 4))] {
+            let place = file.place(Span::new(start, end));
+            assert_eq!(&*place.text, text);
+            assert_eq!(place.span, Span::new(span.0, span.1));
+        }
     }
 
     #[test]

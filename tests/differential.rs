@@ -96,7 +96,8 @@ fn push_word(line: &mut String, rng: &mut Rng) {
 
 fn push_line(line: &mut String, rng: &mut Rng) {
     if rng.u8(..3) == 0 {
-        line.push_str(&format!("N{}", rng.u16(..)));
+        line.push('N');
+        line.push_str(&rng.u16(..).to_string());
     }
     for _ in 0..rng.usize(..7) {
         line.push_str(["", " ", "\t", "  "][rng.usize(..4)]);
@@ -113,7 +114,7 @@ fn push_line(line: &mut String, rng: &mut Rng) {
 
 /// Puts a character in, takes one out, or puts one in the place of another.
 fn damage(line: &mut String, rng: &mut Rng) {
-    let at = line.char_indices().nth(rng.usize(..line.len() + 1));
+    let at = line.char_indices().nth(rng.usize(..=line.len()));
     let (at, length) = at.map_or((line.len(), 0), |(at, letter)| (at, letter.len_utf8()));
     let removed = if rng.bool() { length } else { 0 };
     let put = match rng.u8(..4) {

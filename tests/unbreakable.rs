@@ -4,6 +4,7 @@
 //! What takes minutes is ignored: `cargo test --release --test unbreakable -- --ignored`.
 
 #![cfg(feature = "cli")]
+#![allow(clippy::print_stderr, reason = "figures, and what a system cannot try")]
 
 mod folder;
 

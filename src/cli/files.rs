@@ -8,16 +8,13 @@ use std::path::{Path, PathBuf};
 use encoding_rs::WINDOWS_1252;
 
 use super::failure::Failure;
-use super::lines::LineReader;
+use super::lines::{LineReader, MOST_KEPT, too_big};
 use super::steady::Steady;
 use crate::session::Finder;
 use crate::source::SourceFile;
 
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
-
-/// More than that is not kept in memory: programs with flow, lists, configurations, states.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// How files are named in records and diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,15 +125,15 @@ fn open_file<'a>(
     name: String,
     before_waiting: &'a dyn Fn(),
 ) -> io::Result<Opened<'a>> {
-    let file = Steady::open(path)?;
-    let metadata = file.metadata().clone();
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
     if !metadata.is_file() {
         return Ok(arriving(file, before_waiting));
     }
-    let mut lines = LineReader::new(file);
+    let mut lines = LineReader::new(Steady::new(file, &metadata));
     if !lines.scan()?.needs_whole_text() {
         return Ok(Opened::Lines(lines.boxed()));
     }
@@ -146,23 +143,23 @@ fn open_file<'a>(
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
 }
 
+/// Reads a file of a length that is kept in memory.
+fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
+    let most = u64::try_from(MOST_KEPT).expect("1 GiB is below 2^64");
+    if length > most {
+        return Err(too_big());
+    }
+    let mut bytes = Vec::new();
+    reader.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > MOST_KEPT {
+        return Err(too_big());
+    }
+    Ok(bytes)
+}
+
 /// Lines that are given out as they arrive.
 fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
     Opened::Lines(LineReader::new(Box::new(Waiting { reader, before })))
-}
-
-/// Reads what is kept in memory, from a file of a length.
-fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    if length <= MOST_BYTES {
-        reader.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
-    }
-    let read = u64::try_from(bytes.len()).expect("a length is below 2^64");
-    if length.max(read) > MOST_BYTES {
-        let reason = "it has more than 1 GiB, which is too much to be kept in memory";
-        return Err(io::Error::new(io::ErrorKind::FileTooLarge, reason));
-    }
-    Ok(bytes)
 }
 
 /// The text of a file: UTF-8 when it is valid, else code page 1252. A byte order mark is passed

@@ -16,6 +16,9 @@ const LONGEST: usize = 4000;
 /// So many bytes hold at least one character more than the longest line.
 const KEPT: usize = 4 * (LONGEST + 1);
 
+/// More bytes than that are not kept in memory.
+pub(super) const MOST_KEPT: usize = 1 << 30;
+
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Reads lines without keeping them: as many whole lines as the buffer holds are decoded at once.
@@ -38,6 +41,8 @@ pub(super) struct LineReader<R> {
     /// Where the next line begins, in `text`.
     next: usize,
     failure: Option<io::Error>,
+    /// How many bytes may be kept of the lines to come.
+    most_kept: usize,
 }
 
 impl<R: Read> LineReader<R> {
@@ -54,6 +59,7 @@ impl<R: Read> LineReader<R> {
             cut: false,
             next: 0,
             failure: None,
+            most_kept: MOST_KEPT,
         };
         while lines.unread.len() < BYTE_ORDER_MARK.len() && !lines.at_end {
             lines.fill();
@@ -85,6 +91,7 @@ impl<R: Read> LineReader<R> {
             cut: self.cut,
             next: self.next,
             failure: self.failure,
+            most_kept: self.most_kept,
         }
     }
 
@@ -254,6 +261,23 @@ impl<R: Read> LineSource for LineReader<R> {
             cut: self.cut,
         }
     }
+
+    fn append_rest(&mut self, text: &mut String) {
+        while self.advance() {
+            text.push_str(self.line().text);
+            text.push('\n');
+            if text.len() > self.most_kept {
+                self.failure = Some(too_big());
+                return;
+            }
+        }
+    }
+}
+
+/// The error for a text that is too big to be kept in memory.
+pub(super) fn too_big() -> io::Error {
+    let reason = "it has more than 1 GiB, which is too much to be kept in memory";
+    io::Error::new(io::ErrorKind::FileTooLarge, reason)
 }
 
 /// Bytes without a character that was cut at their end.
@@ -355,6 +379,17 @@ mod tests {
         let found = lines(&mut LineReader::new(&bytes[..]));
         let texts: Vec<&str> = found.iter().map(|(text, _)| text.as_str()).collect();
         assert_eq!(texts, ["N1 (Ü)", "N2 (Ü)", "N3 (Ãœ)", "N4"]);
+    }
+
+    #[test]
+    fn what_has_no_end_is_not_kept() {
+        let mut reader = LineReader::new(io::repeat(b'\n'));
+        reader.most_kept = 1000;
+        let mut text = String::new();
+        reader.append_rest(&mut text);
+        assert_eq!(text.len(), 1001);
+        let failure = reader.take_failure().map(|error| error.kind());
+        assert_eq!(failure, Some(io::ErrorKind::FileTooLarge));
     }
 
     #[test]

@@ -2,45 +2,36 @@
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek, SeekFrom};
-use std::path::Path;
 
 /// Reads a file and fails at its end where that is not the end that it had. A program of which a
 /// part is missing would leave a state that its whole would not leave.
 #[derive(Debug)]
 pub(super) struct Steady {
     file: File,
-    metadata: Metadata,
+    /// The length that it had, where it has one.
+    length: Option<u64>,
 }
 
 impl Steady {
-    /// Opens a file.
-    ///
-    /// # Errors
-    /// There is none, or it may not be read.
-    pub(super) fn open(path: &Path) -> io::Result<Self> {
-        let file = File::open(path)?;
-        let metadata = file.metadata()?;
-        Ok(Self { file, metadata })
-    }
-
-    /// What it was when it was opened.
-    pub(super) fn metadata(&self) -> &Metadata {
-        &self.metadata
-    }
-
-    /// Whether the file stands where it ended when it was opened. Pipes have no length, and files
-    /// that the system makes up while they are read say 0.
-    fn is_at_former_end(&mut self) -> io::Result<bool> {
-        let length = self.metadata.len();
-        let has_length = self.metadata.is_file() && length > 0;
-        Ok(!has_length || self.file.stream_position()? == length)
+    /// An open file with what is known of it. Pipes have no length, and files that the system
+    /// makes up while they are read say 0.
+    pub(super) fn new(file: File, metadata: &Metadata) -> Self {
+        let has_length = metadata.is_file() && metadata.len() > 0;
+        Self {
+            file,
+            length: has_length.then_some(metadata.len()),
+        }
     }
 }
 
 impl Read for Steady {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.file.read(buffer)?;
-        if count == 0 && !buffer.is_empty() && !self.is_at_former_end()? {
+        if count == 0
+            && !buffer.is_empty()
+            && let Some(length) = self.length
+            && self.file.stream_position()? != length
+        {
             return Err(io::Error::other("it changed while it was read"));
         }
         Ok(count)
@@ -64,7 +55,8 @@ mod tests {
         for (length, is_steady) in [(9, true), (8, false), (10, false), (0, false)] {
             let named = tempfile::NamedTempFile::new().unwrap();
             named.as_file().write_all(b"N10 X1.5\n").unwrap();
-            let mut steady = Steady::open(named.path()).unwrap();
+            let file = named.reopen().unwrap();
+            let mut steady = Steady::new(file, &named.as_file().metadata().unwrap());
             named.as_file().set_len(length).unwrap();
             for _ in 0..2 {
                 steady.rewind().unwrap();

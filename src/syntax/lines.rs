@@ -110,10 +110,7 @@ impl<S: LineSource> BlockReader<S> {
 
     /// Appends the lines that were not read yet, each with a line end.
     pub fn append_rest(&mut self, text: &mut String) {
-        while self.source.advance() {
-            text.push_str(self.source.line().text);
-            text.push('\n');
-        }
+        self.source.append_rest(text);
     }
 
     /// Parses the next block into `block`, or finds the next `%` line. Blank lines, comment lines

@@ -84,6 +84,12 @@ fn sizes_that_lists_claim_cost_nothing() {
 }
 
 #[test]
+fn a_place_that_runs_over_line_ends_lies_in_its_text() {
+    check("[[axis]]\nname = \"X\"\naxis_list = \"# The\r\r\r\r a list\"\n");
+    check("\u{feff}x = \r\r\n");
+}
+
+#[test]
 fn deep_and_long_texts_end() {
     check(&"[".repeat(100_000));
     check(&format!("a = {}", "[".repeat(100_000)));

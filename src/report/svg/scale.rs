@@ -81,7 +81,9 @@ impl Scale {
             return Self::logarithmic(low, high);
         }
         if high - low <= (low.abs().max(high.abs()) * 1e-9).max(1e-300) {
-            let room = if low == 0.0 { 1.0 } else { low.abs() * 0.1 };
+            // Beside the least numbers there is nothing to be told apart.
+            let is_zero = low.abs() < 1e-290;
+            let room = if is_zero { 1.0 } else { low.abs() * 0.1 };
             (low, high) = (low - room, high + room);
         }
         let step = round_step((high - low) / f64::from(wanted.max(1)));

@@ -34,10 +34,11 @@ pub(super) struct Gatherer {
     widest: f64,
 }
 
-/// A place on the path: the angle in sectors.
+/// A place on the path: the angle in sectors, and the sector.
 #[derive(Debug, Clone, Copy)]
 struct Place {
-    sector: f64,
+    angle: f64,
+    sector: usize,
     deviation: f64,
 }
 
@@ -81,54 +82,57 @@ impl Gatherer {
         let angle = y.atan2(x);
         let positive = if angle < 0.0 { angle + TAU } else { angle };
         #[allow(clippy::cast_precision_loss)] // 36000
-        let sector = positive * (ANGLES as f64 / TAU);
-        let place = Place { sector, deviation };
-        if let Some(last) = self.last {
+        let angle = positive * (ANGLES as f64 / TAU);
+        let sector = index(angle);
+        let place = Place {
+            angle,
+            sector,
+            deviation,
+        };
+        if let Some(last) = self.last
+            && last.sector != sector
+        {
             self.fill(last, place);
         }
         self.last = Some(place);
-        let index = index(sector);
-        let point = Point {
+        let point = || Point {
             cos: x / distance,
             sin: y / distance,
             deviation,
         };
-        let outer = &mut self.outer[index];
+        let outer = &mut self.outer[sector];
         if outer.is_none_or(|outer| deviation > outer.deviation) {
-            *outer = Some(point);
+            *outer = Some(point());
         }
-        let inner = &mut self.inner[index];
+        let inner = &mut self.inner[sector];
         if inner.is_none_or(|inner| deviation < inner.deviation) {
-            *inner = Some(point);
+            *inner = Some(point());
         }
     }
 
-    /// Interpolates at the fixed angles between two points, the short way round.
+    /// Interpolates at the fixed angles between two points of different sectors, the short way
+    /// round.
     #[inline]
     fn fill(&mut self, from: Place, to: Place) {
         #[allow(clippy::cast_precision_loss)] // 36000
         let turn = ANGLES as f64;
-        let mut way = to.sector - from.sector;
+        let mut way = to.angle - from.angle;
         if way > turn / 2.0 {
             way -= turn;
         } else if way < -turn / 2.0 {
             way += turn;
         }
-        if way.abs() > self.widest {
+        if way == 0.0 || way.abs() > self.widest {
             return;
         }
         let (low, high) = if way < 0.0 {
-            (from.sector + way, from.sector)
+            (from.angle + way, from.angle)
         } else {
-            (from.sector, from.sector + way)
+            (from.angle, from.angle + way)
         };
         let mut at = low.ceil();
         while at <= high {
-            let part = if way == 0.0 {
-                1.0
-            } else {
-                (at - from.sector) / way
-            };
+            let part = (at - from.angle) / way;
             let deviation = from.deviation + part * (to.deviation - from.deviation);
             self.at[index(at.rem_euclid(turn))] = deviation;
             at += 1.0;
@@ -178,9 +182,10 @@ impl Gatherer {
     }
 }
 
-fn index(sector: f64) -> usize {
+/// The sector of an angle in sectors.
+fn index(angle: f64) -> usize {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 0 to 36000
-    let index = sector as usize;
+    let index = angle as usize;
     index.min(ANGLES - 1)
 }
 

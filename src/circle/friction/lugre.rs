@@ -1,6 +1,6 @@
 //! The `LuGre` model: the contact is a bristle that bends before it slides (R5.11).
 
-use super::{Friction, LEAST, STEP};
+use super::{Friction, LEAST, STEP, fading};
 
 /// A contact with its bristle.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ impl Lugre {
         let level = contact.level(speed).max(LEAST);
         let rate = contact.stiffness * speed / level;
         let steady = (level / contact.stiffness).copysign(velocity);
-        self.deflection = steady + (self.deflection - steady) * (-rate * STEP).exp();
+        self.deflection = steady + (self.deflection - steady) * fading(rate * STEP);
         let bending = velocity - rate * self.deflection;
         contact.stiffness * self.deflection
             + contact.micro_damping(velocity) * bending

@@ -88,7 +88,7 @@ impl Friction {
         } else {
             raised(ratio, self.shape)
         };
-        self.coulomb + (self.breakaway - self.coulomb) * (-power).exp()
+        self.coulomb + (self.breakaway - self.coulomb) * fading(power)
     }
 
     /// The friction in N at a constant velocity in m/s (R5.10); 0 at standstill.
@@ -115,16 +115,19 @@ impl Friction {
     #[inline]
     fn micro_damping(&self, velocity: f64) -> f64 {
         let ratio = velocity / self.damping_velocity;
-        let exponent = ratio * ratio;
-        if exponent > FADED {
-            return 0.0;
-        }
-        self.damping * (-exponent).exp()
+        self.damping * fading(ratio * ratio)
     }
 }
 
-/// From this exponent on nothing is left of the damping in the digits of the force.
-const FADED: f64 = 40.0;
+/// e to the power of `-exponent`, and 0 where nothing is left of it in the digits of a force.
+#[inline]
+fn fading(exponent: f64) -> f64 {
+    const FADED: f64 = 40.0;
+    if exponent > FADED {
+        return 0.0;
+    }
+    (-exponent).exp()
+}
 
 /// A function of its own, so that it is not computed where it is not needed.
 #[cold]

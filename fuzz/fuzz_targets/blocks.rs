@@ -3,7 +3,7 @@
 
 use frictcomp::source::{Span, TextLines};
 use frictcomp::syntax::ast::Block;
-use frictcomp::syntax::{BlockReader, FastPath};
+use frictcomp::syntax::{BlockReader, FastPath, RawBlock};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
@@ -12,13 +12,18 @@ fuzz_target!(|text: &str| {
     let (mut one, mut other) = (Block::default(), Block::default());
     loop {
         let (found, expected) = (fast.next(&mut one), grammar.next(&mut other));
-        assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        let (Some(raw), Some(meant)) = (found, expected) else {
+            assert!(found.is_none() && expected.is_none());
+            return;
+        };
+        let place = |raw: &RawBlock<'_>| (raw.stretch, raw.line, raw.offset);
+        assert_eq!(place(&raw), place(&meant));
+        assert_eq!((raw.text, raw.remark), (meant.text, meant.remark));
         // A number that is none is NaN, and equals nothing.
         assert!(
             one == other || format!("{one:?}") == format!("{other:?}"),
             "{one:#?}\n{other:#?}"
         );
-        let Some(raw) = found else { return };
         let inside = |span: &Span| assert!(raw.text.get(span.range()).is_some(), "{span:?}");
         one.spans.iter().for_each(inside);
         one.items.iter().for_each(|item| inside(&item.span()));

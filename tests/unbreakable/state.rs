@@ -1,5 +1,10 @@
 //! The state file: damaged anywhere, it is refused and stays as it is.
 
+use fastrand::Rng;
+use frictcomp::interpreter::Value;
+use frictcomp::machine::Machine;
+use frictcomp::session::{SavedState, Session, SessionOptions};
+
 use crate::folder::{Bench, MACHINE};
 
 const LEAVE_OFF: &str = "X[COMP OFF FRICT]\nV.S.PART = 7\nV.S.NAME = \"mill\"\nM30\n";
@@ -79,4 +84,26 @@ fn a_run_that_does_not_end_well_leaves_the_state_as_an_error_does() {
         Some(2)
     );
     assert_eq!(bench.read("s.json"), left);
+}
+
+#[test]
+fn numbers_come_back_to_the_last_bit() {
+    // R9.30
+    let session = Session::new(Machine::enabled(["X"]), SessionOptions::default());
+    let mut state = session.save();
+    let mut rng = Rng::with_seed(3);
+    let mut numbers: Vec<f64> = vec![0.1 + 0.2, 1.0 / 3.0, 1e-300, -1.5e300, 5e-324];
+    numbers.extend((0..20_000).map(|_| f64::from_bits(rng.u64(..))));
+    numbers.extend((0..20_000).map(|_| rng.f64() * 1000.0));
+    for (at, number) in numbers
+        .into_iter()
+        .filter(|number| number.is_finite())
+        .enumerate()
+    {
+        let name = format!("V.S.N{at}");
+        state.variables.insert(name, Value::Number(number));
+    }
+    let text = serde_json::to_string(&state).expect("JSON");
+    let read: SavedState = serde_json::from_str(&text).expect("a state");
+    assert!(read == state, "a number changed");
 }

@@ -105,7 +105,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let mut listed: Vec<Option<PathBuf>> = Vec::new();
     let target = console.target(args.listing.output.as_deref())?;
     let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
-    let mut failure = None;
+    let mut failures: Vec<Failure> = Vec::new();
     let jobs = inputs
         .iter()
         .map(|input| (input, machines.for_folder(input.folder())));
@@ -116,12 +116,15 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         let found = check_file(input, &loaded, &args.execution)?;
         Ok((loaded, found))
     };
-    workers::in_order(jobs, workers, check, |checked| {
+    workers::in_order(jobs, workers, check, |checked: Result<_, Failure>| {
         let (loaded, found) = match checked {
             Ok(checked) => checked,
-            Err(error) => {
-                failure = Some(error);
-                return ControlFlow::Break(());
+            Err(failure) => {
+                // One configuration may fail for many programs.
+                if failures.iter().all(|it| it.message != failure.message) {
+                    failures.push(failure);
+                }
+                return ControlFlow::Continue(());
             }
         };
         let mut flow = ControlFlow::Continue(());
@@ -137,10 +140,11 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         }
         flow
     });
-    if let Some(failure) = failure {
-        return Err(failure);
-    }
     listing.finish().map_err(|error| Failure::output(&error))?;
+    if let Some(last) = failures.pop() {
+        failures.iter().for_each(|failure| console.explain(failure));
+        return Err(last);
+    }
     if listing.is_closed() {
         return Ok(super::exit::CLEAN);
     }

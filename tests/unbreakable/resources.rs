@@ -230,6 +230,7 @@ fn a_full_disk_under_a_file_leaves_the_old_one() {
     let calls = [
         (vec!["run", "--state", "s.json", "a.nc"], "s.json"),
         (vec!["golden", "--update", "a.nc"], "a.nc.timeline"),
+        (vec!["run", "--html", "r.html", "a.nc"], "r.html"),
     ];
     for (call, _) in &calls {
         assert_eq!(bench.status(call), Some(0));
@@ -378,6 +379,7 @@ fn a_folder_without_the_right_to_write_is_said() {
         (vec!["run", "--state", "new.json", "a.nc"], "new.json"),
         (vec!["run", "--output", "out.csv", "a.nc"], "out.csv"),
         (vec!["golden", "--update", "a.nc"], "a.nc.timeline"),
+        (vec!["run", "--html", "r.html", "a.nc"], "r.html"),
     ];
     for (call, file) in calls {
         let Some(output) = as_nobody(&bench, &call) else {
@@ -398,6 +400,25 @@ fn a_folder_without_the_right_to_write_is_said() {
     );
     set_mode(bench.folder(), 0o755);
     assert_eq!(bench.read("s.json"), good);
+}
+
+#[test]
+fn a_program_that_cannot_be_read_hides_no_message_of_the_others() {
+    // R9.26
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.nc", "M30\n"), ("c.nc", LEAVE_OFF)]);
+    set_mode(&bench.folder().join("b.nc"), 0o000);
+    for format in LISTINGS {
+        let Some(output) = as_nobody(&bench, &["check", "--format", format, "."]) else {
+            break;
+        };
+        assert_eq!(output.status.code(), Some(2), "{format}");
+        let listing = String::from_utf8_lossy(&output.stdout);
+        assert!(
+            listing.contains("a.nc") && listing.contains("c.nc"),
+            "{listing}"
+        );
+        assert!(said(&output).contains("b.nc"), "{}", said(&output));
+    }
 }
 
 #[test]

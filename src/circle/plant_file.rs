@@ -15,7 +15,7 @@ use crate::source::{SourceFile, Span};
 
 /// The whole file.
 const PLANT: Shape = Shape {
-    name: "the plant",
+    name: "plant",
     keys: Some(&[
         "name",
         "base",
@@ -46,7 +46,7 @@ const PLANT: Shape = Shape {
 
 /// The tables `[x]` and `[y]`.
 const AXIS: Shape = Shape {
-    name: "the axis",
+    name: "[x] and [y]",
     keys: Some(&[
         "m",
         "Kv",
@@ -293,7 +293,7 @@ fn real(table: &Section<'_>, key: &str) -> Result<Option<Given<f64>>, ConfigErro
         Some(number) => Err(ConfigError::at(
             &place,
             format!(
-                "`{key}` is {number}{unit}, it lies between {} and {}",
+                "`{key}` is {number:?}{unit}, it lies between {} and {}",
                 limits.least, limits.most
             ),
         )

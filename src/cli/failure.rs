@@ -54,7 +54,18 @@ impl Failure {
 
     /// A file that cannot be written.
     pub(super) fn writing(path: &Path, error: &io::Error) -> Self {
-        Self::new(format!("`{}` cannot be written: {error}", path.display()))
+        let shown = path.display();
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::new(format!(
+                "`{shown}` cannot be written: its folder does not exist"
+            ))
+            .with_help("make the folder, or name another file"),
+            io::ErrorKind::PermissionDenied => Self::new(format!(
+                "`{shown}` cannot be written: you may not write there"
+            ))
+            .with_help("give yourself the right to write there, or name another file"),
+            _ => Self::new(format!("`{shown}` cannot be written: {error}")),
+        }
     }
 
     /// Output that cannot be written.

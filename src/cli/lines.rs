@@ -40,6 +40,8 @@ pub(super) struct LineReader<R> {
     cut: bool,
     /// Where the next line begins, in `text`.
     next: usize,
+    /// Whether a CR stands in `text`.
+    has_cr: bool,
     failure: Option<io::Error>,
     /// How many bytes may be kept of the lines to come.
     most_kept: usize,
@@ -58,6 +60,7 @@ impl<R: Read> LineReader<R> {
             line: 0..0,
             cut: false,
             next: 0,
+            has_cr: false,
             failure: None,
             most_kept: MOST_KEPT,
         };
@@ -90,6 +93,7 @@ impl<R: Read> LineReader<R> {
             line: self.line,
             cut: self.cut,
             next: self.next,
+            has_cr: self.has_cr,
             failure: self.failure,
             most_kept: self.most_kept,
         }
@@ -122,6 +126,12 @@ impl<R: Read> LineReader<R> {
     fn refill(&mut self) -> bool {
         self.text.clear();
         self.next = 0;
+        let has_line = self.decode_lines();
+        self.has_cr = memchr::memchr(b'\r', self.text.as_bytes()).is_some();
+        has_line
+    }
+
+    fn decode_lines(&mut self) -> bool {
         loop {
             let whole = self.whole_lines();
             if whole > 0 {
@@ -240,7 +250,12 @@ impl<R: Read> LineSource for LineReader<R> {
             return false;
         }
         let rest = &self.text.as_bytes()[self.next..];
-        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let line_end = if self.has_cr {
+            memchr::memchr2(b'\n', b'\r', rest)
+        } else {
+            memchr::memchr(b'\n', rest)
+        };
+        let length = line_end.unwrap_or(rest.len());
         let end = match &rest[length..] {
             [b'\r', b'\n', ..] => 2,
             [_, ..] => 1,

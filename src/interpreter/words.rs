@@ -37,7 +37,24 @@ pub(super) enum AxisWords {
 }
 
 impl Interpreter {
+    #[inline]
     pub(super) fn word(
+        &mut self,
+        word: &Word,
+        block: &Block,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        match (word.address, word.value) {
+            (Address::Letter(letter @ b'A'..=b'Z'), Some(Operand::Number(number))) => {
+                self.letter_word((letter, Some(number)), word, at, intent)
+            }
+            _ => self.other_word(word, block, at, intent),
+        }
+    }
+
+    /// A word that is more than a letter and a plain number.
+    fn other_word(
         &mut self,
         word: &Word,
         block: &Block,
@@ -69,16 +86,30 @@ impl Interpreter {
                 None => return Ok(()),
             },
             Address::Letter(letter @ b'A'..=b'Z') => {
-                if let Some(axis) = self.letters[usize::from(letter - b'A')] {
-                    self.axis_word(axis, word.span, number);
-                    return Ok(());
-                }
-                return self.letter((letter, number), word, at, intent);
+                return self.letter_word((letter, number), word, at, intent);
             }
             Address::Lower(letter) | Address::Letter(letter) => char::from(letter).to_string(),
         };
         self.pass_over(&name, word.span, at);
         Ok(())
+    }
+
+    /// An axis letter, or one that means something else.
+    #[inline]
+    fn letter_word(
+        &mut self,
+        (letter, number): (u8, Option<f64>),
+        word: &Word,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        match self.letters[usize::from(letter - b'A')] {
+            Some(axis) => {
+                self.axis_word(axis, word.span, number);
+                Ok(())
+            }
+            None => self.letter((letter, number), word, at, intent),
+        }
     }
 
     /// The axis that `@X` means in the plane in force.
@@ -88,10 +119,12 @@ impl Interpreter {
     }
 
     /// An axis occurs.
+    #[inline]
     pub(super) fn see(&mut self, axis: AxisIndex) {
         self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
+    #[inline]
     fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
         self.see(axis);
         self.work.coordinates.push((axis, number));
@@ -101,11 +134,7 @@ impl Interpreter {
     /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
     /// block took effect before the motion (R1.9).
     pub(super) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
-        if matches!(words, AxisWords::Reference | AxisWords::Other) {
-            return;
-        }
-        let requires = |axis: AxisIndex| !self.machine.axis(axis).required.is_empty();
-        if !self.work.moved.iter().any(|&(axis, _)| requires(axis)) {
+        if !self.any_required || matches!(words, AxisWords::Reference | AxisWords::Other) {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);

@@ -21,6 +21,15 @@ pub(super) const MOST_KEPT: usize = 1 << 30;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
+/// How lines end.
+#[derive(Debug, Clone, Copy)]
+enum LineEnds {
+    /// In LF, CRLF or CR.
+    Any,
+    /// In LF; one byte is found faster than two.
+    Lf,
+}
+
 /// Reads lines without keeping them: as many whole lines as the buffer holds are decoded at once.
 ///
 /// A line that is not UTF-8 is taken as code page 1252, and so is every later line of the same
@@ -40,8 +49,8 @@ pub(super) struct LineReader<R> {
     cut: bool,
     /// Where the next line begins, in `text`.
     next: usize,
-    /// Whether a CR stands in `text`.
-    has_cr: bool,
+    /// How the lines in `text` end.
+    ends: LineEnds,
     failure: Option<io::Error>,
     /// How many bytes may be kept of the lines to come.
     most_kept: usize,
@@ -60,7 +69,7 @@ impl<R: Read> LineReader<R> {
             line: 0..0,
             cut: false,
             next: 0,
-            has_cr: false,
+            ends: LineEnds::Any,
             failure: None,
             most_kept: MOST_KEPT,
         };
@@ -93,7 +102,7 @@ impl<R: Read> LineReader<R> {
             line: self.line,
             cut: self.cut,
             next: self.next,
-            has_cr: self.has_cr,
+            ends: self.ends,
             failure: self.failure,
             most_kept: self.most_kept,
         }
@@ -127,7 +136,10 @@ impl<R: Read> LineReader<R> {
         self.text.clear();
         self.next = 0;
         let has_line = self.decode_lines();
-        self.has_cr = memchr::memchr(b'\r', self.text.as_bytes()).is_some();
+        self.ends = match memchr::memchr(b'\r', self.text.as_bytes()) {
+            Some(_) => LineEnds::Any,
+            None => LineEnds::Lf,
+        };
         has_line
     }
 
@@ -250,10 +262,9 @@ impl<R: Read> LineSource for LineReader<R> {
             return false;
         }
         let rest = &self.text.as_bytes()[self.next..];
-        let line_end = if self.has_cr {
-            memchr::memchr2(b'\n', b'\r', rest)
-        } else {
-            memchr::memchr(b'\n', rest)
+        let line_end = match self.ends {
+            LineEnds::Any => memchr::memchr2(b'\n', b'\r', rest),
+            LineEnds::Lf => memchr::memchr(b'\n', rest),
         };
         let length = line_end.unwrap_or(rest.len());
         let end = match &rest[length..] {

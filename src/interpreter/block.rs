@@ -168,6 +168,10 @@ impl Interpreter {
             if !is_reached(word.span) {
                 return;
             }
+            if let Some((axis, number)) = self.coordinate(word) {
+                self.axis_word(axis, word.span, Some(number));
+                continue;
+            }
             let done = self.word(word, block, at, intent);
             if self.say(done, at).is_break() {
                 return;

@@ -37,24 +37,7 @@ pub(super) enum AxisWords {
 }
 
 impl Interpreter {
-    #[inline]
     pub(super) fn word(
-        &mut self,
-        word: &Word,
-        block: &Block,
-        at: &At<'_>,
-        intent: &mut Intent,
-    ) -> Result<(), Box<Fault>> {
-        match (word.address, word.value) {
-            (Address::Letter(letter @ b'A'..=b'Z'), Some(Operand::Number(number))) => {
-                self.letter_word((letter, Some(number)), word, at, intent)
-            }
-            _ => self.other_word(word, block, at, intent),
-        }
-    }
-
-    /// A word that is more than a letter and a plain number.
-    fn other_word(
         &mut self,
         word: &Word,
         block: &Block,
@@ -86,30 +69,16 @@ impl Interpreter {
                 None => return Ok(()),
             },
             Address::Letter(letter @ b'A'..=b'Z') => {
-                return self.letter_word((letter, number), word, at, intent);
+                if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+                    self.axis_word(axis, word.span, number);
+                    return Ok(());
+                }
+                return self.letter((letter, number), word, at, intent);
             }
             Address::Lower(letter) | Address::Letter(letter) => char::from(letter).to_string(),
         };
         self.pass_over(&name, word.span, at);
         Ok(())
-    }
-
-    /// An axis letter, or one that means something else.
-    #[inline]
-    fn letter_word(
-        &mut self,
-        (letter, number): (u8, Option<f64>),
-        word: &Word,
-        at: &At<'_>,
-        intent: &mut Intent,
-    ) -> Result<(), Box<Fault>> {
-        match self.letters[usize::from(letter - b'A')] {
-            Some(axis) => {
-                self.axis_word(axis, word.span, number);
-                Ok(())
-            }
-            None => self.letter((letter, number), word, at, intent),
-        }
     }
 
     /// The axis that `@X` means in the plane in force.
@@ -124,8 +93,20 @@ impl Interpreter {
         self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
+    /// The axis and the coordinate of a word that is an axis letter with a plain number, as most are.
     #[inline]
-    fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
+    pub(super) fn coordinate(&self, word: &Word) -> Option<(AxisIndex, f64)> {
+        match (word.address, word.value) {
+            (Address::Letter(letter @ b'A'..=b'Z'), Some(Operand::Number(number))) => {
+                let axis = self.letters[usize::from(letter - b'A')]?;
+                Some((axis, number))
+            }
+            _ => None,
+        }
+    }
+
+    #[inline]
+    pub(super) fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
         self.see(axis);
         self.work.coordinates.push((axis, number));
         self.work.moved.push((axis, span));

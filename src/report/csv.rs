@@ -210,7 +210,8 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
 /// Appends a field, quoted where it must be.
 fn field(out: &mut Vec<u8>, text: &str) {
     let bytes = text.as_bytes();
-    let is_special = |byte: u8| (byte == b',') | (byte == b'"') | (byte == b'\n') | (byte == b'\r');
+    let is_special =
+        |byte: u8| [b',', b'"', b'\n', b'\r'].map(|special| u8::from(byte == special)) != [0; 4];
     if !any_byte(bytes, is_special) {
         out.extend_from_slice(bytes);
         return;

@@ -55,6 +55,8 @@ struct AxisMemory {
 pub(crate) struct Linter<'m> {
     machine: &'m Machine,
     axes: Vec<AxisMemory>,
+    /// Whether an earlier program left any axis changed.
+    any_changed_before: bool,
 }
 
 impl<'m> Linter<'m> {
@@ -72,9 +74,11 @@ impl<'m> Linter<'m> {
             changed_before: start.state(axis, Kind::Frict)
                 != session_start.state(axis, Kind::Frict),
         });
+        let axes: Vec<_> = axes.collect();
         Self {
             machine,
-            axes: axes.collect(),
+            any_changed_before: axes.iter().any(|axis| axis.changed_before),
+            axes,
         }
     }
 
@@ -95,6 +99,9 @@ impl<'m> Linter<'m> {
             let command = command_of(executed, position);
             let span = command.map_or(whole(executed), |command| command.span);
             self.axes[change.axis.get()].changed[change.kind as usize] = Some(site(executed, span));
+        }
+        if !self.any_changed_before {
+            return;
         }
         for &(axis, span) in executed.moved {
             let memory = &mut self.axes[axis.get()];

@@ -94,6 +94,9 @@ fn assert_spans(read: &Read) -> Result<(), TestCaseError> {
     for fault in &block.faults {
         assert_inside(fault.span, &read.text)?;
     }
+    for word in &block.words {
+        assert_inside(word.span, &read.text)?;
+    }
     for item in &block.items {
         assert_inside(item.span(), &read.text)?;
         if let Item::Comp(command) = item {

@@ -21,6 +21,15 @@ pub(super) const MOST_KEPT: usize = 1 << 30;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
+/// How lines end.
+#[derive(Debug, Clone, Copy)]
+enum LineEnds {
+    /// In LF, CRLF or CR.
+    Any,
+    /// In LF; one byte is found faster than two.
+    Lf,
+}
+
 /// Reads lines without keeping them: as many whole lines as the buffer holds are decoded at once.
 ///
 /// A line that is not UTF-8 is taken as code page 1252, and so is every later line of the same
@@ -40,6 +49,8 @@ pub(super) struct LineReader<R> {
     cut: bool,
     /// Where the next line begins, in `text`.
     next: usize,
+    /// How the lines in `text` end.
+    ends: LineEnds,
     failure: Option<io::Error>,
     /// How many bytes may be kept of the lines to come.
     most_kept: usize,
@@ -58,6 +69,7 @@ impl<R: Read> LineReader<R> {
             line: 0..0,
             cut: false,
             next: 0,
+            ends: LineEnds::Any,
             failure: None,
             most_kept: MOST_KEPT,
         };
@@ -90,6 +102,7 @@ impl<R: Read> LineReader<R> {
             line: self.line,
             cut: self.cut,
             next: self.next,
+            ends: self.ends,
             failure: self.failure,
             most_kept: self.most_kept,
         }
@@ -122,6 +135,15 @@ impl<R: Read> LineReader<R> {
     fn refill(&mut self) -> bool {
         self.text.clear();
         self.next = 0;
+        let has_line = self.decode_lines();
+        self.ends = match memchr::memchr(b'\r', self.text.as_bytes()) {
+            Some(_) => LineEnds::Any,
+            None => LineEnds::Lf,
+        };
+        has_line
+    }
+
+    fn decode_lines(&mut self) -> bool {
         loop {
             let whole = self.whole_lines();
             if whole > 0 {
@@ -240,7 +262,11 @@ impl<R: Read> LineSource for LineReader<R> {
             return false;
         }
         let rest = &self.text.as_bytes()[self.next..];
-        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        let line_end = match self.ends {
+            LineEnds::Any => memchr::memchr2(b'\n', b'\r', rest),
+            LineEnds::Lf => memchr::memchr(b'\n', rest),
+        };
+        let length = line_end.unwrap_or(rest.len());
         let end = match &rest[length..] {
             [b'\r', b'\n', ..] => 2,
             [_, ..] => 1,

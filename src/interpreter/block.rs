@@ -72,7 +72,9 @@ impl Interpreter {
         let call = call.and_then(|wanted| self.resolve(*wanted, at, finder));
         let refused = self.work.diagnostics.iter().any(stops);
         let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
-        self.take_faults(block, at, stopped);
+        if !block.faults.is_empty() {
+            self.take_faults(block, at, stopped);
+        }
         if !stopped {
             self.move_axes(&intent, at);
         }
@@ -135,9 +137,6 @@ impl Interpreter {
 
     /// Adds what is wrong with the text, up to the first error when that stops the program.
     fn take_faults(&mut self, block: &Block, at: &At<'_>, stopped: bool) {
-        if block.faults.is_empty() {
-            return;
-        }
         let error = |diagnostic: &&crate::diagnostic::Diagnostic| stops(diagnostic);
         let executed = self
             .work
@@ -164,18 +163,43 @@ impl Interpreter {
     }
 
     fn items(&mut self, block: &Block, at: &At<'_>, intent: &mut Intent, limit: Option<u32>) {
+        let is_reached = |span: Span| limit.is_none_or(|limit| span.start < limit);
+        for word in &block.words {
+            if !is_reached(word.span) {
+                return;
+            }
+            if let Some((axis, number)) = self.coordinate(word) {
+                self.axis_word(axis, word.span, Some(number));
+                continue;
+            }
+            let done = self.word(word, block, at, intent);
+            if self.say(done, at).is_break() {
+                return;
+            }
+        }
         for item in &block.items {
-            if limit.is_some_and(|limit| item.span().start >= limit) {
+            if !is_reached(item.span()) {
                 return;
             }
-            if let Err(fault) = self.item(item, block, at, intent) {
-                self.work.diagnostics.push(at.diagnostic(*fault));
-            }
-            if self.options.stop == StopPolicy::FirstError
-                && self.work.diagnostics.iter().any(stops)
-            {
+            let done = self.item(item, block, at, intent);
+            if self.say(done, at).is_break() {
                 return;
             }
+        }
+    }
+
+    /// Says what is wrong with a part of the block. `Break` where the control goes no further.
+    #[inline]
+    fn say(&mut self, done: Result<(), Box<Fault>>, at: &At<'_>) -> ControlFlow<()> {
+        if let Err(fault) = done {
+            self.work.diagnostics.push(at.diagnostic(*fault));
+        }
+        let refused =
+            self.options.stop == StopPolicy::FirstError && self.work.diagnostics.iter().any(stops);
+        if refused {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     }
 

@@ -266,6 +266,8 @@ pub struct Interpreter {
     letters: [Option<AxisIndex>; 26],
     /// The axes with longer names.
     names: BTreeMap<String, AxisIndex>,
+    /// Whether any axis requires a compensation (P-AXIS-00465).
+    any_required: bool,
     units: Vec<Unit>,
     /// Which file a call by name from a file meant.
     found: BTreeMap<(String, String), usize>,
@@ -422,6 +424,7 @@ impl Interpreter {
             }
         }
         Self {
+            any_required: machine.axes.iter().any(|axis| !axis.required.is_empty()),
             machine,
             options,
             letters,
@@ -678,20 +681,10 @@ impl Interpreter {
     }
 
     /// FC910 when the next block may not be executed any more.
+    #[inline]
     fn over_budget(&self, at: &At<'_>) -> Option<Diagnostic> {
         let budget = self.options.limits.blocks;
-        (self.state.blocks >= budget).then(|| {
-            at.diagnostic(
-                Fault::new(
-                    Code::Fc910,
-                    Span::new(0, at.text.len()),
-                    format!("more than {budget} blocks were executed"),
-                )
-                .with_help(
-                    "look for a loop that does not end, or raise the budget with `--max-blocks`",
-                ),
-            )
-        })
+        (self.state.blocks >= budget).then(|| too_many_blocks(budget, at))
     }
 
     fn check_unexecuted(
@@ -728,6 +721,19 @@ impl Unit {
             index,
         }
     }
+}
+
+/// FC910.
+#[cold]
+fn too_many_blocks(budget: u64, at: &At<'_>) -> Diagnostic {
+    at.diagnostic(
+        Fault::new(
+            Code::Fc910,
+            Span::new(0, at.text.len()),
+            format!("more than {budget} blocks were executed"),
+        )
+        .with_help("look for a loop that does not end, or raise the budget with `--max-blocks`"),
+    )
 }
 
 /// Whether a diagnostic stops the control.

@@ -329,6 +329,7 @@ impl Modal {
     }
 
     /// A programmed coordinate of an axis.
+    #[inline]
     pub fn move_axis(&mut self, axis: AxisIndex, value: Option<f64>) {
         let value = value
             .zip(self.metric())

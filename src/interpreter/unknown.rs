@@ -76,6 +76,9 @@ impl Interpreter {
                 macro_depth: 0,
             };
             self.note_reads(&block, &at);
+            for word in &block.words {
+                self.forget_word((word, &block, unit), &at, cause);
+            }
             for item in &block.items {
                 self.forget_item(item, (&block, unit), &at, cause);
             }
@@ -191,6 +194,9 @@ impl Interpreter {
         };
         // A macro that uses itself several times would be scanned without end.
         let uses = |item: &&Item| !matches!(item, Item::MacroUse(inner) if super::expression::unquoted(inner.of(&code)) == name);
+        for word in &block.words {
+            self.forget_word((word, &block, unit), &inner, cause);
+        }
         for item in block.items.iter().filter(uses) {
             self.forget_item(item, (&block, unit), &inner, cause);
         }
@@ -249,11 +255,14 @@ impl Interpreter {
 
     fn forget_axis(&mut self, axis: AxisIndex, block: &Block) {
         self.see(axis);
-        let reference = |item: &Item| {
-            matches!(item, Item::Word(word)
-                if word.address == Address::Letter(b'G') && word.value == Some(Operand::Number(92.0)))
+        let is_reference = |word: &Word| {
+            word.address == Address::Letter(b'G') && word.value == Some(Operand::Number(92.0))
         };
-        if block.items.iter().any(reference) {
+        let behind = block.items.iter().filter_map(|item| match item {
+            Item::Word(word) => Some(word),
+            _ => None,
+        });
+        if block.words.iter().chain(behind).any(is_reference) {
             self.state.modal.forget_reference(axis);
         } else {
             self.state.modal.forget_position(axis);

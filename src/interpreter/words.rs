@@ -88,11 +88,25 @@ impl Interpreter {
     }
 
     /// An axis occurs.
+    #[inline]
     pub(super) fn see(&mut self, axis: AxisIndex) {
         self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
-    fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
+    /// The axis and the coordinate of a word that is an axis letter with a plain number, as most are.
+    #[inline]
+    pub(super) fn coordinate(&self, word: &Word) -> Option<(AxisIndex, f64)> {
+        match (word.address, word.value) {
+            (Address::Letter(letter @ b'A'..=b'Z'), Some(Operand::Number(number))) => {
+                let axis = self.letters[usize::from(letter - b'A')]?;
+                Some((axis, number))
+            }
+            _ => None,
+        }
+    }
+
+    #[inline]
+    pub(super) fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
         self.see(axis);
         self.work.coordinates.push((axis, number));
         self.work.moved.push((axis, span));
@@ -101,11 +115,7 @@ impl Interpreter {
     /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
     /// block took effect before the motion (R1.9).
     pub(super) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
-        if matches!(words, AxisWords::Reference | AxisWords::Other) {
-            return;
-        }
-        let requires = |axis: AxisIndex| !self.machine.axis(axis).required.is_empty();
-        if !self.work.moved.iter().any(|&(axis, _)| requires(axis)) {
+        if !self.any_required || matches!(words, AxisWords::Reference | AxisWords::Other) {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);

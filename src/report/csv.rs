@@ -8,7 +8,7 @@ use crate::machine::AxisIndex;
 use crate::syntax::Kind;
 use crate::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
 
-use super::strings::integer;
+use super::strings::{any_byte, integer};
 use super::{Output, Report, View};
 
 /// The last row: what is said at program end joins its codes.
@@ -210,9 +210,9 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
 /// Appends a field, quoted where it must be.
 fn field(out: &mut Vec<u8>, text: &str) {
     let bytes = text.as_bytes();
-    let special = |byte: u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
-    // Without an early end the whole field is looked through at once.
-    if !bytes.iter().fold(false, |any, &byte| any | special(byte)) {
+    let is_special =
+        |byte: u8| [b',', b'"', b'\n', b'\r'].map(|special| u8::from(byte == special)) != [0; 4];
+    if !any_byte(bytes, is_special) {
         out.extend_from_slice(bytes);
         return;
     }

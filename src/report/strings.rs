@@ -20,16 +20,25 @@ const ESCAPES: [u8; 256] = {
 
 const HEX: [u8; 16] = *b"0123456789abcdef";
 
+/// Whether a text holds a special byte; a blank is none. Most texts hold none, so that sixteen bytes
+/// are looked at without a branch; the last sixteen may overlap those before.
+#[inline]
+pub(super) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
+    let any_of = |chunk: &[u8; 16]| chunk.map(|byte| u8::from(is_special(byte))) != [0; 16];
+    if let Some(last) = bytes.last_chunk() {
+        return bytes.as_chunks().0.iter().any(any_of) || any_of(last);
+    }
+    let mut filled = [b' '; 16];
+    filled[..bytes.len()].copy_from_slice(bytes);
+    any_of(&filled)
+}
+
 /// Appends a text as a JSON string with its quotes.
 pub(super) fn string(out: &mut Vec<u8>, text: &str) {
     let bytes = text.as_bytes();
-    let is_special = |byte: u8| byte < 0x20 || byte == b'"' || byte == b'\\';
     out.push(b'"');
-    // Most texts stay as they are; without an early end they are looked through at once.
-    if bytes
-        .iter()
-        .fold(false, |any, &byte| any | is_special(byte))
-    {
+    let is_special = |byte: u8| byte < 0x20 || byte == b'"' || byte == b'\\';
+    if any_byte(bytes, is_special) {
         escape(out, bytes);
     } else {
         out.extend_from_slice(bytes);

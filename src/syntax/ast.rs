@@ -15,7 +15,9 @@ pub struct Block {
     pub skip: Option<u8>,
     /// The block number.
     pub number: Option<Number>,
-    /// What stands in the block, from left to right.
+    /// The words in front of everything else; most blocks have nothing else.
+    pub words: Vec<Word>,
+    /// What follows them, from left to right.
     pub items: Vec<Item>,
     /// The expressions of the block.
     pub nodes: Vec<Node>,
@@ -33,18 +35,23 @@ impl Block {
             .any(|item| matches!(item, Item::Flow(Flow::Goto(_), _)))
     }
 
+    /// Appends a word behind what stands in the block.
+    #[inline]
+    pub(super) fn push_word(&mut self, word: Word) {
+        if self.items.is_empty() {
+            self.words.push(word);
+        } else {
+            self.items.push(Item::Word(word));
+        }
+    }
+
     /// Empties the block and keeps its memory.
+    #[inline]
     pub fn clear(&mut self) {
         self.skip = None;
         self.number = None;
-        while let Some(last) = self.items.last() {
-            // A word owns nothing; asking is cheaper than dropping each.
-            let is_word = matches!(last, Item::Word(_));
-            let last = self.items.pop();
-            if is_word {
-                std::mem::forget(last);
-            }
-        }
+        self.words.clear();
+        self.items.clear();
         self.nodes.clear();
         self.spans.clear();
         self.faults.clear();
@@ -108,7 +115,7 @@ pub struct Word {
 /// Something in a block.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Item {
-    /// A word.
+    /// A word behind something else.
     Word(Word),
     /// A COMP command.
     Comp(CompCommand),

@@ -2,13 +2,19 @@
 //!
 //! It yields exactly what the grammar yields, or declines; a property test holds the two together.
 
-use super::ast::{Address, Block, Item, Number, Operand, Word};
+use super::ast::{Address, Block, Number, Operand, Word};
 use super::lines::Comments;
 use crate::source::Span;
 
-/// Powers of ten that an `f64` holds exactly.
-const POWERS: [f64; 16] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+/// Powers of ten that an `f64` holds exactly, and the same with a minus.
+const POWERS: [[f64; 16]; 2] = [
+    [
+        1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+    ],
+    [
+        -1e0, -1e1, -1e2, -1e3, -1e4, -1e5, -1e6, -1e7, -1e8, -1e9, -1e10, -1e11, -1e12, -1e13,
+        -1e14, -1e15,
+    ],
 ];
 
 /// Parses a line into an empty block and says whether comments stand in it. Declines, with the
@@ -39,23 +45,20 @@ fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
             at = comment(bytes, at)?;
         }
     }
-    (block.number.is_some() || !block.items.is_empty()).then_some(comments)
+    (block.number.is_some() || !block.words.is_empty()).then_some(comments)
 }
 
-/// Appends the word at a place; returns where it ends.
+/// Appends the word at a place; returns where it ends. What is glued to its number, or continues it
+/// as an expression, begins neither a word nor a comment and is declined there.
 #[inline]
 fn word(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
     let letter = bytes[start];
     let (value, end) = number(bytes, start + 1)?;
-    // What is glued to the number, or continues it as an expression, is not plain.
-    if bytes.get(end).is_some_and(|byte| !is_separator(*byte)) {
-        return None;
-    }
     let value = Operand::Number(value);
     let span = Span::new(start, end);
     if matches!(letter, b'L' | b'N' | b'P') {
         // A call, a parameter or a second number are the grammar's business.
-        let first = letter == b'N' && block.number.is_none() && block.items.is_empty();
+        let first = letter == b'N' && block.number.is_none() && block.words.is_empty();
         let signed = matches!(bytes[start + 1], b'+' | b'-');
         if !first || signed {
             return None;
@@ -66,11 +69,11 @@ fn word(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
             span,
         });
     } else {
-        block.items.push(Item::Word(Word {
+        block.words.push(Word {
             address: Address::Letter(letter),
             value: Some(value),
             span,
-        }));
+        });
     }
     Some(end)
 }
@@ -89,10 +92,6 @@ fn is_blank(byte: u8) -> bool {
     byte == b' ' || byte == b'\t'
 }
 
-fn is_separator(byte: u8) -> bool {
-    is_blank(byte) || byte.is_ascii_uppercase() || matches!(byte, b';' | b'(')
-}
-
 /// A number with an optional sign: its value and where it ends. At most 15 digits, which an `f64`
 /// holds exactly, so that the quotient is the nearest `f64` as in the grammar's path.
 #[inline]
@@ -103,10 +102,11 @@ fn number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
         Some(digits) => digits,
         None => long_digits(&bytes[first..])?,
     };
-    let power = POWERS[digits.decimals];
+    // A table for the sign: a branch on it is guessed wrong too often.
+    let power = POWERS[usize::from(sign == b'-')][digits.decimals];
     #[allow(clippy::cast_precision_loss)] // below 10^15
     let mantissa = digits.mantissa as f64;
-    let value = mantissa / if sign == b'-' { -power } else { power };
+    let value = mantissa / power;
     Some((value, first + digits.length))
 }
 

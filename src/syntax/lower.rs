@@ -249,11 +249,11 @@ impl Lowering<'_> {
         match text {
             [letter] if is_axis_letter(*letter) => {
                 self.flush_unknown();
-                self.block.items.push(Item::Word(Word {
+                self.block.push_word(Word {
                     address: address(*letter),
                     value: None,
                     span,
-                }));
+                });
             }
             _ => self.unknown = Some(self.unknown.map_or(span, |so_far| so_far.to(span))),
         }
@@ -269,13 +269,13 @@ impl Lowering<'_> {
                 continue;
             };
             let value = number.parse().map(Operand::Number).ok();
-            self.block.items.extend(letter.bytes().map(|letter| {
-                Item::Word(Word {
+            for letter in letter.bytes() {
+                self.block.push_word(Word {
                     address: address(letter),
                     value,
                     span,
-                })
-            }));
+                });
+            }
         }
     }
 
@@ -297,11 +297,11 @@ impl Lowering<'_> {
         } else {
             address(byte)
         };
-        self.block.items.push(Item::Word(Word {
+        self.block.push_word(Word {
             address,
             value: Some(value),
             span,
-        }));
+        });
     }
 
     fn named_word(&mut self, pair: Pair<'_, Rule>, span: Span) {
@@ -309,11 +309,11 @@ impl Lowering<'_> {
         if let (Some(name), Some(value)) = (inner.next(), inner.next()) {
             let name = span_of(&name);
             let value = expression::lower(value, 0, self.block);
-            self.block.items.push(Item::Word(Word {
+            self.block.push_word(Word {
                 address: Address::Name(name),
                 value: Some(value),
                 span,
-            }));
+            });
         }
     }
 

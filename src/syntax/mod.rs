@@ -74,7 +74,7 @@ pub fn parse_comp(text: &str) -> Result<CompCommand, Fault> {
     }
     let mut items = block.items.into_iter();
     match (items.next(), items.next()) {
-        (Some(ast::Item::Comp(command)), None) => Ok(command),
+        (Some(ast::Item::Comp(command)), None) if block.words.is_empty() => Ok(command),
         _ => Err(Fault::new(
             Code::Fc207,
             Span::new(0, text.len()),

@@ -1,6 +1,6 @@
 //! 2.1: text.
 
-use frictcomp::syntax::ast::{Item, Operand};
+use frictcomp::syntax::ast::Operand;
 use frictcomp::syntax::parse_block;
 use insta::assert_snapshot;
 
@@ -112,15 +112,11 @@ fn words_need_no_blanks() {
     // R2.5
     let words = |text: &str| {
         let block = parse_block(text);
-        let shown = block.items.iter().map(|item| match item {
-            Item::Word(word) => match word.value {
-                Some(Operand::Number(value)) => {
-                    format!("{} = {value}", word.span.of(text))
-                }
-                _ => word.span.of(text).to_owned(),
-            },
-            other => format!("{other:?}"),
+        let shown = block.words.iter().map(|word| match word.value {
+            Some(Operand::Number(value)) => format!("{} = {value}", word.span.of(text)),
+            _ => word.span.of(text).to_owned(),
         });
+        assert_eq!(block.items, []);
         let faults = block
             .faults
             .iter()

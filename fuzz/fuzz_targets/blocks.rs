@@ -26,6 +26,7 @@ fuzz_target!(|text: &str| {
         );
         let inside = |span: &Span| assert!(raw.text.get(span.range()).is_some(), "{span:?}");
         one.spans.iter().for_each(inside);
+        one.words.iter().for_each(|word| inside(&word.span));
         one.items.iter().for_each(|item| inside(&item.span()));
         one.faults.iter().for_each(|fault| inside(&fault.span));
     }

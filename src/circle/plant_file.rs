@@ -290,14 +290,21 @@ fn real(table: &Section<'_>, key: &str) -> Result<Option<Given<f64>>, ConfigErro
         Some(number) if (limits.least..=limits.most).contains(&number) => {
             Ok(Some(place.with(number)))
         }
-        Some(number) => Err(ConfigError::at(
-            &place,
-            format!(
-                "`{key}` is {number:?}{unit}, it lies between {} and {}",
-                limits.least, limits.most
-            ),
-        )
-        .with_help("all values are in SI units: kg, N, m, s")),
+        Some(number) => {
+            let shown = if number.abs() < 1e15 {
+                number.to_string()
+            } else {
+                format!("{number:e}")
+            };
+            Err(ConfigError::at(
+                &place,
+                format!(
+                    "`{key}` is {shown}{unit}, it lies between {} and {}",
+                    limits.least, limits.most
+                ),
+            )
+            .with_help("all values are in SI units: kg, N, m, s"))
+        }
         None => Err(ConfigError::at(
             &place,
             format!("`{key}` is a number{}", {

@@ -142,7 +142,9 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     });
     listing.finish().map_err(|error| Failure::output(&error))?;
     if let Some(last) = failures.pop() {
-        failures.iter().for_each(|failure| console.explain(failure));
+        for failure in &failures {
+            console.explain(failure);
+        }
         return Err(last);
     }
     if listing.is_closed() {

@@ -1,7 +1,7 @@
 //! Where data and talk go: stdout is data, stderr is talk (R9.27).
 
 use std::fs::File;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use anstream::{AutoStream, ColorChoice};
@@ -130,11 +130,6 @@ impl Console {
         for help in &failure.help {
             let _ = writeln!(writer, "{plain}help{plain:#}: {help}");
         }
-    }
-
-    /// Whether a person watches stderr while data goes elsewhere.
-    pub(super) fn shows_progress() -> bool {
-        io::stderr().is_terminal() && !io::stdout().is_terminal()
     }
 
     fn choice(self, automatic: ColorChoice) -> ColorChoice {

@@ -1,12 +1,10 @@
 //! A sink that counts what goes through it, for the exit status and the progress line.
 
-use std::io::{self, Write};
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 
-use super::console::Console;
+use super::progress::Progress;
 use crate::diagnostic::Severity;
 use crate::report::Tally;
 use crate::timeline::{Record, Sink};
@@ -45,16 +43,12 @@ impl FailOn {
 /// Blocks between two looks at the clock.
 const STEP: u64 = 1 << 16;
 
-/// A run that takes longer shows its progress (R9.27).
-const QUIET: Duration = Duration::from_secs(1);
-
 /// Counts diagnostics on their way to a report.
 pub(super) struct Counted<'a> {
     inner: &'a mut dyn Sink,
     tally: Tally,
     blocks: u64,
-    progress: Option<Instant>,
-    shown: bool,
+    progress: Progress,
 }
 
 impl<'a> Counted<'a> {
@@ -63,29 +57,19 @@ impl<'a> Counted<'a> {
             inner,
             tally: Tally::default(),
             blocks: 0,
-            progress: Console::shows_progress().then(Instant::now),
-            shown: false,
+            progress: Progress::beside_output(),
         }
     }
 
     /// Takes the progress line away and gives what was counted.
     pub(super) fn finish(self) -> Tally {
-        if self.shown {
-            let _ = write!(io::stderr().lock(), "\r{:30}\r", "");
-        }
         self.tally
     }
 
     fn step(&mut self) {
         self.blocks += 1;
-        if !self.blocks.is_multiple_of(STEP) {
-            return;
-        }
-        if self.progress.is_some_and(|start| start.elapsed() > QUIET) {
-            self.shown = true;
-            let mut stderr = io::stderr().lock();
-            let _ = write!(stderr, "\r{} blocks", self.blocks);
-            let _ = stderr.flush();
+        if self.blocks.is_multiple_of(STEP) {
+            self.progress.show(|| format!("{} blocks", self.blocks));
         }
     }
 }

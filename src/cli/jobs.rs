@@ -1,23 +1,16 @@
 //! Independent pieces of work on all cores, with the results in the order of the pieces.
 
-use std::io::Write;
 use std::num::NonZero;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
-use super::console::Console;
-
-/// Work that takes longer shows its progress (R9.27).
-const QUIET: Duration = Duration::from_secs(1);
+use super::progress::Progress;
 
 /// Does work piece by piece and tells a watching person how far it is.
 pub(super) struct Jobs {
     name: &'static str,
-    begun: Instant,
     done: AtomicUsize,
-    shows: bool,
-    shown: Mutex<Option<Instant>>,
+    progress: Mutex<Progress>,
 }
 
 impl Jobs {
@@ -25,10 +18,8 @@ impl Jobs {
     pub(super) fn new(name: &'static str) -> Self {
         Self {
             name,
-            begun: Instant::now(),
             done: AtomicUsize::new(0),
-            shows: Console::shows_progress(),
-            shown: Mutex::new(None),
+            progress: Mutex::new(Progress::of_silent_run()),
         }
     }
 
@@ -70,23 +61,9 @@ impl Jobs {
 
     fn tick(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if !self.shows || self.begun.elapsed() < QUIET {
-            return;
-        }
-        if let Ok(mut shown) = self.shown.try_lock()
-            && shown.is_none_or(|last| last.elapsed() > QUIET / 5)
-        {
-            let name = self.name;
-            let _ = write!(std::io::stderr(), "\r{name}: {done} runs done");
-            *shown = Some(Instant::now());
-        }
-    }
-}
-
-impl Drop for Jobs {
-    fn drop(&mut self) {
-        if self.shown.get_mut().is_ok_and(|shown| shown.is_some()) {
-            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        // Who comes while another core shows it need not wait.
+        if let Ok(mut progress) = self.progress.try_lock() {
+            progress.show(|| format!("{}: {done} runs done", self.name));
         }
     }
 }

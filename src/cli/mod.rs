@@ -22,6 +22,7 @@ mod lines;
 mod lists;
 mod man;
 mod plants;
+mod progress;
 mod recorded;
 mod replace;
 mod run;

@@ -12,6 +12,7 @@ use super::super::dry_run::{Alone, run_alone};
 use super::super::exit;
 use super::super::failure::Failure;
 use super::super::files::{Input, Naming};
+use super::super::progress::Progress;
 use super::super::sheet::Sheet;
 use super::{Column, CurrentArgs, Plot, check_cycle, say_saturated, value_list};
 use crate::compensation::State;
@@ -28,6 +29,9 @@ use crate::timeline::{Record, Sink};
 const POSITION: f64 = 10_000.0;
 /// Units of velocity of the lists, µm/s or 0.001°/s, in a millimetre or degree per second.
 const VELOCITY: f64 = 1000.0;
+
+/// Cycles between two looks at the clock.
+const STEP: u64 = 1 << 16;
 
 /// Runs a program and writes the currents of its axes.
 pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
@@ -61,6 +65,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
             writer: BufWriter::new(sheet),
             written: Ok(()),
             cycles: 0,
+            progress: Progress::beside_output(),
             begins: Vec::new(),
             seen: vec![Vec::new(); followed.len()],
             plot: Plot::create(args, console, plotted(&loaded, &followed))?,
@@ -244,6 +249,7 @@ struct Table {
     writer: BufWriter<Sheet>,
     written: io::Result<()>,
     cycles: u64,
+    progress: Progress,
     /// When and at which line the trace begins, and begins anew.
     begins: Vec<(f64, u32)>,
     /// The states that each axis was in, other than active.
@@ -305,6 +311,9 @@ impl Cycles for Table {
 
     fn cycle(&mut self, cycle: &Cycle<'_>) -> ControlFlow<()> {
         self.cycles += 1;
+        if self.cycles.is_multiple_of(STEP) {
+            self.progress.show(|| format!("{} cycles", self.cycles));
+        }
         for (seen, state) in self.seen.iter_mut().zip(cycle.cause.friction.iter()) {
             if *state != State::Active && !seen.contains(state) {
                 seen.push(*state);

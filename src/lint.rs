@@ -103,10 +103,10 @@ impl<'m> Linter<'m> {
         if !self.any_changed_before {
             return;
         }
-        for &(axis, span) in executed.moved {
-            let memory = &mut self.axes[axis.get()];
+        for word in executed.moved {
+            let memory = &mut self.axes[word.axis.get()];
             if memory.changed_before && memory.moved.is_none() {
-                memory.moved = Some(site(executed, span));
+                memory.moved = Some(site(executed, word.span));
             }
         }
     }

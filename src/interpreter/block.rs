@@ -6,8 +6,8 @@ use super::call::Wanted;
 use super::value::rounded;
 use super::words::AxisWords;
 use super::{
-    At, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Step, StopPolicy,
-    Value, ended_by, stops,
+    At, Departure, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Step,
+    StopPolicy, Value, ended_by, stops,
 };
 use crate::codes::Code;
 use crate::source::Span;
@@ -48,14 +48,14 @@ pub(super) struct Intent {
 }
 
 impl Interpreter {
-    /// Executes a block and tells the observer. `Break` when the observer wants to stop.
+    /// Executes a block and tells the observer. `Continue` where the next block follows.
     pub(super) fn execute(
         &mut self,
         block: &Block,
         at: &At<'_>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> ControlFlow<(), Step> {
+    ) -> ControlFlow<Departure> {
         self.work.clear();
         self.state.seq += 1;
         self.state.blocks += 1;
@@ -84,10 +84,12 @@ impl Interpreter {
         }
         self.remember_last(at);
         let step = if stopped {
-            Step::End(ended_by(&self.work.diagnostics))
+            Some(Step::End(ended_by(&self.work.diagnostics)))
         } else {
             let moved = !self.work.moved.is_empty();
-            intent.step = call.or(intent.step);
+            if call.is_some() {
+                intent.step = call;
+            }
             self.step(&mut intent, moved, at, finder)
         };
         let flow = observer.event(Event::Executed(Executed {
@@ -114,12 +116,13 @@ impl Interpreter {
         }));
         // They are said; what is left at program end belongs to no executed block.
         self.work.diagnostics.clear();
-        match flow {
-            ControlFlow::Continue(()) => ControlFlow::Continue(step),
-            ControlFlow::Break(()) => {
-                self.park(step);
-                ControlFlow::Break(())
+        match step {
+            step if flow.is_break() => {
+                self.state.parked = step;
+                ControlFlow::Break(Departure::Paused)
             }
+            None => ControlFlow::Continue(()),
+            Some(step) => ControlFlow::Break(Departure::Step(step)),
         }
     }
 
@@ -168,8 +171,8 @@ impl Interpreter {
             if !is_reached(word.span) {
                 return;
             }
-            if let Some((axis, number)) = self.coordinate(word) {
-                self.axis_word(axis, word.span, Some(number));
+            if let Some((axis, value)) = self.coordinate(word) {
+                self.axis_word(axis, word.span, Some(value));
                 continue;
             }
             let done = self.word(word, block, at, intent);
@@ -203,14 +206,14 @@ impl Interpreter {
         }
     }
 
-    /// What the control does next.
+    /// What the control does next, where that is not the next block.
     fn step(
         &mut self,
         intent: &mut Intent,
         moved: bool,
         at: &At<'_>,
         finder: &mut dyn Finder,
-    ) -> Step {
+    ) -> Option<Step> {
         if let Some(by) = intent.end {
             if at.level > 0 && self.state.ending.is_none() {
                 let fault = Fault::new(
@@ -226,19 +229,15 @@ impl Interpreter {
                 self.state.frames.clear();
                 if let Some(step) = self.resolve(wanted, at, finder) {
                     self.state.ending = Some(by);
-                    return step;
+                    return Some(step);
                 }
             }
-            return Step::End(self.state.ending.take().unwrap_or(by));
+            return Some(Step::End(self.state.ending.take().unwrap_or(by)));
         }
         if intent.returns {
-            return Step::Return;
+            return Some(Step::Return);
         }
-        intent
-            .step
-            .take()
-            .or_else(|| self.repetition(moved, at))
-            .unwrap_or(Step::Next)
+        intent.step.take().or_else(|| self.repetition(moved, at))
     }
 
     fn item(
@@ -333,8 +332,8 @@ impl Interpreter {
         for diagnostic in &mut self.work.diagnostics[said..] {
             diagnostic.place = at.place(span);
         }
-        for (_, word) in &mut self.work.moved[moved..] {
-            *word = span;
+        for word in &mut self.work.moved[moved..] {
+            word.span = span;
         }
         for outcome in &mut self.work.outcomes[switched..] {
             outcome.command.span = span;
@@ -346,9 +345,10 @@ impl Interpreter {
     }
 
     fn block_number(&mut self, block: &Block, at: &At<'_>) -> Option<i64> {
-        let value = match block.number?.value {
-            Operand::Number(number) => return rounded(number),
-            operand @ Operand::Expression(_) => self.value(operand, block, at),
+        let number = block.number.as_ref()?;
+        let value = match &number.value {
+            Operand::Number(number) => return rounded(*number),
+            operand @ Operand::Expression(_) => self.value(*operand, block, at),
         };
         value
             .ok()

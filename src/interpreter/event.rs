@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Place};
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::Block;
-use crate::syntax::{Comments, CompCommand};
+use crate::syntax::{Comments, CompCommand, Remark};
 
 /// Why a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -51,6 +51,17 @@ pub struct Outcome {
     pub result: Result<AxisIndex, CompensationError>,
     /// How many of the block's changes it made.
     pub changes: usize,
+}
+
+/// An axis word of a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisWord {
+    /// The axis.
+    pub axis: AxisIndex,
+    /// The word.
+    pub span: Span,
+    /// The coordinate as it is programmed, where it is known.
+    pub value: Option<f64>,
 }
 
 /// What a run came across that a user may want to look at.
@@ -96,8 +107,8 @@ pub struct Executed<'a> {
     pub text: &'a str,
     /// Whether comments stand in the text.
     pub comments: Comments,
-    /// The comment line directly above that speaks to this tool, with its line.
-    pub remark: Option<(&'a str, u32)>,
+    /// The comment line directly above that speaks to this tool.
+    pub remark: Option<&'a Remark>,
     /// Its block number, where it is known.
     pub number: Option<i64>,
     /// The call depth, from 1; absent in the main program.
@@ -108,8 +119,8 @@ pub struct Executed<'a> {
     pub outcomes: &'a [Outcome],
     /// What it changed.
     pub changes: &'a [Change],
-    /// The axes that it moves, each with its word.
-    pub moved: &'a [(AxisIndex, Span)],
+    /// The axes that it moves.
+    pub moved: &'a [AxisWord],
     /// What it makes the machine do, where motions are taken.
     pub motion: Option<&'a Motion>,
     /// The notes on it, where they are taken.

@@ -11,7 +11,8 @@ use super::expression::Place as Target;
 use super::program::{EntryIndex, LabelName};
 use super::value::rounded;
 use super::{
-    At, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Seeking, Step, Value,
+    At, Departure, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Seeking,
+    Step, Value,
 };
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
@@ -52,10 +53,7 @@ impl Interpreter {
                 text: &parsed.text,
                 line: parsed.line,
                 comments: parsed.comments,
-                remark: parsed
-                    .remark
-                    .as_ref()
-                    .map(|(text, line)| (text.as_str(), *line)),
+                remark: parsed.remark.as_ref(),
                 level,
                 called_from: called_from.as_ref(),
                 macro_depth: 0,
@@ -66,13 +64,14 @@ impl Interpreter {
                 return Outlook::Ended(EndedBy::Budget);
             }
             let depth = self.state.frames.len();
-            let step = self.execute(&parsed.block, &at, finder, observer);
+            let flow = self.execute(&parsed.block, &at, finder, observer);
             if let Some(frame) = self.state.frames.get_mut(depth - 1) {
                 frame.called_from = called_from;
             }
-            let step = match step {
-                ControlFlow::Continue(step) => step,
-                ControlFlow::Break(()) => return Outlook::Paused,
+            let step = match flow {
+                ControlFlow::Continue(()) => continue,
+                ControlFlow::Break(Departure::Step(step)) => step,
+                ControlFlow::Break(Departure::Paused) => return Outlook::Paused,
             };
             if let ControlFlow::Break(by) = self.follow(step) {
                 return Outlook::Ended(by);
@@ -84,7 +83,7 @@ impl Interpreter {
     pub(super) fn follow(&mut self, step: Step) -> ControlFlow<EndedBy> {
         match step {
             // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
-            Step::Next | Step::Begin => {}
+            Step::Begin => {}
             Step::Jump(entry) => {
                 if let Some(frame) = self.state.frames.last_mut() {
                     frame.next = entry;
@@ -115,11 +114,6 @@ impl Interpreter {
         }
     }
 
-    /// What a paused run has to do when it goes on.
-    pub(super) fn park(&mut self, step: Step) {
-        self.state.parked = Some(step);
-    }
-
     /// A parsed block; those that are executed again are kept.
     fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Rc<Parsed> {
         let place = entry as usize;
@@ -138,7 +132,7 @@ impl Interpreter {
             debug_assert_eq!(raw.stretch, Stretch::Block);
             raw.text.clone_into(&mut text);
             comments = raw.comments;
-            remark = raw.remark.map(|(text, line)| (text.to_owned(), line));
+            remark = raw.remark.cloned();
         }
         let remark = remark.or_else(|| unit.index.remark(entry));
         let parsed = Rc::new(Parsed {

@@ -36,7 +36,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-pub use event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};
+pub use event::{
+    AxisWord, Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome,
+};
 pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
 pub use motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
@@ -50,7 +52,7 @@ use crate::diagnostic::{Diagnostic, Place, Severity};
 use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
 use crate::source::{SourceFile, Span};
 use crate::syntax::ast::{Block, Call, CallForm, Repetition};
-use crate::syntax::{Comments, FastPath, Fault};
+use crate::syntax::{Comments, FastPath, Fault, Remark};
 use call::Found;
 use memory::Memory;
 use program::{EntryIndex, Index};
@@ -233,7 +235,7 @@ struct Parsed {
     line: u32,
     text: String,
     comments: Comments,
-    remark: Option<(String, u32)>,
+    remark: Option<Remark>,
 }
 
 /// How many parsed blocks a run keeps.
@@ -285,11 +287,10 @@ struct Work {
     block: Block,
     outcomes: Vec<Outcome>,
     changes: Vec<Change>,
-    moved: Vec<(AxisIndex, Span)>,
+    /// Its axis words.
+    moved: Vec<AxisWord>,
     diagnostics: Vec<Diagnostic>,
     stack: Vec<Result<Value, Box<Fault>>>,
-    /// Axis words of the block with their values.
-    coordinates: Vec<(AxisIndex, Option<f64>)>,
     /// I, J, K, R and the like, where the block has any.
     geometry: Option<motion::Geometry>,
     /// Whether the block is G04 or `#TIME`.
@@ -311,7 +312,6 @@ impl Work {
         self.changes.clear();
         self.moved.clear();
         self.diagnostics.clear();
-        self.coordinates.clear();
         self.geometry = None;
         self.dwells = false;
         self.motion = None;
@@ -327,7 +327,7 @@ struct At<'a> {
     text: &'a str,
     line: u32,
     comments: Comments,
-    remark: Option<(&'a str, u32)>,
+    remark: Option<&'a Remark>,
     level: u32,
     called_from: Option<&'a Place>,
     /// How many macros lie around the code.
@@ -354,18 +354,24 @@ impl At<'_> {
     }
 }
 
-/// What the control does after a block.
+/// What the control does after a block, where that is not the next one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 enum Step {
     /// The program was announced and has not begun.
     Begin,
-    Next,
     /// To a block of the same program.
     Jump(EntryIndex),
     Call(Box<Request>),
     /// M17, M29.
     Return,
     End(EndedBy),
+}
+
+/// Why the next block is not the one that follows.
+enum Departure {
+    /// The observer wants to stop.
+    Paused,
+    Step(Step),
 }
 
 /// A program to call.
@@ -523,7 +529,7 @@ impl Interpreter {
         let name = main.and_then(|main| index.sections[main].name.clone());
         self.units = vec![Unit::new(index)];
         if self.announce(name.as_deref(), observer).is_break() {
-            self.park(Step::Begin);
+            self.state.parked = Some(Step::Begin);
             return Outlook::Paused;
         }
         self.begin(main, finder, observer)

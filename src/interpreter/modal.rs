@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
+use super::AxisWord;
 use super::motion::BlockEnd;
 use crate::machine::AxisIndex;
 
@@ -172,6 +173,12 @@ pub(super) struct Saved {
     unknown: GroupSet,
 }
 
+/// A coordinate that counts from a place; not known where any part is not.
+#[inline]
+fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
+    Some(from? + value? * scale?)
+}
+
 /// G functions that take positions away from the machine's.
 const TRANSFORMING: [&str; 2] = ["G41", "G21"];
 
@@ -259,34 +266,33 @@ impl Modal {
         axes.get(place).copied()
     }
 
-    /// Puts a G function into force. `false` for one that is not modelled.
-    pub fn set(&mut self, number: u32) -> bool {
-        let group = Group::of(number);
-        if let Some(group) = group {
-            self.unknown.remove(group);
-        }
+    /// Puts a G function of a group into force.
+    #[inline]
+    pub(super) fn set(&mut self, group: Group, number: u32) {
+        self.unknown.remove(group);
         match group {
-            Some(Group::Motion) => self.motion = number,
-            Some(Group::Plane) => self.plane = number,
-            Some(Group::Unit) => self.inch = number == 70,
-            Some(Group::Distance) => self.absolute = number == 90,
-            Some(Group::Feed) => self.feed_mode = number,
-            Some(Group::Offset) => {
+            Group::Motion => self.motion = number,
+            Group::Plane => self.plane = number,
+            Group::Unit => self.inch = number == 70,
+            Group::Distance => self.absolute = number == 90,
+            Group::Feed => self.feed_mode = number,
+            Group::Offset => {
                 // An offset's values are the machine's own; coordinates lose their meaning.
                 if self.offset != number {
                     self.forget_positions();
                 }
                 self.offset = number;
             }
-            Some(Group::CutterRadius) => self.transform("G41", number != 40),
-            Some(Group::CircleCentre) => self.centre_absolute = number == 161,
-            Some(Group::ExactStop) if number == 360 => self.block_end = BlockEnd::ExactStop,
-            Some(Group::ExactStop) => self.block_end = BlockEnd::Through,
-            // G20 switches mirroring off, G21 to G23 switch it on.
-            None if (20..=23).contains(&number) => self.transform("G21", number != 20),
-            None => return false,
+            Group::CutterRadius => self.transform("G41", number != 40),
+            Group::CircleCentre => self.centre_absolute = number == 161,
+            Group::ExactStop if number == 360 => self.block_end = BlockEnd::ExactStop,
+            Group::ExactStop => self.block_end = BlockEnd::Through,
         }
-        true
+    }
+
+    /// G20 switches mirroring off, G21 to G23 switch it on.
+    pub(super) fn mirror(&mut self, number: u32) {
+        self.transform("G21", number != 20);
     }
 
     /// Enters or leaves a transformation.
@@ -328,40 +334,38 @@ impl Modal {
         self.is_known(Group::Unit).then_some(factor)
     }
 
-    /// A programmed coordinate of an axis.
-    #[inline]
-    pub fn move_axis(&mut self, axis: AxisIndex, value: Option<f64>) {
-        let value = value
-            .zip(self.metric())
-            .map(|(value, factor)| value * factor);
-        let from = if self.absolute {
-            self.references[axis.get()]
-        } else {
-            self.positions[axis.get()]
-        };
-        let known = self.is_known(Group::Distance);
-        self.positions[axis.get()] = value
-            .zip(from)
-            .map(|(value, from)| from + value)
-            .filter(|_| known);
+    /// Millimetres of a programmed unit, where what coordinates count from is known, too.
+    fn scale(&self) -> Option<f64> {
+        self.metric().filter(|_| self.is_known(Group::Distance))
     }
 
-    /// G92: an offset for the absolute coordinates that follow; in G91 it adds to the one in force
-    /// (PM/206145291). The axis does not move.
-    pub fn set_reference(&mut self, axis: AxisIndex, value: Option<f64>) {
-        let value = value
-            .zip(self.metric())
-            .map(|(value, factor)| value * factor);
-        let from = if self.absolute {
-            Some(0.0)
-        } else {
-            self.references[axis.get()]
-        };
-        let known = self.is_known(Group::Distance);
-        self.references[axis.get()] = value
-            .zip(from)
-            .map(|(value, from)| from + value)
-            .filter(|_| known);
+    /// Programmed coordinates.
+    pub(super) fn move_axes(&mut self, words: &[AxisWord]) {
+        let scale = self.scale();
+        for word in words {
+            let axis = word.axis.get();
+            let from = if self.absolute {
+                self.references[axis]
+            } else {
+                self.positions[axis]
+            };
+            self.positions[axis] = shifted(from, word.value, scale);
+        }
+    }
+
+    /// G92: offsets for the absolute coordinates that follow; in G91 they add to those in force
+    /// (PM/206145291). The axes do not move.
+    pub(super) fn set_references(&mut self, words: &[AxisWord]) {
+        let scale = self.scale();
+        for word in words {
+            let axis = word.axis.get();
+            let from = if self.absolute {
+                Some(0.0)
+            } else {
+                self.references[axis]
+            };
+            self.references[axis] = shifted(from, word.value, scale);
+        }
     }
 
     /// Forgets where the axes stand.

@@ -188,12 +188,12 @@ impl Interpreter {
         words: AxisWords,
     ) -> Option<Motion> {
         if self.work.dwells {
-            let by_axis = self.work.coordinates.first().map(|&(_, seconds)| seconds);
+            let by_axis = self.work.moved.first().map(|word| word.value);
             return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
         }
         let circular = matches!(self.state.modal.motion, 2 | 3);
         let centred = geometry.centre.iter().any(Option::is_some);
-        let moves = !self.work.coordinates.is_empty() || (circular && centred);
+        let moves = !self.work.moved.is_empty() || (circular && centred);
         let form = match words {
             _ if !moves => return None,
             AxisWords::Motion => self.form(geometry, &from),

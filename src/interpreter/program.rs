@@ -10,7 +10,7 @@ use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::{SourceFile, Span, TextLines};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
-use crate::syntax::{BlockReader, FastPath, Fault, Stretch};
+use crate::syntax::{BlockReader, FastPath, Fault, Remark, Stretch};
 
 /// The position of a block in [`Index::entries`].
 pub(super) type EntryIndex = u32;
@@ -68,7 +68,7 @@ pub(super) struct Index {
     /// The statements that open loops.
     loops: Vec<EntryIndex>,
     labels: HashMap<(usize, LabelName), EntryIndex>,
-    remarks: HashMap<EntryIndex, (String, u32)>,
+    remarks: HashMap<EntryIndex, Remark>,
     /// What keeps the program from running at all.
     pub(super) refused: Vec<Diagnostic>,
 }
@@ -220,8 +220,8 @@ impl Index {
         self.loops.iter().filter(around).max().copied()
     }
 
-    /// The comment line above a block that speaks to this tool, with its line.
-    pub(super) fn remark(&self, entry: EntryIndex) -> Option<(String, u32)> {
+    /// The comment line above a block that speaks to this tool.
+    pub(super) fn remark(&self, entry: EntryIndex) -> Option<Remark> {
         self.remarks.get(&entry).cloned()
     }
 
@@ -261,9 +261,8 @@ impl Builder {
                         offset: entry.end,
                         line: raw.line,
                     });
-                    if let Some((text, line)) = raw.remark {
-                        let remark = (text.to_owned(), line);
-                        self.index.remarks.insert(entry.start, remark);
+                    if let Some(remark) = raw.remark {
+                        self.index.remarks.insert(entry.start, remark.clone());
                     }
                     self.block(entry.start, &block, raw.text);
                 }

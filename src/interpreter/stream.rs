@@ -9,8 +9,8 @@ use std::sync::Arc;
 
 use super::program::Index;
 use super::{
-    At, Diagnostic, EndedBy, Finder, Interpreter, Observer, Outlook, SourceFile, Step, StopPolicy,
-    Unit,
+    At, Departure, Diagnostic, EndedBy, Finder, Interpreter, Observer, Outlook, SourceFile,
+    StopPolicy, Unit,
 };
 use crate::source::LineSource;
 use crate::syntax::ast::{Block, CallScope, Item};
@@ -108,12 +108,10 @@ impl Interpreter {
                 continue;
             }
             let step = match self.execute(&block, &at, finder, observer) {
-                ControlFlow::Continue(step) => step,
-                ControlFlow::Break(()) => return Outlook::Paused,
+                ControlFlow::Continue(()) => continue,
+                ControlFlow::Break(Departure::Step(step)) => step,
+                ControlFlow::Break(Departure::Paused) => return Outlook::Paused,
             };
-            if step == Step::Next {
-                continue;
-            }
             match self.follow(step) {
                 ControlFlow::Continue(()) => match self.run_called(finder, observer) {
                     None => {}
@@ -217,7 +215,7 @@ fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
 /// The text of a block with the remark above it, and the number of its first line.
 fn opening(raw: &RawBlock<'_>) -> (String, u32) {
     match raw.remark {
-        Some((remark, line)) => (format!("{remark}\n{}\n", raw.text), line),
+        Some(remark) => (format!("{}\n{}\n", remark.text, raw.text), remark.line),
         None => (format!("{}\n", raw.text), raw.line),
     }
 }

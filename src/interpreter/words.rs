@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::block::{Feed, Intent};
 use super::motion::{BlockEnd, foreign};
 use super::value::rounded;
-use super::{At, EndedBy, Group, Interpreter};
+use super::{At, AxisWord, EndedBy, Group, Interpreter};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::machine::AxisIndex;
@@ -44,11 +44,24 @@ impl Interpreter {
         at: &At<'_>,
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
-        let number = match word.value {
+        let number = match &word.value {
             None => None,
-            Some(Operand::Number(number)) => Some(number),
-            Some(operand) => self.value(operand, block, at)?.number(),
+            Some(Operand::Number(number)) => Some(*number),
+            Some(operand) => self.value(*operand, block, at)?.number(),
         };
+        if let Address::Letter(letter @ b'A'..=b'Z') = word.address {
+            if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+                self.axis_word(axis, word.span, number);
+                return Ok(());
+            }
+            return self.letter((letter, number), word, at, intent);
+        }
+        self.named_word(word, number, at);
+        Ok(())
+    }
+
+    /// A word whose address is not one of the letters that all axes and functions have.
+    fn named_word(&mut self, word: &Word, number: Option<f64>, at: &At<'_>) {
         let name = match word.address {
             Address::Name(name) => {
                 let name = name.of(at.text);
@@ -57,28 +70,17 @@ impl Interpreter {
                     None if name.starts_with('S') => {}
                     None => self.pass_over(name, word.span, at),
                 }
-                return Ok(());
+                return;
             }
             Address::Main(letter) => match self.main_axis(letter) {
-                Some(axis) => {
-                    self.axis_word(axis, word.span, number);
-                    return Ok(());
-                }
+                Some(axis) => return self.axis_word(axis, word.span, number),
                 // The plane is not known, or it is `@I`, `@S`.
                 None if letter >= b'X' => format!("@{}", char::from(letter)),
-                None => return Ok(()),
+                None => return,
             },
-            Address::Letter(letter @ b'A'..=b'Z') => {
-                if let Some(axis) = self.letters[usize::from(letter - b'A')] {
-                    self.axis_word(axis, word.span, number);
-                    return Ok(());
-                }
-                return self.letter((letter, number), word, at, intent);
-            }
             Address::Lower(letter) | Address::Letter(letter) => char::from(letter).to_string(),
         };
         self.pass_over(&name, word.span, at);
-        Ok(())
     }
 
     /// The axis that `@X` means in the plane in force.
@@ -93,23 +95,22 @@ impl Interpreter {
         self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
-    /// The axis and the coordinate of a word that is an axis letter with a plain number, as most are.
+    /// The axis and the value of a word that is an axis letter with a plain number, as most are.
     #[inline]
     pub(super) fn coordinate(&self, word: &Word) -> Option<(AxisIndex, f64)> {
-        match (word.address, word.value) {
+        match (&word.address, &word.value) {
             (Address::Letter(letter @ b'A'..=b'Z'), Some(Operand::Number(number))) => {
                 let axis = self.letters[usize::from(letter - b'A')]?;
-                Some((axis, number))
+                Some((axis, *number))
             }
             _ => None,
         }
     }
 
     #[inline]
-    pub(super) fn axis_word(&mut self, axis: AxisIndex, span: Span, number: Option<f64>) {
+    pub(super) fn axis_word(&mut self, axis: AxisIndex, span: Span, value: Option<f64>) {
         self.see(axis);
-        self.work.coordinates.push((axis, number));
-        self.work.moved.push((axis, span));
+        self.work.moved.push(AxisWord { axis, span, value });
     }
 
     /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
@@ -119,7 +120,7 @@ impl Interpreter {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);
-        for &(axis, span) in &self.work.moved {
+        for &AxisWord { axis, span, .. } in &self.work.moved {
             let missing = machine.axis(axis).required.iter().find(|kind| {
                 !matches!(
                     self.state.compensation.state(axis, *kind),
@@ -193,7 +194,8 @@ impl Interpreter {
             self.pass_over(&format!("G{number}"), span, at);
             return Ok(());
         };
-        if let Some(group) = Group::of(number) {
+        let group = Group::of(number);
+        if let Some(group) = group {
             let first = *intent.groups[group as usize].get_or_insert(number);
             if first != number {
                 return Err(Box::new(
@@ -206,16 +208,17 @@ impl Interpreter {
                 ));
             }
         }
-        match number {
-            4 => {
+        match (group, number) {
+            (Some(group), _) => self.state.modal.set(group, number),
+            (None, 4) => {
                 intent.axis_words = AxisWords::Other;
                 self.work.dwells = true;
             }
-            60 => self.geometry().end = BlockEnd::ExactStop,
-            92 => intent.axis_words = AxisWords::Reference,
-            _ if self.state.modal.set(number) => {}
+            (None, 20..=23) => self.state.modal.mirror(number),
+            (None, 60) => self.geometry().end = BlockEnd::ExactStop,
+            (None, 92) => intent.axis_words = AxisWords::Reference,
             // G61 and the like have no bearing on the compensation; a configured cycle has.
-            _ => {
+            (None, _) => {
                 let name = format!("G{number}");
                 if let Some(wanted) = self.configured([&name, &name], span) {
                     intent.call = Some(Box::new(wanted));
@@ -265,13 +268,16 @@ impl Interpreter {
         }
         let start = self.stand();
         let before = intent.radius.map(|_| self.ends());
-        for &(axis, value) in &self.work.coordinates {
-            match intent.axis_words {
-                AxisWords::Motion => self.state.modal.move_axis(axis, value),
-                AxisWords::Homing => self.state.modal.forget_position(axis),
-                AxisWords::Reference => self.state.modal.set_reference(axis, value),
-                AxisWords::Other => {}
+        let modal = &mut self.state.modal;
+        match intent.axis_words {
+            AxisWords::Motion => modal.move_axes(&self.work.moved),
+            AxisWords::Homing => {
+                for word in &self.work.moved {
+                    modal.forget_position(word.axis);
+                }
             }
+            AxisWords::Reference => modal.set_references(&self.work.moved),
+            AxisWords::Other => {}
         }
         if let (Some(span), Some(before)) = (intent.radius, before) {
             self.warn_full_circle(span, &before, at);
@@ -284,8 +290,9 @@ impl Interpreter {
 
     /// Where the axes of the block's words stand, as far as that is known.
     fn ends(&self) -> Vec<Option<f64>> {
-        let axes = self.work.coordinates.iter();
-        axes.map(|&(axis, _)| self.state.modal.position(axis).value)
+        let words = self.work.moved.iter();
+        words
+            .map(|word| self.state.modal.position(word.axis).value)
             .collect()
     }
 

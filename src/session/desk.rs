@@ -170,9 +170,9 @@ impl Desk<'_> {
             let span = Span::new(0, executed.text.len());
             self.note_allow(executed, (executed.text, executed.line), span);
         }
-        if let Some((text, line)) = executed.remark {
-            let span = Span::new(0, text.len());
-            self.note_allow(executed, (text, line), span);
+        if let Some(remark) = executed.remark {
+            let span = Span::new(0, remark.text.len());
+            self.note_allow(executed, (&remark.text, remark.line), span);
         }
     }
 

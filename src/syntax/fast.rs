@@ -17,6 +17,9 @@ const POWERS: [[f64; 16]; 2] = [
     ],
 ];
 
+/// A one in each of eight bytes.
+const ONES: u64 = 0x0101_0101_0101_0101;
+
 /// Parses a line into an empty block and says whether comments stand in it. Declines, with the
 /// block empty, whatever is not plain: only upper-case letters with a number behind each, blanks,
 /// and one comment per place.
@@ -35,8 +38,10 @@ fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
     while let Some(&byte) = bytes.get(at) {
         if is_blank(byte) {
             at += 1;
-        } else if byte.is_ascii_uppercase() {
-            at = word(bytes, at, block)?;
+        } else if byte == b'N' {
+            at = block_number(bytes, at, block)?;
+        } else if is_address(byte) {
+            at = words_in_a_row(bytes, at, block)?;
         } else {
             comments = Comments::Possible;
             if byte == b';' {
@@ -48,34 +53,86 @@ fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
     (block.number.is_some() || !block.words.is_empty()).then_some(comments)
 }
 
-/// Appends the word at a place; returns where it ends. What is glued to its number, or continues it
-/// as an expression, begins neither a word nor a comment and is declined there.
+/// Takes the block number at a place and returns where it ends. One that has a sign, or stands
+/// behind anything, is the grammar's business.
 #[inline]
-fn word(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
-    let letter = bytes[start];
-    let (value, end) = number(bytes, start + 1)?;
-    let value = Operand::Number(value);
-    let span = Span::new(start, end);
-    if matches!(letter, b'L' | b'N' | b'P') {
-        // A call, a parameter or a second number are the grammar's business.
-        let first = letter == b'N' && block.number.is_none() && block.words.is_empty();
-        let signed = matches!(bytes[start + 1], b'+' | b'-');
-        if !first || signed {
-            return None;
-        }
-        block.number = Some(Number {
-            value,
-            label: false,
-            span,
-        });
-    } else {
+fn block_number(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
+    let first = block.number.is_none() && block.words.is_empty();
+    if !first || !bytes.get(start + 1)?.is_ascii_digit() {
+        return None;
+    }
+    let digits = long_digits(&bytes[start + 1..])?;
+    let end = start + 1 + digits.length;
+    block.number = Some(Number {
+        value: Operand::Number(whole(digits.mantissa) / POWERS[0][digits.decimals]),
+        label: false,
+        span: span(start, end),
+    });
+    Some(end)
+}
+
+/// Appends the word at a place and those behind it, as long as one blank stands between them;
+/// returns where the last one ends. What is glued to its number, or continues it as an expression,
+/// begins neither a word nor a comment and is declined there.
+///
+/// The letters show where words begin before their numbers are read, so that the processor need not
+/// wait for the end of one number to begin with the next.
+#[inline]
+fn words_in_a_row(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
+    let mut letters = letters(&bytes[start..]);
+    let (mut at, mut letter) = (start, bytes[start]);
+    loop {
+        letters &= letters.wrapping_sub(1);
+        let next = start + letters.trailing_zeros() as usize;
+        let (value, end) = number(bytes, at + 1)?;
         block.words.push(Word {
             address: Address::Letter(letter),
-            value: Some(value),
-            span,
+            value: Some(Operand::Number(value)),
+            span: span(at, end),
         });
+        match bytes.get(end..=next) {
+            Some(&[b' ', found]) if is_address(found) => (at, letter) = (next, found),
+            _ => return Some(end),
+        }
     }
-    Some(end)
+}
+
+/// The places of letters among the first 64 bytes, a bit each, the first one lowest; of the bytes of
+/// words only letters have their seventh bit set.
+#[inline]
+fn letters(bytes: &[u8]) -> u64 {
+    let (eights, rest) = bytes.as_chunks::<8>();
+    let mut letters = 0;
+    let mut place = 0;
+    for eight in eights.iter().take(8) {
+        letters |= seventh_bits(*eight) << place;
+        place += 8;
+    }
+    if !rest.is_empty()
+        && place < 64
+        && let Some(last) = bytes.last_chunk()
+    {
+        letters |= seventh_bits(*last) << (bytes.len() - 8);
+    }
+    letters
+}
+
+/// The seventh bit of each of eight bytes, the first one lowest.
+#[inline]
+fn seventh_bits(eight: [u8; 8]) -> u64 {
+    let bits = (u64::from_le_bytes(eight) >> 6) & ONES;
+    // Gathers one bit of each byte in the highest one.
+    bits.wrapping_mul(0x0102_0408_1020_4080) >> 56
+}
+
+/// A span in a line, which has at most [`super::MAX_LINE`] bytes.
+#[inline]
+#[allow(clippy::cast_possible_truncation)]
+fn span(start: usize, end: usize) -> Span {
+    Span {
+        start: start as u32,
+        end: end as u32,
+    }
 }
 
 /// Where the comment at a place ends; one that holds another is not plain.
@@ -86,6 +143,12 @@ fn comment(bytes: &[u8], start: usize) -> Option<usize> {
     let inside = &bytes[start + 1..];
     let length = memchr::memchr2(b'(', b')', inside)?;
     (inside[length] == b')').then_some(start + length + 2)
+}
+
+/// Whether a letter begins a word that is plain: calls, parameters and block numbers are not.
+#[inline]
+fn is_address(byte: u8) -> bool {
+    matches!(byte, b'A'..=b'K' | b'M' | b'O' | b'Q'..=b'Z')
 }
 
 fn is_blank(byte: u8) -> bool {
@@ -104,17 +167,23 @@ fn number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     };
     // A table for the sign: a branch on it is guessed wrong too often.
     let power = POWERS[usize::from(sign == b'-')][digits.decimals];
-    #[allow(clippy::cast_precision_loss)] // below 10^15
-    let mantissa = digits.mantissa as f64;
-    let value = mantissa / power;
+    let value = whole(digits.mantissa) / power;
     Some((value, first + digits.length))
+}
+
+/// A whole number below 2^52, exactly. A conversion by `as` waits on some processors for the division
+/// of the number before.
+#[inline]
+fn whole(number: u64) -> f64 {
+    const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
+    f64::from_bits(TWO_TO_52.to_bits() | number) - TWO_TO_52
 }
 
 /// The digits of a number, without its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Digits {
     /// All of them as one whole number, below 10^15.
-    mantissa: i64,
+    mantissa: u64,
     /// How many stand behind the point.
     decimals: usize,
     /// The bytes of the number.
@@ -142,7 +211,6 @@ fn eight_bytes(bytes: &[u8], start: usize) -> Option<u64> {
 /// taken at once: a branch for each digit is guessed wrong too often.
 #[inline]
 fn short_digits(eight: u64) -> Option<Digits> {
-    const ONES: u64 = 0x0101_0101_0101_0101;
     // Digits become 0 to 9, everything else something above.
     let digits = eight ^ (ONES * u64::from(b'0'));
     // The highest bit of each byte above 9.
@@ -176,16 +244,15 @@ fn short_digits(eight: u64) -> Option<Digits> {
 
 /// The number that eight digits make, the first one in the lowest byte.
 #[inline]
-fn eight_digits(digits: u64) -> i64 {
+fn eight_digits(digits: u64) -> u64 {
     let pairs = (digits * 10 + (digits >> 8)) & 0x00ff_00ff_00ff_00ff;
     let fours = (pairs * 100 + (pairs >> 16)) & 0x0000_ffff_0000_ffff;
-    let value = (fours * 10_000 + (fours >> 32)) & 0xffff_ffff;
-    value.cast_signed()
+    (fours * 10_000 + (fours >> 32)) & 0xffff_ffff
 }
 
 /// The digits that bytes begin with, one after another; `None` where there are none or too many.
 fn long_digits(bytes: &[u8]) -> Option<Digits> {
-    let mut mantissa = 0_i64;
+    let mut mantissa = 0_u64;
     let mut point = None;
     let mut length = 0;
     for byte in bytes {
@@ -193,7 +260,7 @@ fn long_digits(bytes: &[u8]) -> Option<Digits> {
             b'0'..=b'9' => {
                 mantissa = mantissa
                     .wrapping_mul(10)
-                    .wrapping_add(i64::from(byte - b'0'));
+                    .wrapping_add(u64::from(byte - b'0'));
             }
             b'.' if point.is_none() => point = Some(length),
             _ => break,

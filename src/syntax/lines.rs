@@ -44,8 +44,17 @@ pub struct RawBlock<'a> {
     pub comments: Comments,
     /// Whether it was parsed by hand, so that it is made of words with plain numbers.
     pub plain: bool,
-    /// The comment line directly above that speaks to this tool (R9.24), with its line.
-    pub remark: Option<(&'a str, u32)>,
+    /// The comment line directly above that speaks to this tool (R9.24).
+    pub remark: Option<&'a Remark>,
+}
+
+/// A comment line that speaks to this tool.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Remark {
+    /// The line without trailing blanks.
+    pub text: String,
+    /// Its number, from 1.
+    pub line: u32,
 }
 
 /// Whether comments stand in a text.
@@ -76,8 +85,7 @@ pub struct BlockReader<S> {
     line: u32,
     text: String,
     code: String,
-    remark: String,
-    remark_line: u32,
+    remark: Remark,
 }
 
 /// What masking found in a line.
@@ -98,8 +106,7 @@ impl<S: LineSource> BlockReader<S> {
             line: first_line - 1,
             text: String::new(),
             code: String::new(),
-            remark: String::new(),
-            remark_line: 0,
+            remark: Remark::default(),
         }
     }
 
@@ -134,7 +141,7 @@ impl<S: LineSource> BlockReader<S> {
                         offset: self.source.offset(),
                         comments,
                         plain: true,
-                        remark: remark(&self.remark, self.remark_line, self.line),
+                        remark: self.remark.above(self.line),
                     });
                 }
             }
@@ -148,7 +155,7 @@ impl<S: LineSource> BlockReader<S> {
                     offset,
                     comments: Comments::Possible,
                     plain: false,
-                    remark: remark(&self.remark, self.remark_line, line),
+                    remark: self.remark.above(line),
                 });
             }
         }
@@ -163,8 +170,8 @@ impl<S: LineSource> BlockReader<S> {
         let start = self.code.trim_ascii_start();
         if start.is_empty() {
             if self.text.contains(super::allow::MARK) {
-                self.remark.clone_from(&self.text);
-                self.remark_line = self.line;
+                self.remark.text.clone_from(&self.text);
+                self.remark.line = self.line;
             }
             if !masked.continues {
                 return None;
@@ -296,8 +303,11 @@ impl<S: LineSource> BlockReader<S> {
     }
 }
 
-fn remark(remark: &str, remark_line: u32, line: u32) -> Option<(&str, u32)> {
-    (!remark.is_empty() && remark_line + 1 == line).then_some((remark, remark_line))
+impl Remark {
+    /// The remark, for a block that begins on the next line; line 0 is that of no remark.
+    fn above(&self, line: u32) -> Option<&Self> {
+        (self.line > 0 && self.line + 1 == line).then_some(self)
+    }
 }
 
 /// Blank, tab, and the NUL and ETX that some editors leave (R2.1).

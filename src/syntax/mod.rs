@@ -13,7 +13,7 @@ mod lines;
 mod lower;
 
 pub use comp::{CompCommand, Kind, KindSet, Membership, Selection};
-pub use lines::{BlockReader, Comments, FastPath, MAX_LINE, RawBlock, Stretch};
+pub use lines::{BlockReader, Comments, FastPath, MAX_LINE, RawBlock, Remark, Stretch};
 
 use crate::codes::Code;
 use crate::source::{Span, TextLines};

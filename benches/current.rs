@@ -198,9 +198,9 @@ impl Cycles for Count {
 }
 
 impl Sink for Counter {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
-            Record::Block(row) => self.tracer.block(&row, &mut self.cycles),
+            Record::Block(row) => self.tracer.block(row, &mut self.cycles),
             _ => ControlFlow::Continue(()),
         }
     }

@@ -202,5 +202,5 @@ pub enum Record<'a> {
 /// Takes the records of a session.
 pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()>;
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
 }

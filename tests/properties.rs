@@ -122,7 +122,7 @@ fn assert_spans(read: &Read) -> Result<(), TestCaseError> {
 struct Said(Vec<String>);
 
 impl Sink for Said {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.0.push(match record {
             Record::Block(row) => format!(
                 "{} {} {:?} {} {:?} {:?}",

@@ -32,7 +32,7 @@ impl Places<'_> {
 }
 
 impl Sink for Places<'_> {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Block(row) => row.diagnostics.iter().for_each(|said| self.hold(said)),
             Record::End(end) => end

@@ -258,7 +258,7 @@ impl Found {
 }
 
 impl Sink for Found {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Block(row) => row.diagnostics.iter().for_each(|said| self.add(said)),
             Record::End(end) => {

@@ -75,7 +75,7 @@ impl<'a> Counted<'a> {
 }
 
 impl Sink for Counted<'_> {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Machine(diagnostic) => self.tally.count(diagnostic.severity),
             Record::Block(row) => {

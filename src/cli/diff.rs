@@ -100,9 +100,9 @@ impl Switches {
 }
 
 impl Sink for Switches {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         if let Record::Block(row) = record {
-            self.add(&row);
+            self.add(row);
             let error = row
                 .diagnostics
                 .iter()

@@ -296,7 +296,7 @@ struct Outputs<'a> {
 
 impl Sink for Outputs<'_> {
     /// A reader of the timeline that has seen enough ends the run, unless there is a report.
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let flow = self.report.borrow_mut().record(record);
         match &mut self.html {
             Some(story) => story.record(record),

@@ -159,12 +159,12 @@ impl<W: Write> Csv<W> {
 }
 
 impl<W: Write> Sink for Csv<W> {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
-            Record::Session { state } => self.header(state),
-            Record::Block(row) => self.block(&row),
+            Record::Session { state } => self.header(*state),
+            Record::Block(row) => self.block(row),
             Record::End(end) => {
-                self.end(&end);
+                self.end(end);
                 return self.output.flush();
             }
             Record::Machine(_) | Record::Program { .. } | Record::Summary(_) => {}

@@ -38,7 +38,7 @@ impl<W: Write> Json<W> {
 }
 
 impl<W: Write> Sink for Json<W> {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.encoder.append(&mut self.output.bytes, record);
         if let Some(start) = self.start
             && self.output.bytes.len() > start

@@ -30,7 +30,7 @@ impl<W: Write> Ndjson<W> {
 }
 
 impl<W: Write> Sink for Ndjson<W> {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.encoder.append(&mut self.output.bytes, record);
         match record {
             Record::End(_) | Record::Summary(_) => self.output.flush(),

@@ -45,8 +45,8 @@ impl Encoder {
     }
 
     /// Appends the objects of a record, each in its frame.
-    pub(super) fn append(&mut self, out: &mut Vec<u8>, record: Record<'_>) {
-        match record {
+    pub(super) fn append(&mut self, out: &mut Vec<u8>, record: &Record<'_>) {
+        match *record {
             Record::Session { state } => {
                 self.open(out, "session");
                 out.extend_from_slice(b",\"schema\":");
@@ -74,8 +74,8 @@ impl Encoder {
                 optional(out, name);
                 self.close(out, state);
             }
-            Record::Block(row) => self.block(out, &row),
-            Record::End(end) => self.end(out, &end),
+            Record::Block(ref row) => self.block(out, row),
+            Record::End(ref end) => self.end(out, end),
             Record::Summary(summary) => self.summary(out, summary),
         }
     }

@@ -70,7 +70,7 @@ impl Desk<'_> {
                 compensation,
                 occurred,
                 version,
-            } => self.sink.record(Record::Program {
+            } => self.sink.record(&Record::Program {
                 program: self.program,
                 file: self.file,
                 name,
@@ -115,7 +115,7 @@ impl Desk<'_> {
         for diagnostic in &self.said {
             self.tally.count(diagnostic);
         }
-        self.sink.record(Record::Block(Row {
+        self.sink.record(&Record::Block(Row {
             program: self.program,
             seq: executed.seq,
             file: executed.file,
@@ -258,7 +258,7 @@ impl Desk<'_> {
             })
             .collect();
         repeated.sort_by(|a, b| (&a.file, a.line, a.code).cmp(&(&b.file, b.line, b.code)));
-        self.sink.record(Record::End(End {
+        self.sink.record(&Record::End(End {
             program: self.program,
             seq: ended.seq,
             by: ended.by,

@@ -62,7 +62,7 @@ pub enum Program<'a> {
 ///
 /// struct Count(usize);
 /// impl Sink for Count {
-///     fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+///     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
 ///         if let Record::Block(row) = record {
 ///             self.0 += row.changes.len();
 ///         }
@@ -192,12 +192,12 @@ impl Session {
 
     /// Says what the session starts with, and what the control says about its lists.
     pub fn begin(&mut self, lists: &[Diagnostic], sink: &mut dyn Sink) -> ControlFlow<()> {
-        sink.record(Record::Session {
+        sink.record(&Record::Session {
             state: self.state(),
         })?;
         for diagnostic in lists {
             self.tally.count(diagnostic);
-            sink.record(Record::Machine(diagnostic))?;
+            sink.record(&Record::Machine(diagnostic))?;
         }
         ControlFlow::Continue(())
     }
@@ -264,7 +264,7 @@ impl Session {
             changed_by: self.tally.changed_by[axis.get()].clone(),
             changes: self.tally.changes[axis.get()],
         });
-        sink.record(Record::Summary(&Summary {
+        sink.record(&Record::Summary(&Summary {
             programs: self.programs,
             blocks: self.tally.blocks,
             counts: self.tally.counts.clone(),

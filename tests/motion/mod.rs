@@ -95,9 +95,9 @@ struct Bench {
 }
 
 impl Sink for Bench {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
-            Record::Block(row) => self.tracer.block(&row, &mut self.trace),
+            Record::Block(row) => self.tracer.block(row, &mut self.trace),
             _ => ControlFlow::Continue(()),
         }
     }

@@ -123,7 +123,7 @@ impl Bench {
     pub(crate) fn said(&self, program: &str) -> String {
         struct Said(String);
         impl Sink for Said {
-            fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+            fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
                 let (mut said, mut noted) = (Vec::new(), Vec::new());
                 match record {
                     Record::Block(row) => said.extend(row.diagnostics),
@@ -268,10 +268,10 @@ impl Transcript {
 }
 
 impl Sink for Transcript {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Session { state } => {
-                let states = self.states(state);
+                let states = self.states(*state);
                 writeln!(self.text, "start {states}").expect("text");
             }
             Record::Machine(diagnostic) => self.diagnostic(diagnostic),

@@ -221,16 +221,16 @@ struct Follow {
 }
 
 impl Sink for Follow {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let error = |said: &&Diagnostic| said.severity == Severity::Error;
-        match record {
+        match *record {
             Record::Machine(said) => self.errors.extend(Some(said).filter(error).cloned()),
-            Record::Block(row) => {
+            Record::Block(ref row) => {
                 self.errors
                     .extend(row.diagnostics.iter().filter(error).cloned());
-                self.over = self.tracer.block(&row, &mut self.table);
+                self.over = self.tracer.block(row, &mut self.table);
             }
-            Record::End(end) => {
+            Record::End(ref end) => {
                 let notes = end.notes.iter().map(|note| &note.diagnostic);
                 self.errors.extend(notes.filter(error).cloned());
             }

@@ -360,8 +360,8 @@ impl RunStory {
 }
 
 impl Sink for RunStory {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
-        match record {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match *record {
             Record::Session { state } => self.session(state),
             Record::Machine(diagnostic) => self.message(diagnostic, None),
             Record::Program {
@@ -370,8 +370,8 @@ impl Sink for RunStory {
                 name,
                 state,
             } => self.program(program, (file, name), state),
-            Record::Block(row) => self.block(&row),
-            Record::End(end) => self.end(&end),
+            Record::Block(ref row) => self.block(row),
+            Record::End(ref end) => self.end(end),
             Record::Summary(summary) => self.summary(summary),
         }
         ControlFlow::Continue(())

@@ -101,7 +101,7 @@ impl<'a> Player<'a> {
             .strip_prefix('N')
             .and_then(|rest| rest.split(' ').next()?.parse().ok());
         let (seq, level) = (self.seq, (line > 100).then_some(1));
-        self.sink.record(Record::Block(Row {
+        self.sink.record(&Record::Block(Row {
             program: 1,
             seq,
             file: if level.is_some() { "sub.nc" } else { "demo.nc" },
@@ -118,10 +118,10 @@ impl<'a> Player<'a> {
     }
 
     pub(super) fn begin(&mut self) {
-        let _ = self.sink.record(Record::Session {
+        let _ = self.sink.record(&Record::Session {
             state: state!(self),
         });
-        let _ = self.sink.record(Record::Program {
+        let _ = self.sink.record(&Record::Program {
             program: 1,
             file: "demo.nc",
             name: Some("DEMO"),
@@ -131,7 +131,7 @@ impl<'a> Player<'a> {
 
     pub(super) fn end(&mut self, notes: &[EndNote]) {
         let seq = self.seq;
-        let _ = self.sink.record(Record::End(End {
+        let _ = self.sink.record(&Record::End(End {
             program: 1,
             seq,
             by: EndedBy::M30,
@@ -175,7 +175,7 @@ impl<'a> Player<'a> {
             axes: axes.collect(),
             state: view,
         };
-        let _ = self.sink.record(Record::Summary(&summary));
+        let _ = self.sink.record(&Record::Summary(&summary));
     }
 }
 

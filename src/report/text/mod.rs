@@ -277,8 +277,8 @@ impl<W: Write> Text<W> {
 }
 
 impl<W: Write> Sink for Text<W> {
-    fn record(&mut self, record: Record<'_>) -> ControlFlow<()> {
-        match record {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match *record {
             Record::Session { .. } => {}
             Record::Machine(diagnostic) => {
                 let text = render(diagnostic, self.options.look);
@@ -288,9 +288,9 @@ impl<W: Write> Sink for Text<W> {
             Record::Program {
                 file, name, state, ..
             } => self.program(file, name, state),
-            Record::Block(row) => self.block(&row),
-            Record::End(end) => {
-                self.end(&end);
+            Record::Block(ref row) => self.block(row),
+            Record::End(ref end) => {
+                self.end(end);
                 return self.output.flush();
             }
             Record::Summary(summary) => {

@@ -69,9 +69,9 @@ const PIECES: [&str; 56] = [
 ];
 
 /// Bytes that change the meaning of their neighbours.
-const BYTES: [char; 24] = [
+const BYTES: [char; 26] = [
     ' ', '\t', '.', '-', '+', '*', '/', '=', '[', ']', '(', ')', '"', ';', ',', '\\', '%', '$',
-    '#', 'N', 'P', 'L', 'x', '0',
+    '#', 'N', 'P', 'L', 'x', '0', '\u{0}', '\u{3}',
 ];
 
 /// Lines of one program: an open bracket or comment takes only these with it.
@@ -178,6 +178,14 @@ fn compare_blocks(count: u64, seed: u64) {
 #[test]
 fn the_fast_path_is_the_grammar() {
     compare_blocks(20_000, 1);
+}
+
+#[test]
+fn what_editors_leave_at_the_end_of_a_comment_is_no_text() {
+    // R2.1
+    for end in ["\u{0}\u{0}", " \u{3}", "\u{1a}\t", "\u{0} \u{3} "] {
+        assert_eq!(compare(&format!("N10 X1 ; a{end}\nN20 X2 (b){end}\n")), 2);
+    }
 }
 
 #[test]

@@ -136,7 +136,7 @@ impl<S: LineSource> BlockReader<S> {
                 {
                     return Some(RawBlock {
                         stretch: Stretch::Block,
-                        text: self.source.line().text.trim_ascii_end(),
+                        text: trimmed(self.source.line().text),
                         line: self.line,
                         offset: self.source.offset(),
                         comments,
@@ -224,7 +224,7 @@ impl<S: LineSource> BlockReader<S> {
 
     /// Appends the source's line to text and code, without trailing blanks.
     fn take_line(&mut self) -> Masked {
-        let line = self.source.line().text.trim_end_matches(is_blank);
+        let line = trimmed(self.source.line().text);
         let from = self.code.len();
         self.text.push_str(line);
         let masked = mask(line, &mut self.code);
@@ -313,6 +313,17 @@ impl Remark {
 /// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
 pub(super) fn is_blank(c: char) -> bool {
     c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
+}
+
+/// A line without the blanks at its end.
+#[inline]
+fn trimmed(line: &str) -> &str {
+    let line = line.trim_ascii_end();
+    if line.ends_with(is_blank) {
+        // What editors leave is rare, and looked for only where it is.
+        return line.trim_end_matches(is_blank);
+    }
+    line
 }
 
 fn too_long(line: &str) -> bool {

@@ -204,6 +204,18 @@ pub struct PhysicalLine<'a> {
     pub text: &'a str,
     /// Whether characters were left out because the line is longer than any block may be.
     pub cut: bool,
+    /// Where the line begins, in bytes from the start of the text; 0 for a stream, to which nobody
+    /// goes back.
+    pub offset: usize,
+}
+
+/// How many bytes the line end takes that a text begins with: LF, CRLF, CR, or none at the end.
+pub(crate) fn line_end(text: &[u8]) -> usize {
+    match text {
+        [b'\r', b'\n', ..] => 2,
+        [_, ..] => 1,
+        [] => 0,
+    }
 }
 
 /// Gives physical lines one after another.
@@ -214,11 +226,12 @@ pub trait LineSource {
     /// The line that [`advance`](Self::advance) went to.
     fn line(&self) -> PhysicalLine<'_>;
 
-    /// Where that line begins, in bytes from the start of the text; 0 for a stream, to which
-    /// nobody goes back.
-    fn offset(&self) -> usize {
-        0
-    }
+    /// The lines to come that are at hand, each whole and with its end; none at the end of the text.
+    fn ahead(&mut self) -> &str;
+
+    /// Goes to the first line of [`ahead`](Self::ahead), which has so many bytes without its end, and
+    /// returns it.
+    fn take(&mut self, length: usize) -> PhysicalLine<'_>;
 
     /// Appends the lines to come, each with a line end. A source that may have no end stops where
     /// the text is too big to be kept.
@@ -239,8 +252,12 @@ impl<S: LineSource + ?Sized> LineSource for &mut S {
         (**self).line()
     }
 
-    fn offset(&self) -> usize {
-        (**self).offset()
+    fn ahead(&mut self) -> &str {
+        (**self).ahead()
+    }
+
+    fn take(&mut self, length: usize) -> PhysicalLine<'_> {
+        (**self).take(length)
     }
 
     fn append_rest(&mut self, text: &mut String) {
@@ -280,13 +297,8 @@ impl LineSource for TextLines<'_> {
         let Some(rest) = bytes.get(start..).filter(|rest| !rest.is_empty()) else {
             return false;
         };
-        let end = memchr::memchr2(b'\n', b'\r', rest).map_or(bytes.len(), |at| start + at);
-        self.line = start..end;
-        self.next = match &bytes[end..] {
-            [b'\r', b'\n', ..] => end + 2,
-            [_, ..] => end + 1,
-            [] => end,
-        };
+        let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+        self.take(length);
         true
     }
 
@@ -294,11 +306,19 @@ impl LineSource for TextLines<'_> {
         PhysicalLine {
             text: &self.text[self.line.clone()],
             cut: false,
+            offset: self.line.start,
         }
     }
 
-    fn offset(&self) -> usize {
-        self.line.start
+    fn ahead(&mut self) -> &str {
+        self.text.get(self.next..).unwrap_or_default()
+    }
+
+    fn take(&mut self, length: usize) -> PhysicalLine<'_> {
+        let end = self.next + length;
+        self.line = self.next..end;
+        self.next = end + line_end(&self.text.as_bytes()[end..]);
+        Self::line(self)
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use encoding_rs::WINDOWS_1252;
 
-use crate::source::{FlowScan, LineSource, PhysicalLine};
+use crate::source::{FlowScan, LineSource, PhysicalLine, line_end};
 
 /// Bytes that are read at once.
 const BUFFER: usize = 128 * 1024;
@@ -262,29 +262,38 @@ impl<R: Read> LineSource for LineReader<R> {
             return false;
         }
         let rest = &self.text.as_bytes()[self.next..];
-        let line_end = match self.ends {
+        let found = match self.ends {
             LineEnds::Any => memchr::memchr2(b'\n', b'\r', rest),
             LineEnds::Lf => memchr::memchr(b'\n', rest),
         };
-        let length = line_end.unwrap_or(rest.len());
-        let end = match &rest[length..] {
-            [b'\r', b'\n', ..] => 2,
-            [_, ..] => 1,
-            [] => 0,
-        };
-        self.line = self.next..self.next + length;
-        self.next = self.line.end + end;
-        self.cut = false;
+        let length = found.unwrap_or(rest.len());
+        self.take(length);
         if length > LONGEST {
             self.shorten();
         }
         true
     }
 
+    fn ahead(&mut self) -> &str {
+        if self.next == self.text.len() {
+            self.refill();
+        }
+        &self.text[self.next..]
+    }
+
+    fn take(&mut self, length: usize) -> PhysicalLine<'_> {
+        let end = self.next + length;
+        self.line = self.next..end;
+        self.next = end + line_end(&self.text.as_bytes()[end..]);
+        self.cut = false;
+        Self::line(self)
+    }
+
     fn line(&self) -> PhysicalLine<'_> {
         PhysicalLine {
             text: &self.text[self.line.clone()],
             cut: self.cut,
+            offset: 0,
         }
     }
 

@@ -3,7 +3,7 @@
 //! It yields exactly what the grammar yields, or declines; a property test holds the two together.
 
 use super::ast::{Address, Block, Number, Operand, Word};
-use super::lines::Comments;
+use super::lines::{Comments, MAX_LINE};
 use crate::source::Span;
 
 /// Powers of ten that an `f64` holds exactly, and the same with a minus.
@@ -20,19 +20,27 @@ const POWERS: [[f64; 16]; 2] = [
 /// A one in each of eight bytes.
 const ONES: u64 = 0x0101_0101_0101_0101;
 
-/// Parses a line into an empty block and says whether comments stand in it. Declines, with the
-/// block empty, whatever is not plain: only upper-case letters with a number behind each, blanks,
-/// and one comment per place.
-#[inline]
-pub(super) fn parse(line: &str, block: &mut Block) -> Option<Comments> {
-    let comments = words(line.as_bytes(), block);
-    if comments.is_none() {
-        block.clear();
-    }
-    comments
+/// A line that is plain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plain {
+    /// Its bytes without the line end.
+    pub(super) length: usize,
+    pub(super) comments: Comments,
 }
 
-fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
+/// Parses the first line of a text into an empty block. Declines, with the block empty, whatever is
+/// not plain: only upper-case letters with a number behind each, blanks, and one comment per place.
+#[inline]
+pub(super) fn parse(text: &str, block: &mut Block) -> Option<Plain> {
+    let bytes = text.as_bytes();
+    let plain = words(&bytes[..bytes.len().min(MAX_LINE + 1)], block);
+    if plain.is_none() {
+        block.clear();
+    }
+    plain
+}
+
+fn words(bytes: &[u8], block: &mut Block) -> Option<Plain> {
     let mut at = 0;
     let mut comments = Comments::Absent;
     while let Some(&byte) = bytes.get(at) {
@@ -42,15 +50,18 @@ fn words(bytes: &[u8], block: &mut Block) -> Option<Comments> {
             at = block_number(bytes, at, block)?;
         } else if is_address(byte) {
             at = words_in_a_row(bytes, at, block)?;
+        } else if is_line_end(byte) {
+            break;
         } else {
             comments = Comments::Possible;
-            if byte == b';' {
-                break;
-            }
             at = comment(bytes, at)?;
         }
     }
-    (block.number.is_some() || !block.words.is_empty()).then_some(comments)
+    let is_block = block.number.is_some() || !block.words.is_empty();
+    (is_block && at <= MAX_LINE).then_some(Plain {
+        length: at,
+        comments,
+    })
 }
 
 /// Takes the block number at a place and returns where it ends. One that has a sign, or stands
@@ -97,24 +108,16 @@ fn words_in_a_row(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize
     }
 }
 
-/// The places of letters among the first 64 bytes, a bit each, the first one lowest; of the bytes of
-/// words only letters have their seventh bit set.
+/// The places of letters among the next 40 bytes, a bit each, the first one lowest: of the bytes of
+/// words only letters have their seventh bit set. None near the end of the text.
 #[inline]
 fn letters(bytes: &[u8]) -> u64 {
-    let (eights, rest) = bytes.as_chunks::<8>();
-    let mut letters = 0;
-    let mut place = 0;
-    for eight in eights.iter().take(8) {
-        letters |= seventh_bits(*eight) << place;
-        place += 8;
-    }
-    if !rest.is_empty()
-        && place < 64
-        && let Some(last) = bytes.last_chunk()
-    {
-        letters |= seventh_bits(*last) << (bytes.len() - 8);
-    }
-    letters
+    let Some(window) = bytes.first_chunk::<40>() else {
+        return 0;
+    };
+    let (eights, _) = window.as_chunks::<8>();
+    let bits = eights.iter().map(|eight| seventh_bits(*eight));
+    bits.rev().fold(0, |letters, bits| letters << 8 | bits)
 }
 
 /// The seventh bit of each of eight bytes, the first one lowest.
@@ -125,7 +128,7 @@ fn seventh_bits(eight: [u8; 8]) -> u64 {
     bits.wrapping_mul(0x0102_0408_1020_4080) >> 56
 }
 
-/// A span in a line, which has at most [`super::MAX_LINE`] bytes.
+/// A span in a line, which has at most [`MAX_LINE`] bytes.
 #[inline]
 #[allow(clippy::cast_possible_truncation)]
 fn span(start: usize, end: usize) -> Span {
@@ -137,12 +140,21 @@ fn span(start: usize, end: usize) -> Span {
 
 /// Where the comment at a place ends; one that holds another is not plain.
 fn comment(bytes: &[u8], start: usize) -> Option<usize> {
-    if bytes[start] != b'(' {
-        return None;
+    let rest = &bytes[start..];
+    let line_end = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+    match rest[0] {
+        b';' => Some(start + line_end),
+        b'(' => {
+            let inside = &rest[1..line_end];
+            let length = memchr::memchr2(b'(', b')', inside)?;
+            (inside[length] == b')').then_some(start + length + 2)
+        }
+        _ => None,
     }
-    let inside = &bytes[start + 1..];
-    let length = memchr::memchr2(b'(', b')', inside)?;
-    (inside[length] == b')').then_some(start + length + 2)
+}
+
+fn is_line_end(byte: u8) -> bool {
+    byte == b'\n' || byte == b'\r'
 }
 
 /// Whether a letter begins a word that is plain: calls, parameters and block numbers are not.
@@ -190,7 +202,7 @@ struct Digits {
     length: usize,
 }
 
-/// The eight bytes that begin at a place, the first one lowest; zeros behind the end of the line.
+/// The eight bytes that begin at a place, the first one lowest; zeros behind the end of the text.
 #[inline]
 fn eight_bytes(bytes: &[u8], start: usize) -> Option<u64> {
     let rest = bytes.get(start..)?;

@@ -125,27 +125,26 @@ impl<S: LineSource> BlockReader<S> {
     pub fn next(&mut self, block: &mut Block) -> Option<RawBlock<'_>> {
         block.clear();
         loop {
+            if self.fast_path == FastPath::On
+                && let Some(plain) = fast::parse(self.source.ahead(), block)
+            {
+                self.line += 1;
+                let line = self.source.take(plain.length);
+                return Some(RawBlock {
+                    stretch: Stretch::Block,
+                    text: trimmed(line.text),
+                    line: self.line,
+                    offset: line.offset,
+                    comments: plain.comments,
+                    plain: true,
+                    remark: self.remark.above(self.line),
+                });
+            }
             if !self.source.advance() {
                 return None;
             }
             self.line += 1;
-            if self.fast_path == FastPath::On {
-                let line = self.source.line();
-                if line.text.len() <= MAX_LINE
-                    && let Some(comments) = fast::parse(line.text, block)
-                {
-                    return Some(RawBlock {
-                        stretch: Stretch::Block,
-                        text: trimmed(self.source.line().text),
-                        line: self.line,
-                        offset: self.source.offset(),
-                        comments,
-                        plain: true,
-                        remark: self.remark.above(self.line),
-                    });
-                }
-            }
-            let (line, offset) = (self.line, self.source.offset());
+            let (line, offset) = (self.line, self.source.line().offset);
             let stretch = self.slow(block);
             if let Some(stretch) = stretch {
                 return Some(RawBlock {

@@ -315,7 +315,7 @@ impl LineSource for TextLines<'_> {
     }
 
     fn take(&mut self, length: usize) -> PhysicalLine<'_> {
-        let end = self.next + length;
+        let end = self.text.len().min(self.next + length);
         self.line = self.next..end;
         self.next = end + line_end(&self.text.as_bytes()[end..]);
         Self::line(self)

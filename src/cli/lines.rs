@@ -282,7 +282,7 @@ impl<R: Read> LineSource for LineReader<R> {
     }
 
     fn take(&mut self, length: usize) -> PhysicalLine<'_> {
-        let end = self.next + length;
+        let end = self.text.len().min(self.next + length);
         self.line = self.next..end;
         self.next = end + line_end(&self.text.as_bytes()[end..]);
         self.cut = false;
@@ -351,6 +351,20 @@ mod tests {
         found
     }
 
+    /// The same lines, each found in the text that is ahead.
+    fn lines_ahead(source: &mut dyn LineSource) -> Vec<(String, bool)> {
+        let mut found = Vec::new();
+        loop {
+            let ahead = source.ahead();
+            if ahead.is_empty() {
+                return found;
+            }
+            let length = ahead.find(['\n', '\r']).unwrap_or(ahead.len());
+            let line = source.take(length);
+            found.push((line.text.to_owned(), line.cut));
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]
@@ -359,8 +373,11 @@ mod tests {
             piece in 1usize..20,
         ) {
             let text = parts.concat();
-            let mut reader = LineReader::new(Pieces(text.as_bytes(), piece));
-            prop_assert_eq!(lines(&mut reader), lines(&mut TextLines::new(&text)));
+            let reader = || LineReader::new(Pieces(text.as_bytes(), piece));
+            let expected = lines(&mut TextLines::new(&text));
+            prop_assert_eq!(&lines_ahead(&mut TextLines::new(&text)), &expected);
+            prop_assert_eq!(&lines(&mut reader()), &expected);
+            prop_assert_eq!(&lines_ahead(&mut reader()), &expected);
         }
     }
 

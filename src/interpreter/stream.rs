@@ -65,6 +65,12 @@ impl Interpreter {
                     }
                     continue;
                 }
+                if let Stage::Announced = stage {
+                    stage = Stage::Running;
+                    if let Some(outlook) = self.begin_lines(finder, observer) {
+                        return outlook;
+                    }
+                }
                 // Another program of the file: never executed, as where the text is whole.
                 if self.options.stop != StopPolicy::CheckAll {
                     break;
@@ -83,11 +89,7 @@ impl Interpreter {
                     return Outlook::Paused;
                 }
                 stage = Stage::Running;
-                self.enter(0, 0);
-                if let Err(missing) = self.start_program(finder) {
-                    return self.ended(EndedBy::Error, &[*missing], observer);
-                }
-                if let Some(outlook) = self.run_called(finder, observer) {
+                if let Some(outlook) = self.begin_lines(finder, observer) {
                     return outlook;
                 }
             }
@@ -129,7 +131,26 @@ impl Interpreter {
         if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
             return Outlook::Paused;
         }
+        if let Stage::Before | Stage::Announced = stage
+            && let Some(outlook) = self.begin_lines(finder, observer)
+        {
+            return outlook;
+        }
         self.end_of_lines(stage, notes, observer)
+    }
+
+    /// Enters the program that was announced and runs the one that comes before each; an outlook
+    /// when that is the end.
+    fn begin_lines(
+        &mut self,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Option<Outlook> {
+        self.enter(0, 0);
+        match self.start_program(finder) {
+            Ok(()) => self.run_called(finder, observer),
+            Err(missing) => Some(self.ended(EndedBy::Error, &[*missing], observer)),
+        }
     }
 
     /// Runs called programs until the one that called them goes on; `None` when it does.

@@ -44,10 +44,11 @@ pub struct SessionOptions {
 
 /// The text of a program.
 pub enum Program<'a> {
-    /// Lines that come one after another. Such a program has no flow: no `$` statement, no local
-    /// subprogram; see [`crate::source::FlowScan`].
+    /// Lines that come one after another. Behind the first block that can be reached again the rest
+    /// is taken into memory; what keeps that rest from running is found only there, see
+    /// [`crate::source::FlowScan`].
     Lines(&'a mut dyn LineSource),
-    /// The whole text, for programs with flow.
+    /// The whole text. What keeps it from running is found before its first block.
     Whole(SourceFile),
 }
 

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Bench, MACHINE};
+use crate::support::{Bench, Handed, MACHINE};
 
 #[test]
 fn program_lines() {
@@ -297,6 +297,38 @@ fn configured_programs_at_start_and_end() {
         FC320 1:1-1 in start.nc
       end 0 error X:active Y:active Z:unconfigured B:ineffective
     ");
+}
+
+#[test]
+fn programs_that_come_line_by_line_call_the_same_programs() {
+    // R2.15 R2.16 R9.40
+    let machine =
+        format!("[machine]\nstart_program = \"start.nc\"\nend_program = \"end.nc\"\n{MACHINE}");
+    let bench = |handed| {
+        Bench::on(&machine)
+            .file("start.nc", "N1 X[COMP OFF FRICT]\nM17")
+            .file("end.nc", "N9 X[COMP ON FRICT]\nM30")
+            .file("sub.nc", "X1\nM17")
+            .file("open.nc", "X1\n$IF 1\nM17")
+            .handed(handed)
+    };
+    for main in ["", "%MAIN\n", "%MAIN\n%NEXT\n", "(a)\n%MAIN\n(b)\n"] {
+        for body in [
+            "X1\nM30",
+            "L sub.nc\nX1",
+            "L open.nc\nM30",
+            "L missing.nc\nM30",
+            "",
+        ] {
+            let program = format!("{main}{body}");
+            let whole = bench(Handed::Whole).run(&[&program, "M30"]);
+            let lines = bench(Handed::LineByLine).run(&[&program, "M30"]);
+            assert_eq!(lines, whole, "{program:?}");
+            let whole = bench(Handed::Whole).keep_going().run(&[&program]);
+            let lines = bench(Handed::LineByLine).keep_going().run(&[&program]);
+            assert_eq!(lines, whole, "{program:?}");
+        }
+    }
 }
 
 #[test]

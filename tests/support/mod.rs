@@ -10,7 +10,7 @@ use frictcomp::compensation::Compensation;
 use frictcomp::interpreter::{Event, Interpreter, Options, PositionFrame, Value};
 use frictcomp::machine::{AxisIndex, Machine, Setting};
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
-use frictcomp::source::SourceFile;
+use frictcomp::source::{SourceFile, TextLines};
 use frictcomp::syntax::Kind;
 use frictcomp::timeline::{Record, Sink, StateView};
 
@@ -32,12 +32,20 @@ type = "R"
 frict_comp = true
 "#;
 
+/// How programs are handed to a session.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Handed {
+    Whole,
+    LineByLine,
+}
+
 /// A session to set up and run.
 pub(crate) struct Bench {
     pub(crate) machine: Machine,
     pub(crate) options: SessionOptions,
     pub(crate) files: BTreeMap<String, String>,
     pub(crate) kinds: Vec<Kind>,
+    handed: Handed,
 }
 
 impl Bench {
@@ -51,7 +59,13 @@ impl Bench {
             options: SessionOptions::default(),
             files: BTreeMap::new(),
             kinds: vec![Kind::Frict],
+            handed: Handed::Whole,
         }
+    }
+
+    pub(crate) fn handed(mut self, handed: Handed) -> Self {
+        self.handed = handed;
+        self
     }
 
     pub(crate) fn keep_going(mut self) -> Self {
@@ -216,7 +230,11 @@ impl Bench {
                 "{}.nc",
                 char::from(b'a' + u8::try_from(at).expect("few programs"))
             );
-            let program = Program::Whole(SourceFile::new(name.as_str(), *text));
+            let mut lines = TextLines::new(text);
+            let program = match self.handed {
+                Handed::Whole => Program::Whole(SourceFile::new(name.as_str(), *text)),
+                Handed::LineByLine => Program::Lines(&mut lines),
+            };
             let files = self.files.clone();
             let mut find = move |name: &str, _: &str| {
                 let text = files.get(name)?;

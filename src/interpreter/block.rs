@@ -321,6 +321,7 @@ impl Interpreter {
         let inner = At {
             text: &code,
             macro_depth: macros,
+            used: at.used.or(Some(span)),
             ..*at
         };
         let (said, moved) = (self.work.diagnostics.len(), self.work.moved.len());

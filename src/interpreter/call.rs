@@ -76,7 +76,7 @@ impl Interpreter {
                 scope: call.scope,
                 name: name.trim().to_owned(),
                 own,
-                span: call.span,
+                span: at.in_block(call.span),
                 form: call.form,
                 repeat: after_motion_only(call),
             })),

@@ -57,6 +57,7 @@ impl Interpreter {
                 level,
                 called_from: called_from.as_ref(),
                 macro_depth: 0,
+                used: None,
             };
             if let Some(over) = self.over_budget(&at) {
                 let over = self.with_loop(over, unit, next);

@@ -332,9 +332,16 @@ struct At<'a> {
     called_from: Option<&'a Place>,
     /// How many macros lie around the code.
     macro_depth: u32,
+    /// Where the outermost of them is used in the block.
+    used: Option<Span>,
 }
 
 impl At<'_> {
+    /// The span in the block of what stands here, for what is said when the whole block is known.
+    fn in_block(&self, span: Span) -> Span {
+        self.used.unwrap_or(span)
+    }
+
     fn place(&self, span: Span) -> Place {
         Place {
             file: self.file.clone(),
@@ -708,6 +715,7 @@ impl Interpreter {
             level: 0,
             called_from: None,
             macro_depth: 0,
+            used: None,
         };
         notes.extend(
             block

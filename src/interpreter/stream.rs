@@ -102,6 +102,7 @@ impl Interpreter {
                 level: 0,
                 called_from: None,
                 macro_depth: 0,
+                used: None,
             };
             if let Some(over) = self.over_budget(&at) {
                 return self.ended(EndedBy::Budget, &[over], observer);

@@ -74,6 +74,7 @@ impl Interpreter {
                 level: 0,
                 called_from: None,
                 macro_depth: 0,
+                used: None,
             };
             self.note_reads(&block, &at);
             for word in &block.words {

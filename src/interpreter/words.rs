@@ -166,13 +166,13 @@ impl Interpreter {
             (b'M' | b'T', Some(number)) => {
                 if !self.machine.programs.words.is_empty() {
                     let letter = char::from(letter).to_string();
-                    let wanted =
-                        self.configured([&format!("{letter}{number}"), &letter], word.span);
+                    let words = [&format!("{letter}{number}"), &letter];
+                    let wanted = self.configured(words.map(String::as_str), at.in_block(word.span));
                     intent.call = intent.call.take().or(wanted.map(Box::new));
                 }
             }
             (b'R', _) => {
-                intent.radius = Some(word.span);
+                intent.radius = Some(at.in_block(word.span));
                 self.circle_word(letter, number);
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number),
@@ -220,7 +220,7 @@ impl Interpreter {
             // G61 and the like have no bearing on the compensation; a configured cycle has.
             (None, _) => {
                 let name = format!("G{number}");
-                if let Some(wanted) = self.configured([&name, &name], span) {
+                if let Some(wanted) = self.configured([&name, &name], at.in_block(span)) {
                     intent.call = Some(Box::new(wanted));
                     return Ok(());
                 }
@@ -251,7 +251,7 @@ impl Interpreter {
             }
         }
         let word = format!("G{}", call.number);
-        match self.configured([&word, &word], call.span) {
+        match self.configured([&word, &word], at.in_block(call.span)) {
             Some(wanted) => {
                 intent.call = Some(Box::new(super::call::Wanted { own, ..wanted }));
             }

@@ -356,6 +356,29 @@ fn called_files_that_are_not_there() {
 }
 
 #[test]
+fn what_a_macro_does_is_said_where_it_is_used() {
+    // R2.35
+    let program = "\"CALL\" = \"X1 Y2 Z3 L missing.nc\"\n\"TWICE\" = \"(a) (b) \\\"CALL\\\"\"\n\"ARC\" = \"G02 X0 Y0 (here) R5\"\n\
+                   N1 G90 X0 Y0\nN2 \"ARC\"\nN3 \"CALL\"\nN4 \"TWICE\"\nM30";
+    assert_snapshot!(Bench::new().keep_going().run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+      4 line 4 N1
+      5 line 5 N2
+        FC316 5:4-9
+      6 line 6 N3
+        FC320 6:4-10
+      7 line 7 N4
+        FC320 7:4-11
+      8 line 8 -
+      end 8 M30 X:active Y:active Z:unconfigured B:ineffective
+    ");
+}
+
+#[test]
 fn faults_in_a_called_file_point_there() {
     // R2.16
     let bench = Bench::new().file("sub.nc", "X1\nX[COMP ON FRIKT]\nM17");

@@ -88,10 +88,13 @@ pub(super) fn block(code: &str, block: &mut Block) {
 
 /// Finds the first `[` that is never closed; refuses what nests too deeply for recursion.
 pub(super) fn brackets(code: &str) -> Result<Option<usize>, Fault> {
+    let bytes = code.as_bytes();
+    if memchr::memchr2(b'[', b'*', bytes).is_none() {
+        return Ok(None);
+    }
     let mut open = Vec::new();
     let mut powers = 0_usize;
     let mut text_end = 0;
-    let bytes = code.as_bytes();
     for (at, byte) in bytes.iter().enumerate() {
         match byte {
             _ if at < text_end => {}

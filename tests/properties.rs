@@ -83,6 +83,13 @@ fn plain() -> impl Strategy<Value = String> {
     })
 }
 
+/// Words that are plain, with blanks of any width between them.
+fn spaced() -> impl Strategy<Value = String> {
+    let word = "[A-KM-OQ-Z][+-]?([0-9]{1,20}(\\.[0-9]{0,4})?|\\.[0-9]{1,4})[ ]{1,2}";
+    let word = prop_oneof![3 => word, 1 => "N[0-9]{1,5} "];
+    prop::collection::vec(word, 1..6).prop_map(|words| words.concat())
+}
+
 fn assert_inside(span: Span, text: &str) -> Result<(), TestCaseError> {
     prop_assert!(span.start <= span.end, "{span:?} in {text:?}");
     prop_assert!(text.get(span.range()).is_some(), "{span:?} in {text:?}");
@@ -233,6 +240,13 @@ proptest! {
     #[test]
     fn the_fast_path_is_the_grammar_or_declines(line in plain()) {
         prop_assert_eq!(blocks(&line, FastPath::On), blocks(&line, FastPath::Off));
+    }
+
+    // Only with blanks between its words a block is one token.
+    #[test]
+    fn blanks_may_be_tabs(line in spaced()) {
+        let tree = |text: &str| blocks(text, FastPath::Off).into_iter().map(|read| read.block);
+        prop_assert!(tree(&line).eq(tree(&line.replace(' ', "\t"))));
     }
 
     #[test]

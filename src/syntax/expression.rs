@@ -72,6 +72,13 @@ pub(super) fn lower_primary(pair: Pair<'_, Rule>, base: u32, block: &mut Block) 
     operand(from, block)
 }
 
+/// Lowers the text of a literal.
+pub(super) fn lower_literal(text: &str, span: Span, block: &mut Block) -> Operand {
+    let from = block.nodes.len();
+    Lowering { base: 0, block }.push(Node::Number(number(text)), span);
+    operand(from, block)
+}
+
 /// Lowers a parameter or variable, or a rule that wraps one, as a place to write.
 pub(super) fn place(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Expression {
     let from = block.nodes.len();

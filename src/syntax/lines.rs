@@ -195,7 +195,7 @@ impl<S: LineSource> BlockReader<S> {
             Some(word) if word == "#RT CYCLE" => self.take_region("#RT CYCLE END", block),
             _ => {}
         }
-        if cut || self.text.lines().any(too_long) {
+        if cut || (self.text.len() > MAX_LINE && self.text.lines().any(too_long)) {
             block.faults.push(
                 Fault::new(
                     Code::Fc206,
@@ -395,8 +395,9 @@ fn mask(line: &str, code: &mut String) -> Masked {
                 at = end;
             }
             byte if byte.is_ascii() => {
-                code.push(char::from(byte));
-                at += 1;
+                let end = at + 1 + code_length(&bytes[at + 1..]);
+                code.push_str(&line[at..end]);
+                at = end;
             }
             _ => {
                 let length = line[at..].chars().next().map_or(1, char::len_utf8);
@@ -412,6 +413,12 @@ fn mask(line: &str, code: &mut String) -> Masked {
         masked.continues = true;
     }
     masked
+}
+
+/// How many bytes stand in front of a text, a comment or a foreign character.
+fn code_length(bytes: &[u8]) -> usize {
+    let ends = |byte: &u8| matches!(byte, b'"' | b';' | b'(' | 0x80..);
+    bytes.iter().position(ends).unwrap_or(bytes.len())
 }
 
 /// One past the quote that closes the text at `start`. A `\"` stands for a quote inside; where that

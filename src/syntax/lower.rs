@@ -77,18 +77,24 @@ pub(super) fn block(code: &str, block: &mut Block) {
         unknown: None,
         lower_case: None,
     };
-    for pair in pairs.next().into_iter().flat_map(Pair::into_inner) {
-        lowering.part(pair);
+    if let Some(pair) = pairs.next() {
+        match pair.as_rule() {
+            Rule::plain_block => lowering.plain_words(Span::new(0, code.len())),
+            _ => pair.into_inner().for_each(|part| lowering.part(part)),
+        }
     }
     lowering.finish();
 }
 
 /// Finds the first `[` that is never closed; refuses what nests too deeply for recursion.
 pub(super) fn brackets(code: &str) -> Result<Option<usize>, Fault> {
+    let bytes = code.as_bytes();
+    if memchr::memchr2(b'[', b'*', bytes).is_none() {
+        return Ok(None);
+    }
     let mut open = Vec::new();
     let mut powers = 0_usize;
     let mut text_end = 0;
-    let bytes = code.as_bytes();
     for (at, byte) in bytes.iter().enumerate() {
         match byte {
             _ if at < text_end => {}
@@ -178,7 +184,8 @@ impl Lowering<'_> {
             Rule::axis_bracket => self.axis_bracket(pair, span),
             Rule::named_word => self.named_word(pair, span),
             Rule::g_call => self.g_call(pair, span),
-            Rule::plain_words | Rule::plain_word => self.plain_words(span),
+            Rule::plain_words => self.plain_words(span),
+            Rule::plain_word => self.plain_word(span),
             Rule::word => self.word(pair, span),
             Rule::bare_number => {
                 if let Some(value) = pair.into_inner().next() {
@@ -262,21 +269,42 @@ impl Lowering<'_> {
     /// Letters with a number behind each, and blanks between them.
     fn plain_words(&mut self, words: Span) {
         let mut start = words.start as usize;
-        for word in words.of(self.code).split(' ') {
+        for word in words.of(self.code).as_bytes().split(|byte| *byte == b' ') {
             let span = Span::new(start, start + word.len());
             start += word.len() + 1;
-            let Some((letter, number)) = word.split_at_checked(1) else {
-                continue;
-            };
-            let value = number.parse().map(Operand::Number).ok();
-            for letter in letter.bytes() {
-                self.block.push_word(Word {
-                    address: address(letter),
-                    value,
-                    span,
-                });
+            match word {
+                [] => {}
+                [b'N', b'0'..=b'9' | b'.', ..]
+                    if self.block.number.is_none() && self.block.words.is_empty() =>
+                {
+                    self.plain_number(span);
+                }
+                _ => self.plain_word(span),
             }
         }
+    }
+
+    /// `N10` in front of plain words.
+    fn plain_number(&mut self, span: Span) {
+        let digits = Span::new(span.start as usize + 1, span.end as usize);
+        let value = expression::lower_literal(digits.of(self.code), digits, self.block);
+        self.block.number = Some(Number {
+            value,
+            label: false,
+            span,
+        });
+    }
+
+    /// A letter with a number behind it.
+    fn plain_word(&mut self, span: Span) {
+        let text = span.of(self.code);
+        let letter = text.bytes().next().unwrap_or_default();
+        let number = text.get(1..).and_then(|number| number.parse().ok());
+        self.block.push_word(Word {
+            address: address(letter),
+            value: number.map(Operand::Number),
+            span,
+        });
     }
 
     fn word(&mut self, pair: Pair<'_, Rule>, span: Span) {

@@ -1,11 +1,14 @@
 //! pest pairs to blocks.
 
+mod call;
+mod flow;
+
 use pest::Parser;
 use pest::iterators::Pair;
 
 use super::ast::{
-    Address, Assignment, Block, Call, CallForm, CallName, CallScope, Declaration, Flow, GCall,
-    Hash, Item, JumpTarget, Number, Operand, Repetition, Target, Word,
+    Address, Assignment, Block, CallScope, Declaration, GCall, Hash, Item, Number, Operand, Target,
+    Word,
 };
 use super::comp::CompWords;
 use super::expression;
@@ -28,30 +31,6 @@ const OTHER_COMMANDS: [&str; 11] = [
     "LIFT_END",
     "SYNC",
     "POLY",
-];
-
-/// The `$` statements.
-const FLOW_WORDS: [&str; 20] = [
-    "$IF",
-    "$ELSEIF",
-    "$ELSE",
-    "$ENDIF",
-    "$SWITCH",
-    "$CASE",
-    "$DEFAULT",
-    "$ENDSWITCH",
-    "$FOR",
-    "$ENDFOR",
-    "$WHILE",
-    "$ENDWHILE",
-    "$DO",
-    "$ENDDO",
-    "$REPEAT",
-    "$UNTIL",
-    "$BREAK",
-    "$CONTINUE",
-    "$GOTO",
-    "$",
 ];
 
 /// Parses the code of a block into an empty block.
@@ -544,166 +523,6 @@ impl Lowering<'_> {
             }
         }
     }
-
-    fn plain_call(&mut self, pair: Pair<'_, Rule>, scope: CallScope, span: Span) {
-        let mut name = None;
-        for part in pair.into_inner() {
-            name = match part.as_rule() {
-                Rule::called => part.into_inner().next().map(|inner| self.call_name(inner)),
-                _ => Some(self.call_name(part)),
-            };
-        }
-        if let Some(name) = name {
-            self.block.items.push(Item::Call(Call {
-                scope,
-                name,
-                form: CallForm::Plain,
-                arguments: Vec::new(),
-                repetition: Repetition::Once,
-                span,
-            }));
-        }
-    }
-
-    fn call_name(&mut self, pair: Pair<'_, Rule>) -> CallName {
-        let span = trimmed(span_of(&pair), self.code);
-        match pair.as_rule() {
-            Rule::text => CallName::Quoted(span),
-            Rule::variable => CallName::Variable(expression::place(pair, 0, self.block)),
-            _ => CallName::Literal(span),
-        }
-    }
-
-    fn cycle_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
-        let mut scope = CallScope::Global;
-        let mut name = None;
-        let mut arguments = Vec::new();
-        let mut repetition = Repetition::Once;
-        for part in pair.into_inner() {
-            if part.as_rule() == Rule::call_word {
-                if part.as_str().len() == 2 {
-                    scope = CallScope::Local;
-                }
-                continue;
-            }
-            if part.as_rule() == Rule::cycle_word {
-                continue;
-            }
-            let Some(argument) = part.into_inner().next() else {
-                continue;
-            };
-            match argument.as_rule() {
-                Rule::cycle_name => {
-                    name = argument
-                        .into_inner()
-                        .next()
-                        .map(|inner| self.call_name(inner));
-                }
-                Rule::cycle_value => {
-                    let mut inner = argument.into_inner();
-                    if let (Some(index), Some(value)) = (inner.next(), inner.next()) {
-                        let index = index.as_str().parse().unwrap_or(u32::MAX);
-                        let value = expression::lower(value, 0, self.block);
-                        arguments.push((index, value));
-                    }
-                }
-                // `MODAL` is the older word for `MODAL_MOVE`.
-                _ => match argument.as_str().to_ascii_uppercase().as_str() {
-                    "MODAL" | "MODAL_MOVE" => repetition = Repetition::AfterMotion,
-                    "MODAL_BLOCK" => repetition = Repetition::AfterBlock,
-                    _ => {}
-                },
-            }
-        }
-        match name {
-            Some(name) => self.block.items.push(Item::Call(Call {
-                scope,
-                name,
-                form: CallForm::Cycle,
-                arguments,
-                repetition,
-                span,
-            })),
-            None => self.refuse(
-                not_understood(span, self.code)
-                    .with_help("name the cycle: `L CYCLE [NAME=cycle.nc @P1=10]`"),
-                span,
-            ),
-        }
-    }
-
-    fn flow(&mut self, pair: Pair<'_, Rule>, span: Span) {
-        let Some(statement) = pair.into_inner().next() else {
-            return;
-        };
-        let word = span.of(self.code);
-        let length = word[1..]
-            .find(|c: char| !c.is_ascii_alphabetic())
-            .map_or(word.len(), |at| at + 1);
-        self.note_case(Span::new(span.start as usize, span.start as usize + length));
-        if statement.as_rule() == Rule::flow_unknown {
-            self.refuse(unknown_flow(span, &word[..length]), span);
-            return;
-        }
-        let flow = self.flow_statement(statement);
-        self.block.items.push(Item::Flow(flow, span));
-    }
-
-    fn flow_statement(&mut self, pair: Pair<'_, Rule>) -> Flow {
-        let rule = pair.as_rule();
-        let mut targets = Vec::new();
-        let mut values = Vec::new();
-        for part in pair.into_inner() {
-            match part.as_rule() {
-                Rule::target => targets.push(self.target(part)),
-                Rule::expression => values.push(expression::lower(part, 0, self.block)),
-                Rule::goto_number => {
-                    let value = part.into_inner().next();
-                    let value = value.map(|value| expression::lower(value, 0, self.block));
-                    return Flow::Goto(JumpTarget::Number(value.unwrap_or(Operand::Number(0.0))));
-                }
-                Rule::goto_label => {
-                    let name = part.into_inner().next().map(|name| span_of(&name));
-                    return Flow::Goto(JumpTarget::Label(name.unwrap_or_default()));
-                }
-                Rule::variable => {
-                    let place = expression::place(part, 0, self.block);
-                    return Flow::Goto(JumpTarget::Variable(place));
-                }
-                _ => {}
-            }
-        }
-        let first = values.first().copied();
-        let condition = first.unwrap_or(Operand::Number(0.0));
-        match rule {
-            Rule::flow_if => Flow::If(condition),
-            Rule::flow_elseif => Flow::ElseIf(condition),
-            Rule::flow_else => Flow::Else,
-            Rule::flow_endif => Flow::EndIf,
-            Rule::flow_switch => Flow::Switch(targets.first().copied(), condition),
-            Rule::flow_case => Flow::Case(condition),
-            Rule::flow_default => Flow::Default,
-            Rule::flow_endswitch => Flow::EndSwitch,
-            Rule::flow_for => match targets.first() {
-                Some(&counter) => Flow::For {
-                    counter,
-                    start: condition,
-                    end: values.get(1).copied().unwrap_or(condition),
-                    step: values.get(2).copied().unwrap_or(Operand::Number(1.0)),
-                },
-                None => Flow::EndFor,
-            },
-            Rule::flow_endfor => Flow::EndFor,
-            Rule::flow_while => Flow::While(condition),
-            Rule::flow_endwhile => Flow::EndWhile,
-            Rule::flow_do => Flow::Do(first),
-            Rule::flow_enddo => Flow::EndDo(first),
-            Rule::flow_repeat => Flow::Repeat,
-            Rule::flow_until => Flow::Until(condition),
-            Rule::flow_continue => Flow::Continue,
-            _ => Flow::Break,
-        }
-    }
 }
 
 fn is_axis_letter(byte: u8) -> bool {
@@ -764,27 +583,6 @@ fn invalid_keyword(span: Span, word: &str) -> Fault {
     match did_you_mean(word, known) {
         Some(near) => fault.with_help(format!("did you mean `{near}`?")),
         None => fault.with_help("the friction compensation is switched with `COMP ON FRICT`"),
-    }
-}
-
-fn unknown_flow(span: Span, word: &str) -> Fault {
-    let upper = word.to_ascii_uppercase();
-    if FLOW_WORDS.contains(&upper.as_str()) {
-        let fault = Fault::new(
-            Code::Fc207,
-            span,
-            format!("`{word}` is incomplete or not understood"),
-        );
-        return match upper.as_str() {
-            "$FOR" => fault.with_help("write `$FOR P1 = start, end, step`"),
-            "$GOTO" => fault.with_help("write `$GOTO N100` or `$GOTO [NAME]`"),
-            _ => fault,
-        };
-    }
-    let fault = Fault::new(Code::Fc207, span, format!("unknown statement `{word}`"));
-    match did_you_mean(word, FLOW_WORDS) {
-        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
-        None => fault,
     }
 }
 

@@ -1,0 +1,98 @@
+//! Calls of subprograms and cycles.
+
+use pest::iterators::Pair;
+
+use super::{Lowering, not_understood, span_of, trimmed};
+use crate::source::Span;
+use crate::syntax::ast::{Call, CallForm, CallName, CallScope, Item, Repetition};
+use crate::syntax::expression;
+use crate::syntax::grammar::Rule;
+
+impl Lowering<'_> {
+    pub(super) fn plain_call(&mut self, pair: Pair<'_, Rule>, scope: CallScope, span: Span) {
+        let mut name = None;
+        for part in pair.into_inner() {
+            name = match part.as_rule() {
+                Rule::called => part.into_inner().next().map(|inner| self.call_name(inner)),
+                _ => Some(self.call_name(part)),
+            };
+        }
+        if let Some(name) = name {
+            self.block.items.push(Item::Call(Call {
+                scope,
+                name,
+                form: CallForm::Plain,
+                arguments: Vec::new(),
+                repetition: Repetition::Once,
+                span,
+            }));
+        }
+    }
+
+    fn call_name(&mut self, pair: Pair<'_, Rule>) -> CallName {
+        let span = trimmed(span_of(&pair), self.code);
+        match pair.as_rule() {
+            Rule::text => CallName::Quoted(span),
+            Rule::variable => CallName::Variable(expression::place(pair, 0, self.block)),
+            _ => CallName::Literal(span),
+        }
+    }
+
+    pub(super) fn cycle_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut scope = CallScope::Global;
+        let mut name = None;
+        let mut arguments = Vec::new();
+        let mut repetition = Repetition::Once;
+        for part in pair.into_inner() {
+            if part.as_rule() == Rule::call_word {
+                if part.as_str().len() == 2 {
+                    scope = CallScope::Local;
+                }
+                continue;
+            }
+            if part.as_rule() == Rule::cycle_word {
+                continue;
+            }
+            let Some(argument) = part.into_inner().next() else {
+                continue;
+            };
+            match argument.as_rule() {
+                Rule::cycle_name => {
+                    name = argument
+                        .into_inner()
+                        .next()
+                        .map(|inner| self.call_name(inner));
+                }
+                Rule::cycle_value => {
+                    let mut inner = argument.into_inner();
+                    if let (Some(index), Some(value)) = (inner.next(), inner.next()) {
+                        let index = index.as_str().parse().unwrap_or(u32::MAX);
+                        let value = expression::lower(value, 0, self.block);
+                        arguments.push((index, value));
+                    }
+                }
+                // `MODAL` is the older word for `MODAL_MOVE`.
+                _ => match argument.as_str().to_ascii_uppercase().as_str() {
+                    "MODAL" | "MODAL_MOVE" => repetition = Repetition::AfterMotion,
+                    "MODAL_BLOCK" => repetition = Repetition::AfterBlock,
+                    _ => {}
+                },
+            }
+        }
+        match name {
+            Some(name) => self.block.items.push(Item::Call(Call {
+                scope,
+                name,
+                form: CallForm::Cycle,
+                arguments,
+                repetition,
+                span,
+            })),
+            None => self.refuse(
+                not_understood(span, self.code)
+                    .with_help("name the cycle: `L CYCLE [NAME=cycle.nc @P1=10]`"),
+                span,
+            ),
+        }
+    }
+}

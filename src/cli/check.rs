@@ -10,9 +10,9 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 
 use super::console::Console;
-use super::counted::FailOn;
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
+use super::fail_on::FailOn;
 use super::failure::Failure;
 use super::files::{Input, Naming};
 use super::{walk, workers};
@@ -156,7 +156,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     if args.listing.format == Format::Text {
         Console::talk(&total(listing.tally()));
     }
-    Ok(args.listing.fail_on.status(listing.tally()))
+    Ok(args.listing.fail_on.status(&listing.tally().counts))
 }
 
 /// Lists names with their places, one a line: `V.E.PART mill.nc:12:5`.

@@ -128,5 +128,5 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     if args.listing.format == Format::Text {
         Console::talk(&total(listing.tally()));
     }
-    Ok(args.listing.fail_on.status(listing.tally()))
+    Ok(args.listing.fail_on.status(&listing.tally().counts))
 }

@@ -7,12 +7,13 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::console::{Console, Target};
-use super::counted::{Counted, FailOn};
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{ExecutionArgs, Surroundings, run_program};
+use super::fail_on::FailOn;
 use super::failure::Failure;
 use super::files::{Input, Naming};
 use super::html::HtmlFile;
+use super::progress::Progress;
 use super::settings;
 use super::state::StateFile;
 use crate::diagnostic::Diagnostic;
@@ -234,14 +235,15 @@ fn play(
     let mut sink = Outputs {
         report: &shared,
         html: html.map(HtmlFile::story),
+        blocks: 0,
+        progress: Progress::beside_output(),
     };
-    let mut counted = Counted::new(&mut sink);
     // Between two reads of a program no record is on its way.
-    let flow = start.programs(&mut counted, &|| {
+    let flow = start.programs(&mut sink, &|| {
         // A writer that takes no more says so at the next record.
         let _ = shared.borrow_mut().flush();
     });
-    let tally = counted.finish();
+    drop(sink);
     let mut report = shared.into_inner();
     report.finish().map_err(|error| Failure::output(&error))?;
     if report.is_closed() && !goes_on_alone {
@@ -253,7 +255,7 @@ fn play(
     {
         file.save(&start.session.save())?;
     }
-    Ok(fail_on.status(&tally))
+    Ok(fail_on.status(start.session.counts()))
 }
 
 impl Start<'_> {
@@ -288,15 +290,32 @@ impl Start<'_> {
     }
 }
 
+/// Blocks between two looks at the clock.
+const STEP: u64 = 1 << 16;
+
 /// The timeline, shared with who flushes it, and the story of the HTML report.
 struct Outputs<'a> {
     report: &'a RefCell<Box<dyn Report>>,
     html: Option<&'a mut RunStory>,
+    blocks: u64,
+    progress: Progress,
+}
+
+impl Outputs<'_> {
+    fn step(&mut self) {
+        self.blocks += 1;
+        if self.blocks.is_multiple_of(STEP) {
+            self.progress.show(|| format!("{} blocks", self.blocks));
+        }
+    }
 }
 
 impl Sink for Outputs<'_> {
     /// A reader of the timeline that has seen enough ends the run, unless there is a report.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Record::Block(_) = record {
+            self.step();
+        }
         let flow = self.report.borrow_mut().record(record);
         match &mut self.html {
             Some(story) => story.record(record),

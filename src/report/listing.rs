@@ -49,11 +49,6 @@ impl Tally {
     pub fn of(&self, severity: Severity) -> u64 {
         self.counts.get(&severity).copied().unwrap_or_default()
     }
-
-    /// Whether something at or above a severity was said.
-    pub fn reaches(&self, severity: Severity) -> bool {
-        self.counts.range(severity..).any(|(_, &count)| count > 0)
-    }
 }
 
 /// Writes diagnostics one after another, then what they add up to.

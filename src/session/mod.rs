@@ -246,13 +246,9 @@ impl Session {
         self.stopped
     }
 
-    /// How many diagnostics were said at a severity.
-    pub fn count(&self, severity: Severity) -> u64 {
-        self.tally
-            .counts
-            .get(&severity)
-            .copied()
-            .unwrap_or_default()
+    /// How many diagnostics were said at each severity.
+    pub fn counts(&self) -> &BTreeMap<Severity, u64> {
+        &self.tally.counts
     }
 
     /// Says the summary.

@@ -1,0 +1,57 @@
+//! The severity from which on a command fails.
+
+use std::collections::BTreeMap;
+
+use clap::ValueEnum;
+
+use crate::diagnostic::Severity;
+
+/// From which severity on the exit status is 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum FailOn {
+    /// An error of the control or of a list.
+    #[default]
+    Error,
+    /// A warning or an error.
+    Warning,
+    /// Anything at all.
+    Info,
+    /// Nothing.
+    Never,
+}
+
+impl FailOn {
+    /// The exit status for how many diagnostics were said at each severity (R9.26).
+    pub(super) fn status(self, counts: &BTreeMap<Severity, u64>) -> u8 {
+        let severity = match self {
+            Self::Error => Severity::Error,
+            Self::Warning => Severity::Warning,
+            Self::Info => Severity::Info,
+            Self::Never => return super::exit::CLEAN,
+        };
+        if counts.range(severity..).any(|(_, &count)| count > 0) {
+            super::exit::FOUND
+        } else {
+            super::exit::CLEAN
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_status_follows_the_severity_that_counts() {
+        // R9.26
+        let mut counts = BTreeMap::new();
+        assert_eq!(FailOn::Info.status(&counts), 0);
+        counts.insert(Severity::Warning, 1);
+        assert_eq!(FailOn::Error.status(&counts), 0);
+        assert_eq!(FailOn::Warning.status(&counts), 1);
+        assert_eq!(FailOn::Info.status(&counts), 1);
+        counts.insert(Severity::Error, 1);
+        assert_eq!(FailOn::Error.status(&counts), 1);
+        assert_eq!(FailOn::Never.status(&counts), 0);
+    }
+}

@@ -133,7 +133,7 @@ fn open_file<'a>(
     if !metadata.is_file() {
         return Ok(arriving(file, before_waiting));
     }
-    let mut lines = LineReader::new(Steady::new(file, &metadata));
+    let mut lines = LineReader::of_length(Steady::new(file, &metadata), metadata.len());
     if !lines.scan()?.needs_whole_text() {
         return Ok(Opened::Lines(lines.boxed()));
     }

@@ -59,13 +59,25 @@ pub(super) struct LineReader<R> {
 impl<R: Read> LineReader<R> {
     /// The lines of a reader; a byte order mark at its start is passed over.
     pub(super) fn new(reader: R) -> Self {
+        Self::with_buffer(reader, BUFFER)
+    }
+
+    /// The lines of a reader that gives so many bytes. A short one gets a small buffer: big ones that
+    /// come and go with each of many files are given back to the system in between, which takes
+    /// longer than to read them.
+    pub(super) fn of_length(reader: R, length: u64) -> Self {
+        let length = usize::try_from(length).unwrap_or(BUFFER);
+        Self::with_buffer(reader, length.saturating_add(1).clamp(KEPT, BUFFER))
+    }
+
+    fn with_buffer(reader: R, size: usize) -> Self {
         let mut lines = Self {
             reader,
-            buffer: vec![0; BUFFER],
+            buffer: vec![0; size],
             unread: 0..0,
             at_end: false,
             legacy: false,
-            text: String::with_capacity(BUFFER),
+            text: String::with_capacity(size),
             line: 0..0,
             cut: false,
             next: 0,

@@ -82,8 +82,8 @@ fn block_number(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> 
     Some(end)
 }
 
-/// Appends the word at a place and those behind it, as long as one blank stands between them;
-/// returns where the last one ends. What is glued to its number, or continues it as an expression,
+/// Appends the word at a place and those behind it, as long as one blank or none stands between
+/// them; returns where the last one ends. What is glued to its number, or continues it as an expression,
 /// begins neither a word nor a comment and is declined there.
 ///
 /// The letters show where words begin before their numbers are read, so that the processor need not
@@ -102,7 +102,7 @@ fn words_in_a_row(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize
             span: span(at, end),
         });
         match bytes.get(end..=next) {
-            Some(&[b' ', found]) if is_address(found) => (at, letter) = (next, found),
+            Some(&([found] | [b' ', found])) if is_address(found) => (at, letter) = (next, found),
             _ => return Some(end),
         }
     }

@@ -9,7 +9,13 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use crate::diagnostic::Diagnostic;
-use crate::report::{DEFAULT_WIDTH, Look, Paint, render};
+use crate::report::{Look, Paint, render};
+
+/// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
+const FALLBACK_WIDTH: usize = 100;
+
+/// Widths that text can be laid out for.
+pub(super) const WIDTHS: std::ops::RangeInclusive<usize> = 20..=1000;
 
 /// When output is coloured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -27,6 +33,8 @@ pub(super) enum Color {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Console {
     color: Color,
+    /// What `--width` says.
+    width: Option<usize>,
 }
 
 /// A place for data and how text looks there.
@@ -36,8 +44,20 @@ pub(super) struct Target {
 }
 
 impl Console {
-    pub(super) fn new(color: Color) -> Self {
-        Self { color }
+    pub(super) fn new(color: Color, width: Option<usize>) -> Self {
+        Self { color, width }
+    }
+
+    /// The columns that text may use: what the user says, else the terminal, else `COLUMNS`, else
+    /// 100 (R9.72).
+    fn width(self, terminal: Option<(terminal_size::Width, terminal_size::Height)>) -> usize {
+        let terminal = terminal.map(|(width, _)| usize::from(width.0));
+        self.width.unwrap_or_else(|| {
+            terminal
+                .or_else(columns)
+                .unwrap_or(FALLBACK_WIDTH)
+                .clamp(*WIDTHS.start(), *WIDTHS.end())
+        })
     }
 
     /// The file that the user named for the output, or stdout.
@@ -54,7 +74,7 @@ impl Console {
             writer: Box::new(created),
             look: Look {
                 paint,
-                width: DEFAULT_WIDTH,
+                width: self.width(None),
             },
         })
     }
@@ -63,8 +83,7 @@ impl Console {
     pub(super) fn stdout(self) -> Target {
         let stdout = io::stdout();
         let choice = self.choice(AutoStream::choice(&stdout));
-        let width = terminal_size::terminal_size_of(&stdout)
-            .map_or(DEFAULT_WIDTH, |(width, _)| usize::from(width.0));
+        let width = self.width(terminal_size::terminal_size_of(&stdout));
         Target {
             look: Look {
                 paint: paint(choice),
@@ -101,7 +120,7 @@ impl Console {
         let choice = self.choice(AutoStream::choice(&stderr));
         let look = Look {
             paint: paint(choice),
-            width: DEFAULT_WIDTH,
+            width: self.width(terminal_size::terminal_size_of(&stderr)),
         };
         let mut writer = AutoStream::new(stderr.lock(), choice);
         for diagnostic in diagnostics {
@@ -116,7 +135,7 @@ impl Console {
         let choice = self.choice(AutoStream::choice(&stderr));
         let look = Look {
             paint: paint(choice),
-            width: DEFAULT_WIDTH,
+            width: self.width(terminal_size::terminal_size_of(&stderr)),
         };
         let mut writer = AutoStream::new(stderr.lock(), choice);
         let (bold, plain) = match look.paint {
@@ -139,6 +158,16 @@ impl Console {
             Color::Never => ColorChoice::Never,
         }
     }
+}
+
+/// The width that the environment gives.
+fn columns() -> Option<usize> {
+    std::env::var("COLUMNS")
+        .ok()?
+        .trim()
+        .parse()
+        .ok()
+        .filter(|&columns| columns > 0)
 }
 
 fn paint(choice: ColorChoice) -> Paint {

@@ -54,6 +54,9 @@ struct Arguments {
     /// When output is coloured
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     color: Color,
+    /// Columns of text; without it those of the terminal, else `COLUMNS`, else 100
+    #[arg(long, global = true, value_name = "N", value_parser = settings::parse_width)]
+    width: Option<usize>,
     #[command(subcommand)]
     command: Command,
 }
@@ -91,7 +94,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return ExitCode::from(status);
         }
     };
-    let console = Console::new(arguments.color);
+    let console = Console::new(arguments.color, arguments.width);
     let status = dispatch(&arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
         exit::FAILED

@@ -1,5 +1,6 @@
 //! Small languages of the options: `NAME=VALUE`, `1,3-5`, `FRICT,LEAD`.
 
+use super::console::WIDTHS;
 use crate::diagnostic::did_you_mean;
 use crate::machine::Setting;
 use crate::syntax::{Kind, KindSet};
@@ -38,6 +39,15 @@ pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
     Ok(SetVariable {
         name: name.to_owned(),
         value: number.map_or_else(|| Setting::Text(unquoted.to_owned()), Setting::Number),
+    })
+}
+
+/// Parses a width in columns.
+pub(super) fn parse_width(text: &str) -> Result<usize, String> {
+    let width = text.trim().parse().ok();
+    width.filter(|width| WIDTHS.contains(width)).ok_or_else(|| {
+        let (least, most) = (WIDTHS.start(), WIDTHS.end());
+        format!("a width is a number of columns from {least} to {most}")
     })
 }
 

@@ -159,6 +159,31 @@ fn colours_are_for_terminals() {
     assert!(stderr(&styled).contains("\u{1b}["));
 }
 
+#[test]
+fn text_has_the_width_that_was_asked_for() {
+    // R9.72
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = folder.path().join("a.nc");
+    std::fs::write(&program, "N10 X[COMP ON FRICT]\nN20 M30\n").expect("written");
+    let widest = |arguments: &[&str], columns: Option<&str>| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_frictcomp"));
+        command.args(arguments).arg("--isolated").arg(&program);
+        match columns {
+            Some(columns) => command.env("COLUMNS", columns),
+            None => command.env_remove("COLUMNS"),
+        };
+        let output = command.output().expect("the tool starts");
+        let lines = stdout(&output).lines().map(|line| line.chars().count());
+        lines.max().expect("a line")
+    };
+    let hundred = widest(&["check"], None);
+    assert!((80..=100).contains(&hundred), "{hundred}");
+    assert!(widest(&["check"], Some("60")) <= 60);
+    assert!(widest(&["check", "--width", "60"], Some("200")) <= 60);
+    assert_eq!(widest(&["check"], Some("wide")), hundred);
+    assert!(refused(&["--width", "0", "check", "a.nc"]).contains("from 20 to 1000"));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_closed_pipe_is_quiet() {

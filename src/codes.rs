@@ -61,8 +61,9 @@ codes! {
     Fc120 "FC120" Info "list without `Ende`";
     Fc121 "FC121" Warning "key given twice";
     Fc122 "FC122" Warning "unknown key";
-    Fc123 "FC123" Error "list file not found";
+    Fc123 "FC123" Error "list file not found or not readable";
     Fc124 "FC124" Warning "list line not understood";
+    Fc125 "FC125" Error "list of another kind";
     Fc130 "FC130" Error "value outside its type";
     Fc131 "FC131" Error "more table entries than max_points";
     Fc132 "FC132" Warning "value outside the documented range";

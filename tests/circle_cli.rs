@@ -160,6 +160,16 @@ fn a_tuned_list_is_one_that_the_control_takes() {
     }
     let lists = tool(&["lists", "--fail-on", "info", name]);
     assert_eq!(lists.status.code(), Some(0), "{lists:?}");
+    // R3.24: a build before V3.1.3132.0 takes whole numbers only.
+    let old = tool(&[
+        "lists",
+        "--cnc-build",
+        "3.1.3000.0",
+        "--fail-on",
+        "info",
+        name,
+    ]);
+    assert_eq!(old.status.code(), Some(0), "{old:?}");
     // The circle with this list leaves what the tuning said.
     let circle = json(&[
         "circle",

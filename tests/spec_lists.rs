@@ -5,6 +5,7 @@
 mod lists {
     mod axes;
     mod config;
+    mod found;
     mod friction;
     mod host;
     mod lines;

@@ -1,7 +1,7 @@
 //! An input as the files of a user, and the places in them.
 
 use frictcomp::diagnostic::{Diagnostic, Place};
-use frictcomp::machine::ListFiles;
+use frictcomp::machine::{ListFiles, NoList};
 use frictcomp::session::Finder;
 use frictcomp::source::{LineSource, SourceFile, TextLines};
 
@@ -75,7 +75,7 @@ impl Finder for Files<'_> {
 }
 
 impl ListFiles for Files<'_> {
-    fn read(&mut self, path: &str) -> Option<SourceFile> {
-        Files::find(*self, path)
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        Files::find(*self, path).ok_or(NoList::Missing)
     }
 }

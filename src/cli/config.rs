@@ -10,6 +10,7 @@ use super::discovery::{CONFIG_NAME, LoadedMachine, MachineArgs, Machines};
 use super::exit;
 use super::failure::Failure;
 use crate::compensation::Compensation;
+use crate::diagnostic::Diagnostic;
 use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
 use crate::syntax::Kind;
 
@@ -38,7 +39,16 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
     let mut output = String::new();
     append_machine(&mut output, &loaded);
     console.print(&output)?;
-    Ok(exit::CLEAN)
+    let errors: Vec<Diagnostic> = loaded.errors().cloned().collect();
+    console.show(&errors);
+    if let Some(remark) = loaded.remark() {
+        Console::talk(&remark);
+    }
+    Ok(if errors.is_empty() {
+        exit::CLEAN
+    } else {
+        exit::FOUND
+    })
 }
 
 fn append_machine(output: &mut String, loaded: &LoadedMachine) {
@@ -50,6 +60,10 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
             "configuration  none, no {CONFIG_NAME} from here upwards"
         ),
     };
+    let (read, missing) = loaded.lists;
+    if read + missing > 0 {
+        let _ = writeln!(output, "lists          {read} read, {missing} missing");
+    }
     if let Some(build) = machine.build {
         let _ = writeln!(output, "CNC build      {build}");
     }

@@ -7,11 +7,11 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::failure::Failure;
-use super::files::read_text;
+use super::list_files::{Lists, read_list};
 use super::settings::{self, SetVariable};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
-use crate::machine::{AxisReport, Configuration, ListFiles, Machine, Origin, Setting};
+use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
 use crate::source::SourceFile;
 
 /// The name of the configuration file.
@@ -55,6 +55,8 @@ pub(super) struct LoadedMachine {
     pub(super) reports: Vec<AxisReport>,
     /// The configuration or the start-up list that was read.
     pub(super) origin: Option<PathBuf>,
+    /// How many lists were read, and how many are named and are not there.
+    pub(super) lists: (usize, usize),
 }
 
 impl LoadedMachine {
@@ -69,6 +71,7 @@ impl LoadedMachine {
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
             origin: Some(path.to_owned()),
+            lists: (configuration.files.len(), configuration.missing),
         }
     }
 
@@ -170,6 +173,7 @@ fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachi
         loaded.diagnostics = axes.diagnostics;
         loaded.reports = axes.reports;
         loaded.origin = axes.origin;
+        loaded.lists = axes.lists;
     }
     for name in &args.enable {
         enable(&mut loaded.machine, name.trim())?;
@@ -189,7 +193,7 @@ fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachi
 
 /// Reads a `frictcomp.toml` and the lists that it names.
 fn read_config(path: &Path) -> Result<LoadedMachine, Failure> {
-    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+    let source = SourceFile::new(path.display().to_string(), read_list(path)?);
     match Configuration::from_toml(source, &mut Lists) {
         Ok(configuration) => Ok(LoadedMachine::new(configuration, path)),
         Err(error) => Err(Failure {
@@ -202,21 +206,27 @@ fn read_config(path: &Path) -> Result<LoadedMachine, Failure> {
 
 /// Reads a start-up list and the lists that it names.
 fn read_startup(path: &Path) -> Result<LoadedMachine, Failure> {
-    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
-    Ok(LoadedMachine::new(
-        Configuration::from_startup(source, &mut Lists),
-        path,
-    ))
-}
-
-/// The list files of the disk.
-pub(super) struct Lists;
-
-impl ListFiles for Lists {
-    fn read(&mut self, path: &str) -> Option<SourceFile> {
-        let text = read_text(Path::new(path)).ok()?;
-        Some(SourceFile::new(path, text))
+    let source = SourceFile::new(path.display().to_string(), read_list(path)?);
+    let configuration = Configuration::from_startup(source, &mut Lists);
+    let wrong = configuration.diagnostics.iter().find(|said| {
+        let whole_file = *said.place.file == *path.display().to_string();
+        said.code == Code::Fc125 && whole_file && said.place.start().line == 1
+    });
+    if let Some(wrong) = wrong
+        && configuration.machine.axis_set == AxisSet::AsTheyOccur
+    {
+        let failure = Failure::new(wrong.message.clone());
+        let toml = path
+            .extension()
+            .is_some_and(|it| it.eq_ignore_ascii_case("toml"));
+        return Err(if toml {
+            failure.with_help("`--config` takes a `frictcomp.toml`")
+        } else {
+            let help = "`--startup` takes the list that names all others, `hochlauf.lis`";
+            failure.with_help(help)
+        });
     }
+    Ok(LoadedMachine::new(configuration, path))
 }
 
 fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {
@@ -304,7 +314,6 @@ fn relative(path: &Path, folder: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::AxisSet;
 
     #[test]
     fn the_nearest_configuration_counts() {

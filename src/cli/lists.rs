@@ -6,10 +6,9 @@ use clap::Args;
 
 use super::check::{Format, ListingArgs, total};
 use super::console::Console;
-use super::discovery::Lists;
 use super::exit;
 use super::failure::Failure;
-use super::files::read_text;
+use super::list_files::{Lists, read_list};
 use crate::codes::Code;
 use crate::diagnostic::Severity;
 use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
@@ -46,7 +45,7 @@ pub(super) struct ListsArgs {
 
 /// Checks a list, or every list that a configuration names.
 fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
-    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+    let source = SourceFile::new(path.display().to_string(), read_list(path)?);
     if path.extension().is_none_or(|extension| extension != "toml") {
         return Ok(check_list(source, build, &mut Lists));
     }
@@ -64,7 +63,8 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
             accepted: AcceptedList::of(&configuration.machine),
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
-            files: configuration.files,
+            files: std::iter::once(name).chain(configuration.files).collect(),
+            missing: configuration.missing,
         },
         Err(error) => ListsReport {
             kind: None,
@@ -72,6 +72,7 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
             reports: Vec::new(),
             accepted: Vec::new(),
             files: vec![name],
+            missing: 0,
         },
     })
 }
@@ -86,6 +87,15 @@ fn draw(path: &Path, reports: &[ListsReport], console: Console) -> Result<(), Fa
         .with_help("leave `--svg` out to see why"));
     }
     console.deliver(Some(path), &value_curves(&accepted).render(Frame::Alone))
+}
+
+/// What to say of lists that are named and are not there.
+fn lacking(missing: usize) -> String {
+    match missing {
+        0 => String::new(),
+        1 => ", 1 list is missing".to_owned(),
+        several => format!(", {several} lists are missing"),
+    }
 }
 
 /// Runs the command.
@@ -113,7 +123,9 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let target = console.target(args.listing.output.as_deref())?;
     let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
     for report in &reports {
-        listing.file();
+        for _ in &report.files {
+            listing.file();
+        }
         for diagnostic in &report.diagnostics {
             if listing.diagnostic(diagnostic).is_break() {
                 break;
@@ -126,7 +138,8 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     }
     console.print(&table)?;
     if args.listing.format == Format::Text {
-        Console::talk(&total(listing.tally()));
+        let missing = reports.iter().map(|report| report.missing).sum();
+        Console::talk(&(total(listing.tally()) + &lacking(missing)));
     }
     Ok(args.listing.fail_on.status(&listing.tally().counts))
 }

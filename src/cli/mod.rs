@@ -19,6 +19,7 @@ mod golden;
 mod html;
 mod jobs;
 mod lines;
+mod list_files;
 mod lists;
 mod man;
 mod plants;

@@ -12,7 +12,7 @@ use super::jobs::Jobs;
 use super::plants::{Model, plant};
 use crate::circle::{Circle, FrictionModel, Plant, Ranges, Search, Task, Tuned};
 use crate::current::Reading;
-use crate::lists::Field;
+use crate::lists::{CncBuild, Field};
 use crate::report::pictures::tuning;
 use crate::report::svg::Frame;
 use crate::report::tune::{TuneReport, render_json, render_list, render_text};
@@ -67,6 +67,10 @@ pub(super) struct TuneArgs {
     /// Draw the glitch over the feed, before and after, into this file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The CNC build that the value list is for, `3.1.3132.0`; outputs are whole numbers unless it
+    /// reads real ones
+    #[arg(long, value_name = "BUILD")]
+    cnc_build: Option<CncBuild>,
     /// Write the value list of the first plant into this file
     #[arg(long, short, value_name = "LIST")]
     output: Option<PathBuf>,
@@ -125,7 +129,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         });
     }
     if let (Some(path), Some(first)) = (&args.output, reports.first()) {
-        console.deliver(Some(path), &render_list(first))?;
+        console.deliver(Some(path), &render_list(first, args.cnc_build))?;
     }
     if let Some(path) = &args.svg {
         console.deliver(Some(path), &tuning(&reports).render(Frame::Alone))?;

@@ -145,7 +145,8 @@ impl AdditiveCurrent {
             table: list.table.clone(),
             above: 0,
             scaling: f64::from(list.scaling_factor) / 1000.0,
-            position_delay: f64::from(list.position_delay),
+            // R3.25: a negative one counts as 0.
+            position_delay: f64::from(list.position_delay.max(0)),
             lookahead: usize::from(list.reversal_lookahead),
             delay_cycles,
             reading,

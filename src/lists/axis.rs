@@ -191,7 +191,12 @@ fn axis_type(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<A
         Some(Number::Integer(1)) => Some(AxisType::Linear),
         Some(Number::Integer(2)) => Some(AxisType::Rotary),
         Some(Number::Integer(4)) => Some(AxisType::Spindle),
-        _ => None,
+        _ => match given.value.text.as_str() {
+            "ACHSTYP_TRANSLATOR" => Some(AxisType::Linear),
+            "ACHSTYP_ROTATOR" => Some(AxisType::Rotary),
+            "ACHSTYP_SPINDEL" => Some(AxisType::Spindle),
+            _ => None,
+        },
     };
     if axis_type.is_none() {
         let expected = "`1` for a linear axis, `2` for a rotary axis, `4` for a spindle";

@@ -152,7 +152,7 @@ impl Check<'_> {
         };
         let range = field.type_range();
         let value = match given.value.number {
-            Some(Number::Integer(value)) if range.contains(&value) => value,
+            Some(Number::Integer(value)) if range.contains(&value) || field.floors(value) => value,
             _ => {
                 let diagnostic = Diagnostic::new(
                     Code::Fc130,
@@ -186,10 +186,14 @@ impl Check<'_> {
                     documented.end()
                 ),
             )
-            .with_help("the value is used as it is given");
+            .with_help(if field.floors(value) {
+                "a negative value counts as 0"
+            } else {
+                "the value is used as it is given"
+            });
             self.diagnostics.push(diagnostic);
         }
-        T::try_from(value).ok()
+        T::try_from(if field.floors(value) { 0 } else { value }).ok()
     }
 
     /// R3.23: whether the table fits into the reserved room; `≤` (reading C6).

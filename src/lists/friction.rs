@@ -128,6 +128,19 @@ impl Field {
         }
     }
 
+    /// Whether a value of this parameter counts as 0: a distance or a time below zero (R3.25).
+    pub(super) fn floors(self, value: i64) -> bool {
+        let counted = matches!(
+            self,
+            Self::PositionDelay | Self::ReversalLookahead | Self::DelayCycles
+        );
+        let smallest = match self {
+            Self::PositionDelay => i64::from(i32::MIN),
+            _ => i64::from(i16::MIN),
+        };
+        counted && (smallest..0).contains(&value)
+    }
+
     /// The documented range where it is narrower than the type and no other check holds it
     /// (R3.25).
     pub(super) fn documented_range(self) -> Option<RangeInclusive<i64>> {
@@ -256,6 +269,7 @@ impl FrictionDraft {
                 key: format!("frict_comp.{}", field.name()),
                 value: match self.get(field) {
                     _ if field == Field::MaxPoints => self.max_points().to_string(),
+                    Some(given) if floored(field, &given.value) => "0".to_owned(),
                     Some(given) => shown(&given.value),
                     None => field.default().to_string(),
                 },
@@ -286,6 +300,10 @@ impl FrictionDraft {
         }
         rows
     }
+}
+
+fn floored(field: Field, written: &Written) -> bool {
+    matches!(written.number, Some(Number::Integer(value)) if field.floors(value))
 }
 
 const STRUCTURE: &str = "frict_comp.";

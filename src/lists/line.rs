@@ -12,6 +12,13 @@ use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Place};
 use crate::source::{SourceFile, Span};
 
+/// What a text that holds `(` is put between; printed samples have the slanted ones (TF5200 Channel
+/// parameters, comments in the ASCII list file).
+const QUOTES: [char; 4] = ['"', '\u{201c}', '\u{201d}', '\u{2033}'];
+
+/// More lines that are no entries than a list has by mistake. What follows is counted.
+const MAX_ODD: usize = 20;
+
 /// One line `path.with[index].dots  value  comment`.
 #[derive(Debug, Clone)]
 pub struct Entry {
@@ -58,9 +65,15 @@ impl Entry {
         self.part(0..end)
     }
 
-    /// The value as a text; only `(` opens a comment behind it (R3.2).
+    /// The value as a text; only `(` opens a comment after it. A text in quotes may hold one
+    /// (R3.2).
     pub fn text(&self) -> Given<&str> {
         let value = self.value_span.of(self.source.text());
+        if let Some(quote) = value.chars().next().filter(|first| QUOTES.contains(first))
+            && let Some(length) = value[quote.len_utf8()..].find(QUOTES)
+        {
+            return self.part(quote.len_utf8()..quote.len_utf8() + length);
+        }
         let end = value.find('(').unwrap_or(value.len());
         self.part(0..value[..end].trim_end().len())
     }
@@ -138,6 +151,10 @@ impl Entries {
             lines: Vec::new(),
             diagnostics: Vec::new(),
         };
+        if source.text().trim_start().starts_with('<') {
+            reader.refuse_xml();
+            return Self::of(reader);
+        }
         let ended = reader.read();
         if !ended {
             let end = source.text().trim_end().len();
@@ -150,16 +167,20 @@ impl Entries {
                     source.place(Span::new(start, end)),
                     "the list ends without `Ende`",
                 )
-                .with_help("write `Ende` on a line of its own behind the last entry"),
+                .with_help("write `Ende` on a line of its own after the last entry"),
             );
         }
-        let mut entries = Self {
-            entries: reader.lines,
-            diagnostics: reader.diagnostics,
-            source: source.clone(),
-        };
+        let mut entries = Self::of(reader);
         entries.drop_repeated();
         entries
+    }
+
+    fn of(reader: Reader<'_>) -> Self {
+        Self {
+            entries: reader.lines,
+            diagnostics: reader.diagnostics,
+            source: reader.source.clone(),
+        }
     }
 
     /// The list as a source.
@@ -235,30 +256,61 @@ impl Reader<'_> {
         let text = self.source.text();
         let lines = self.source.lines();
         let count = u32::try_from(lines.lines()).unwrap_or(u32::MAX);
+        let mut odd: Vec<Span> = Vec::new();
+        let mut ended = false;
         for number in 1..=count {
             let span = lines.line_span(text, number);
             match self.line(span) {
                 Line::Blank => {}
-                Line::End => return true,
+                Line::End => {
+                    ended = true;
+                    break;
+                }
                 Line::Entry(entry) => self.lines.push(entry),
                 Line::Odd(why) => {
-                    let line = span.of(text);
-                    let start = line.len() - line.trim_start().len();
-                    let meant = Span::new(start, line.trim_end().len()).shifted(span.start);
-                    self.diagnostics.push(
-                        Diagnostic::new(
-                            Code::Fc124,
-                            self.source.place(meant),
-                            format!("{why}, the line is passed over"),
-                        )
-                        .with_help(
-                            "an entry is `key value`, a comment begins with `#` and a blank",
-                        ),
-                    );
+                    odd.push(span);
+                    if odd.len() <= MAX_ODD {
+                        self.pass_over(span, why);
+                    }
                 }
             }
         }
-        false
+        if let Some(&first) = odd.get(MAX_ODD) {
+            let more = odd.len() - MAX_ODD;
+            let message = format!("{more} more lines from here on are no entries of a list");
+            let diagnostic = Diagnostic::new(Code::Fc124, self.source.place(first), message)
+                .with_help("is this a list of the control?");
+            self.diagnostics.push(diagnostic);
+        }
+        ended
+    }
+
+    /// FC124 for a line that is no entry.
+    fn pass_over(&mut self, span: Span, why: &str) {
+        let line = span.of(self.source.text());
+        let start = line.len() - line.trim_start().len();
+        let meant = Span::new(start, line.trim_end().len()).shifted(span.start);
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::Fc124,
+                self.source.place(meant),
+                format!("{why}, the line is passed over"),
+            )
+            .with_help("an entry is `key value`, a comment begins with `#`"),
+        );
+    }
+
+    /// FC124 for a list in the control's other format.
+    fn refuse_xml(&mut self) {
+        let span = self.source.lines().line_span(self.source.text(), 1);
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::Fc124,
+                self.source.place(span),
+                "this is XML, which is not read",
+            )
+            .with_help("export the ASCII list (`.lis`) from the control"),
+        );
     }
 
     fn line(&self, span: Span) -> Line {
@@ -271,15 +323,10 @@ impl Reader<'_> {
                 None => return Line::Odd("a comment is not closed on its line"),
             }
         }
-        if line.is_empty() || line == ":" {
+        // Printed samples write `:` or `...` for entries that they leave out (R3.2).
+        let left_out = |c: char| matches!(c, ':' | '.' | '\u{2026}' | ' ' | '\t');
+        if line.starts_with('#') || line.chars().all(left_out) {
             return Line::Blank;
-        }
-        if let Some(comment) = line.strip_prefix('#') {
-            return if comment.starts_with(char::is_alphanumeric) {
-                Line::Odd("a comment needs a blank behind `#`")
-            } else {
-                Line::Blank
-            };
         }
         let first = line
             .split(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
@@ -323,7 +370,7 @@ impl Reader<'_> {
         let key_end = line.len() - rest.len();
         let value = rest.trim();
         let separated = rest.is_empty() || rest.starts_with(char::is_whitespace);
-        let is_path = pattern.contains(['.', '[']);
+        let is_path = pattern.contains(['.', '[', '_']);
         let opens = pattern.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
         if !opens {
             return Line::Odd("this is no key of a list");

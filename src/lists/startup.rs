@@ -8,7 +8,7 @@ use super::{Entries, Entry, Given};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 
-/// The four kinds of list that are read.
+/// The kinds of list that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ListKind {
     /// It names the other lists: `hochlauf.lis`.
@@ -19,55 +19,91 @@ pub enum ListKind {
     Axis,
     /// The compensation values of one axis.
     Value,
+    /// Number and name of an axis and nothing else, as in an axis list or a value list.
+    Head,
+}
+
+/// The keys by which a kind of list is known, beginnings of their patterns. The rows are looked at
+/// from the top, the first one with a key in the list counts.
+const KEYS: [(ListKind, &[&str]); 5] = [
+    (
+        ListKind::Startup,
+        &[
+            "zahl_mds",
+            "default_achs_mds",
+            "achs_mds[]",
+            "zahl_kw",
+            "achs_kw",
+            "sda_mds[]",
+            "default_sda_mds",
+            "kanal_anzahl",
+        ],
+    ),
+    (ListKind::Channel, CHANNEL_KEYS),
+    (ListKind::Value, &["frict_comp.", "frict_comp[", "kw."]),
+    (ListKind::Axis, AXIS_KEYS),
+    (ListKind::Head, &["kopf."]),
+];
+
+const CHANNEL_KEYS: &[&str] = &[
+    "gruppe[",
+    "grp_anzahl",
+    "spindel[",
+    "makro_def[",
+    "m_synch[",
+    "h_synch[",
+    "trafo[",
+    "prog_start.",
+    "syn_chk.",
+    "speed_limit_look_ahead.",
+    "start_init_prog_file",
+    "final_prog_file",
+    "m6_prog_file",
+];
+
+const AXIS_KEYS: &[&str] = &[
+    "kenngr.",
+    "lr_param.",
+    "lr_hw[",
+    "antr.",
+    "getriebe[",
+    "vorsteuer.",
+    "handbetrieb.",
+];
+
+fn holds(list: &Entries, beginnings: &[&str]) -> bool {
+    list.entries.iter().any(|entry| {
+        let begins = |beginning: &&str| entry.pattern.starts_with(*beginning);
+        beginnings.iter().any(begins)
+    })
 }
 
 impl ListKind {
     /// The kind of a list by its keys; `None` when no key belongs to any of them.
     pub fn detect(list: &Entries) -> Option<Self> {
-        let has = |test: fn(&str) -> bool| list.entries.iter().any(|entry| test(&entry.pattern));
-        let starts = |key: &str, heads: &[&str]| heads.iter().any(|head| key.starts_with(head));
-        if has(|key| STARTUP_KEYS.contains(&key)) {
-            Some(Self::Startup)
-        } else if has(|key| key.starts_with("gruppe[].achse[].")) {
-            Some(Self::Channel)
-        } else if list
-            .entries
-            .iter()
-            .any(|entry| starts(&entry.pattern, &["frict_comp.", "frict_comp[", "kw."]))
-        {
-            Some(Self::Value)
-        } else if list.entries.iter().any(|entry| {
-            starts(
-                &entry.pattern,
-                &["kopf.", "kenngr.", "lr_param.", "antr.", "getriebe["],
-            )
-        }) {
-            Some(Self::Axis)
-        } else {
-            None
-        }
+        let row = KEYS.iter().find(|(_, keys)| holds(list, keys))?;
+        Some(row.0)
     }
 
-    /// What it is called: `start-up list`.
+    /// Whether a list can stand where one of this kind is asked for: none of its keys says that it
+    /// is another one, or one of them says that it is this one.
+    pub fn admits(self, list: &Entries) -> bool {
+        let own = KEYS.iter().find(|(kind, _)| *kind == self);
+        own.is_some_and(|(_, keys)| holds(list, keys))
+            || matches!(Self::detect(list), None | Some(Self::Head))
+    }
+
+    /// What it is called, with its article: `a start-up list`.
     pub fn word(self) -> &'static str {
         match self {
-            Self::Startup => "start-up list",
-            Self::Channel => "channel list",
-            Self::Axis => "axis list",
-            Self::Value => "value list",
+            Self::Startup => "a start-up list",
+            Self::Channel => "a channel list",
+            Self::Axis => "an axis list",
+            Self::Value => "a value list",
+            Self::Head => "the head of an axis list or value list",
         }
     }
 }
-
-const STARTUP_KEYS: [&str; 7] = [
-    "zahl_mds",
-    "default_achs_mds",
-    "achs_mds[]",
-    "zahl_kw",
-    "achs_kw[]",
-    "achs_kw_log_ax_nr[]",
-    "sda_mds[]",
-];
 
 /// A list that the start-up list names.
 #[derive(Debug, Clone)]
@@ -87,6 +123,8 @@ pub struct StartupList {
     pub axis_lists: Vec<Given<String>>,
     /// Value lists in the order of their indices.
     pub value_lists: Vec<NamedList>,
+    /// The channel list that applies before each channel's own one.
+    pub default_channel_list: Option<Given<String>>,
     /// Channel lists in the order of their channels.
     pub channel_lists: Vec<Given<String>>,
 }
@@ -115,6 +153,7 @@ impl StartupList {
                     axis_number: numbers.remove(&index),
                 })
                 .collect(),
+            default_channel_list: list.find("default_sda_mds").and_then(text),
             channel_lists: channels.into_values().collect(),
         }
     }
@@ -138,7 +177,7 @@ fn counted(
             files.insert(index, path);
         }
     }
-    if let (Some(entry), Some(count)) = (surplus, count) {
+    if let (Some(entry), Some(count)) = (surplus, &count) {
         diagnostics.push(
             Diagnostic::new(
                 Code::Fc124,
@@ -153,45 +192,119 @@ fn counted(
             .with_label(count.place(), "the number of lists"),
         );
     }
+    // P-STUP-00015: the control tries to open what is missing, and does not start.
+    if let Some(count) = count
+        && let Some(hole) = (0..count.value).find(|index| !files.contains_key(index))
+    {
+        let key = keys.0.replace("[]", &format!("[{hole}]"));
+        let message = format!("`{}` is {}, but `{key}` names no list", keys.1, count.value);
+        diagnostics.push(
+            Diagnostic::new(Code::Fc123, count.place(), message)
+                .with_help(format!("add `{key}`, or lower `{}`", keys.1)),
+        );
+    }
     files
 }
 
-/// One axis of a channel.
+/// One axis or spindle of a channel.
 #[derive(Debug, Clone, Default)]
 pub struct ChannelAxis {
-    /// `gruppe[0].achse[j].log_achs_nr`.
+    /// `gruppe[0].achse[j].log_achs_nr`, P-CHAN-00035.
     pub number: Option<Given<u32>>,
-    /// `gruppe[0].achse[j].bezeichnung`: the name that programs use.
+    /// `gruppe[0].achse[j].bezeichnung`, P-CHAN-00006: the name that programs use.
     pub name: Option<Given<String>>,
 }
 
 /// The axes of a channel.
 #[derive(Debug, Clone, Default)]
 pub struct ChannelList {
-    /// The axes in the order of their indices.
-    pub axes: Vec<ChannelAxis>,
+    /// The axes by their indices.
+    axes: BTreeMap<u32, ChannelAxis>,
+    /// The spindles by their indices.
+    spindles: BTreeMap<u32, ChannelAxis>,
+    /// `gruppe[0].achs_anzahl`, P-CHAN-00003: how many axes there are.
+    count: Option<u32>,
 }
 
 impl ChannelList {
-    /// Gathers the axes of the first group.
+    /// Gathers the axes of the first group and the spindles.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let mut axes: BTreeMap<u32, ChannelAxis> = BTreeMap::new();
+        let mut channel = Self::default();
         for entry in &list.entries {
-            let &[0, index] = entry.indices.as_slice() else {
-                continue;
+            let (axes, index, key) = match (entry.indices.as_slice(), entry.pattern.as_str()) {
+                (&[0, index], key) => match key.strip_prefix("gruppe[].achse[].") {
+                    Some(key) => (&mut channel.axes, index, key),
+                    None => continue,
+                },
+                (&[0], "gruppe[].achs_anzahl") => {
+                    channel.count = axis_number(entry, diagnostics).map(|given| given.value);
+                    continue;
+                }
+                (&[index], key) => match key.strip_prefix("spindel[].") {
+                    Some(key) => (&mut channel.spindles, index, key),
+                    None => continue,
+                },
+                _ => continue,
             };
-            match entry.pattern.as_str() {
-                "gruppe[].achse[].log_achs_nr" => {
+            match key {
+                "log_achs_nr" => {
                     axes.entry(index).or_default().number = axis_number(entry, diagnostics);
                 }
-                "gruppe[].achse[].bezeichnung" => {
-                    axes.entry(index).or_default().name = text(entry);
+                "bezeichnung" => {
+                    axes.entry(index).or_default().name = axis_name(entry, diagnostics);
                 }
                 _ => {}
             }
         }
-        Self {
-            axes: axes.into_values().collect(),
-        }
+        channel
     }
+
+    /// Lets the values of another list replace those that are here.
+    pub fn override_with(&mut self, other: Self) {
+        for (mine, others) in [
+            (&mut self.axes, other.axes),
+            (&mut self.spindles, other.spindles),
+        ] {
+            for (index, axis) in others {
+                let kept = mine.entry(index).or_default();
+                kept.number = axis.number.or(kept.number.take());
+                kept.name = axis.name.or(kept.name.take());
+            }
+        }
+        self.count = other.count.or(self.count);
+    }
+
+    /// The axes in the order of their indices, as many as the group has. An axis with the number 0
+    /// is a place that nothing fills.
+    pub fn axes(&self) -> impl Iterator<Item = &ChannelAxis> {
+        let count = self.count.unwrap_or(u32::MAX);
+        let axes = self.axes.range(..count).map(|(_, axis)| axis);
+        axes.filter(|axis| axis.is_there())
+    }
+
+    /// The spindles in the order of their indices.
+    pub fn spindles(&self) -> impl Iterator<Item = &ChannelAxis> {
+        self.spindles.values().filter(|axis| axis.is_there())
+    }
+}
+
+impl ChannelAxis {
+    /// Whether it is one: number 0 is none.
+    fn is_there(&self) -> bool {
+        self.number.as_ref().is_none_or(|number| number.value != 0)
+    }
+}
+
+/// The name of an axis, one word. What follows it without `(` is no comment to the control; here it
+/// is taken as one and said.
+fn axis_name(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<String>> {
+    let given = text(entry)?;
+    let word = given.value.split_whitespace().next().unwrap_or_default();
+    if word.len() < given.value.len() {
+        let message = format!("`{}` is no name of an axis, `{word}` is used", given.value);
+        let diagnostic = Diagnostic::new(Code::Fc124, given.place(), message)
+            .with_help("only `(` opens a comment after a text");
+        diagnostics.push(diagnostic);
+    }
+    Some(given.with(word.to_owned()))
 }

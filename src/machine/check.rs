@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::load::{ListFiles, ValueList};
+use super::described::{describe, is_no_matter};
+use super::load::ValueList;
+use super::resolve::ListFiles;
 use super::{AxisReport, CncBuild, Configuration, Machine, Parameterisation};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
@@ -25,6 +27,8 @@ pub struct ListsReport {
     pub accepted: Vec<AcceptedList>,
     /// The lists that were read, in the order of reading.
     pub files: Vec<Arc<str>>,
+    /// How many lists are named and are not there.
+    pub missing: usize,
 }
 
 /// A value list that the control would take, and the axis that it is for.
@@ -74,6 +78,7 @@ pub fn check_list(
             reports: configuration.reports,
             accepted: AcceptedList::of(&configuration.machine),
             files: configuration.files,
+            missing: configuration.missing,
         };
     }
     let mut diagnostics = entries.diagnostics.clone();
@@ -84,7 +89,7 @@ pub fn check_list(
         Some(ListKind::Channel) => {
             ChannelList::from_entries(&entries, &mut diagnostics);
         }
-        Some(ListKind::Axis) => {
+        Some(ListKind::Axis | ListKind::Head) => {
             let values = AxisValues::from_entries(&entries, &mut diagnostics);
             let mut report = head(&values);
             report.parameters = values.parameters();
@@ -115,14 +120,17 @@ pub fn check_list(
             report.parameters.extend(reading.parameters);
             reports.push(report);
         }
-        None => diagnostics.push(
-            Diagnostic::new(
-                Code::Fc124,
-                source.place(Span::new(0, 0)),
-                "no key of this file belongs to an axis, value, channel or start-up list",
-            )
-            .with_help("`frictcomp explain FC124` says how these lists are written"),
-        ),
+        None if is_no_matter(&entries) => {}
+        None => {
+            let message = format!(
+                "this is {}: no key belongs to an axis, value, channel or start-up list",
+                describe(&entries)
+            );
+            diagnostics.push(
+                Diagnostic::new(Code::Fc124, source.place(Span::new(0, 0)), message)
+                    .with_help("`frictcomp explain FC124` says how these lists are written"),
+            );
+        }
     }
     ListsReport {
         kind,
@@ -130,6 +138,7 @@ pub fn check_list(
         reports,
         accepted,
         files: vec![source.name().clone()],
+        missing: 0,
     }
 }
 

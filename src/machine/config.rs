@@ -6,12 +6,15 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::assemble::{AxisDraft, Dynamics};
-use super::load::{ListFiles, Loader, MAX_AXES, NoLists};
+use super::load::{Loader, MAX_AXES};
+use super::resolve::{ListFiles, NoLists};
 use super::section::{ROOT, Section, Shape};
 use super::{Configuration, ConfiguredPrograms, Machine, Parameters, Setting};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
-use crate::lists::{AxisType, AxisValues, Field, FrictionDraft, Given, Written, WrittenPoint};
+use crate::lists::{
+    AxisType, AxisValues, Field, FrictionDraft, Given, ListKind, Written, WrittenPoint,
+};
 use crate::source::{SourceFile, Span};
 use crate::syntax::{Kind, KindSet};
 
@@ -83,7 +86,7 @@ impl Configuration {
             Some(machine) => machine.string("startup")?,
             None => None,
         };
-        let mut axes = match startup.and_then(|asked| loader.load(&asked)) {
+        let mut axes = match startup.and_then(|asked| loader.load(&asked, ListKind::Startup)) {
             Some(entries) => loader.startup(&entries),
             None => Vec::new(),
         };

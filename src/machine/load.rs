@@ -3,34 +3,19 @@
 use std::sync::Arc;
 
 use super::assemble::AxisDraft;
+use super::described::describe;
+use super::resolve::{ListFiles, folder};
 use super::{AxisSet, Configuration, Machine};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::lists::{
-    AxisValues, ChannelAxis, ChannelList, Conditions, Entries, FrictionDraft, Given, NamedList,
-    StartupList,
+    AxisType, AxisValues, ChannelAxis, ChannelList, Conditions, Entries, FrictionDraft, Given,
+    ListKind, NamedList, StartupList,
 };
-use crate::source::SourceFile;
+use crate::source::{SourceFile, Span};
 
 /// More axes than any control has; what lies beyond is not read.
 pub(super) const MAX_AXES: usize = 1024;
-
-/// Hands list files to the library, which opens none itself.
-pub trait ListFiles {
-    /// The list at a path, or `None` when there is none. A relative path has been resolved
-    /// against the folder of the list that asks, as far as that list's own name has one. The name
-    /// of the source is what diagnostics show, and what further paths are resolved against.
-    fn read(&mut self, path: &str) -> Option<SourceFile>;
-}
-
-/// A host that has no list files.
-pub struct NoLists;
-
-impl ListFiles for NoLists {
-    fn read(&mut self, _path: &str) -> Option<SourceFile> {
-        None
-    }
-}
 
 /// The head and the friction parameters of one value list.
 #[derive(Debug, Clone, Default)]
@@ -50,11 +35,13 @@ impl ValueList {
 
 /// Reads lists through the host and collects what they give reason to say.
 pub(super) struct Loader<'f> {
-    files: &'f mut dyn ListFiles,
+    pub(super) files: &'f mut dyn ListFiles,
     /// The folder of the start-up list, for paths of the control's own disk.
-    startup_folder: Option<String>,
+    pub(super) startup_folder: Option<String>,
     pub(super) diagnostics: Vec<Diagnostic>,
     pub(super) names: Vec<Arc<str>>,
+    /// How many lists were asked for and are not there.
+    pub(super) missing: usize,
 }
 
 impl<'f> Loader<'f> {
@@ -64,35 +51,8 @@ impl<'f> Loader<'f> {
             startup_folder: None,
             diagnostics: Vec::new(),
             names: Vec::new(),
+            missing: 0,
         }
-    }
-
-    /// The entries of a list that another one names; FC123 when there is no such file (R3.14).
-    pub(super) fn load(&mut self, asked: &Given<String>) -> Option<Entries> {
-        let folder = folder(asked.file());
-        let mut candidates = vec![join(folder, &asked.value)];
-        if asked.value.contains('\\') || asked.value.get(1..2) == Some(":") {
-            let name = asked.value.rsplit(['\\', '/']).next().unwrap_or_default();
-            let startup = self.startup_folder.as_deref().unwrap_or(folder);
-            candidates.push(join(startup, name));
-        }
-        let found = candidates.iter().find_map(|path| self.files.read(path));
-        if found.is_none() {
-            self.diagnostics.push(
-                Diagnostic::new(
-                    Code::Fc123,
-                    asked.place(),
-                    format!(
-                        "`{}`, named in line {} of `{}`, is not found",
-                        asked.value,
-                        asked.line(),
-                        asked.file()
-                    ),
-                )
-                .with_help(format!("looked for `{}`", candidates.join("` and `"))),
-            );
-        }
-        found.map(|file| self.entries(&Arc::new(file)))
     }
 
     /// The entries of a list that is here already.
@@ -106,12 +66,12 @@ impl<'f> Loader<'f> {
     }
 
     pub(super) fn axis_list(&mut self, asked: &Given<String>) -> Option<AxisValues> {
-        let entries = self.load(asked)?;
+        let entries = self.load(asked, ListKind::Axis)?;
         Some(AxisValues::from_entries(&entries, &mut self.diagnostics))
     }
 
     pub(super) fn value_list(&mut self, asked: &Given<String>) -> Option<ValueList> {
-        let entries = self.load(asked)?;
+        let entries = self.load(asked, ListKind::Value)?;
         Some(ValueList::from_entries(&entries, &mut self.diagnostics))
     }
 
@@ -129,18 +89,7 @@ impl<'f> Loader<'f> {
                 listed.push((asked.clone(), AxisDraft::new(String::new(), values)));
             }
         }
-        let mut axes = Vec::new();
-        for channel in startup.channel_lists.iter().take(MAX_AXES) {
-            let Some(entries) = self.load(channel) else {
-                continue;
-            };
-            let channel = ChannelList::from_entries(&entries, &mut self.diagnostics);
-            let room = MAX_AXES.saturating_sub(axes.len());
-            for axis in channel.axes.into_iter().take(room) {
-                let found = find_listed(&axis, &listed).map(|at| listed.remove(at).1);
-                axes.extend(channel_axis(axis, found, &default));
-            }
-        }
+        let mut axes = self.channels(&startup, (&mut listed, &default));
         for (asked, mut draft) in listed {
             if let Some(name) = &draft.values.name {
                 draft.name.clone_from(&name.value);
@@ -164,6 +113,60 @@ impl<'f> Loader<'f> {
             self.attach(named, &mut axes);
         }
         axes
+    }
+
+    /// The axes that the channels name, each with its axis list, which is taken out of `listed`.
+    fn channels(
+        &mut self,
+        startup: &StartupList,
+        (listed, default): (&mut Vec<(Given<String>, AxisDraft)>, &AxisValues),
+    ) -> Vec<AxisDraft> {
+        let mut axes: Vec<AxisDraft> = Vec::new();
+        let base = startup.default_channel_list.as_ref();
+        let base = base
+            .and_then(|asked| self.channel_list(asked))
+            .unwrap_or_default();
+        for asked in startup.channel_lists.iter().take(MAX_AXES) {
+            let Some(own) = self.channel_list(asked) else {
+                continue;
+            };
+            let mut channel = base.clone();
+            channel.override_with(own);
+            let mut taken = Vec::new();
+            for axis in channel.axes() {
+                let found = find_listed(axis, listed).map(|at| listed.remove(at).1);
+                let Some(draft) = channel_axis(axis, found, default) else {
+                    continue;
+                };
+                if axes.iter().any(|other| other.name == draft.name) {
+                    taken.push(draft.name);
+                } else if axes.len() < MAX_AXES {
+                    axes.push(draft);
+                }
+            }
+            for spindle in channel.spindles() {
+                if let Some(at) = find_listed(spindle, listed) {
+                    let draft = &mut listed[at].1;
+                    draft.values.axis_type.get_or_insert_with(|| {
+                        let given = spindle.number.as_ref().map(|given| given.with(()));
+                        let given = given.or_else(|| spindle.name.as_ref().map(|n| n.with(())));
+                        given
+                            .unwrap_or_else(|| asked.with(()))
+                            .with(AxisType::Spindle)
+                    });
+                    draft.values.name = spindle.name.clone().or(draft.values.name.take());
+                }
+            }
+            if !taken.is_empty() {
+                self.diagnostics.push(other_channel(asked, &taken));
+            }
+        }
+        axes
+    }
+
+    fn channel_list(&mut self, asked: &Given<String>) -> Option<ChannelList> {
+        let entries = self.load(asked, ListKind::Channel)?;
+        Some(ChannelList::from_entries(&entries, &mut self.diagnostics))
     }
 
     /// The values of the default list, which describes no axis of its own.
@@ -236,6 +239,18 @@ impl<'f> Loader<'f> {
     }
 }
 
+/// FC124 for a channel whose axes have the names of another one's. Programs are taken to run in the
+/// channel that comes first (R3.13).
+fn other_channel(asked: &Given<String>, names: &[String]) -> Diagnostic {
+    let message = format!(
+        "the axes of `{}` have names of an earlier channel and are left out: {}",
+        asked.value,
+        names.join(", ")
+    );
+    Diagnostic::new(Code::Fc124, asked.place(), message)
+        .with_help("programs are run in the first channel that has the axis")
+}
+
 /// The axis list of a channel's axis: the one with its number, else the one with its name.
 fn find_listed(axis: &ChannelAxis, listed: &[(Given<String>, AxisDraft)]) -> Option<usize> {
     let find = |test: &dyn Fn(&AxisDraft) -> bool| listed.iter().position(|(_, d)| test(d));
@@ -258,16 +273,25 @@ fn find_listed(axis: &ChannelAxis, listed: &[(Given<String>, AxisDraft)]) -> Opt
 
 /// An axis as a channel names it, with its list if there is one. `None` when nothing names it.
 fn channel_axis(
-    axis: ChannelAxis,
+    axis: &ChannelAxis,
     found: Option<AxisDraft>,
     default: &AxisValues,
 ) -> Option<AxisDraft> {
     let mut draft = found.unwrap_or_else(|| AxisDraft::new(String::new(), default.clone()));
-    draft.set_channel_number(axis.number);
-    let name = axis.name.or_else(|| draft.values.name.clone())?;
+    draft.set_channel_number(axis.number.clone());
+    let name = axis.name.clone().or_else(|| draft.values.name.clone())?;
     draft.name.clone_from(&name.value);
     draft.values.name = Some(name);
     Some(draft)
+}
+
+/// FC125 for a file that is given as a start-up list and names nothing.
+fn not_startup(entries: &Entries) -> Diagnostic {
+    let source = entries.source();
+    let what = describe(entries);
+    let message = format!("`{}` is {what}, not a start-up list", source.name());
+    Diagnostic::new(Code::Fc125, source.place(Span::new(0, 0)), message)
+        .with_help("a start-up list (`hochlauf.lis`) names the lists of the axes and channels")
 }
 
 impl Configuration {
@@ -281,6 +305,11 @@ impl Configuration {
     pub(super) fn read_startup(&mut self, file: &Arc<SourceFile>, files: &mut dyn ListFiles) {
         let mut loader = Loader::new(files);
         let entries = loader.entries(file);
+        if ListKind::detect(&entries) != Some(ListKind::Startup) {
+            loader.diagnostics = vec![not_startup(&entries)];
+            self.assemble(Vec::new(), loader);
+            return;
+        }
         let axes = loader.startup(&entries);
         self.assemble(axes, loader);
     }
@@ -290,6 +319,7 @@ impl Configuration {
     pub(super) fn assemble(&mut self, axes: Vec<AxisDraft>, loader: Loader<'_>) {
         self.diagnostics.extend(loader.diagnostics);
         self.files.extend(loader.names);
+        self.missing += loader.missing;
         let conditions = Conditions {
             build: self.machine.build,
             ..Conditions::default()
@@ -315,27 +345,5 @@ impl Configuration {
                 }
                 None => false,
             });
-    }
-}
-
-/// The folder of a path as it is written, without its separator; empty for a bare name.
-fn folder(path: &str) -> &str {
-    match path.rfind(['/', '\\']) {
-        Some(0) => "/",
-        Some(at) => &path[..at],
-        None => "",
-    }
-}
-
-/// A path seen from a folder, with `/` between its parts.
-fn join(folder: &str, path: &str) -> String {
-    let path = path.replace('\\', "/");
-    let absolute = path.starts_with('/') || path.get(1..2) == Some(":");
-    if folder.is_empty() || absolute {
-        path
-    } else if folder.ends_with('/') {
-        format!("{folder}{path}")
-    } else {
-        format!("{folder}/{path}")
     }
 }

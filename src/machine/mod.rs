@@ -4,7 +4,9 @@ mod assemble;
 mod check;
 #[cfg(feature = "toml")]
 mod config;
+mod described;
 mod load;
+mod resolve;
 #[cfg(feature = "toml")]
 pub(crate) mod section;
 
@@ -16,7 +18,7 @@ pub use assemble::AxisReport;
 pub use check::{AcceptedList, ListsReport, check_list};
 #[cfg(feature = "toml")]
 pub use config::ConfigError;
-pub use load::{ListFiles, NoLists};
+pub use resolve::{ListFiles, NoList, NoLists};
 
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Place};
@@ -239,6 +241,8 @@ pub struct Configuration {
     pub diagnostics: Vec<Diagnostic>,
     /// The lists that were read, as they are named in diagnostics, in the order of reading.
     pub files: Vec<Arc<str>>,
+    /// How many lists are named and are not there.
+    pub missing: usize,
     /// The effective parameters of each axis, in the order of [`Machine::axes`].
     pub reports: Vec<AxisReport>,
 }

@@ -192,7 +192,7 @@ fn numbers_have_their_types() {
         "frict_comp.mode",
         "frict_comp.table_entries 1e0",
         "frict_comp.position_delay 2147483648",
-        "frict_comp.reversal_lookahead -1",
+        "frict_comp.reversal_lookahead -32769",
         "frict_comp.scaling_factor 32767",
         "frict_comp.scaling_factor -32768",
         "frict_comp.delay_cycles 32768",
@@ -240,6 +240,37 @@ fn real_points_need_a_build_that_reads_them() {
 }
 
 #[test]
+fn negative_delays_count_as_0() {
+    // R3.25
+    let text = "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
+                frict_comp.table[0].out 1\nfrict_comp.position_delay -7\n\
+                frict_comp.reversal_lookahead -2\nfrict_comp.delay_cycles -32768\nEnde";
+    let report = judge(text);
+    let found = codes(&report.diagnostics);
+    assert_eq!(found, ["FC132 5:27", "FC132 6:31", "FC132 7:25"]);
+    for diagnostic in &report.diagnostics {
+        assert_eq!(diagnostic.help, ["a negative value counts as 0"]);
+    }
+    let list = accepted(text);
+    let delays = (
+        list.position_delay,
+        list.reversal_lookahead,
+        list.delay_cycles,
+    );
+    assert_eq!(delays, (0, 0, 0));
+    let shown = |key: &str| {
+        let rows = &report.reports[0].parameters;
+        rows.iter()
+            .find(|row| row.key == key)
+            .unwrap()
+            .value
+            .clone()
+    };
+    assert_eq!(shown("frict_comp.position_delay"), "0");
+    assert_eq!(shown("frict_comp.delay_cycles"), "0");
+}
+
+#[test]
 fn values_outside_the_documented_range_are_used() {
     // R3.25, C1
     let text = "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
@@ -254,7 +285,7 @@ fn values_outside_the_documented_range_are_used() {
             list.reversal_lookahead,
             list.delay_cycles
         ),
-        (-1, 5, 249)
+        (0, 5, 249)
     );
     let edge = "frict_comp.position_delay 10\nfrict_comp.reversal_lookahead 4\nfrict_comp.delay_cycles 248";
     assert_eq!(judged(&format!("{edge}\n{TWO}")), [""; 0]);

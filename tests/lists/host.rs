@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::lists::CncBuild;
 use frictcomp::machine::{
-    Configuration, ListFiles, ListsReport, NoLists, Parameterisation, check_list,
+    Configuration, ListFiles, ListsReport, NoList, NoLists, Parameterisation, check_list,
 };
 use frictcomp::source::SourceFile;
 
@@ -14,9 +14,9 @@ use frictcomp::source::SourceFile;
 pub(crate) struct Memory(pub(crate) BTreeMap<&'static str, &'static str>);
 
 impl ListFiles for Memory {
-    fn read(&mut self, path: &str) -> Option<SourceFile> {
-        let text = self.0.get(path)?;
-        Some(SourceFile::new(path, *text))
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let text = self.0.get(path).ok_or(NoList::Missing)?;
+        Ok(SourceFile::new(path, *text))
     }
 }
 
@@ -29,14 +29,16 @@ impl Disk {
     }
 
     pub(crate) fn open(path: &str) -> SourceFile {
-        Self.read(path).unwrap_or_else(|| panic!("{path} exists"))
+        Self.read(path)
+            .unwrap_or_else(|why| panic!("{path}: {why}"))
     }
 }
 
 impl ListFiles for Disk {
-    fn read(&mut self, path: &str) -> Option<SourceFile> {
-        let text = std::fs::read_to_string(Self::root().join(path)).ok()?;
-        Some(SourceFile::new(path, text))
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let text = std::fs::read_to_string(Self::root().join(path));
+        let text = text.map_err(|_| NoList::Missing)?;
+        Ok(SourceFile::new(path, text))
     }
 }
 

@@ -53,11 +53,63 @@ fn only_a_parenthesis_opens_a_comment_behind_a_text() {
 }
 
 #[test]
-fn a_comment_that_could_be_an_entry_is_said() {
+fn keys_that_are_commented_out_are_no_matter() {
     // R3.2
-    let list = parse("#a.b 1\n/* open\na.c 2\nEnde");
-    assert_eq!(codes(&list.diagnostics), ["FC124 1:1", "FC124 2:1"]);
+    let list = parse("#cax_face_id 1\n#gruppe[0].achse[0].bezeichnung X\n  #a.b 2\n...\n:\nEnde");
+    assert_eq!(codes(&list.diagnostics), [""; 0]);
+    assert!(list.entries.is_empty());
+}
+
+#[test]
+fn a_comment_that_swallows_lines_is_said() {
+    // R3.2
+    let list = parse("/* open\na.c 2\nEnde");
+    assert_eq!(codes(&list.diagnostics), ["FC124 1:1"]);
     assert_eq!(list.entries.len(), 1);
+}
+
+#[test]
+fn a_text_in_quotes_may_hold_a_parenthesis() {
+    // R3.2
+    for (open, close) in [
+        ("\"", "\""),
+        ("\u{201c}", "\u{201d}"),
+        ("\u{2033}", "\u{2033}"),
+    ] {
+        let text = format!("sda_mds[0] {open}C:\\Program Files (x86)\\a.lis{close} (main)\nEnde");
+        let list = parse(&text);
+        let given = list.entries[0].text();
+        assert_eq!(given.value, "C:\\Program Files (x86)\\a.lis");
+        assert_eq!(given.place().start().column, 13);
+    }
+    assert_eq!(parse("a.b \"x (y)\nEnde").entries[0].text().value, "\"x");
+}
+
+#[test]
+fn a_key_may_have_no_value_but_a_word_is_no_key() {
+    // R3.1, R3.4
+    let list = parse("default_achs_mds\nkopf.log_achs_name\nhello\nEnde");
+    assert_eq!(codes(&list.diagnostics), ["FC124 3:1"]);
+    assert_eq!(list.entries.len(), 2);
+}
+
+#[test]
+fn what_is_no_list_is_said_once_and_shortly() {
+    // R3.1
+    let program = "X[COMP ON FRICT]\n".repeat(500);
+    let found = parse(&program);
+    let codes = codes(&found.diagnostics);
+    assert_eq!(
+        codes
+            .iter()
+            .filter(|code| code.starts_with("FC124"))
+            .count(),
+        21
+    );
+    assert!(found.diagnostics[20].message.starts_with("480 more lines"));
+    let xml = parse("<?xml version=\"1.0\"?>\n<a>\n</a>\n");
+    assert_eq!(xml.diagnostics.len(), 1);
+    assert!(xml.diagnostics[0].message.contains("XML"));
 }
 
 #[test]

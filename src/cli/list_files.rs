@@ -1,0 +1,107 @@
+//! The list files of the disk (R3.12).
+
+use std::fs::File;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use super::failure::Failure;
+use super::files::{decode, read_bytes};
+use crate::machine::{ListFiles, NoList};
+use crate::source::SourceFile;
+
+/// The list files of the disk.
+pub(super) struct Lists;
+
+impl ListFiles for Lists {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let found = as_spelt(Path::new(path)).ok_or(NoList::Missing)?;
+        match read_regular(&found) {
+            Ok(text) => Ok(SourceFile::new(found.to_string_lossy().into_owned(), text)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(NoList::Missing),
+            Err(error) => Err(NoList::Unreadable(error.to_string())),
+        }
+    }
+
+    /// By name as far as the name goes, then by `..` up to the root.
+    fn above(&self, folder: &str) -> Option<String> {
+        let path = Path::new(folder);
+        match path.components().next_back() {
+            Some(Component::Normal(_)) => Some(path.parent()?.to_string_lossy().into_owned()),
+            None | Some(Component::CurDir | Component::ParentDir) => {
+                let above = path.join("..");
+                let (here, there) = (place(path).ok()?, place(&above).ok()?);
+                (here != there).then(|| above.to_string_lossy().replace('\\', "/"))
+            }
+            Some(Component::RootDir | Component::Prefix(_)) => None,
+        }
+    }
+}
+
+/// Reads a list or a configuration that the user names.
+pub(super) fn read_list(path: &Path) -> Result<String, Failure> {
+    read_regular(path).map_err(|error| match error.kind() {
+        io::ErrorKind::IsADirectory => {
+            Failure::new(format!("`{}` is a folder, not a list", path.display()))
+                .with_help("name the file in it")
+        }
+        _ => Failure::reading(path, &error),
+    })
+}
+
+/// The text of a regular file. Others may never end, or wait for somebody who writes.
+fn read_regular(path: &Path) -> io::Result<String> {
+    let metadata = std::fs::metadata(path)?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if !metadata.is_file() {
+        return Err(io::Error::other("it is not a regular file"));
+    }
+    File::open(path)?;
+    read_bytes(path).map(decode)
+}
+
+/// Where a folder really is; the empty path is the current one.
+fn place(folder: &Path) -> io::Result<PathBuf> {
+    if folder.as_os_str().is_empty() {
+        std::env::current_dir()?.canonicalize()
+    } else {
+        folder.canonicalize()
+    }
+}
+
+/// The path as it is spelt on the disk. The control's disk does not tell upper from lower case.
+fn as_spelt(path: &Path) -> Option<PathBuf> {
+    if path.exists() {
+        return Some(path.to_owned());
+    }
+    let mut spelt = PathBuf::new();
+    for part in path.components() {
+        let whole = spelt.join(part);
+        spelt = if whole.exists() {
+            whole
+        } else {
+            alike(&spelt, part.as_os_str().to_str()?)?
+        };
+    }
+    Some(spelt)
+}
+
+/// What has a name in a folder, upper and lower case aside.
+fn alike(folder: &Path, wanted: &str) -> Option<PathBuf> {
+    let listed = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let names = std::fs::read_dir(listed).ok()?.filter_map(Result::ok);
+    let mut alike: Vec<_> = names
+        .map(|entry| entry.file_name())
+        .filter(|name| {
+            name.to_str()
+                .is_some_and(|it| it.eq_ignore_ascii_case(wanted))
+        })
+        .collect();
+    alike.sort();
+    alike.into_iter().next().map(|name| folder.join(name))
+}

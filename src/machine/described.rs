@@ -1,0 +1,68 @@
+//! What a file is that stands in the place of a list.
+
+use crate::lists::{Entries, Entry, ListKind};
+
+/// What a file is, with its article: `a value list`, `a program`.
+pub(super) fn describe(entries: &Entries) -> &'static str {
+    if let Some(kind) = ListKind::detect(entries) {
+        return kind.word();
+    }
+    let text = entries.source().text();
+    let first = text
+        .lines()
+        .map(str::trim)
+        .find(|line| !line.is_empty() && !line.starts_with('#'));
+    let Some(first) = first else {
+        return "an empty file";
+    };
+    let tables = ["[machine", "[[axis", "[variables", "[lint", "[check"];
+    let key = |entry: &Entry| {
+        OTHERS
+            .iter()
+            .find(|(key, _)| entry.pattern.starts_with(key))
+    };
+    if let Some((_, what)) = entries.entries.iter().find_map(key) {
+        what
+    } else if first.starts_with('<') {
+        "an XML file"
+    } else if tables.iter().any(|table| first.starts_with(table)) {
+        "a `frictcomp.toml`"
+    } else if is_block(first) {
+        "a program"
+    } else if entries.entries.is_empty() {
+        "no list of the control"
+    } else {
+        "a list of a kind that is not known"
+    }
+}
+
+/// Lists of the control that say nothing about compensation, by the beginnings of their keys.
+const OTHERS: [(&str, &str); 9] = [
+    ("wz[", "a tool list"),
+    ("np_grp[", "a zero offset list"),
+    ("pzv_grp[", "a clamp position list"),
+    ("hr_data[", "a manual mode list"),
+    ("tasten_data[", "a manual mode list"),
+    ("feedhold.", "a manual mode list"),
+    ("var[", "a list of external variables"),
+    ("object[", "a list of display objects"),
+    ("kin_step[", "a kinematics list"),
+];
+
+/// Whether a list belongs to the control and says nothing about compensation.
+pub(super) fn is_no_matter(entries: &Entries) -> bool {
+    let other = |entry: &Entry| OTHERS.iter().any(|(key, _)| entry.pattern.starts_with(key));
+    entries.entries.iter().any(other)
+}
+
+/// Whether a line begins as NC programs do: a name, a comment, a letter with its number.
+fn is_block(line: &str) -> bool {
+    let word = line.split([' ', '\t', '[']).next().unwrap_or_default();
+    let mut letters = word.chars();
+    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
+    match letters.next() {
+        Some('%' | ';' | '(' | '$' | '/') => true,
+        Some(first) => first.is_ascii_alphabetic() && letters.all(number),
+        None => false,
+    }
+}

@@ -1,0 +1,220 @@
+//! The machine at the command line: lists from any folder, what is missing, what is no list.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// Runs the tool in a folder.
+fn tool(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+        .args(arguments)
+        .current_dir(folder)
+        .env_remove("COLUMNS")
+        .output()
+        .unwrap()
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn write(folder: &Path, files: &[(&str, &str)]) {
+    for (name, text) in files {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+}
+
+/// A start-up list as vendors ship it: it names lists from the control's working folder, one above.
+fn vendor(folder: &Path) {
+    write(
+        folder,
+        &[
+            (
+                "cnc/listen/hochlauf.lis",
+                "# start\nzahl_mds 2\ndefault_achs_mds .\\Listen\\default.lis\n\
+                 achs_mds[0] ./listen/achsmds1.lis\nachs_mds[1] ./listen/AchsMds2.lis\n\
+                 sda_mds[0] ./listen/sda_mds1.lis\nachs_kw[0] ./listen/achskw1.lis\nEnde\n",
+            ),
+            (
+                "cnc/listen/default.lis",
+                "#kopf.achs_nr 0\nlr_param.frict_comp 1\nEnde\n",
+            ),
+            ("cnc/listen/achsmds1.lis", "kopf.achs_nr 1\nEnde\n"),
+            (
+                "cnc/listen/achsmds2.lis",
+                "kopf.achs_nr 2\nlr_param.frict_comp 0\nEnde\n",
+            ),
+            (
+                "cnc/listen/sda_mds1.lis",
+                "#cax_face_id 1\ngruppe[0].achse[0].bezeichnung X\n\
+                 gruppe[0].achse[0].log_achs_nr 1\ngruppe[0].achse[1].bezeichnung Y\n\
+                 gruppe[0].achse[1].log_achs_nr 2\nEnde\n",
+            ),
+            (
+                "cnc/listen/achskw1.lis",
+                "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
+                 frict_comp.table[0].in 10\nfrict_comp.table[0].out 40\nEnde\n",
+            ),
+            ("cnc/a.nc", "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n"),
+        ],
+    );
+}
+
+#[test]
+fn a_vendor_s_start_up_list_is_read_from_any_folder() {
+    // R3.12
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    for (folder, list, shown) in [
+        ("cnc", "listen/hochlauf.lis", "listen/achskw1.lis:3"),
+        ("cnc", "./listen/hochlauf.lis", "listen/achskw1.lis:3"),
+        ("cnc/listen", "hochlauf.lis", "../listen/achskw1.lis:3"),
+        (
+            "cnc/listen",
+            "../listen/hochlauf.lis",
+            "../listen/achskw1.lis:3",
+        ),
+        ("", "cnc/listen/hochlauf.lis", "cnc/listen/achskw1.lis:3"),
+    ] {
+        let folder = root.path().join(folder);
+        let listed = tool(&folder, &["lists", "--show", list]);
+        assert_eq!(listed.status.code(), Some(0), "{list}: {}", said(&listed));
+        assert!(
+            said(&listed).contains("6 files checked: 0 errors"),
+            "{}",
+            said(&listed)
+        );
+        assert!(out(&listed).contains(shown), "{list}: {}", out(&listed));
+    }
+    let absolute = root.path().join("cnc/listen/hochlauf.lis");
+    let elsewhere = tempfile::tempdir().unwrap();
+    let listed = tool(elsewhere.path(), &["lists", absolute.to_str().unwrap()]);
+    assert_eq!(listed.status.code(), Some(0), "{}", said(&listed));
+    let run = tool(
+        &root.path().join("cnc"),
+        &["run", "--startup", "listen/hochlauf.lis", "a.nc"],
+    );
+    assert_eq!(run.status.code(), Some(0), "{}", out(&run));
+}
+
+#[test]
+fn missing_lists_are_counted_and_shown_where_they_are_named() {
+    // R3.14
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    let lists = root.path().join("cnc/listen");
+    for name in ["default.lis", "achsmds2.lis", "achskw1.lis"] {
+        fs::remove_file(lists.join(name)).unwrap();
+    }
+    let cnc = root.path().join("cnc");
+    write(
+        &cnc,
+        &[(
+            "frictcomp.toml",
+            "[machine]\nstartup = \"listen/hochlauf.lis\"\n",
+        )],
+    );
+    let listed = tool(&cnc, &["lists", "listen/hochlauf.lis"]);
+    assert_eq!(listed.status.code(), Some(1));
+    let said_of_lists = said(&listed);
+    assert!(
+        said_of_lists.contains("3 files checked: 3 errors"),
+        "{said_of_lists}"
+    );
+    assert!(
+        said_of_lists.ends_with("3 lists are missing\n"),
+        "{said_of_lists}"
+    );
+    let shown = tool(&cnc, &["config", "show"]);
+    assert_eq!(shown.status.code(), Some(1));
+    assert!(
+        out(&shown).contains("lists          3 read, 3 missing"),
+        "{}",
+        out(&shown)
+    );
+    for line in [3, 5, 7] {
+        let place = format!("listen/hochlauf.lis:{line}:");
+        assert!(said(&shown).contains(&place), "{}", said(&shown));
+    }
+}
+
+#[test]
+fn what_is_no_start_up_list_starts_nothing() {
+    // R3.12
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    let cnc = root.path().join("cnc");
+    write(&cnc, &[("mill.toml", "[[axis]]\nname = \"X\"\n")]);
+    for (file, what) in [
+        ("listen/achskw1.lis", "is a value list, not a start-up list"),
+        (
+            "listen/sda_mds1.lis",
+            "is a channel list, not a start-up list",
+        ),
+        ("mill.toml", "is a `frictcomp.toml`, not a start-up list"),
+        ("a.nc", "is a program, not a start-up list"),
+        ("listen", "is a folder, not a list"),
+    ] {
+        for arguments in [
+            vec!["run", "--startup", file, "a.nc"],
+            vec!["check", "--startup", file, "a.nc"],
+            vec!["config", "show", "--startup", file],
+        ] {
+            let refused = tool(&cnc, &arguments);
+            assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
+            assert!(
+                said(&refused).contains(what),
+                "{arguments:?} {}",
+                said(&refused)
+            );
+        }
+    }
+    write(
+        &cnc,
+        &[(
+            "frictcomp.toml",
+            "[machine]\nstartup = \"listen/achskw1.lis\"\n",
+        )],
+    );
+    let refused = tool(&cnc, &["check", "a.nc"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(
+        out(&refused).contains("frictcomp.toml:2:11"),
+        "{}",
+        out(&refused)
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn lists_are_regular_files_that_may_be_read() {
+    // R3.14
+    use std::os::unix::fs::symlink;
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    let cnc = root.path().join("cnc");
+    fs::remove_file(cnc.join("listen/achsmds2.lis")).unwrap();
+    symlink("/dev/zero", cnc.join("listen/achsmds2.lis")).unwrap();
+    let listed = tool(&cnc, &["lists", "listen/hochlauf.lis"]);
+    assert_eq!(listed.status.code(), Some(1));
+    let text = out(&listed);
+    assert!(
+        text.contains("cannot be read: it is not a regular file"),
+        "{text}"
+    );
+    let named = tool(&cnc, &["lists", "listen/achsmds2.lis"]);
+    assert_eq!(named.status.code(), Some(2));
+    assert!(
+        said(&named).contains("not a regular file"),
+        "{}",
+        said(&named)
+    );
+}

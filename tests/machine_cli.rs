@@ -11,7 +11,7 @@ fn tool(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_frictcomp"))
         .args(arguments)
         .current_dir(folder)
-        .env_remove("COLUMNS")
+        .env("COLUMNS", "200")
         .output()
         .unwrap()
 }

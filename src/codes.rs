@@ -2,7 +2,7 @@
 //!
 //! The control's own numbers (`P-ERR-…`) stand here only where a document ties the number to the
 //! cause; all others begin with `FC` (R9.23): 1xx files, configuration and lists, 2xx syntax, 3xx
-//! meaning, 4xx lints, 5xx drive, 9xx unknown values and budgets. Numbers are never used again.
+//! meaning, 4xx lints, 5xx drive (FC501 to FC503 are kept for checks to come), 9xx unknown values and budgets. Numbers are never used again.
 
 use std::fmt;
 
@@ -101,9 +101,6 @@ codes! {
     Fc405 "FC405" Info "COMP and motion in one block";
     Fc406 "FC406" Info "kind named twice";
     Fc490 "FC490" Warning "unused `allow` comment";
-    Fc501 "FC501" Error "no additive torque interface";
-    Fc502 "FC502" Warning "actual torque not mapped";
-    Fc503 "FC503" Error "drive type without friction compensation";
     Fc901 "FC901" Warning "condition not known offline";
     Fc902 "FC902" Warning "jump or call not known offline";
     Fc903 "FC903" Warning "motion not known offline";

@@ -218,3 +218,170 @@ fn lists_are_regular_files_that_may_be_read() {
         said(&named)
     );
 }
+
+#[test]
+fn init_writes_what_loads_without_a_message() {
+    // R9.73
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    let cnc = root.path().join("cnc");
+    let made = tool(&cnc, &["init"]);
+    assert_eq!(made.status.code(), Some(0), "{}", said(&made));
+    assert!(
+        said(&made).starts_with("wrote `./frictcomp.toml`")
+            || said(&made).starts_with("wrote `.\\frictcomp.toml`"),
+        "{}",
+        said(&made)
+    );
+    let text = fs::read_to_string(cnc.join("frictcomp.toml")).unwrap();
+    assert!(
+        text.contains("\nstartup = \"listen/hochlauf.lis\""),
+        "{text}"
+    );
+    loads_and_runs(&cnc, "a.nc");
+
+    let programs = tempfile::tempdir().unwrap();
+    write(
+        programs.path(),
+        &[
+            (
+                "p/b.nc",
+                "G0 X1 Y2 Z1=3\nZ1[COMP OFF FRICT]\nX[COMP ON FRICT]\nZ1[COMP ON FRICT]\nM30\n",
+            ),
+            ("p/sub/c.nc", "B[COMP OFF FRICT]\nB[COMP ON FRICT]\nM30\n"),
+        ],
+    );
+    let made = tool(programs.path(), &["init", "p"]);
+    assert_eq!(made.status.code(), Some(0), "{}", said(&made));
+    assert!(
+        said(&made).contains("the programs use X, Y, B, Z1"),
+        "{}",
+        said(&made)
+    );
+    let folder = programs.path().join("p");
+    loads_and_runs(&folder, "b.nc");
+    let shown = out(&tool(&folder, &["config", "show"]));
+    let states: Vec<Vec<&str>> = shown
+        .lines()
+        .skip_while(|line| !line.starts_with("axis"))
+        .skip(1)
+        .map(|line| line.split_whitespace().take(3).collect())
+        .collect();
+    let expected = [
+        ["X", "active"],
+        ["Y", "unconfigured"],
+        ["B", "active"],
+        ["Z1", "active"],
+    ];
+    for (state, [name, word]) in states.iter().zip(expected) {
+        assert_eq!([state[0], state[2]], [name, word]);
+    }
+}
+
+fn loads_and_runs(folder: &Path, program: &str) {
+    let shown = tool(folder, &["config", "show"]);
+    assert_eq!(
+        (shown.status.code(), said(&shown)),
+        (Some(0), String::new())
+    );
+    let listed = tool(folder, &["lists", "--fail-on", "info", "frictcomp.toml"]);
+    assert_eq!(listed.status.code(), Some(0), "{}", out(&listed));
+    let run = tool(folder, &["run", "--fail-on", "warning", program]);
+    assert_eq!(run.status.code(), Some(0), "{}{}", out(&run), said(&run));
+}
+
+#[test]
+fn init_never_writes_over_a_file() {
+    // R9.73
+    let root = tempfile::tempdir().unwrap();
+    write(
+        root.path(),
+        &[("frictcomp.toml", "# mine\n"), ("a.nc", "M30\n")],
+    );
+    let refused = tool(root.path(), &["init"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        said(&refused).contains("is there already"),
+        "{}",
+        said(&refused)
+    );
+    let text = fs::read_to_string(root.path().join("frictcomp.toml")).unwrap();
+    assert_eq!(text, "# mine\n");
+    #[cfg(unix)]
+    {
+        let linked = root.path().join("sub");
+        fs::create_dir(&linked).unwrap();
+        std::os::unix::fs::symlink("../gone.toml", linked.join("frictcomp.toml")).unwrap();
+        assert_eq!(tool(&linked, &["init"]).status.code(), Some(2));
+        assert!(!root.path().join("gone.toml").exists());
+    }
+    for folder in ["missing", "a.nc"] {
+        let refused = tool(root.path(), &["init", folder]);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(
+            said(&refused).contains("there is no folder"),
+            "{}",
+            said(&refused)
+        );
+    }
+}
+
+#[test]
+fn init_takes_a_start_up_list_and_nothing_else() {
+    // R9.73
+    let root = tempfile::tempdir().unwrap();
+    vendor(root.path());
+    let cnc = root.path().join("cnc");
+    let refused = tool(&cnc, &["init", "--startup", "listen/achskw1.lis"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        said(&refused).contains("is a value list"),
+        "{}",
+        said(&refused)
+    );
+    write(&cnc, &[("other/h.lis", "zahl_mds 0\nEnde\n")]);
+    let refused = tool(&cnc, &["init"]);
+    assert!(
+        said(&refused).contains("several start-up lists"),
+        "{}",
+        said(&refused)
+    );
+    assert!(!cnc.join("frictcomp.toml").exists());
+    write(root.path(), &[("prg/a.nc", "X[COMP ON FRICT]\nM30\n")]);
+    let made = tool(
+        root.path(),
+        &["init", "prg", "--startup", "cnc/listen/hochlauf.lis"],
+    );
+    assert_eq!(made.status.code(), Some(0), "{}", said(&made));
+    let text = fs::read_to_string(root.path().join("prg/frictcomp.toml")).unwrap();
+    assert!(
+        text.contains("startup = \"../cnc/listen/hochlauf.lis\""),
+        "{text}"
+    );
+    loads_and_runs(&root.path().join("prg"), "a.nc");
+}
+
+#[test]
+fn axes_that_nobody_described_are_not_taken_for_others() {
+    // R2.20
+    let root = tempfile::tempdir().unwrap();
+    write(
+        root.path(),
+        &[
+            ("a.nc", "X2[COMP OFF FRICT]\nM30\n"),
+            ("y.nc", "Y[COMP OFF FRICT]\nM30\n"),
+        ],
+    );
+    let free = tool(root.path(), &["check", "a.nc"]);
+    assert!(!out(&free).contains("did you mean"), "{}", out(&free));
+    write(
+        root.path(),
+        &[("frictcomp.toml", "[[axis]]\nname = \"X\"\n")],
+    );
+    let text = out(&tool(root.path(), &["check", "y.nc"]));
+    assert!(
+        text.contains("the configuration lists all axes: X"),
+        "{text}"
+    );
+    assert!(text.contains("`[[axis]]` with `name = \"Y\"`"), "{text}");
+}

@@ -18,10 +18,7 @@ const MAX_BLOCKS: &str = "5000";
 const OWN_BOUNDS: [(&str, &str); 1] = [("FC910-endless-loop.nc", "100")];
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 7] = [
-    ("FC501", "the check of the drive is not built yet"),
-    ("FC502", "the check of the drive is not built yet"),
-    ("FC503", "the check of the drive is not built yet"),
+const ELSEWHERE: [(&str, &str); 4] = [
     ("FC903", "said by `current`; tests/spec_motion.rs has it"),
     ("FC904", "said by `current`; tests/spec_motion.rs has it"),
     ("FC915", "said by `current`; tests/spec_motion.rs has it"),

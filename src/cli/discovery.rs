@@ -280,7 +280,7 @@ fn nearest_config(folder: &Path) -> Option<PathBuf> {
 }
 
 /// The path without `.` and with `..` resolved by name.
-fn normal(path: &Path) -> PathBuf {
+pub(super) fn normal(path: &Path) -> PathBuf {
     let mut normal = PathBuf::new();
     for part in path.components() {
         match part {
@@ -295,7 +295,7 @@ fn normal(path: &Path) -> PathBuf {
 }
 
 /// A path seen from a folder, so that no output holds an absolute path (R9.16).
-fn relative(path: &Path, folder: &Path) -> PathBuf {
+pub(super) fn relative(path: &Path, folder: &Path) -> PathBuf {
     let shared = path
         .components()
         .zip(folder.components())

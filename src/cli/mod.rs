@@ -17,6 +17,7 @@ mod failure;
 mod files;
 mod golden;
 mod html;
+mod init;
 mod jobs;
 mod lines;
 mod list_files;
@@ -74,6 +75,7 @@ enum Command {
     Tune(tune::TuneArgs),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
+    Init(init::InitArgs),
     #[command(subcommand)]
     Config(config::ConfigCommand),
     Completions(completions::CompletionsArgs),
@@ -115,6 +117,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Tune(args) => tune::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
+        Command::Init(args) => init::run(args),
         Command::Config(command) => config::run(command, console),
         Command::Completions(args) => completions::run(args, console),
         Command::Man => man::run(console),

@@ -3,7 +3,7 @@
 use super::{At, Interpreter, Outcome};
 use crate::codes::Code;
 use crate::compensation::{CompensationError, State};
-use crate::diagnostic::did_you_mean;
+use crate::diagnostic::{Diagnostic, did_you_mean};
 use crate::machine::{AxisIndex, AxisSet, CncBuild, Origin, Parameterisation};
 use crate::source::Span;
 use crate::syntax::{CompCommand, Fault, Kind, KindSet, Selection};
@@ -137,12 +137,7 @@ impl Interpreter {
             .push(at.diagnostic(fault).with_axis(name.clone()));
     }
 
-    fn refusal(
-        &self,
-        error: &CompensationError,
-        command: &CompCommand,
-        at: &At<'_>,
-    ) -> crate::diagnostic::Diagnostic {
+    fn refusal(&self, error: &CompensationError, command: &CompCommand, at: &At<'_>) -> Diagnostic {
         let name = &command.axis;
         let axis_span = Span::new(
             command.span.start as usize,
@@ -168,14 +163,7 @@ impl Interpreter {
                 ));
             }
             CompensationError::UnknownAxis { .. } => {
-                let known = self.machine.axes.iter().map(|axis| axis.name.as_str());
-                diagnostic = match did_you_mean(name, known.clone()) {
-                    Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
-                    None => diagnostic.with_help(format!(
-                        "the machine has {}",
-                        known.collect::<Vec<_>>().join(", ")
-                    )),
-                };
+                diagnostic = self.advise_on_axis(diagnostic, name);
             }
             CompensationError::Coupled { .. } => {
                 diagnostic =
@@ -184,5 +172,36 @@ impl Interpreter {
             CompensationError::Spindle { .. } => {}
         }
         diagnostic
+    }
+
+    /// What to do about an axis that the machine does not have. Without a configuration nobody has
+    /// said which axes there are (R2.20).
+    fn advise_on_axis(&self, mut diagnostic: Diagnostic, name: &str) -> Diagnostic {
+        let known: Vec<&str> = self
+            .machine
+            .axes
+            .iter()
+            .map(|axis| axis.name.as_str())
+            .collect();
+        let configured = self.machine.axis_set == AxisSet::Configured;
+        let near = if configured {
+            did_you_mean(name, known.iter().copied())
+        } else {
+            let same = known.iter().find(|axis| axis.eq_ignore_ascii_case(name));
+            same.copied()
+        };
+        if let Some(near) = near {
+            diagnostic = diagnostic.with_help(format!("did you mean `{near}`?"));
+        }
+        if configured {
+            let all = known.join(", ");
+            diagnostic = diagnostic.with_help(format!("the configuration lists all axes: {all}"));
+        } else {
+            diagnostic.message = format!(
+                "no machine is described, and `{name}` is none of the axes that are taken without one"
+            );
+        }
+        let entry = format!("`[[axis]]` with `name = \"{name}\"` in `frictcomp.toml`");
+        diagnostic.with_help(format!("if the machine has axis `{name}`, add it: {entry}"))
     }
 }

@@ -52,7 +52,7 @@ pub enum Origin {
         /// The line, from 1.
         line: u32,
     },
-    /// The user said so on the command line with `--enable`.
+    /// The user said so, with `--enable` or `enable = true`.
     Assumed,
 }
 

@@ -48,6 +48,8 @@ pub(super) struct AxisDraft {
     pub(super) startup_number: Option<Given<u32>>,
     pub(super) value_list: ValueList,
     pub(super) dynamics: Dynamics,
+    /// Whether compensation is assumed, as by [`Axis::enable`].
+    pub(super) enabled: bool,
 }
 
 impl AxisDraft {
@@ -60,6 +62,7 @@ impl AxisDraft {
             startup_number: None,
             value_list: ValueList::default(),
             dynamics: Dynamics::default(),
+            enabled: false,
         }
     }
 
@@ -114,7 +117,7 @@ impl AxisDraft {
         manual.extend(self.value_list.head.manual.clone());
         let anchor = self.value_list.friction.anchor();
         let max_points_given = self.value_list.friction.get(Field::MaxPoints);
-        let axis = Axis {
+        let mut axis = Axis {
             name: self.name.clone(),
             number: self.values.number.as_ref().map(|number| number.value),
             axis_type,
@@ -138,6 +141,9 @@ impl AxisDraft {
             max_acceleration: self.dynamics.acceleration,
             max_jerk: self.dynamics.jerk,
         };
+        if self.enabled {
+            axis.enable();
+        }
         diagnostics.extend(self.check_selection(&axis));
         for diagnostic in &mut diagnostics[first..] {
             diagnostic.axis.get_or_insert_with(|| self.name.clone());
@@ -147,6 +153,15 @@ impl AxisDraft {
         values.manual = manual;
         let mut parameters = values.parameters();
         parameters.extend(reading.parameters);
+        if axis.frict_comp_origin == Origin::Assumed {
+            for row in parameters
+                .iter_mut()
+                .filter(|row| row.number == "P-AXIS-00522")
+            {
+                "1".clone_into(&mut row.value);
+                row.origin = Origin::Assumed;
+            }
+        }
         let report = AxisReport {
             axis: self.name,
             axis_type,

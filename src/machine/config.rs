@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use super::advice::no_toml;
 use super::assemble::{AxisDraft, Dynamics};
 use super::load::{Loader, MAX_AXES};
 use super::resolve::{ListFiles, NoLists};
 use super::section::{ROOT, Section, Shape};
 use super::{Configuration, ConfiguredPrograms, Machine, Parameters, Setting};
 use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
+use crate::diagnostic::{Diagnostic, Label, Levels, Severity, did_you_mean};
 use crate::lists::{
     AxisType, AxisValues, Field, FrictionDraft, Given, ListKind, Written, WrittenPoint,
 };
@@ -66,11 +67,8 @@ impl Configuration {
     /// The file is no TOML, or has a key or a value that does not exist.
     pub fn from_toml(file: SourceFile, files: &mut dyn ListFiles) -> Result<Self, ConfigError> {
         let source = Arc::new(file);
-        let table = toml::de::DeTable::parse(source.text()).map_err(|error| {
-            let span = error.span().unwrap_or_default();
-            let message = error.message().lines().collect::<Vec<_>>().join(", ");
-            ConfigError::new(&source, Span::new(span.start, span.end), message)
-        })?;
+        let table = toml::de::DeTable::parse(source.text());
+        let table = table.map_err(|error| no_toml(&source, &error))?;
         let root = Section::new(table.get_ref(), &source, &ROOT)?;
 
         let mut configuration = Self::default();
@@ -184,6 +182,7 @@ const AXIS: Shape = Shape {
         "type",
         "number",
         "frict_comp",
+        "enable",
         "axis_list",
         "value_list",
         "value",
@@ -237,12 +236,28 @@ fn settings(root: &Section<'_>) -> Result<Vec<(String, Setting)>, ConfigError> {
             }) => Setting::Number(number.to_f64()),
             _ => match variables.string(name.value) {
                 Ok(Some(text)) => Setting::Text(text.value),
-                _ => return Err(ConfigError::at(&name, "a variable is a number or a text")),
+                _ => return Err(no_variable(&variables, &name)),
             },
         };
         settings.push((name.value.to_owned(), setting));
     }
     Ok(settings)
+}
+
+/// A variable that is neither a number nor a text; most often its name lacks the quotes, so that
+/// TOML takes its parts as tables.
+fn no_variable(variables: &Section<'_>, name: &Given<&str>) -> ConfigError {
+    match variables.dotted(name.value) {
+        Some((dotted, value)) => {
+            ConfigError::at(name, format!("the name `{dotted}` has no quotes"))
+                .with_help(format!("write `\"{dotted}\" = {value}`"))
+        }
+        None => ConfigError::at(
+            name,
+            format!("`{}` is neither a number nor a text", name.value),
+        )
+        .with_help(format!("write `\"{}\" = 3` or `= \"TEXT\"`", name.value)),
+    }
 }
 
 fn levels(root: &Section<'_>) -> Result<Levels, ConfigError> {
@@ -284,14 +299,25 @@ fn levels(root: &Section<'_>) -> Result<Levels, ConfigError> {
 fn axis_name(section: &Section<'_>, named: &[Given<String>]) -> Result<Given<String>, ConfigError> {
     let Some(name) = section.string("name")? else {
         let message = "an axis needs a `name`";
-        return Err(ConfigError::at(&section.whole(), message));
+        return Err(ConfigError::at(&section.whole(), message).with_help("add `name = \"X\"`"));
     };
-    if name.value.is_empty() {
-        return Err(ConfigError::at(&name, "the name of an axis is empty"));
+    // R2.20; a spindle's name may begin with other letters.
+    let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let begins = name.value.starts_with(|c: char| c.is_ascii_alphabetic());
+    if !begins || !name.value.chars().all(letter) || name.value.len() > 16 {
+        let message = format!("`{}` is no name of an axis", name.value);
+        return Err(ConfigError::at(&name, message)
+            .with_help("a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`"));
     }
-    if named.iter().any(|other| other.value == name.value) {
+    if let Some(other) = named.iter().find(|other| other.value == name.value) {
         let message = format!("there are two axes `{}`", name.value);
-        return Err(ConfigError::at(&name, message));
+        let mut error = ConfigError::at(&name, message).with_help("leave one of them out");
+        let label = Label {
+            place: other.place(),
+            text: "the first one".to_owned(),
+        };
+        error.diagnostic.labels.push(label);
+        return Err(error);
     }
     Ok(name)
 }
@@ -334,10 +360,16 @@ fn read_axis(
     if let Some(on) = section.truth("frict_comp")? {
         values.selectors.insert(Kind::Frict, on);
     }
+    axis.enabled = section.truth("enable")?.is_some_and(|given| given.value);
     for (kind, given) in kinds(section, "manual_activation")? {
         if kind.facts().manual_activation.is_none() {
             let message = format!("{} has no manual activation", kind.keyword());
-            return Err(ConfigError::at(&given, message));
+            let others = Kind::ALL
+                .into_iter()
+                .filter(|k| k.facts().manual_activation.is_some());
+            let others: Vec<_> = others.map(Kind::keyword).collect();
+            return Err(ConfigError::at(&given, message)
+                .with_help(format!("the kinds that have one are {}", others.join(", "))));
         }
         values.manual.insert(kind, given.with(true));
     }
@@ -388,11 +420,7 @@ fn inline_values(section: &Section<'_>) -> Result<FrictionDraft, ConfigError> {
             continue;
         }
         let Some(number) = section.number(field.name()) else {
-            let message = format!("`{}` is a number", field.name());
-            return Err(ConfigError::at(
-                &section.given_or_whole(field.name()),
-                message,
-            ));
+            return Err(section.no_number(field.name()));
         };
         draft.set(field, number);
     }

@@ -1,5 +1,7 @@
 //! The machine: its axes and their parameters, wherever they came from.
 
+#[cfg(feature = "toml")]
+mod advice;
 mod assemble;
 mod check;
 #[cfg(feature = "toml")]

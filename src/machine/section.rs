@@ -5,7 +5,9 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::advice::example;
 use super::config::ConfigError;
+use crate::diagnostic::did_you_mean;
 use crate::lists::{Given, Number, Written};
 use crate::source::{SourceFile, Span};
 
@@ -45,9 +47,11 @@ impl<'a> Section<'a> {
         {
             let name = key.get_ref().as_ref();
             let message = format!("`{}` has no key `{name}`", shape.name);
-            return Err(
-                ConfigError::new(source, span(key), message).with_near(name, known.iter().copied())
-            );
+            let error = ConfigError::new(source, span(key), message);
+            return Err(match did_you_mean(name, known.iter().copied()) {
+                Some(near) => error.with_help(format!("did you mean `{near}`?")),
+                None => error.with_help(format!("its keys are {}", known.join(", "))),
+            });
         }
         Ok(Self {
             table,
@@ -271,7 +275,59 @@ impl<'a> Section<'a> {
     }
 
     fn expected(&self, value: &Spanned<DeValue<'_>>, key: &str, wanted: &str) -> ConfigError {
-        ConfigError::new(self.source, span(value), format!("`{key}` is {wanted}"))
+        let found = match value.get_ref() {
+            DeValue::Table(_) => "a table".to_owned(),
+            _ => shortened(span(value).of(self.source.text())),
+        };
+        let message = format!("`{key}` is {found}, it should be {wanted}");
+        let error = ConfigError::new(self.source, span(value), message);
+        match example(key) {
+            Some(example) => error.with_help(example),
+            None => error,
+        }
+    }
+
+    /// The value of a key that is no number.
+    pub(crate) fn no_number(&self, key: &str) -> ConfigError {
+        let Some(value) = self.table.get(key) else {
+            return ConfigError::at(&self.whole(), format!("`{key}` is missing"));
+        };
+        self.expected(value, key, "a number")
+            .with_help("write it without quotes")
+    }
+
+    /// A name with points and its value, where points made tables of it.
+    pub(crate) fn dotted(&self, key: &str) -> Option<(String, String)> {
+        let mut name = key.to_owned();
+        let mut value = self.table.get(key)?;
+        while let DeValue::Table(table) = value.get_ref() {
+            let (part, inner) = table.iter().next()?;
+            name.push('.');
+            name.push_str(part.get_ref());
+            value = inner;
+        }
+        let is_one = name.contains('.');
+        is_one.then(|| {
+            (
+                name,
+                shortened(span(value).of(self.source.text())).replace('`', ""),
+            )
+        })
+    }
+}
+
+/// A value as it stands there, in backquotes, its beginning if it is long.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    let line = text.lines().next().unwrap_or_default();
+    let whole = line.len() == text.len() && line.chars().count() <= LONGEST;
+    if whole {
+        format!("`{line}`")
+    } else {
+        format!(
+            "`{}\u{2026}`",
+            line.chars().take(LONGEST).collect::<String>()
+        )
     }
 }
 

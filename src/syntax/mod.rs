@@ -5,6 +5,7 @@
 
 pub(crate) mod allow;
 pub mod ast;
+mod axes;
 mod comp;
 mod expression;
 mod fast;
@@ -12,6 +13,7 @@ mod grammar;
 mod lines;
 mod lower;
 
+pub use axes::{AxisUse, axis_uses};
 pub use comp::{CompCommand, Kind, KindSet, Membership, Selection};
 pub use lines::{BlockReader, Comments, FastPath, MAX_LINE, RawBlock, Remark, Stretch};
 

@@ -192,8 +192,64 @@ fn what_does_not_exist_is_refused_with_its_place() {
             "2:1",
             "did you mean `cycle_time_ms`?",
         ),
-        ("[machine]\ncycle_time_ms = 0\n", "2:17", ""),
+        (
+            "[machine]\ncycle_time_ms = 0\n",
+            "2:17",
+            "a CNC cycle of 1 ms",
+        ),
         ("[machine]\ncnc_build = \"new\"\n", "2:13", ""),
+        (
+            "[machine]\ncnc_build = 3\n",
+            "2:13",
+            "`cnc_build = \"3.1.3132.0\"`",
+        ),
+        (
+            "[machine]\nprogram_dirs = \"cycles\"\n",
+            "2:16",
+            "`program_dirs = [\"cycles\"]`",
+        ),
+        (
+            "[machine]\nstartup = \"C:\\cnc\\h.lis\"\n",
+            "2:15",
+            "single quotes",
+        ),
+        (
+            "[machine]\nstartup = lists/h.lis\n",
+            "2:11",
+            "texts stand in quotes",
+        ),
+        (
+            "[[machine]]\ncycle_time_ms = 1\n",
+            "1:1",
+            "`[machine]`, in single brackets",
+        ),
+        (
+            "[axis]\nname = \"X\"\n",
+            "1:1",
+            "`[[axis]]`, in double brackets",
+        ),
+        (
+            "[axis.value]\nmode = 3\n",
+            "1:2",
+            "`[[axis]]`, in double brackets",
+        ),
+        ("[[axis]]\nname = \"X Y\"\n", "2:8", "a name is a letter"),
+        ("[[axis]]\nname = \"\"\n", "2:8", "a name is a letter"),
+        (
+            "[variables]\nV.E.PART = 3\n",
+            "2:1",
+            "write `\"V.E.PART\" = 3`",
+        ),
+        (
+            "[variables]\nV.E.NAME = \"A\"\n",
+            "2:1",
+            "write `\"V.E.NAME\" = \"A\"`",
+        ),
+        (
+            "[variables]\n@P4 = 1\n",
+            "2:1",
+            "put the name in quotes: `\"@P4\" = ...`",
+        ),
         (
             "[[axis]]\nname = \"X\"\nfrict_cmp = true\n",
             "3:1",
@@ -232,8 +288,8 @@ fn what_does_not_exist_is_refused_with_its_place() {
             "4:1",
             "",
         ),
-        ("axis = 3\n", "1:8", ""),
-        ("[variables]\nA = true\n", "2:1", ""),
+        ("axis = 3\n", "1:8", "`[[axis]]`"),
+        ("[variables]\nA = true\n", "2:1", "write `\"A\" = 3`"),
         ("[lint]\nFC4O2 = \"off\"\n", "2:1", "did you mean `FC402`?"),
         ("[lint]\nFC402 = \"of\"\n", "2:9", "did you mean `off`?"),
         (

@@ -93,7 +93,8 @@ codes! {
     Fc314 "FC314" Warning "machine data written by the program";
     Fc315 "FC315" Warning "program end inside a subprogram";
     Fc316 "FC316" Warning "circle by radius without an end point of its own";
-    Fc320 "FC320" Error "called program not found";
+    Fc320 "FC320" Error "called program not found or not readable";
+    Fc321 "FC321" Error "called program outside its folders";
     Fc401 "FC401" Warning "left changed past program end";
     Fc402 "FC402" Info "command changes nothing";
     Fc403 "FC403" Info "depends on the program before";

@@ -2,7 +2,7 @@
 
 use frictcomp::diagnostic::{Diagnostic, Place};
 use frictcomp::machine::{ListFiles, NoList};
-use frictcomp::session::Finder;
+use frictcomp::session::{Finder, NoProgram};
 use frictcomp::source::{LineSource, SourceFile, TextLines};
 
 /// The name of the file that is run or read.
@@ -69,8 +69,8 @@ impl<'a> Files<'a> {
 }
 
 impl Finder for Files<'_> {
-    fn find(&mut self, name: &str, _caller: &str) -> Option<SourceFile> {
-        Files::find(*self, name)
+    fn find(&mut self, name: &str, _caller: &str) -> Result<SourceFile, NoProgram> {
+        Files::find(*self, name).ok_or(NoProgram::Absent)
     }
 }
 

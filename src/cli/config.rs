@@ -70,7 +70,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     if let Some(cycle) = machine.cycle_time_ms {
         let _ = writeln!(output, "cycle time     {cycle} ms");
     }
-    for folder in &loaded.program_dirs {
+    for folder in &loaded.reach.program_dirs {
         let _ = writeln!(output, "programs in    {}", folder.display());
     }
     let _ = writeln!(

@@ -7,6 +7,8 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::failure::Failure;
+use super::finder::Reach;
+use super::grounds::{Elsewhere, Grounds, absolute};
 use super::list_files::{Lists, read_list};
 use super::settings::{self, SetVariable};
 use crate::codes::Code;
@@ -33,6 +35,9 @@ pub(super) struct MachineArgs {
     /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
     pub(super) enable: Vec<String>,
+    /// Call programs from any folder, and show the text of lists wherever they lie
+    #[arg(long)]
+    pub(super) allow_outside: bool,
     /// Give a value to a variable that only the machine knows
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = settings::parse_setting)]
     pub(super) settings: Vec<SetVariable>,
@@ -47,8 +52,8 @@ pub(super) struct LoadedMachine {
     pub(super) settings: Vec<(String, Setting)>,
     /// The user's severities.
     pub(super) levels: Levels,
-    /// Folders in which called programs are looked for.
-    pub(super) program_dirs: Vec<PathBuf>,
+    /// Where called programs may lie.
+    pub(super) reach: Reach,
     /// What there is to say about the lists.
     pub(super) diagnostics: Vec<Diagnostic>,
     /// The effective parameters, by axis.
@@ -67,7 +72,11 @@ impl LoadedMachine {
             machine: configuration.machine,
             settings: configuration.settings,
             levels: configuration.levels,
-            program_dirs: folders.map(|written| folder.join(written)).collect(),
+            reach: Reach {
+                program_dirs: folders.map(|written| folder.join(written)).collect(),
+                project: folder.to_owned(),
+                elsewhere: Elsewhere::Kept,
+            },
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
             origin: Some(path.to_owned()),
@@ -163,12 +172,14 @@ impl<'a> Machines<'a> {
 
 /// Reads the configuration and applies what the command line says about the machine.
 fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachine, Failure> {
+    let elsewhere = args.elsewhere();
     let mut loaded = match config {
-        Some(path) => read_config(path)?,
+        Some(path) => read_config(path, args)?,
         None => LoadedMachine::unconfigured(),
     };
+    loaded.reach.elsewhere = elsewhere;
     if let Some(path) = &args.startup {
-        let axes = read_startup(path)?;
+        let axes = read_startup(path, args)?;
         loaded.machine = axes.machine;
         loaded.diagnostics = axes.diagnostics;
         loaded.reports = axes.reports;
@@ -191,21 +202,58 @@ fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachi
     Ok(loaded)
 }
 
+impl MachineArgs {
+    fn elsewhere(&self) -> Elsewhere {
+        if self.allow_outside {
+            Elsewhere::Allowed
+        } else {
+            Elsewhere::Kept
+        }
+    }
+
+    /// The folders whose lists are shown: the current one, that of a file and those of programs.
+    fn grounds(&self, path: &Path, reach: &Reach) -> Grounds {
+        let reach = Reach {
+            elsewhere: self.elsewhere(),
+            ..reach.clone()
+        };
+        let grounds = reach.grounds().with(Path::new(""));
+        // A file that the user names lies where it lies; one that was found may be a link.
+        match (&self.config, path.canonicalize()) {
+            (Some(_), Ok(real)) => grounds.with(real.parent().unwrap_or(&real)),
+            _ => grounds,
+        }
+    }
+}
+
 /// Reads a `frictcomp.toml` and the lists that it names.
-fn read_config(path: &Path) -> Result<LoadedMachine, Failure> {
+fn read_config(path: &Path, args: &MachineArgs) -> Result<LoadedMachine, Failure> {
     let source = SourceFile::new(path.display().to_string(), read_list(path)?);
     match Configuration::from_toml(source, &mut Lists) {
-        Ok(configuration) => Ok(LoadedMachine::new(configuration, path)),
-        Err(error) => Err(Failure {
-            message: format!("the configuration `{}` cannot be used", path.display()),
-            diagnostics: vec![*error.diagnostic],
-            ..Failure::default()
-        }),
+        Ok(configuration) => {
+            let mut loaded = LoadedMachine::new(configuration, path);
+            let grounds = args.grounds(path, &loaded.reach);
+            grounds.conceal(&mut loaded.diagnostics);
+            Ok(loaded)
+        }
+        Err(error) => {
+            let reach = Reach {
+                project: path.parent().unwrap_or(path).to_owned(),
+                ..Reach::default()
+            };
+            let mut diagnostics = vec![*error.diagnostic];
+            args.grounds(path, &reach).conceal(&mut diagnostics);
+            Err(Failure {
+                message: format!("the configuration `{}` cannot be used", path.display()),
+                diagnostics,
+                ..Failure::default()
+            })
+        }
     }
 }
 
 /// Reads a start-up list and the lists that it names.
-fn read_startup(path: &Path) -> Result<LoadedMachine, Failure> {
+fn read_startup(path: &Path, args: &MachineArgs) -> Result<LoadedMachine, Failure> {
     let source = SourceFile::new(path.display().to_string(), read_list(path)?);
     let configuration = Configuration::from_startup(source, &mut Lists);
     let wrong = configuration.diagnostics.iter().find(|said| {
@@ -226,7 +274,10 @@ fn read_startup(path: &Path) -> Result<LoadedMachine, Failure> {
             failure.with_help(help)
         });
     }
-    Ok(LoadedMachine::new(configuration, path))
+    let mut loaded = LoadedMachine::new(configuration, path);
+    let grounds = args.grounds(path, &loaded.reach);
+    grounds.conceal(&mut loaded.diagnostics);
+    Ok(loaded)
 }
 
 fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {
@@ -265,33 +316,12 @@ fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
 
 /// The nearest configuration from a folder upwards, as a path from the current folder.
 fn nearest_config(folder: &Path) -> Option<PathBuf> {
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let absolute = normal(&std::path::absolute(folder).ok()?);
-    let found = absolute
+    let found = absolute(folder)?
         .ancestors()
         .map(|ancestor| ancestor.join(CONFIG_NAME))
         .find(|candidate| candidate.is_file())?;
     let here = std::env::current_dir().ok()?;
     Some(relative(&found, &here))
-}
-
-/// The path without `.` and with `..` resolved by name.
-pub(super) fn normal(path: &Path) -> PathBuf {
-    let mut normal = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir => {
-                normal.pop();
-            }
-            part => normal.push(part),
-        }
-    }
-    normal
 }
 
 /// A path seen from a folder, so that no output holds an absolute path (R9.16).

@@ -1,13 +1,14 @@
 //! Programs on their way through a session.
 
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 
 use super::discovery::LoadedMachine;
 use super::failure::Failure;
-use super::files::{Input, Naming, Opened, ProgramFinder};
+use super::files::{Input, Naming, Opened};
+use super::finder::{ProgramFinder, Reach};
 use super::settings::{self, SkipLevels};
 use crate::session::{Limits, Motions, Notes, Program, Session, SessionOptions, StopPolicy};
 use crate::timeline::Sink;
@@ -60,7 +61,7 @@ impl ExecutionArgs {
 /// Where called programs are looked for, and how files are named.
 #[derive(Clone)]
 pub(super) struct Surroundings<'a> {
-    program_dirs: Vec<PathBuf>,
+    reach: Reach,
     naming: Naming,
     before_waiting: &'a dyn Fn(),
 }
@@ -68,7 +69,7 @@ pub(super) struct Surroundings<'a> {
 impl<'a> Surroundings<'a> {
     pub(super) fn new(loaded: &LoadedMachine, naming: Naming) -> Self {
         Self {
-            program_dirs: loaded.program_dirs.clone(),
+            reach: loaded.reach.clone(),
             naming,
             before_waiting: &|| (),
         }
@@ -91,7 +92,7 @@ pub(super) fn run_program(
     sink: &mut dyn Sink,
 ) -> Result<ControlFlow<()>, Failure> {
     let name = input.name(surroundings.naming);
-    let mut finder = ProgramFinder::new(input, &surroundings.program_dirs, surroundings.naming);
+    let mut finder = ProgramFinder::new(input, &surroundings.reach, surroundings.naming);
     let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
         Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
         Opened::Lines(mut lines) => {

@@ -1,7 +1,6 @@
-//! The programs that the user names, and the programs that those call.
+//! The programs that the user names.
 
-use std::collections::HashMap;
-use std::fs::File;
+use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 
@@ -10,7 +9,6 @@ use encoding_rs::WINDOWS_1252;
 use super::failure::Failure;
 use super::lines::{LineReader, MOST_KEPT, too_big};
 use super::steady::Steady;
-use crate::session::Finder;
 use crate::source::SourceFile;
 
 /// The name of standard input in records and diagnostics.
@@ -26,7 +24,7 @@ pub(super) enum Naming {
 }
 
 impl Naming {
-    fn name(self, path: &Path) -> String {
+    pub(super) fn name(self, path: &Path) -> String {
         match (self, path.file_name()) {
             (Self::FileName, Some(name)) => name.to_string_lossy().into_owned(),
             _ => path.display().to_string(),
@@ -115,9 +113,24 @@ impl Input {
         match self {
             Self::File(path) => open_file(path, self.name(naming), before_waiting)
                 .map_err(|error| Failure::reading(path, &error)),
-            Self::Stdin => Ok(arriving(io::stdin().lock(), before_waiting)),
+            Self::Stdin => Ok(match standard_input() {
+                // A file behind `<` must stay as it is, as one that is named must.
+                Some((file, metadata)) => arriving(Steady::new(file, &metadata), before_waiting),
+                None => arriving(io::stdin().lock(), before_waiting),
+            }),
         }
     }
+}
+
+/// Standard input, where it is a file and no pipe.
+fn standard_input() -> Option<(File, Metadata)> {
+    #[cfg(unix)]
+    let file = std::os::fd::AsFd::as_fd(&io::stdin()).try_clone_to_owned();
+    #[cfg(windows)]
+    let file = std::os::windows::io::AsHandle::as_handle(&io::stdin()).try_clone_to_owned();
+    let file = File::from(file.ok()?);
+    let metadata = file.metadata().ok()?;
+    metadata.is_file().then_some((file, metadata))
 }
 
 fn open_file<'a>(
@@ -198,119 +211,10 @@ pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     read_whole(file, metadata.len())
 }
 
-/// Finds called programs beside the caller and in the configured folders.
-pub(super) struct ProgramFinder {
-    folders: Vec<PathBuf>,
-    naming: Naming,
-    /// Where the files lie that were named so far.
-    known: HashMap<String, PathBuf>,
-}
-
-impl ProgramFinder {
-    /// A finder for the programs that `main` calls.
-    pub(super) fn new(main: &Input, folders: &[PathBuf], naming: Naming) -> Self {
-        let mut known = HashMap::new();
-        if let Input::File(path) = main {
-            known.insert(naming.name(path), path.clone());
-        }
-        Self {
-            folders: folders.to_vec(),
-            naming,
-            known,
-        }
-    }
-
-    fn locate(&self, name: &str, caller: &str) -> Option<PathBuf> {
-        let beside = self
-            .known
-            .get(caller)
-            .and_then(|path| path.parent())
-            .unwrap_or(Path::new(""));
-        // A path of the control's own disk means nothing here, its last part does.
-        let last = name.rsplit(['\\', '/']).next().unwrap_or(name);
-        let slashed = name.replace('\\', "/");
-        let names = [slashed.as_str(), last];
-        let folders = std::iter::once(beside).chain(self.folders.iter().map(PathBuf::as_path));
-        folders
-            .flat_map(|folder| names.map(|name| (folder, name)))
-            .find_map(|(folder, name)| existing(folder, name))
-    }
-}
-
-impl Finder for ProgramFinder {
-    fn find(&mut self, name: &str, caller: &str) -> Option<SourceFile> {
-        let path = self.locate(name, caller)?;
-        let text = read_text(&path).ok()?;
-        let shown = self.naming.name(&path);
-        self.known.insert(shown.clone(), path);
-        Some(SourceFile::new(shown, text))
-    }
-}
-
-/// The file of that name in a folder; the control's disk does not tell upper from lower case.
-fn existing(folder: &Path, name: &str) -> Option<PathBuf> {
-    if name.is_empty() {
-        return None;
-    }
-    let exact = folder.join(name);
-    if exact.is_file() {
-        return Some(exact);
-    }
-    let parent = exact.parent()?;
-    let listed = if parent.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        parent
-    };
-    let wanted = exact.file_name()?.to_str()?;
-    let mut alike: Vec<PathBuf> = std::fs::read_dir(listed)
-        .ok()?
-        .filter_map(Result::ok)
-        .filter(|entry| {
-            let name = entry.file_name();
-            name.to_str()
-                .is_some_and(|name| name.eq_ignore_ascii_case(wanted))
-        })
-        .map(|entry| parent.join(entry.file_name()))
-        .filter(|path| path.is_file())
-        .collect();
-    alike.sort();
-    alike.into_iter().next()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::source::LineSource;
-
-    #[test]
-    fn called_programs_are_found_beside_the_caller_and_in_the_folders() {
-        let root = tempfile::tempdir().unwrap();
-        let path = |name: &str| root.path().join(name);
-        std::fs::create_dir_all(path("cycles/deep")).unwrap();
-        std::fs::write(path("main.nc"), "L SUB.nc").unwrap();
-        std::fs::write(path("sub.nc"), "beside").unwrap();
-        std::fs::write(path("cycles/drill.nc"), "folder").unwrap();
-        std::fs::write(path("cycles/deep/x.nc"), "deep").unwrap();
-        let main = Input::File(path("main.nc"));
-        for naming in [Naming::AsGiven, Naming::FileName] {
-            let mut finder = ProgramFinder::new(&main, &[path("cycles")], naming);
-            let caller = main.name(naming);
-            let mut find = |name: &str| {
-                finder
-                    .find(name, &caller)
-                    .map(|file| file.text().to_owned())
-            };
-            assert_eq!(find("SUB.NC").as_deref(), Some("beside"));
-            assert_eq!(find(r"C:\CNC\prg\sub.nc").as_deref(), Some("beside"));
-            assert_eq!(find("drill.nc").as_deref(), Some("folder"));
-            assert_eq!(find(r"deep\x.nc").as_deref(), Some("deep"));
-            assert_eq!(find("missing.nc"), None);
-            assert_eq!(find(""), None);
-            let shown = finder.find("sub.nc", &caller).unwrap();
-            assert_eq!(naming == Naming::FileName, &**shown.name() == "sub.nc");
-        }
-    }
 
     #[test]
     fn only_programs_with_flow_are_read_whole() {

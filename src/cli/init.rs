@@ -10,10 +10,11 @@ use clap::Args;
 use ignore::WalkBuilder;
 
 use super::console::Console;
-use super::discovery::{CONFIG_NAME, normal, relative};
+use super::discovery::{CONFIG_NAME, relative};
 use super::exit;
 use super::failure::Failure;
 use super::files::read_text;
+use super::grounds::normal;
 use super::list_files::{Lists, read_list};
 use super::walk;
 use crate::codes::Code;

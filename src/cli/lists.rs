@@ -8,6 +8,7 @@ use super::check::{Format, ListingArgs, total};
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
+use super::grounds::{Elsewhere, Grounds};
 use super::list_files::{Lists, read_list};
 use crate::codes::Code;
 use crate::diagnostic::Severity;
@@ -39,8 +40,31 @@ pub(super) struct ListsArgs {
     /// Take warnings about documented ranges (FC132) as errors
     #[arg(long)]
     strict: bool,
+    /// Show the text of lists outside the folders of these and the current one, too
+    #[arg(long)]
+    allow_outside: bool,
     #[command(flatten)]
     listing: ListingArgs,
+}
+
+impl ListsArgs {
+    /// The folders whose lists are shown: the current one and those of the files that are named.
+    fn grounds(&self) -> Grounds {
+        let elsewhere = if self.allow_outside {
+            Elsewhere::Allowed
+        } else {
+            Elsewhere::Kept
+        };
+        let named = self.files.iter().filter_map(|path| path.parent());
+        let real: Vec<PathBuf> = self
+            .files
+            .iter()
+            .flat_map(|path| path.canonicalize())
+            .collect();
+        let real = real.iter().filter_map(|path| path.parent());
+        let grounds = Grounds::new(elsewhere).with(Path::new(""));
+        named.chain(real).fold(grounds, Grounds::with)
+    }
 }
 
 /// Checks a list, or every list that a configuration names.
@@ -100,9 +124,11 @@ fn lacking(missing: usize) -> String {
 
 /// Runs the command.
 pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
+    let grounds = args.grounds();
     let mut reports = Vec::new();
     for path in &args.files {
         let mut report = check(path, args.cnc_build)?;
+        grounds.conceal(&mut report.diagnostics);
         for diagnostic in &mut report.diagnostics {
             if args.strict && diagnostic.code == Code::Fc132 {
                 diagnostic.severity = Severity::Error;

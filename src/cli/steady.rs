@@ -3,44 +3,53 @@
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// Reads a file and fails at its end where that is not the end that it had. A program of which a
-/// part is missing would leave a state that its whole would not leave.
+/// Reads a file up to the end that it had, and fails where that is not its end. A program of which
+/// a part is missing, or to which one was added, would leave a state that its whole would not leave.
 #[derive(Debug)]
 pub(super) struct Steady {
     file: File,
     /// The length that it had, where it has one.
     length: Option<u64>,
+    /// How far it was read.
+    at: u64,
 }
 
 impl Steady {
     /// An open file with what is known of it. Pipes have no length, and files that the system
     /// makes up while they are read say 0.
-    pub(super) fn new(file: File, metadata: &Metadata) -> Self {
+    pub(super) fn new(mut file: File, metadata: &Metadata) -> Self {
         let has_length = metadata.is_file() && metadata.len() > 0;
+        let at = file.stream_position().unwrap_or_default();
         Self {
             file,
             length: has_length.then_some(metadata.len()),
+            at,
         }
     }
 }
 
 impl Read for Steady {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.file.read(buffer)?;
-        if count == 0
-            && !buffer.is_empty()
-            && let Some(length) = self.length
-            && self.file.stream_position()? != length
-        {
+        let Some(length) = self.length else {
+            return self.file.read(buffer);
+        };
+        let left = usize::try_from(length.saturating_sub(self.at)).unwrap_or(usize::MAX);
+        let is_at_end = left == 0;
+        // One byte behind the end shows that the file has grown.
+        let most = buffer.len().min(left.max(1));
+        let count = self.file.read(&mut buffer[..most])?;
+        if most > 0 && (count == 0) != is_at_end {
             return Err(io::Error::other("it changed while it was read"));
         }
+        self.at += u64::try_from(count).unwrap_or_default();
         Ok(count)
     }
 }
 
 impl Seek for Steady {
     fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
-        self.file.seek(position)
+        self.at = self.file.seek(position)?;
+        Ok(self.at)
     }
 }
 
@@ -49,6 +58,19 @@ mod tests {
     use std::io::Write;
 
     use super::*;
+
+    #[test]
+    fn what_is_added_to_a_file_is_not_read() {
+        // R2.12 R9.26
+        let named = tempfile::NamedTempFile::new().unwrap();
+        named.as_file().write_all(b"N10 X1.5\n").unwrap();
+        let file = named.reopen().unwrap();
+        let mut steady = Steady::new(file, &named.as_file().metadata().unwrap());
+        named.as_file().write_all(b"M30\n").unwrap();
+        let mut read = Vec::new();
+        assert!(steady.read_to_end(&mut read).is_err());
+        assert_eq!(read, b"N10 X1.5\n");
+    }
 
     #[test]
     fn a_file_that_changed_is_noticed() {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::program::Index;
 use super::unknown::Scan;
 use super::{
-    At, Finder, Frame, Interpreter, Repeated, Request, Step, StopPolicy, Unit, Value,
+    At, Finder, Frame, Interpreter, NoProgram, Repeated, Request, Step, StopPolicy, Unit, Value,
     after_motion_only,
 };
 use crate::codes::Code;
@@ -200,15 +200,9 @@ impl Interpreter {
         let unit = if let Some(&unit) = self.found.get(&key) {
             unit
         } else {
-            let Some(source) = finder.find(name, caller) else {
-                return Err(Box::new(
-                    Fault::new(
-                        Code::Fc320,
-                        wanted.span,
-                        format!("the called program `{name}` is not found"),
-                    )
-                    .with_help("it is looked for beside the calling file, then in `program_dirs` of the configuration"),
-                ));
+            let source = match finder.find(name, caller) {
+                Ok(source) => source,
+                Err(why) => return Err(not_at_hand(wanted, &why)),
             };
             let known = self
                 .units
@@ -298,6 +292,8 @@ impl Interpreter {
             let caller = self.units.get(unit).map(|unit| unit.index.source.name());
             let caller = caller.cloned().unwrap_or_default();
             let Ok(Some(found)) = self.find(&call, (unit, &caller), finder) else {
+                // What it would have done nobody knows.
+                self.forget_all();
                 continue;
             };
             if seen.contains(&found) {
@@ -310,6 +306,26 @@ impl Interpreter {
             pending.append(&mut self.pending);
         }
     }
+}
+
+fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
+    let name = &wanted.name;
+    let fault = |code, what: &str| {
+        Fault::new(
+            code,
+            wanted.span,
+            format!("the called program `{name}` {what}"),
+        )
+    };
+    Box::new(match why {
+        NoProgram::Absent => fault(Code::Fc320, "is not found")
+            .with_help("it is looked for beside the calling file, then in `program_dirs` of the configuration"),
+        NoProgram::Unusable(what) => fault(Code::Fc320, what)
+            .with_help("a called program is a file of at most 1 GiB that may be read"),
+        NoProgram::Outside => fault(Code::Fc321, "lies outside the folders that programs are called from")
+            .with_help("these are the caller's folder, that of `frictcomp.toml` (the current one without), `program_dirs`, and all below them; a file of the same name is looked for there, too")
+            .with_help("add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"),
+    })
 }
 
 fn no_local(wanted: &Wanted, index: Option<&Index>) -> Box<Fault> {

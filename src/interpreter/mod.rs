@@ -15,6 +15,7 @@ mod comp;
 mod evaluate;
 mod event;
 mod expression;
+mod finder;
 mod flow;
 mod functions;
 mod hash;
@@ -39,6 +40,7 @@ use serde::{Deserialize, Serialize};
 pub use event::{
     AxisWord, Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome,
 };
+pub use finder::{Finder, NoFiles, NoProgram};
 pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
 pub use motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
@@ -109,29 +111,6 @@ pub struct Options {
     pub notes: Notes,
     /// Whether blocks say what they move.
     pub motions: Motions,
-}
-
-/// Finds called programs for the library, which opens no file itself.
-pub trait Finder {
-    /// The text of the program called `name`, asked for by the file `caller`. `None` when there
-    /// is none (FC320).
-    fn find(&mut self, name: &str, caller: &str) -> Option<SourceFile>;
-}
-
-impl<F: FnMut(&str, &str) -> Option<SourceFile>> Finder for F {
-    fn find(&mut self, name: &str, caller: &str) -> Option<SourceFile> {
-        self(name, caller)
-    }
-}
-
-/// A finder that finds nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoFiles;
-
-impl Finder for NoFiles {
-    fn find(&mut self, _name: &str, _caller: &str) -> Option<SourceFile> {
-        None
-    }
 }
 
 /// How a run goes on.

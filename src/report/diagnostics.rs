@@ -181,6 +181,13 @@ fn element<'a>(
     if place.text.is_empty() {
         return group.element(Origin::path(&*place.file));
     }
+    if place.text.trim().is_empty() {
+        // Nothing to show, or nothing that may be shown.
+        let start = place.start();
+        let at = |number: u32| usize::try_from(number).unwrap_or(usize::MAX);
+        let origin = Origin::path(&*place.file).line(at(start.line));
+        return group.element(origin.char_column(at(start.column)));
+    }
     let shown = shown(place);
     let annotations = annotations(&shown);
     group.element(

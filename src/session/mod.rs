@@ -14,7 +14,9 @@ pub use saved::{SavedAxis, SavedState, StateError};
 use crate::compensation::Compensation;
 use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
 use crate::interpreter::{Event, Interpreter, Options, Outlook};
-pub use crate::interpreter::{Finder, Limits, Motions, NoFiles, NoteKind, Notes, StopPolicy};
+pub use crate::interpreter::{
+    Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, StopPolicy,
+};
 use crate::lint::Linter;
 use crate::machine::{AxisIndex, Machine, Parameterisation, Setting};
 use crate::source::{LineSource, SourceFile};

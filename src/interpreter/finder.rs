@@ -1,0 +1,39 @@
+//! Where called programs come from: the library opens no file itself.
+
+use crate::source::SourceFile;
+
+/// Why a called program is not at hand.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoProgram {
+    /// There is none (FC320).
+    Absent,
+    /// It lies where programs are not called from (FC321).
+    Outside,
+    /// It is there and of no use (FC320); what there is to say behind its name: `is a folder`.
+    Unusable(String),
+}
+
+/// Finds called programs.
+pub trait Finder {
+    /// The text of the program called `name`, asked for by the file `caller`.
+    ///
+    /// # Errors
+    /// It is not at hand.
+    fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram>;
+}
+
+impl<F: FnMut(&str, &str) -> Option<SourceFile>> Finder for F {
+    fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
+        self(name, caller).ok_or(NoProgram::Absent)
+    }
+}
+
+/// A finder that finds nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoFiles;
+
+impl Finder for NoFiles {
+    fn find(&mut self, _name: &str, _caller: &str) -> Result<SourceFile, NoProgram> {
+        Err(NoProgram::Absent)
+    }
+}

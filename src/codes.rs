@@ -106,12 +106,15 @@ codes! {
     Fc902 "FC902" Warning "jump or call not known offline";
     Fc903 "FC903" Warning "motion not known offline";
     Fc904 "FC904" Info "trace of the program, not of the machine";
-    Fc910 "FC910" Error "budget of executed blocks";
+    Fc905 "FC905" Info "messages that are only counted";
+    Fc910 "FC910" Warning "budget of executed blocks";
     Fc911 "FC911" Error "budget of call depth";
     Fc912 "FC912" Error "budget of nested control blocks";
     Fc913 "FC913" Error "budget of nested brackets";
     Fc914 "FC914" Error "budget of macro expansion";
     Fc915 "FC915" Error "budget of CNC cycles";
+    Fc918 "FC918" Error "budget of values";
+    Fc919 "FC919" Error "budget of work";
 }
 
 impl Code {
@@ -127,7 +130,14 @@ impl Code {
     pub fn is_budget(self) -> bool {
         matches!(
             self,
-            Self::Fc910 | Self::Fc911 | Self::Fc912 | Self::Fc913 | Self::Fc914 | Self::Fc915
+            Self::Fc910
+                | Self::Fc911
+                | Self::Fc912
+                | Self::Fc913
+                | Self::Fc914
+                | Self::Fc915
+                | Self::Fc918
+                | Self::Fc919
         )
     }
 

@@ -131,6 +131,50 @@ impl Diagnostic {
     }
 }
 
+/// How many messages about one file are said; further ones are counted (R2.85).
+pub const MAX_MESSAGES: usize = 10_000;
+
+/// Messages that are collected before they are said: as many as are said, the rest counted by code.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Collected {
+    /// The messages.
+    pub said: Vec<Diagnostic>,
+    /// How many more there were.
+    pub unsaid: std::collections::BTreeMap<Code, u64>,
+}
+
+impl Collected {
+    /// Takes a message. One more is kept than is said, for the place from which on they are counted.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        if self.said.len() <= MAX_MESSAGES {
+            self.said.push(diagnostic);
+        } else {
+            *self.unsaid.entry(diagnostic.code).or_default() += 1;
+        }
+    }
+
+    /// Takes the messages of another collection.
+    pub fn append(&mut self, other: &Self) {
+        for diagnostic in &other.said {
+            self.push(diagnostic.clone());
+        }
+        for (code, times) in &other.unsaid {
+            *self.unsaid.entry(*code).or_default() += times;
+        }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.said.is_empty()
+    }
+}
+
+impl Extend<Diagnostic> for Collected {
+    fn extend<T: IntoIterator<Item = Diagnostic>>(&mut self, messages: T) {
+        messages.into_iter().for_each(|message| self.push(message));
+    }
+}
+
 /// What the user's `[lint]` table says: other severities for codes of ours (R9.28).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Levels {
@@ -157,23 +201,34 @@ impl Levels {
     }
 }
 
+/// Letters beyond which a word is no slip of the pen, and not compared.
+const MAX_WORD: usize = 64;
+
 /// The nearest of several known words, close enough to be meant: at most a third of the letters
 /// differ, swapped neighbours count once; or one is the beginning of the other.
 pub(crate) fn did_you_mean<'a>(
     found: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
+    if found.len() > MAX_WORD {
+        return None;
+    }
     let found = found.to_ascii_uppercase();
     let letters = found.chars().count();
     // Of a single letter only the case can be wrong.
     let allowed = if letters > 1 { (letters / 3).max(1) } else { 0 };
     known
         .into_iter()
+        .filter(|word| word.len() <= MAX_WORD)
         .filter_map(|word| {
             let upper = word.to_ascii_uppercase();
-            let distance = strsim::damerau_levenshtein(&found, &upper);
             let begins = letters.min(upper.len()) > 2
                 && (found.starts_with(&upper) || upper.starts_with(&found));
+            let near = letters.abs_diff(upper.chars().count()) <= allowed;
+            if !near && !begins {
+                return None;
+            }
+            let distance = strsim::damerau_levenshtein(&found, &upper);
             (distance <= allowed || begins).then_some((distance, word))
         })
         .min_by_key(|&(distance, _)| distance)

@@ -13,6 +13,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
 use crate::machine::{AxisIndex, Machine};
+use crate::source::Position;
 use crate::syntax::Kind;
 
 /// The number of the record format.
@@ -95,6 +96,10 @@ pub struct Repeat {
     pub line: u32,
     /// How many executed blocks it came true in.
     pub times: u64,
+    /// Where the remark points.
+    pub start: Position,
+    /// Its message.
+    pub message: String,
 }
 
 /// The end of a program.

@@ -18,9 +18,13 @@ const MAX_BLOCKS: &str = "5000";
 const OWN_BOUNDS: [(&str, &str); 1] = [("FC910-endless-loop.nc", "100")];
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 4] = [
+const ELSEWHERE: [(&str, &str); 5] = [
     ("FC903", "said by `current`; tests/spec_motion.rs has it"),
     ("FC904", "said by `current`; tests/spec_motion.rs has it"),
+    (
+        "FC918",
+        "needs a million values; tests/language/budgets.rs has it",
+    ),
     ("FC915", "said by `current`; tests/spec_motion.rs has it"),
     (
         "P-ERR-110641",

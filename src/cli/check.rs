@@ -243,16 +243,22 @@ impl Found {
             .or_insert_with(|| diagnostic.clone());
     }
 
-    /// Says how often a remark came true that is made once.
+    /// Says how often a message came true that is said once.
     fn count(&mut self, repeat: &Repeat) {
-        let said = self.diagnostics.values_mut().filter(|said| {
-            said.code == repeat.code
-                && said.place.first_line == repeat.line
-                && *said.place.file == repeat.file
-        });
-        for diagnostic in said {
-            let times = repeat.times;
-            diagnostic.message = format!("{} ({times} times)", diagnostic.message);
+        let from = (
+            Arc::from(repeat.file.as_str()),
+            repeat.start,
+            repeat.start,
+            Code::ALL[0],
+            String::new(),
+        );
+        let here = self.diagnostics.range_mut(from..);
+        let here = here
+            .take_while(|((file, start, ..), _)| **file == *repeat.file && *start == repeat.start);
+        for ((_, _, _, code, message), said) in here {
+            if *code == repeat.code && *message == repeat.message {
+                said.message = format!("{message} ({} times)", repeat.times);
+            }
         }
     }
 }

@@ -24,6 +24,14 @@ pub(super) struct ExecutionArgs {
     #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_blocks: u64,
+    /// Let blocks make so much work beyond what is written in them, through macros, texts that grow
+    /// and regions under conditions that are not known
+    #[arg(long, value_name = "N", default_value_t = Limits::default().work)]
+    max_work: u64,
+    /// Let a program hold so many values
+    #[arg(long, value_name = "N", default_value_t = Limits::default().values)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    max_values: u32,
     /// Let subprograms call each other so deep
     #[arg(long, value_name = "N", default_value_t = Limits::default().calls)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
@@ -46,6 +54,8 @@ impl ExecutionArgs {
             skip: self.skip.unwrap_or_default().0,
             limits: Limits {
                 blocks: self.max_blocks,
+                work: self.max_work,
+                values: self.max_values,
                 calls: self.max_calls,
                 nesting: self.max_nesting,
                 macros: self.max_macros,

@@ -6,10 +6,11 @@ use super::call::Wanted;
 use super::value::rounded;
 use super::words::AxisWords;
 use super::{
-    At, Departure, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Step,
-    StopPolicy, Value, ended_by, stops,
+    At, Departure, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Shown,
+    Step, StopPolicy, Value, ended_by, stops,
 };
 use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
 use crate::syntax::{FastPath, Fault};
@@ -79,11 +80,22 @@ impl Interpreter {
             self.move_axes(&intent, at);
         }
         let number = self.block_number(block, at);
+        self.state.grant(at.text);
+        let over = self.used_up(at);
+        let is_over = over.is_some();
+        if let Some(over) = over {
+            // The faults of the parts that were given up say no more than it does.
+            let spent = |said: &Diagnostic| said.code == Code::Fc919;
+            self.work.diagnostics.retain(|said| !spent(said));
+            self.work.diagnostics.push(over);
+        }
         if !self.work.changes.is_empty() || self.work.new_axes {
             self.version += 1;
         }
         self.remember_last(at);
-        let step = if stopped {
+        let step = if is_over {
+            Some(Step::End(EndedBy::Budget))
+        } else if stopped {
             Some(Step::End(ended_by(&self.work.diagnostics)))
         } else {
             let moved = !self.work.moved.is_empty();
@@ -140,7 +152,7 @@ impl Interpreter {
 
     /// Adds what is wrong with the text, up to the first error when that stops the program.
     fn take_faults(&mut self, block: &Block, at: &At<'_>, stopped: bool) {
-        let error = |diagnostic: &&crate::diagnostic::Diagnostic| stops(diagnostic);
+        let error = |diagnostic: &&Diagnostic| stops(diagnostic);
         let executed = self
             .work
             .diagnostics
@@ -280,6 +292,7 @@ impl Interpreter {
             Item::MacroDefinition(name, code) => {
                 let (name, code) = (unquoted(*name, at), unquoted(*code, at));
                 self.state.memory.define_macro(name, code);
+                self.work.wrote = true;
                 Ok(())
             }
             Item::GCall(call) => self.g_call(call, block, at, intent),
@@ -313,12 +326,15 @@ impl Interpreter {
             ))));
         };
         let macros = self.with_evaluator(&Block::default(), at, |evaluator| {
-            evaluator.macros.expand(span).map(|macros| macros.depth)
+            let macros = evaluator.macros.expand(&code, evaluator.state, span);
+            macros.map(|macros| macros.depth)
         })?;
         let mut block = Block::default();
         let lines = crate::source::TextLines::new(&code);
         let _ = crate::syntax::BlockReader::new(lines, 1, FastPath::On).next(&mut block);
+        let shown = Shown::default();
         let inner = At {
+            shown: &shown,
             text: &code,
             macro_depth: macros,
             used: at.used.or(Some(span)),

@@ -5,17 +5,18 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::program::Index;
-use super::unknown::Scan;
 use super::{
-    At, Finder, Frame, Interpreter, NoProgram, Repeated, Request, Step, StopPolicy, Unit, Value,
+    At, Finder, Frame, Interpreter, NoProgram, Repeated, Request, Step, StopPolicy, Value,
     after_motion_only,
 };
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
-use crate::machine::AxisIndex;
 use crate::source::Span;
+use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Call, CallForm, CallName, CallScope, Operand};
-use crate::syntax::{Fault, KindSet};
+
+/// How many names a run compares with those of calls that find nothing.
+const MAX_COMPARED: usize = 100_000;
 
 /// A call whose program has not been looked for yet.
 #[derive(Debug, Clone)]
@@ -125,9 +126,13 @@ impl Interpreter {
                 return None;
             }
         };
-        let refused = self.units[found.unit].index.refused.clone();
-        if !refused.is_empty() && found.unit > 0 {
-            self.work.diagnostics.extend(refused);
+        let is_refused = !self.units[found.unit].index.refused.is_empty();
+        if is_refused && found.unit > 0 {
+            // What is wrong with the file is said at the first call of it (R2.85).
+            if self.state.refused.insert(found.unit) {
+                let refused = &self.units[found.unit].index.refused;
+                self.work.diagnostics.extend(refused.said.iter().cloned());
+            }
             if self.options.stop == StopPolicy::FirstError {
                 return None;
             }
@@ -182,7 +187,7 @@ impl Interpreter {
         })
     }
 
-    fn find(
+    pub(super) fn find(
         &mut self,
         wanted: &Wanted,
         (unit, caller): (usize, &str),
@@ -190,29 +195,31 @@ impl Interpreter {
     ) -> Result<Option<Found>, Box<Fault>> {
         let name = wanted.name.as_str();
         if wanted.scope == CallScope::Local {
-            let index = self.units.get(unit).map(|unit| &unit.index);
-            return match index.and_then(|index| index.local(name)) {
+            let section = self.units.get(unit);
+            return match section.and_then(|unit| unit.index.local(name)) {
                 Some(section) => Ok(Some(Found { unit, section })),
-                None => Err(no_local(wanted, index)),
+                None => Err(self.no_local(wanted, unit)),
             };
         }
         let key = (caller.to_owned(), name.to_owned());
         let unit = if let Some(&unit) = self.found.get(&key) {
             unit
         } else {
-            let source = match finder.find(name, caller) {
-                Ok(source) => source,
-                Err(why) => return Err(not_at_hand(wanted, &why)),
+            let source = match self.missing.get(&key) {
+                Some(why) => Err(why.clone()),
+                None => finder.find(name, caller),
             };
-            let known = self
-                .units
-                .iter()
-                .position(|unit| unit.index.source.name() == source.name());
-            let unit = known.unwrap_or(self.units.len());
-            if known.is_none() {
-                let index = Index::new(source, self.options.limits.nesting);
-                self.units.push(Unit::new(index));
-            }
+            let source = match source {
+                Ok(source) => source,
+                Err(why) => {
+                    let fault = not_at_hand(wanted, &why);
+                    self.missing.insert(key, why);
+                    return Err(fault);
+                }
+            };
+            let known = self.unit_names.get(source.name()).copied();
+            let unit =
+                known.unwrap_or_else(|| self.hold(Index::new(source, self.options.limits.nesting)));
             self.found.insert(key, unit);
             unit
         };
@@ -261,6 +268,7 @@ impl Interpreter {
             CallForm::Plain => None,
             CallForm::Cycle => Some(Box::new(self.state.modal.save())),
         };
+        self.journal.begin_anew();
         self.state.frames.push(Frame {
             unit,
             section,
@@ -273,38 +281,30 @@ impl Interpreter {
         });
     }
 
-    /// Every kind of every axis becomes unknown, and all positions (R2.52).
-    pub(super) fn forget_all(&mut self) {
-        for position in 0..self.machine.axes.len() {
-            let axis = AxisIndex::new(position);
-            self.state
-                .compensation
-                .forget(axis, KindSet::ALL, &mut self.work.changes);
-        }
-        self.state.modal.forget_positions();
-    }
-
-    /// What called programs of a region could change becomes unknown too (R2.51).
-    pub(super) fn forget_called(&mut self, finder: &mut dyn Finder) {
-        let mut pending = std::mem::take(&mut self.pending);
-        let mut seen = Vec::new();
-        while let Some(Scan { call, cause, unit }) = pending.pop() {
-            let caller = self.units.get(unit).map(|unit| unit.index.source.name());
-            let caller = caller.cloned().unwrap_or_default();
-            let Ok(Some(found)) = self.find(&call, (unit, &caller), finder) else {
-                // What it would have done nobody knows.
-                self.forget_all();
-                continue;
-            };
-            if seen.contains(&found) {
-                continue;
-            }
-            seen.push(found);
-            let section = &self.units[found.unit].index.sections[found.section];
-            let region = section.start..section.end;
-            self.forget_region(found.unit, region, &cause);
-            pending.append(&mut self.pending);
-        }
+    /// FC320 for a local subprogram. Names are compared for the first calls only: a file of calls
+    /// that all fail has as many names as calls (R2.60).
+    fn no_local(&mut self, wanted: &Wanted, unit: usize) -> Box<Fault> {
+        let name = wanted.name.as_str();
+        let fault = Fault::new(
+            Code::Fc320,
+            wanted.span,
+            format!("the file has no local subprogram `{name}`"),
+        );
+        let left = MAX_COMPARED.saturating_sub(self.compared);
+        let mut compared = 0;
+        let near = self.units.get(unit).and_then(|unit| {
+            let known = unit.index.local_names().take(left);
+            did_you_mean(name, known.inspect(|_| compared += 1))
+        });
+        let fault = match near {
+            Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+            None => fault.with_help(format!(
+                "a local subprogram begins with `%L {name}` in the same file"
+            )),
+        };
+        self.compared += compared;
+        self.state.charge(compared);
+        Box::new(fault)
     }
 }
 
@@ -325,21 +325,5 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
         NoProgram::Outside => fault(Code::Fc321, "lies outside the folders that programs are called from")
             .with_help("these are the caller's folder, that of `frictcomp.toml` (the current one without), `program_dirs`, and all below them; a file of the same name is looked for there, too")
             .with_help("add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"),
-    })
-}
-
-fn no_local(wanted: &Wanted, index: Option<&Index>) -> Box<Fault> {
-    let name = wanted.name.as_str();
-    let fault = Fault::new(
-        Code::Fc320,
-        wanted.span,
-        format!("the file has no local subprogram `{name}`"),
-    );
-    let near = index.and_then(|index| did_you_mean(name, index.local_names()));
-    Box::new(match near {
-        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
-        None => fault.with_help(format!(
-            "a local subprogram begins with `%L {name}` in the same file"
-        )),
     })
 }

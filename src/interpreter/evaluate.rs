@@ -9,6 +9,12 @@ use crate::source::Span;
 use crate::syntax::ast::{Assignment, Block, Expression, Operand, Owner};
 use crate::syntax::{Fault, Kind};
 
+/// Different words that are counted as passed over, one by one.
+const MAX_OPAQUE: usize = 1000;
+
+/// What further ones are counted under.
+const OTHER_WORDS: &str = "other words";
+
 impl Interpreter {
     /// The value of an operand.
     pub(super) fn value(
@@ -47,7 +53,9 @@ impl Interpreter {
                 depth: at.macro_depth,
                 limit: self.options.limits.macros,
                 expansions: &self.work.expansions,
+                until: self.work_bound(),
             },
+            state: &self.state,
             scope: Scope {
                 memory: &self.state.memory,
                 own,
@@ -67,10 +75,13 @@ impl Interpreter {
 
     /// Counts something that was accepted and passed over.
     pub(super) fn pass_over(&mut self, word: &str, span: Span, at: &At<'_>) {
-        match self.state.opaque.get_mut(word) {
+        let counts = &mut self.state.opaque;
+        let full = counts.len() >= MAX_OPAQUE && !counts.contains_key(word);
+        let word_or_rest = if full { OTHER_WORDS } else { word };
+        match counts.get_mut(word_or_rest) {
             Some(count) => *count += 1,
             None => {
-                self.state.opaque.insert(word.to_owned(), 1);
+                counts.insert(word_or_rest.to_owned(), 1);
             }
         }
         if self.options.notes == Notes::Taken {
@@ -150,6 +161,8 @@ impl Interpreter {
     }
 
     pub(super) fn write(&mut self, place: Place, value: Value) {
+        self.work.wrote = true;
+        self.journal.write(&place, &value);
         match place {
             Place::Parameter(Owner::Program, index) => {
                 self.state.memory.set_parameter(index, value);

@@ -1,5 +1,6 @@
 //! What the interpreter tells while it runs.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -7,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::modal::Modal;
 use super::motion::Motion;
+use crate::codes::Code;
 use crate::compensation::{Change, Compensation, CompensationError};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::machine::AxisIndex;
@@ -150,6 +152,8 @@ pub struct Ended<'a> {
     pub changes: &'a [Change],
     /// What is to be said about the program and belongs to no executed block.
     pub diagnostics: &'a [Diagnostic],
+    /// How many more messages of the kind there are, by code (R2.85).
+    pub unsaid: &'a BTreeMap<Code, u64>,
     /// The state that is left.
     pub compensation: &'a Compensation,
     /// The axes that occurred so far.

@@ -7,13 +7,15 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::State;
+use super::budget::ITEM;
 use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
 use super::value::{Value, rounded};
 use crate::codes::Code;
 use crate::source::Span;
-use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
+use crate::syntax::{Fault, MAX_LINE};
 
 /// Macros that one block may expand, whatever their depth: each may use others several times.
 pub(super) const MAX_EXPANSIONS: u32 = 4096;
@@ -37,11 +39,18 @@ pub(super) struct Macros<'a> {
     pub(super) limit: u32,
     /// How many the block has expanded.
     pub(super) expansions: &'a Cell<u32>,
+    /// The level of work up to which macros may expand.
+    pub(super) until: u64,
 }
 
 impl Macros<'_> {
-    /// One macro more; FC914 past the budget.
-    pub(super) fn expand(self, span: Span) -> Result<Self, Box<Fault>> {
+    /// One macro more, whose code is so long; FC914 past the budget.
+    pub(super) fn expand(self, code: &str, state: &State, span: Span) -> Result<Self, Box<Fault>> {
+        state.charge(ITEM + code.len());
+        if state.level.get() > self.until {
+            // The block ends with FC919, which says what there is to say.
+            return Err(fault(Code::Fc919, span, "the budget of work is used up"));
+        }
         let expansions = self.expansions.get() + 1;
         self.expansions.set(expansions);
         if self.depth >= self.limit {
@@ -77,6 +86,8 @@ pub(super) struct Evaluator<'a> {
     pub(super) shown: Option<Span>,
     pub(super) macros: Macros<'a>,
     pub(super) scope: Scope<'a>,
+    /// Where work is counted.
+    pub(super) state: &'a State,
 }
 
 impl Evaluator<'_> {
@@ -95,6 +106,9 @@ impl Evaluator<'_> {
     }
 
     fn run(&self, expression: Expression, stack: &mut Vec<Slot>) {
+        let nodes = expression.end.saturating_sub(expression.start);
+        self.state
+            .charge(usize::try_from(nodes).unwrap_or(usize::MAX));
         for at in expression.start..expression.end {
             let at = at as usize;
             let span = self.block.spans[at];
@@ -123,7 +137,7 @@ impl Evaluator<'_> {
                 Node::Binary(operator) => {
                     let right = pop(stack);
                     let left = pop(stack);
-                    binary(operator, left, right, span)
+                    self.bounded(binary(operator, left, right, span), span)
                 }
                 Node::Call {
                     function: Function::Sizeof,
@@ -139,11 +153,28 @@ impl Evaluator<'_> {
                 } => {
                     let from = stack.len().saturating_sub(usize::from(arguments));
                     let slots: Vec<Slot> = stack.drain(from..).collect();
-                    call(function, slots, span)
+                    let read = slots.iter().map(|slot| match slot {
+                        Ok(Value::Text(text)) => text.len(),
+                        _ => 0,
+                    });
+                    self.state.charge(read.sum());
+                    self.bounded(call(function, slots, span), span)
                 }
             };
             stack.push(slot);
         }
+    }
+
+    /// A text that an operation made; FC312 where it is longer than any text of a program.
+    fn bounded(&self, slot: Slot, span: Span) -> Slot {
+        if let Ok(Value::Text(text)) = &slot {
+            self.state.charge(text.len());
+            if text.len() > MAX_LINE && text.chars().count() > MAX_LINE {
+                let message = format!("the text has more than {MAX_LINE} characters");
+                return Err(fault(Code::Fc312, span, message));
+            }
+        }
+        slot
     }
 
     fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
@@ -156,10 +187,10 @@ impl Evaluator<'_> {
                     (self.scope.unknown)(&name, self.shown.unwrap_or(span));
                     return Ok(Value::Unknown(name.into()));
                 };
-                own.get(&index)
+                own.get(&index).cloned()
             }
         };
-        found.cloned().ok_or_else(|| never_written(span, self.text))
+        found.ok_or_else(|| never_written(span, self.text))
     }
 
     fn keyed_parameter(&self, key: &ParameterKey, span: Span) -> Slot {
@@ -182,7 +213,7 @@ impl Evaluator<'_> {
         let Some(code) = self.scope.memory.macro_code(name) else {
             return plain();
         };
-        let macros = self.macros.expand(span)?;
+        let macros = self.macros.expand(code, self.state, span)?;
         let mut block = Block::default();
         let Some(operand) = crate::syntax::parse_expression(code, &mut block) else {
             return plain();
@@ -194,6 +225,7 @@ impl Evaluator<'_> {
             shown: Some(shown),
             macros,
             scope: self.scope,
+            state: self.state,
         };
         inner.value(operand, &mut Vec::new()).map_err(|mut fault| {
             fault.span = span;
@@ -457,7 +489,7 @@ fn variable_name(span: Span, text: &str) -> std::borrow::Cow<'_, str> {
 }
 
 /// A variable's text with its subscripts replaced by values, one bracket each.
-fn with_subscripts(text: &str, values: &[String]) -> String {
+pub(super) fn with_subscripts(text: &str, values: &[String]) -> String {
     let mut name = String::with_capacity(text.len());
     let mut depth = 0_usize;
     let mut values = values.iter();

@@ -12,10 +12,10 @@ use super::program::{EntryIndex, LabelName};
 use super::value::rounded;
 use super::{
     At, Departure, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Seeking,
-    Step, Value,
+    Shown, Step, Value,
 };
 use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::Collected;
 use crate::source::Span;
 use crate::syntax::ast::{Block, Flow, JumpTarget, Operand};
 use crate::syntax::{Comments, Fault, Stretch};
@@ -48,6 +48,7 @@ impl Interpreter {
                 .last_mut()
                 .and_then(|frame| frame.called_from.take());
             let level = self.state.frames.last().map_or(0, |frame| frame.level);
+            let shown = Shown::default();
             let at = At {
                 file: &parsed.file,
                 text: &parsed.text,
@@ -58,6 +59,7 @@ impl Interpreter {
                 called_from: called_from.as_ref(),
                 macro_depth: 0,
                 used: None,
+                shown: &shown,
             };
             if let Some(over) = self.over_budget(&at) {
                 let over = self.with_loop(over, unit, next);
@@ -106,6 +108,7 @@ impl Interpreter {
 
     fn leave(&mut self) {
         if let Some(frame) = self.state.frames.pop() {
+            self.journal.begin_anew();
             self.state
                 .memory
                 .leave_call(usize::try_from(frame.level).unwrap_or(usize::MAX));
@@ -157,7 +160,7 @@ impl Interpreter {
     }
 
     /// Blocks that no run of the program reached, for their syntax.
-    pub(super) fn check_all_unexecuted(&mut self, notes: &mut Vec<Diagnostic>) {
+    pub(super) fn check_all_unexecuted(&mut self, notes: &mut Collected) {
         let Some(unit) = self.units.first() else {
             return;
         };
@@ -405,7 +408,9 @@ impl Interpreter {
             return Ok(None);
         };
         let parsed = self.parsed(unit, opener);
+        let shown = Shown::default();
         let head = At {
+            shown: &shown,
             text: &parsed.text,
             line: parsed.line,
             ..*at
@@ -498,18 +503,6 @@ impl Interpreter {
                 span,
                 format!("jump label `{label}` does not exist in this program"),
             ))),
-        }
-    }
-
-    /// The budget's message with the loop that used it up.
-    fn with_loop(&self, diagnostic: Diagnostic, unit: usize, entry: EntryIndex) -> Diagnostic {
-        let index = &self.units[unit].index;
-        match index.innermost_loop(entry) {
-            Some(opener) => {
-                let place = index.block_place(opener);
-                diagnostic.with_label(place, "in this loop")
-            }
-            None => diagnostic,
         }
     }
 }

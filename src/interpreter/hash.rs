@@ -3,7 +3,7 @@
 use super::block::Intent;
 use super::expression::Place;
 use super::words::AxisWords;
-use super::{At, Interpreter, Value};
+use super::{At, Interpreter, Shown, Value};
 use crate::codes::Code;
 use crate::compensation::Coupling;
 use crate::machine::AxisIndex;
@@ -77,15 +77,14 @@ impl Interpreter {
 
     fn define_coupling(&mut self, (rest, axes): (&str, Vec<AxisIndex>), at: &At<'_>) {
         let group = self.group_of(rest, at);
-        self.state.couplings.insert(group, axes);
+        self.work.wrote = true;
+        self.state.couplings.define(group, axes);
         self.mark_coupled();
     }
 
     fn enable_coupling(&mut self, (rest, span): (&str, Span), at: &At<'_>) {
         let group = self.group_of(rest, at);
-        if self.state.couplings.contains_key(&group) {
-            self.state.coupled.retain(|active| *active != group);
-            self.state.coupled.push(group);
+        if self.state.couplings.enable(&group) {
             self.mark_coupled();
         } else {
             // A group of the channel parameters: which axes it couples nobody knows offline.
@@ -97,32 +96,23 @@ impl Interpreter {
     fn disable_coupling(&mut self, rest: &str, at: &At<'_>) {
         let group = self.group_of(rest, at);
         if group.is_empty() {
-            self.state.coupled.pop();
+            self.state.couplings.release_last();
         } else {
-            self.state.coupled.retain(|active| *active != group);
+            self.state.couplings.release(&group);
         }
         self.mark_coupled();
     }
 
     /// Couplings end with the program unless P-CHAN-00105 says otherwise; their definitions stay.
     pub(super) fn release_couplings(&mut self) {
-        if !self.state.coupled.is_empty() {
-            self.state.coupled.clear();
+        if self.state.couplings.release_all() {
             self.mark_coupled();
         }
     }
 
     fn mark_coupled(&mut self) {
-        let active: Vec<AxisIndex> = self
-            .state
-            .coupled
-            .iter()
-            .filter_map(|group| self.state.couplings.get(group))
-            .flatten()
-            .copied()
-            .collect();
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
-            let coupling = if active.contains(&axis) {
+            let coupling = if self.state.couplings.holds(axis) {
                 Coupling::Active
             } else {
                 Coupling::None
@@ -137,7 +127,12 @@ impl Interpreter {
         let text = inside.split([',', ']']).next().unwrap_or_default().trim();
         let mut block = Block::default();
         let operand = crate::syntax::parse_expression(text, &mut block);
-        let inner = At { text, ..*at };
+        let shown = Shown::default();
+        let inner = At {
+            text,
+            shown: &shown,
+            ..*at
+        };
         let value = operand.and_then(|operand| self.value(operand, &block, &inner).ok());
         match value {
             Some(Value::Number(number)) => number.round().to_string(),
@@ -181,6 +176,7 @@ impl Interpreter {
         block: &Block,
         at: &At<'_>,
     ) -> Result<(), Box<Fault>> {
+        self.journal.begin_anew();
         for declaration in declarations {
             let mut stack = std::mem::take(&mut self.work.stack);
             let dimensions = self.with_evaluator(block, at, |evaluator| {
@@ -197,6 +193,7 @@ impl Interpreter {
             } else {
                 Value::Number(0.0)
             };
+            self.work.wrote = true;
             let memory = &mut self.state.memory;
             if dimensions.is_empty() {
                 let value = values.into_iter().next().unwrap_or(default);

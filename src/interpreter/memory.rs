@@ -11,17 +11,58 @@ use crate::machine::Parameters;
 /// Parameters up to this number have a place in a vector of their own.
 const DIRECT: u32 = 1024;
 
+/// What a value weighs against the budget of values (R2.60): one for itself, one more for so many
+/// bytes of a text or a name.
+const WEIGHT: usize = 32;
+
+/// A sum of weights. A damaged snapshot may hold any, so nothing here overflows.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct Weight(usize);
+
+impl Weight {
+    fn add(&mut self, weight: usize) {
+        self.0 = self.0.saturating_add(weight);
+    }
+
+    fn take(&mut self, weight: usize) {
+        self.0 = self.0.saturating_sub(weight);
+    }
+}
+
 /// Everything a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Memory {
     direct: Vec<Option<Value>>,
     parameters: BTreeMap<u32, Value>,
-    /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and array elements, by their full text.
-    variables: HashMap<String, Value>,
-    arrays: HashMap<String, Array>,
+    /// Set when some parameter was written and nobody knows which: the value that made it so.
+    lost: Option<Arc<str>>,
+    /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
+    variables: Names,
     /// `V.L.` of each call level.
-    locals: Vec<Level>,
+    locals: Vec<Names>,
     macros: HashMap<String, String>,
+    /// Rises with every change of the macros.
+    macro_version: u64,
+    /// The weight of parameters beyond the direct ones, and of macros.
+    weight: Weight,
+}
+
+/// Variables by name, those of an array under the array's name.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+struct Names {
+    names: HashMap<String, Variable>,
+    weight: Weight,
+}
+
+/// What goes by one name.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+struct Variable {
+    scalar: Option<Value>,
+    array: Option<Array>,
+    /// The elements that were written, by their subscripts: `[1][2]`.
+    elements: BTreeMap<String, Value>,
+    /// Set when some element was written and nobody knows which.
+    lost: Option<Arc<str>>,
 }
 
 /// A declared array.
@@ -32,38 +73,170 @@ struct Array {
     default: Value,
 }
 
-/// What `#VAR` declared on one call level.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-struct Level {
-    values: HashMap<String, Value>,
-    arrays: HashMap<String, Array>,
-}
-
-impl Level {
-    fn value(&self, name: &str) -> Option<Value> {
-        self.values
-            .get(name)
-            .cloned()
-            .or_else(|| default_of(&self.arrays, name))
-    }
-
-    fn holds(&self, name: &str) -> bool {
-        self.values.contains_key(name) || default_of(&self.arrays, name).is_some()
+impl Array {
+    /// Whether the subscripts are those of an element.
+    fn has(&self, subscripts: &str) -> bool {
+        let mut sizes = self.dimensions.iter();
+        for part in subscripts.split(['[', ']']).filter(|part| !part.is_empty()) {
+            let (Ok(at), Some(size)) = (part.parse::<u32>(), sizes.next()) else {
+                return false;
+            };
+            if at >= *size {
+                return false;
+            }
+        }
+        sizes.next().is_none()
     }
 }
 
-/// The default of an array's element, where the name has the subscripts of one.
-fn default_of(arrays: &HashMap<String, Array>, name: &str) -> Option<Value> {
-    let (array, subscripts) = name.split_at(name.find('[')?);
-    let array = arrays.get(array)?;
-    let mut sizes = array.dimensions.iter();
-    for part in subscripts.split(['[', ']']).filter(|part| !part.is_empty()) {
-        let at: u32 = part.parse().ok()?;
-        if at >= *sizes.next()? {
+impl Variable {
+    fn element(&self, subscripts: &str) -> Option<Value> {
+        if let Some(value) = self.elements.get(subscripts) {
+            return Some(value.clone());
+        }
+        let array = self.array.as_ref();
+        if array.is_some_and(|array| !array.has(subscripts)) {
             return None;
         }
+        match &self.lost {
+            Some(cause) => Some(Value::Unknown(cause.clone())),
+            None => array.map(|array| array.default.clone()),
+        }
     }
-    sizes.next().is_none().then(|| array.default.clone())
+
+    fn elements_weight(&self) -> usize {
+        let weight = |(key, value): (&String, &Value)| weight(key, value);
+        self.elements.iter().map(weight).sum()
+    }
+
+    fn is_empty(&self) -> bool {
+        self.scalar.is_none()
+            && self.array.is_none()
+            && self.lost.is_none()
+            && self.elements.is_empty()
+    }
+}
+
+impl Names {
+    fn value(&self, name: &str) -> Option<Value> {
+        let (base, subscripts) = parts(name);
+        let variable = self.names.get(base)?;
+        match subscripts {
+            "" => variable.scalar.clone(),
+            subscripts => variable.element(subscripts),
+        }
+    }
+
+    fn set(&mut self, name: &str, value: Value) {
+        let (base, subscripts) = parts(name);
+        let variable = match self.names.get_mut(base) {
+            Some(variable) => variable,
+            None => self.names.entry(base.to_owned()).or_default(),
+        };
+        let key = if subscripts.is_empty() {
+            base
+        } else {
+            subscripts
+        };
+        self.weight.add(weight(key, &value));
+        let before = if subscripts.is_empty() {
+            variable.scalar.replace(value)
+        } else if let Some(place) = variable.elements.get_mut(subscripts) {
+            Some(std::mem::replace(place, value))
+        } else {
+            variable.elements.insert(subscripts.to_owned(), value)
+        };
+        self.weight
+            .take(before.map_or(0, |before| weight(key, &before)));
+    }
+
+    fn declare_array(&mut self, name: &str, array: Array) {
+        self.weight.add(weight(name, &array.default));
+        let variable = self.names.entry(name.to_owned()).or_default();
+        let before = variable.array.replace(array);
+        self.weight
+            .take(before.map_or(0, |before| weight(name, &before.default)));
+        variable.lost = None;
+        self.drop_elements(name);
+    }
+
+    fn drop_elements(&mut self, name: &str) {
+        if let Some(variable) = self.names.get_mut(name) {
+            self.weight.take(variable.elements_weight());
+            variable.elements.clear();
+        }
+    }
+
+    fn dimensions(&self, name: &str) -> Option<&[u32]> {
+        let array = self.names.get(name)?.array.as_ref()?;
+        Some(&array.dimensions)
+    }
+
+    fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
+        self.drop_elements(name);
+        let variable = self.names.entry(name.to_owned()).or_default();
+        variable.lost = Some(cause.clone());
+    }
+
+    fn delete(&mut self, name: &str) {
+        let (base, subscripts) = parts(name);
+        if subscripts.is_empty() {
+            self.drop_elements(base);
+            if let Some(variable) = self.names.remove(base) {
+                let scalar = variable.scalar.as_ref();
+                let array = variable.array.as_ref().map(|array| &array.default);
+                let values = scalar.into_iter().chain(array);
+                self.weight
+                    .take(values.map(|value| weight(base, value)).sum::<usize>());
+            }
+            return;
+        }
+        let Some(variable) = self.names.get_mut(base) else {
+            return;
+        };
+        let inner = format!("{subscripts}[");
+        let mut gone: Vec<String> = variable
+            .elements
+            .range(inner.clone()..)
+            .take_while(|(key, _)| key.starts_with(&inner))
+            .map(|(key, _)| key.clone())
+            .collect();
+        gone.push(subscripts.to_owned());
+        for key in gone {
+            if let Some(value) = variable.elements.remove(&key) {
+                self.weight.take(weight(&key, &value));
+            }
+        }
+        if variable.is_empty() {
+            self.names.remove(base);
+        }
+    }
+
+    fn weigh(&self) -> usize {
+        let weight_of = |(name, variable): (&String, &Variable)| {
+            let scalar = variable.scalar.as_ref();
+            let array = variable.array.as_ref().map(|array| &array.default);
+            let values = scalar.into_iter().chain(array);
+            let own: usize = values.map(|value| weight(name, value)).sum();
+            own + variable.elements_weight()
+        };
+        self.names.iter().map(weight_of).sum()
+    }
+}
+
+/// What a value under a name weighs.
+fn weight(name: &str, value: &Value) -> usize {
+    let text = match value {
+        Value::Text(text) => text.len(),
+        // The name of what is not known is shared.
+        Value::Number(_) | Value::Unknown(_) => 0,
+    };
+    1 + name.len() / WEIGHT + text / WEIGHT
+}
+
+/// The name of a variable and the subscripts behind it.
+fn parts(name: &str) -> (&str, &str) {
+    name.split_at(name.find('[').unwrap_or(name.len()))
 }
 
 impl Memory {
@@ -77,17 +250,33 @@ impl Memory {
         if parameters == Parameters::Cleared {
             self.direct.clear();
             self.parameters.clear();
+            self.lost = None;
         }
         self.locals.clear();
-        self.variables.retain(|name, _| kept(name));
-        self.arrays.retain(|name, _| kept(name));
+        self.variables.names.retain(|name, _| kept(name));
+        self.variables.weight = Weight(self.variables.weigh());
     }
 
-    pub(super) fn parameter(&self, index: u32) -> Option<&Value> {
-        if index < DIRECT {
-            self.direct.get(index as usize)?.as_ref()
+    /// How much is held, in values and shares of texts (R2.60).
+    pub(super) fn weight(&self) -> usize {
+        let own = [self.direct.len(), self.parameters.len()];
+        let levels = self.locals.iter().chain([&self.variables]);
+        let weights = levels.map(|names| names.weight.0).chain([self.weight.0]);
+        own.into_iter()
+            .chain(weights)
+            .fold(0, usize::saturating_add)
+    }
+
+    pub(super) fn parameter(&self, index: u32) -> Option<Value> {
+        let known = if index < DIRECT {
+            self.direct.get(index as usize).and_then(Option::as_ref)
         } else {
             self.parameters.get(&index)
+        };
+        match (known, &self.lost) {
+            (Some(value), _) => Some(value.clone()),
+            (None, Some(cause)) => Some(Value::Unknown(cause.clone())),
+            (None, None) => None,
         }
     }
 
@@ -99,7 +288,10 @@ impl Memory {
             }
             self.direct[place] = Some(value);
         } else {
-            self.parameters.insert(index, value);
+            self.weight.add(weight("", &value) - 1);
+            if let Some(before) = self.parameters.insert(index, value) {
+                self.weight.take(weight("", &before) - 1);
+            }
         }
     }
 
@@ -108,50 +300,42 @@ impl Memory {
         if name.starts_with("V.L.") {
             return self.locals.iter().rev().find_map(|level| level.value(name));
         }
-        self.variables
-            .get(name)
-            .cloned()
-            .or_else(|| default_of(&self.arrays, name))
+        self.variables.value(name)
     }
 
     pub(super) fn set_variable(&mut self, name: &str, value: Value) {
-        if name.starts_with("V.L.") {
-            let known = self.locals.iter_mut().rev().find(|level| level.holds(name));
-            if let Some(level) = known {
-                level.values.insert(name.to_owned(), value);
-            } else {
-                self.declare_local(name, value);
-            }
+        if !name.starts_with("V.L.") {
+            self.variables.set(name, value);
             return;
         }
-        match self.variables.get_mut(name) {
-            Some(place) => *place = value,
-            None => {
-                self.variables.insert(name.to_owned(), value);
-            }
+        let holds = |level: &&mut Names| level.value(name).is_some();
+        match self.locals.iter_mut().rev().find(holds) {
+            Some(level) => level.set(name, value),
+            None => self.level().set(name, value),
         }
     }
 
     /// The `V.L.` variables of the current level.
-    fn level(&mut self) -> &mut Level {
+    fn level(&mut self) -> &mut Names {
         if self.locals.is_empty() {
-            self.locals.push(Level::default());
+            self.locals.push(Names::default());
         }
         let last = self.locals.len() - 1;
         &mut self.locals[last]
     }
 
-    fn declare_local(&mut self, name: &str, value: Value) {
-        self.level().values.insert(name.to_owned(), value);
+    /// Where a declaration of the name goes.
+    fn declared(&mut self, name: &str) -> &mut Names {
+        if name.starts_with("V.L.") {
+            self.level()
+        } else {
+            &mut self.variables
+        }
     }
 
     /// Declares a scalar on the current level.
     pub(super) fn declare(&mut self, name: &str, value: Value) {
-        if name.starts_with("V.L.") {
-            self.declare_local(name, value);
-        } else {
-            self.variables.insert(name.to_owned(), value);
-        }
+        self.declared(name).set(name, value);
     }
 
     /// Declares an array on the current level; its elements have a default value.
@@ -160,74 +344,53 @@ impl Memory {
             dimensions,
             default,
         };
-        let (arrays, values) = if name.starts_with("V.L.") {
-            let level = self.level();
-            (&mut level.arrays, &mut level.values)
-        } else {
-            (&mut self.arrays, &mut self.variables)
-        };
-        values.retain(|key, _| !is_element_of(key, name));
-        arrays.insert(name.to_owned(), array);
+        self.declared(name).declare_array(name, array);
     }
 
     pub(super) fn dimensions(&self, name: &str) -> Option<&[u32]> {
-        let local = self
-            .locals
-            .iter()
-            .rev()
-            .find_map(|level| level.arrays.get(name));
-        local
-            .or_else(|| self.arrays.get(name))
-            .map(|array| array.dimensions.as_slice())
+        let mut levels = self.locals.iter().rev();
+        let local = levels.find_map(|level| level.dimensions(name));
+        local.or_else(|| self.variables.dimensions(name))
     }
 
     pub(super) fn delete(&mut self, name: &str) {
-        let gone = |key: &str| key == name || is_element_of(key, name);
-        if name.starts_with("V.L.") {
-            let level = self
-                .locals
-                .iter_mut()
-                .rev()
-                .find(|level| level.holds(name) || level.arrays.contains_key(name));
-            if let Some(level) = level {
-                level.values.retain(|key, _| !gone(key));
-                level.arrays.remove(name);
-            }
+        if !name.starts_with("V.L.") {
+            self.variables.delete(name);
             return;
         }
-        self.variables.retain(|key, _| !gone(key));
-        self.arrays.remove(name);
+        let (base, subscripts) = parts(name);
+        let holds = |level: &&mut Names| {
+            let variable = level.names.get(base);
+            variable.is_some_and(|variable| {
+                subscripts.is_empty() || variable.element(subscripts).is_some()
+            })
+        };
+        if let Some(level) = self.locals.iter_mut().rev().find(holds) {
+            level.delete(name);
+        }
     }
 
     /// Some element of an array was written and nobody knows which: none is known any more.
     pub(super) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
-        let unknown = Value::Unknown(cause.clone());
-        let levels = self.locals.iter_mut();
-        let maps = levels
-            .map(|level| (&mut level.values, &mut level.arrays))
-            .chain([(&mut self.variables, &mut self.arrays)]);
-        for (values, arrays) in maps {
-            for (key, value) in values.iter_mut() {
-                if is_element_of(key, name) {
-                    *value = unknown.clone();
-                }
-            }
-            if let Some(array) = arrays.get_mut(name) {
-                array.default = unknown.clone();
-            }
+        let levels = self.locals.iter_mut().chain([&mut self.variables]);
+        let holding = levels.filter(|names| names.names.contains_key(name));
+        let known = holding.map(|names| names.forget_elements(name, cause));
+        if known.count() == 0 {
+            self.declared(name).forget_elements(name, cause);
         }
     }
 
     /// Some P parameter was written and nobody knows which: none is known any more.
     pub(super) fn forget_parameters(&mut self, cause: &Arc<str>) {
-        let written = self.direct.iter_mut().flatten();
-        for value in written.chain(self.parameters.values_mut()) {
-            *value = Value::Unknown(cause.clone());
-        }
+        self.direct.clear();
+        self.parameters.clear();
+        self.lost = Some(cause.clone());
     }
 
     pub(super) fn delete_parameter(&mut self, index: u32) {
-        self.parameters.remove(&index);
+        if let Some(before) = self.parameters.remove(&index) {
+            self.weight.take(weight("", &before) - 1);
+        }
         if let Some(place) = self.direct.get_mut(index as usize) {
             *place = None;
         }
@@ -235,9 +398,9 @@ impl Memory {
 
     pub(super) fn enter_call(&mut self, depth: usize) {
         while self.locals.len() < depth {
-            self.locals.push(Level::default());
+            self.locals.push(Names::default());
         }
-        self.locals.push(Level::default());
+        self.locals.push(Names::default());
     }
 
     pub(super) fn leave_call(&mut self, depth: usize) {
@@ -246,11 +409,20 @@ impl Memory {
 
     pub(super) fn define_macro(&mut self, name: &str, code: &str) {
         let code = code.replace("\\\"", "\"");
-        self.macros.insert(name.trim().to_owned(), code);
+        let name = name.trim();
+        self.macro_version = self.macro_version.wrapping_add(1);
+        self.weight.add(1 + (name.len() + code.len()) / WEIGHT);
+        if let Some(before) = self.macros.insert(name.to_owned(), code) {
+            self.weight.take(1 + (name.len() + before.len()) / WEIGHT);
+        }
     }
 
     /// `#INIT MACRO TAB`
     pub(super) fn clear_macros(&mut self) {
+        self.macro_version = self.macro_version.wrapping_add(1);
+        let weight = |(name, code): (&String, &String)| 1 + (name.len() + code.len()) / WEIGHT;
+        self.weight
+            .take(self.macros.iter().map(weight).sum::<usize>());
         self.macros.clear();
     }
 
@@ -258,19 +430,26 @@ impl Memory {
         self.macros.get(name.trim()).map(String::as_str)
     }
 
+    /// Rises with every change of the macros.
+    pub(super) fn macro_version(&self) -> u64 {
+        self.macro_version
+    }
+
     /// The `V.S.` variables, which outlive programs.
     pub(super) fn shared(&self) -> BTreeMap<String, Value> {
-        self.variables
-            .iter()
-            .filter(|(name, _)| name.starts_with("V.S."))
-            .map(|(name, value)| (name.clone(), value.clone()))
-            .collect()
+        let shared = self.variables.names.iter();
+        let shared = shared.filter(|(name, _)| name.starts_with("V.S."));
+        let mut all = BTreeMap::new();
+        for (name, variable) in shared {
+            if let Some(value) = &variable.scalar {
+                all.insert(name.clone(), value.clone());
+            }
+            for (subscripts, value) in &variable.elements {
+                all.insert(format!("{name}{subscripts}"), value.clone());
+            }
+        }
+        all
     }
-}
-
-fn is_element_of(key: &str, array: &str) -> bool {
-    key.strip_prefix(array)
-        .is_some_and(|rest| rest.starts_with('['))
 }
 
 fn is_of_run(name: &str) -> bool {

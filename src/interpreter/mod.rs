@@ -9,9 +9,12 @@
     reason = "faults travel boxed in results; what makes one boxes it"
 )]
 
+mod at;
 mod block;
+mod budget;
 mod call;
 mod comp;
+mod coupling;
 mod evaluate;
 mod event;
 mod expression;
@@ -23,6 +26,7 @@ mod memory;
 mod modal;
 mod motion;
 mod program;
+mod region;
 mod snapshot;
 mod stream;
 mod unknown;
@@ -30,13 +34,14 @@ mod value;
 mod words;
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+pub use budget::Limits;
 pub use event::{
     AxisWord, Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome,
 };
@@ -50,15 +55,17 @@ pub use value::Value;
 
 use crate::codes::Code;
 use crate::compensation::{Change, Compensation};
-use crate::diagnostic::{Diagnostic, Place, Severity};
+use crate::diagnostic::{Collected, Diagnostic, Place, Severity};
 use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
 use crate::source::{SourceFile, Span};
 use crate::syntax::ast::{Block, Call, CallForm, Repetition};
 use crate::syntax::{Comments, FastPath, Fault, Remark};
+use at::{At, Shown};
 use call::Found;
+use coupling::Couplings;
 use memory::Memory;
 use program::{EntryIndex, Index};
-use unknown::Scan;
+use unknown::{Journal, Regions, Scan};
 
 /// What happens at an error of the control (R9.20).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -70,30 +77,6 @@ pub enum StopPolicy {
     KeepGoing,
     /// As `KeepGoing`; blocks that are never executed are checked for their syntax too.
     CheckAll,
-}
-
-/// Bounds on what a dry run may do (R2.60).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
-    /// Executed blocks of a session, `--max-blocks`.
-    pub blocks: u64,
-    /// Depth of subprogram calls, `--max-calls`.
-    pub calls: u32,
-    /// Depth of nested `$` blocks, `--max-nesting`.
-    pub nesting: u32,
-    /// Depth of macro expansion, `--max-macros`.
-    pub macros: u32,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self {
-            blocks: 100_000_000,
-            calls: 50,
-            nesting: 50,
-            macros: 16,
-        }
-    }
 }
 
 /// How programs are run.
@@ -162,16 +145,19 @@ struct State {
     seq: u64,
     /// Executed blocks of the session.
     blocks: u64,
+    /// Work of the session.
+    spent: Cell<u64>,
+    /// Work beyond what the executed blocks bring with them.
+    level: Cell<u64>,
     /// Words and commands that were passed over.
     opaque: BTreeMap<String, u64>,
     /// The axes that occurred.
     occurred: Vec<bool>,
-    /// Axes of coupling groups that `#SET AX LINK` defined.
-    couplings: BTreeMap<String, Vec<AxisIndex>>,
-    /// The coupling groups in force, in the order in which they were enabled.
-    coupled: Vec<String>,
+    couplings: Couplings,
     /// The cycle that is repeated after blocks.
     repeated: Option<Repeated>,
+    /// The called files of which it was said what is wrong with them.
+    refused: BTreeSet<usize>,
     /// Set while the configured end program runs.
     ending: Option<EndedBy>,
     /// The last executed block of the main program.
@@ -252,9 +238,19 @@ pub struct Interpreter {
     units: Vec<Unit>,
     /// Which file a call by name from a file meant.
     found: BTreeMap<(String, String), usize>,
+    /// Which calls found none, and why.
+    missing: BTreeMap<(String, String), NoProgram>,
+    /// The files of the run by name.
+    unit_names: HashMap<Arc<str>, usize>,
     /// Calls in regions that may or may not be executed.
     pending: Vec<Scan>,
+    regions: Regions,
+    journal: Journal,
     kept: usize,
+    /// Bytes of the programs in memory.
+    held_text: u64,
+    /// Names that were compared with those of calls that found nothing.
+    compared: usize,
     state: State,
     version: u64,
     work: Work,
@@ -283,6 +279,8 @@ struct Work {
     over: Option<Diagnostic>,
     /// Whether an axis occurred for the first time.
     new_axes: bool,
+    /// Whether a value was written.
+    wrote: bool,
 }
 
 impl Work {
@@ -297,46 +295,6 @@ impl Work {
         self.notes.get_mut().clear();
         self.expansions.set(0);
         self.new_axes = false;
-    }
-}
-
-/// Where a block stands and what is known about it beside its tree.
-struct At<'a> {
-    file: &'a Arc<str>,
-    text: &'a str,
-    line: u32,
-    comments: Comments,
-    remark: Option<&'a Remark>,
-    level: u32,
-    called_from: Option<&'a Place>,
-    /// How many macros lie around the code.
-    macro_depth: u32,
-    /// Where the outermost of them is used in the block.
-    used: Option<Span>,
-}
-
-impl At<'_> {
-    /// The span in the block of what stands here, for what is said when the whole block is known.
-    fn in_block(&self, span: Span) -> Span {
-        self.used.unwrap_or(span)
-    }
-
-    fn place(&self, span: Span) -> Place {
-        Place {
-            file: self.file.clone(),
-            text: self.text.into(),
-            first_line: self.line,
-            span,
-        }
-    }
-
-    fn diagnostic(&self, fault: Fault) -> Diagnostic {
-        let mut diagnostic = Diagnostic::new(fault.code, self.place(fault.span), fault.message);
-        diagnostic.help = fault.help;
-        if let Some(caller) = self.called_from {
-            diagnostic = diagnostic.with_label(caller.clone(), "called from here");
-        }
-        diagnostic
     }
 }
 
@@ -391,11 +349,13 @@ impl Interpreter {
             frames: Vec::new(),
             seq: 0,
             blocks: 0,
+            spent: Cell::new(0),
+            level: Cell::new(0),
             opaque: BTreeMap::new(),
             occurred,
-            couplings: BTreeMap::new(),
-            coupled: Vec::new(),
+            couplings: Couplings::default(),
             repeated: None,
+            refused: BTreeSet::new(),
             ending: None,
             last: None,
             parked: None,
@@ -423,8 +383,14 @@ impl Interpreter {
             names,
             units: Vec::new(),
             found: BTreeMap::new(),
+            missing: BTreeMap::new(),
+            unit_names: HashMap::new(),
             pending: Vec::new(),
+            regions: Regions::new(),
+            journal: Journal::default(),
             kept: 0,
+            held_text: 0,
+            compared: 0,
             state,
             version: 0,
             work: Work::default(),
@@ -434,6 +400,7 @@ impl Interpreter {
     /// Gives a variable the value that only the machine knows (R2.36).
     pub fn set(&mut self, name: &str, setting: &Setting) {
         self.state.memory.set_variable(name, setting.into());
+        self.journal.begin_anew();
     }
 
     /// The machine.
@@ -490,6 +457,7 @@ impl Interpreter {
     /// Takes over a variable of an earlier session.
     pub fn set_shared(&mut self, name: &str, value: Value) {
         self.state.memory.set_variable(name, value);
+        self.journal.begin_anew();
     }
 
     /// Runs a main program whose text is in memory.
@@ -513,7 +481,9 @@ impl Interpreter {
         let index = Index::new(source, self.options.limits.nesting);
         let main = index.main();
         let name = main.and_then(|main| index.sections[main].name.clone());
-        self.units = vec![Unit::new(index)];
+        self.units.clear();
+        self.unit_names.clear();
+        self.hold(index);
         if self.announce(name.as_deref(), observer).is_break() {
             self.state.parked = Some(Step::Begin);
             return Outlook::Paused;
@@ -535,7 +505,7 @@ impl Interpreter {
             self.enter(0, section);
         }
         if let Err(missing) = self.start_program(finder) {
-            return self.ended(EndedBy::Error, &[*missing], observer);
+            return self.ended(EndedBy::Error, one(*missing), observer);
         }
         let outlook = self.run(finder, observer);
         self.close(outlook, observer)
@@ -549,13 +519,13 @@ impl Interpreter {
     /// Ends a program that does not run.
     fn refuse(&mut self, observer: &mut dyn Observer) -> Outlook {
         let refused = self.refused();
-        self.ended(ended_by(&refused), &refused, observer)
+        self.ended(ended_by(&refused.said), refused, observer)
     }
 
     /// What keeps the main program from running at all.
-    fn refused(&self) -> Vec<Diagnostic> {
+    fn refused(&self) -> Collected {
         let main = self.units.first();
-        main.map_or(Vec::new(), |unit| unit.index.refused.clone())
+        main.map_or(Collected::default(), |unit| unit.index.refused.clone())
     }
 
     /// Goes on with a run that an observer stopped.
@@ -581,12 +551,31 @@ impl Interpreter {
         self.state.frames.clear();
         self.state.seq = 0;
         self.state.repeated = None;
+        self.state.refused.clear();
         self.state.ending = None;
         self.state.last = None;
         self.state.parked = None;
         self.units.clear();
         self.found.clear();
+        self.missing.clear();
+        self.unit_names.clear();
+        self.compared = 0;
+        self.pending.clear();
+        self.regions.clear();
+        self.journal.begin_anew();
         self.kept = 0;
+        self.held_text = 0;
+    }
+
+    /// Takes a file into the run; returns its number.
+    fn hold(&mut self, index: Index) -> usize {
+        let bytes = u64::try_from(index.source.text().len()).unwrap_or(u64::MAX);
+        self.held_text = self.held_text.saturating_add(bytes);
+        let unit = self.units.len();
+        let name = index.source.name().clone();
+        self.unit_names.entry(name).or_insert(unit);
+        self.units.push(Unit::new(index));
+        unit
     }
 
     fn announce(&mut self, name: Option<&str>, observer: &mut dyn Observer) -> ControlFlow<()> {
@@ -625,7 +614,7 @@ impl Interpreter {
         if self.options.stop == StopPolicy::CheckAll {
             self.check_all_unexecuted(&mut notes);
         }
-        self.ended(by, &notes, observer)
+        self.ended(by, notes, observer)
     }
 
     /// FC310 at the last executed block; a program without any block needs no M30 (R2.8).
@@ -641,12 +630,7 @@ impl Interpreter {
         Some(Diagnostic::new(Code::Fc310, place, message).with_help("end it with `M30`"))
     }
 
-    fn ended(
-        &mut self,
-        by: EndedBy,
-        diagnostics: &[Diagnostic],
-        observer: &mut dyn Observer,
-    ) -> Outlook {
+    fn ended(&mut self, by: EndedBy, notes: Collected, observer: &mut dyn Observer) -> Outlook {
         let changes = self.state.compensation.program_end();
         if !changes.is_empty() {
             self.version += 1;
@@ -658,7 +642,8 @@ impl Interpreter {
             seq: self.state.seq,
             by,
             changes: &changes,
-            diagnostics,
+            diagnostics: &notes.said,
+            unsaid: &notes.unsaid,
             compensation: &self.state.compensation,
             occurred: &self.state.occurred,
             version: self.version,
@@ -672,19 +657,13 @@ impl Interpreter {
             .is_some_and(|level| self.options.skip & (1 << level.min(15)) != 0)
     }
 
-    /// FC910 when the next block may not be executed any more.
-    #[inline]
-    fn over_budget(&self, at: &At<'_>) -> Option<Diagnostic> {
-        let budget = self.options.limits.blocks;
-        (self.state.blocks >= budget).then(|| too_many_blocks(budget, at))
-    }
-
     fn check_unexecuted(
         file: &Arc<str>,
         (line, text): (u32, &str),
         block: &Block,
-        notes: &mut Vec<Diagnostic>,
+        notes: &mut Collected,
     ) {
+        let shown = Shown::default();
         let at = At {
             file,
             text,
@@ -695,6 +674,7 @@ impl Interpreter {
             called_from: None,
             macro_depth: 0,
             used: None,
+            shown: &shown,
         };
         notes.extend(
             block
@@ -716,17 +696,11 @@ impl Unit {
     }
 }
 
-/// FC910.
-#[cold]
-fn too_many_blocks(budget: u64, at: &At<'_>) -> Diagnostic {
-    at.diagnostic(
-        Fault::new(
-            Code::Fc910,
-            Span::new(0, at.text.len()),
-            format!("more than {budget} blocks were executed"),
-        )
-        .with_help("look for a loop that does not end, or raise the budget with `--max-blocks`"),
-    )
+/// A single message.
+fn one(diagnostic: Diagnostic) -> Collected {
+    let mut notes = Collected::default();
+    notes.push(diagnostic);
+    notes
 }
 
 /// Whether a diagnostic stops the control.

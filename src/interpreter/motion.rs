@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::value::rounded;
 use super::words::AxisWords;
-use super::{Group, Interpreter, Value};
+use super::{Group, Interpreter};
 use crate::machine::AxisIndex;
 
 /// Whether blocks say what they move.
@@ -160,7 +160,7 @@ impl Interpreter {
             .and_then(rounded)
             .and_then(|index| u32::try_from(index).ok());
         let value = index.and_then(|index| self.state.memory.parameter(index));
-        let seconds = value.and_then(Value::number);
+        let seconds = value.and_then(|value| value.number());
         self.geometry().dwell = Some(seconds);
     }
 

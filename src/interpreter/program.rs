@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::value::rounded;
 use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Collected, Diagnostic};
 use crate::source::{SourceFile, Span, TextLines};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
 use crate::syntax::{BlockReader, FastPath, Fault, Remark, Stretch};
@@ -68,9 +68,11 @@ pub(super) struct Index {
     /// The statements that open loops.
     loops: Vec<EntryIndex>,
     labels: HashMap<(usize, LabelName), EntryIndex>,
+    /// The local subprograms by name, the first of each.
+    locals: HashMap<String, usize>,
     remarks: HashMap<EntryIndex, Remark>,
     /// What keeps the program from running at all.
-    pub(super) refused: Vec<Diagnostic>,
+    pub(super) refused: Collected,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,8 +136,9 @@ impl Index {
                 links: BTreeMap::new(),
                 loops: Vec::new(),
                 labels: HashMap::new(),
+                locals: HashMap::new(),
                 remarks: HashMap::new(),
-                refused: Vec::new(),
+                refused: Collected::default(),
             },
             nesting: nesting as usize,
             open: Vec::new(),
@@ -177,9 +180,7 @@ impl Index {
 
     /// A local subprogram by its name.
     pub(super) fn local(&self, name: &str) -> Option<usize> {
-        self.sections
-            .iter()
-            .position(|section| section.local && section.name.as_deref() == Some(name))
+        self.locals.get(name).copied()
     }
 
     /// The names of the local subprograms.
@@ -281,6 +282,7 @@ impl Builder {
         }
         self.index
             .refused
+            .said
             .sort_by_key(|diagnostic| diagnostic.place.start());
         self.index
     }
@@ -291,6 +293,11 @@ impl Builder {
 
     fn section(&mut self, name: Option<String>, local: bool) {
         let start = self.at();
+        if let Some(name) = name.as_ref().filter(|_| local) {
+            let number = self.index.sections.len();
+            let locals = &mut self.index.locals;
+            locals.entry(name.clone()).or_insert(number);
+        }
         self.index.sections.push(Section {
             name,
             local,

@@ -70,8 +70,7 @@ impl Interpreter {
             let Some(text) = source(&file) else {
                 return Err(ResumeError::MissingFile(file));
             };
-            let index = Index::new(text, options.limits.nesting);
-            resumed.units.push(Unit::new(index));
+            resumed.hold(Index::new(text, options.limits.nesting));
         }
         for (unit, executed) in resumed.units.iter_mut().zip(snapshot.executed) {
             unit.mark_executed(&executed);

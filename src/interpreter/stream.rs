@@ -9,9 +9,10 @@ use std::sync::Arc;
 
 use super::program::Index;
 use super::{
-    At, Departure, Diagnostic, EndedBy, Finder, Interpreter, Observer, Outlook, SourceFile,
-    StopPolicy, Unit,
+    At, Departure, EndedBy, Finder, Interpreter, Observer, Outlook, Shown, SourceFile, StopPolicy,
+    one,
 };
+use crate::diagnostic::Collected;
 use crate::source::LineSource;
 use crate::syntax::ast::{Block, CallScope, Item};
 use crate::syntax::{BlockReader, RawBlock, Stretch};
@@ -44,12 +45,12 @@ impl Interpreter {
     ) -> Outlook {
         self.start();
         let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
-        self.units.push(Unit::new(none));
+        self.hold(none);
         let file: Arc<str> = file.into();
         let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
         let mut block = std::mem::take(&mut self.work.block);
         let mut stage = Stage::Before;
-        let mut notes = Vec::new();
+        let mut notes = Collected::default();
         while let Some(raw) = reader.next(&mut block) {
             if !raw.plain && needs_rest(&raw, &block) {
                 let (mut text, first) = opening(&raw);
@@ -93,6 +94,7 @@ impl Interpreter {
                     return outlook;
                 }
             }
+            let shown = Shown::default();
             let at = At {
                 file: &file,
                 text: raw.text,
@@ -103,9 +105,10 @@ impl Interpreter {
                 called_from: None,
                 macro_depth: 0,
                 used: None,
+                shown: &shown,
             };
             if let Some(over) = self.over_budget(&at) {
-                return self.ended(EndedBy::Budget, &[over], observer);
+                return self.ended(EndedBy::Budget, one(over), observer);
             }
             if self.is_skipped(&block) {
                 continue;
@@ -150,7 +153,7 @@ impl Interpreter {
         self.enter(0, 0);
         match self.start_program(finder) {
             Ok(()) => self.run_called(finder, observer),
-            Err(missing) => Some(self.ended(EndedBy::Error, &[*missing], observer)),
+            Err(missing) => Some(self.ended(EndedBy::Error, one(*missing), observer)),
         }
     }
 
@@ -167,8 +170,9 @@ impl Interpreter {
         match self.run(finder, observer) {
             Outlook::Ended(EndedBy::EndOfFile) => None,
             Outlook::Ended(by) => {
-                let notes: Vec<_> = self.work.over.take().into_iter().collect();
-                Some(self.ended(by, &notes, observer))
+                let mut notes = Collected::default();
+                notes.extend(self.work.over.take());
+                Some(self.ended(by, notes, observer))
             }
             Outlook::Paused => Some(Outlook::Paused),
         }
@@ -178,7 +182,7 @@ impl Interpreter {
     fn go_on_with(
         &mut self,
         rest: SourceFile,
-        (stage, notes): (Stage, Vec<Diagnostic>),
+        (stage, notes): (Stage, Collected),
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> Outlook {
@@ -186,7 +190,9 @@ impl Interpreter {
             return self.whole(rest, finder, observer);
         }
         // The blocks so far stood in front of the first one of the index, and so does the frame.
-        self.units[0] = Unit::new(Index::new(rest, self.options.limits.nesting));
+        self.units.clear();
+        self.unit_names.clear();
+        self.hold(Index::new(rest, self.options.limits.nesting));
         match stage {
             Stage::Before | Stage::Announced => self.begin(Some(0), finder, observer),
             Stage::Running if self.is_refused() => self.refuse(observer),
@@ -202,7 +208,7 @@ impl Interpreter {
     fn end_of_lines(
         &mut self,
         stage: Stage,
-        mut notes: Vec<Diagnostic>,
+        notes: Collected,
         observer: &mut dyn Observer,
     ) -> Outlook {
         let mut said = self.refused();
@@ -212,9 +218,9 @@ impl Interpreter {
             said.extend(self.missing_end());
             EndedBy::EndOfFile
         };
-        said.append(&mut notes);
+        said.append(&notes);
         self.check_all_unexecuted(&mut said);
-        self.ended(by, &said, observer)
+        self.ended(by, said, observer)
     }
 }
 

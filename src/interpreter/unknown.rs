@@ -1,22 +1,22 @@
 //! What cannot be known offline: a region that may or may not be executed makes unknown whatever
 //! it could change (R2.50, R2.51).
 
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
+use std::rc::Rc;
 use std::sync::Arc;
 
+use super::at::At;
+use super::budget::ITEM;
 use super::call::Wanted;
-use super::event::Notes;
 use super::expression::Place;
-use super::hash::declared_name;
 use super::program::EntryIndex;
-use super::{At, Interpreter, Step, Value};
+use super::region::{Effect, Region, Target};
+use super::{Finder, Interpreter, Step, Value};
 use crate::codes::Code;
 use crate::machine::AxisIndex;
 use crate::source::Span;
-use crate::syntax::ast::{
-    Address, Block, Call, CallName, Expression, Flow, Hash, Item, Node, Operand, Word,
-};
-use crate::syntax::{Comments, Fault};
+use crate::syntax::{Fault, KindSet};
 
 /// A call found in a region that may or may not be executed.
 #[derive(Debug, Clone)]
@@ -25,6 +25,64 @@ pub(super) struct Scan {
     pub(super) cause: Arc<str>,
     /// The file that holds the call.
     pub(super) unit: usize,
+}
+
+/// What was written since regions were made unknown last: a loop that comes back to a region need
+/// only look at that.
+#[derive(Debug, Default)]
+pub(super) struct Journal {
+    written: Vec<Target>,
+    /// Rises when the list is begun anew.
+    epoch: u64,
+    /// Up to where the list counted when a region was made unknown.
+    seen: HashMap<RegionKey, (u64, usize)>,
+}
+
+/// A file and a range of its blocks.
+pub(super) type RegionKey = (usize, EntryIndex, EntryIndex);
+
+/// How long the list may become.
+const MAX_WRITTEN: usize = 4096;
+
+impl Journal {
+    /// A value became known.
+    #[inline]
+    pub(super) fn write(&mut self, place: &Place, value: &Value) {
+        // Where no region was looked through, nothing has to be kept.
+        if self.seen.is_empty() || matches!(value, Value::Unknown(_)) {
+            return;
+        }
+        match place {
+            Place::Parameter(owner, index) => self.note(Target::Parameter(*owner, *index)),
+            Place::Variable(name) => self.note(Target::Variable(name.clone())),
+            Place::Elements(..) | Place::Parameters(_) | Place::Nowhere => {}
+        }
+    }
+
+    fn note(&mut self, target: Target) {
+        if self.written.len() >= MAX_WRITTEN {
+            self.begin_anew();
+        } else {
+            self.written.push(target);
+        }
+    }
+
+    /// Something happened that the list does not tell.
+    pub(super) fn begin_anew(&mut self) {
+        self.written.clear();
+        self.epoch += 1;
+        self.seen.clear();
+    }
+
+    /// What was written since the region was made unknown last; `None` where nobody knows.
+    fn since(&self, key: RegionKey) -> Option<&[Target]> {
+        let &(epoch, from) = self.seen.get(&key)?;
+        (epoch == self.epoch).then(|| self.written.get(from..).unwrap_or_default())
+    }
+
+    fn mark(&mut self, key: RegionKey) {
+        self.seen.insert(key, (self.epoch, self.written.len()));
+    }
 }
 
 impl Interpreter {
@@ -39,7 +97,7 @@ impl Interpreter {
         let fault = Fault::new(
             Code::Fc901,
             span,
-            format!("this control block hangs on `{cause}`, which only the machine knows; what it could change is unknown from here"),
+            format!("this control block depends on `{cause}`, which only the machine knows; what it could change is unknown from here"),
         )
         .with_help(super::flow::how_to_set(cause));
         self.work.diagnostics.push(at.diagnostic(fault));
@@ -53,238 +111,128 @@ impl Interpreter {
     pub(super) fn forget_region(
         &mut self,
         unit: usize,
-        region: Range<EntryIndex>,
+        range: Range<EntryIndex>,
         cause: &Arc<str>,
     ) {
-        for entry in region {
-            let mut block = Block::default();
-            let mut text = String::new();
-            if let Some(mut reader) = self.units[unit].index.reader(entry)
-                && let Some(raw) = reader.next(&mut block)
-            {
-                raw.text.clone_into(&mut text);
+        let key = (unit, range.start, range.end);
+        let is_new = !self.regions.contains_key(&key);
+        let region = self.region(unit, range);
+        self.state
+            .charge(ITEM * (region.effects.len() + region.calls.len()));
+        for effect in &region.effects {
+            self.suffer(effect, cause);
+        }
+        let since = self.journal.since(key).filter(|_| !is_new);
+        if let Some(written) = since {
+            let known: Vec<Target> = written
+                .iter()
+                .filter(|written| region.writes(written))
+                .cloned()
+                .collect();
+            self.state.charge(written.len());
+            for target in &known {
+                self.lose(target, cause);
             }
-            let file = self.units[unit].index.source.name().clone();
-            let at = At {
-                file: &file,
-                text: &text,
-                line: self.units[unit].index.entries[entry as usize].line,
-                comments: Comments::Possible,
-                remark: None,
-                level: 0,
-                called_from: None,
-                macro_depth: 0,
-                used: None,
-            };
-            self.note_reads(&block, &at);
-            for word in &block.words {
-                self.forget_word((word, &block, unit), &at, cause);
-            }
-            for item in &block.items {
-                self.forget_item(item, (&block, unit), &at, cause);
+        } else {
+            self.state.charge(region.targets.len());
+            for target in &region.targets {
+                self.lose(target, cause);
             }
         }
-    }
-
-    /// Notes the values of the machine that a block would read.
-    fn note_reads(&mut self, block: &Block, at: &At<'_>) {
-        if self.options.notes == Notes::None {
-            return;
-        }
-        let items = (0..block.nodes.len()).filter_map(|place| u32::try_from(place).ok());
-        for start in items {
-            if matches!(
-                block.nodes[start as usize],
-                Node::Variable { subscripts: 0 }
-            ) {
-                let end = start + 1;
-                let read = Operand::Expression(Expression { start, end });
-                let _ = self.value(read, block, at);
-            }
-        }
-    }
-
-    fn forget_item(
-        &mut self,
-        item: &Item,
-        (block, unit): (&Block, usize),
-        at: &At<'_>,
-        cause: &Arc<str>,
-    ) {
-        match item {
-            Item::Comp(command) => {
-                if let Ok(axis) = self.state.compensation.resolve(&command.axis) {
-                    self.see(axis);
-                    let kinds = command.selection.kinds();
-                    self.state
-                        .compensation
-                        .forget(axis, kinds, &mut self.work.changes);
-                }
-            }
-            Item::Assign(assignment) => {
-                self.forget_target(assignment.target.place, block, at, cause);
-            }
-            Item::Flow(Flow::For { counter, .. }, _) => {
-                self.forget_target(counter.place, block, at, cause);
-            }
-            Item::Flow(Flow::Switch(Some(target), _), _) => {
-                self.forget_target(target.place, block, at, cause);
-            }
-            Item::Word(word) => self.forget_word((word, block, unit), at, cause),
-            Item::Call(call) => match call.name {
-                CallName::Literal(span) => {
-                    self.forget_call(call, (span.of(at.text), unit), cause);
-                }
-                CallName::Quoted(span) => {
-                    self.forget_call(
-                        call,
-                        (super::expression::unquoted(span.of(at.text)), unit),
-                        cause,
-                    );
-                }
-                CallName::Variable(_) => self.forget_all(),
-            },
-            Item::GCall(call) => {
-                self.forget_configured(&format!("G{}", call.number), unit, cause);
-            }
-            Item::Hash(hash) => self.forget_hash(hash, at, cause),
-            Item::MacroUse(span) => self.forget_macro((*span, unit), at, cause),
-            Item::MacroDefinition(..)
-            | Item::BadCommand(_)
-            | Item::Bracket { .. }
-            | Item::BareNumber(..)
-            | Item::Label(_)
-            | Item::Flow(..) => {}
-        }
-    }
-
-    fn forget_call(&mut self, call: &Call, (name, unit): (&str, usize), cause: &Arc<str>) {
-        let name = self.state.memory.macro_code(name).unwrap_or(name);
-        self.pending.push(Scan {
-            call: Wanted::program(call.scope, name.to_owned(), call.span),
+        self.journal.mark(key);
+        let calls = region.calls.iter().map(|call| Scan {
+            call: call.clone(),
             cause: cause.clone(),
             unit,
         });
+        self.pending.extend(calls);
     }
 
-    fn forget_hash(&mut self, hash: &Hash, at: &At<'_>, cause: &Arc<str>) {
-        for declaration in &hash.declarations {
-            let name = declared_name(declaration, at);
+    /// Something of the state may have changed.
+    fn suffer(&mut self, effect: &Effect, cause: &Arc<str>) {
+        let modal = &mut self.state.modal;
+        match effect {
+            Effect::Compensation(axis, kinds) => {
+                if let Ok(axis) = self.state.compensation.resolve(axis) {
+                    self.see(axis);
+                    let changes = &mut self.work.changes;
+                    self.state.compensation.forget(axis, *kinds, changes);
+                }
+            }
+            Effect::G(number) => modal.forget_g(*number),
+            Effect::Feeds => modal.feeds = [None; 3],
+            Effect::Radius => modal.radius = None,
+            Effect::Position(axis) => {
+                modal.forget_position(*axis);
+                self.see(*axis);
+            }
+            Effect::Positions => modal.forget_positions(),
+            Effect::Reference(axis) => {
+                modal.forget_reference(*axis);
+                self.see(*axis);
+            }
+            Effect::Hash(name) => modal.forget_hash(name),
+            Effect::Declaration(name) => {
+                let unknown = Value::Unknown(cause.clone());
+                self.state.memory.declare(name, unknown);
+                self.state.memory.forget_elements(name, cause);
+                self.work.wrote = true;
+            }
+            Effect::All => self.forget_all(),
+        }
+    }
+
+    /// A value may have been written.
+    fn lose(&mut self, target: &Target, cause: &Arc<str>) {
+        let unknown = || Value::Unknown(cause.clone());
+        match target {
+            Target::Parameter(owner, index) => {
+                self.write(Place::Parameter(*owner, *index), unknown());
+            }
+            Target::Variable(name) => self.write(Place::Variable(name.clone()), unknown()),
+            Target::Elements(name) => {
+                self.write(Place::Elements(name.clone(), cause.clone()), unknown());
+            }
+            Target::Parameters => self.write(Place::Parameters(cause.clone()), unknown()),
+        }
+    }
+
+    /// Every kind of every axis becomes unknown, and all positions (R2.52).
+    pub(super) fn forget_all(&mut self) {
+        for position in 0..self.machine.axes.len() {
+            let axis = AxisIndex::new(position);
             self.state
-                .memory
-                .declare(&name, Value::Unknown(cause.clone()));
-            self.state.memory.forget_elements(&name, cause);
+                .compensation
+                .forget(axis, KindSet::ALL, &mut self.work.changes);
         }
-        self.state.modal.forget_hash(&hash.name);
+        self.state.modal.forget_positions();
     }
 
-    /// The code of a macro is scanned as a block of its own.
-    fn forget_macro(&mut self, (span, unit): (Span, usize), at: &At<'_>, cause: &Arc<str>) {
-        let name = super::expression::unquoted(span.of(at.text));
-        let Some(code) = self.state.memory.macro_code(name).map(str::to_owned) else {
-            return;
-        };
-        if at.macro_depth >= self.options.limits.macros {
-            return;
-        }
-        let block = crate::syntax::parse_block(&code);
-        let inner = At {
-            text: &code,
-            macro_depth: at.macro_depth + 1,
-            ..*at
-        };
-        // A macro that uses itself several times would be scanned without end.
-        let uses = |item: &&Item| !matches!(item, Item::MacroUse(inner) if super::expression::unquoted(inner.of(&code)) == name);
-        for word in &block.words {
-            self.forget_word((word, &block, unit), &inner, cause);
-        }
-        for item in block.items.iter().filter(uses) {
-            self.forget_item(item, (&block, unit), &inner, cause);
-        }
-    }
-
-    fn forget_target(&mut self, place: Expression, block: &Block, at: &At<'_>, cause: &Arc<str>) {
-        if let Ok(place) = self.target_place(place, block, at) {
-            match place {
-                // The region writes it nowhere that is known.
-                Place::Nowhere => {}
-                place => self.write(place, Value::Unknown(cause.clone())),
+    /// What called programs of a region could change becomes unknown too (R2.51).
+    pub(super) fn forget_called(&mut self, finder: &mut dyn Finder) {
+        let mut pending = std::mem::take(&mut self.pending);
+        let mut seen = HashSet::new();
+        while let Some(Scan { call, cause, unit }) = pending.pop() {
+            if self.is_worn_out() {
+                return;
             }
-        }
-    }
-
-    fn forget_word(
-        &mut self,
-        (word, block, unit): (&Word, &Block, usize),
-        at: &At<'_>,
-        cause: &Arc<str>,
-    ) {
-        let number = match word.value {
-            Some(Operand::Number(number)) => super::value::rounded(number),
-            _ => None,
-        };
-        match word.address {
-            Address::Letter(b'G') => {
-                self.state.modal.forget_g(number);
-                let name = number.map(|number| format!("G{number}"));
-                self.forget_configured(&name.unwrap_or_default(), unit, cause);
+            let caller = self.units.get(unit).map(|unit| unit.index.source.name());
+            let caller = caller.cloned().unwrap_or_default();
+            let Ok(Some(found)) = self.find(&call, (unit, &caller), finder) else {
+                // What it would have done nobody knows.
+                self.forget_all();
+                continue;
+            };
+            if !seen.insert((found.unit, found.section)) {
+                continue;
             }
-            Address::Letter(b'F') => self.state.modal.feeds = [None; 3],
-            Address::Letter(b'R') => self.state.modal.radius = None,
-            Address::Letter(letter @ (b'M' | b'T')) => {
-                let letter = char::from(letter);
-                let number = number.map(|number| number.to_string()).unwrap_or_default();
-                self.forget_configured(&format!("{letter}{number}"), unit, cause);
-            }
-            Address::Letter(letter @ b'A'..=b'Z') => {
-                if let Some(axis) = self.letters[usize::from(letter - b'A')] {
-                    self.forget_axis(axis, block);
-                }
-            }
-            Address::Main(letter) => match self.main_axis(letter) {
-                Some(axis) => self.forget_axis(axis, block),
-                None => self.state.modal.forget_positions(),
-            },
-            Address::Name(name) => {
-                if let Some(&axis) = self.names.get(name.of(at.text)) {
-                    self.forget_axis(axis, block);
-                }
-            }
-            _ => {}
-        }
-    }
-
-    fn forget_axis(&mut self, axis: AxisIndex, block: &Block) {
-        self.see(axis);
-        let is_reference = |word: &Word| {
-            word.address == Address::Letter(b'G') && word.value == Some(Operand::Number(92.0))
-        };
-        let behind = block.items.iter().filter_map(|item| match item {
-            Item::Word(word) => Some(word),
-            _ => None,
-        });
-        if block.words.iter().chain(behind).any(is_reference) {
-            self.state.modal.forget_reference(axis);
-        } else {
-            self.state.modal.forget_position(axis);
-        }
-    }
-
-    fn forget_configured(&mut self, word: &str, unit: usize, cause: &Arc<str>) {
-        let Some(head) = word.get(..1) else {
-            return;
-        };
-        let words = if head == "G" {
-            [word, word]
-        } else {
-            [word, head]
-        };
-        if let Some(call) = self.configured(words, Span::default()) {
-            self.pending.push(Scan {
-                call,
-                cause: cause.clone(),
-                unit,
-            });
+            let section = &self.units[found.unit].index.sections[found.section];
+            let region = section.start..section.end;
+            self.forget_region(found.unit, region, &cause);
+            pending.append(&mut self.pending);
         }
     }
 }
+
+/// Regions that were looked through.
+pub(super) type Regions = HashMap<RegionKey, Rc<Region>>;

@@ -13,10 +13,15 @@ use crate::lint::Linter;
 use crate::machine::{AxisIndex, Machine};
 use crate::source::{Position, Span};
 use crate::syntax::{Comments, Kind, allow};
-use crate::timeline::{ChangedBy, End, EndNote, Record, Repeat, Row, Sink, StateView};
+use crate::timeline::{ChangedBy, End, EndNote, Record, Row, Sink, StateView};
+
+use super::said::{Said, Verdict};
 
 /// How many blocks the summary of an axis names.
 const MAX_NAMED: usize = 100;
+
+/// How many notes are kept.
+pub(super) const MAX_NOTES: usize = 100_000;
 
 /// Notes by kind, name and place, each once.
 pub(super) type NoteBook = BTreeMap<(NoteKind, String, Arc<str>, Position), Place>;
@@ -35,11 +40,12 @@ impl Tally {
     }
 }
 
+/// How many comments are kept, to say of each whether it was of use. Further ones allow what they
+/// say in their block, and that is all.
+const MAX_ALLOWS: usize = 100_000;
+
 /// A code that a comment allows, and whether that was of use.
 pub(super) struct Allow {
-    code: Code,
-    /// The line of the block that the comment speaks for.
-    line: u32,
     seq: u64,
     place: Place,
     used: bool,
@@ -56,9 +62,11 @@ pub(super) struct Desk<'a> {
     pub(super) program: u32,
     pub(super) file: &'a str,
     pub(super) said: Vec<Diagnostic>,
-    /// Lints by place: how often they came true.
-    pub(super) repeats: HashMap<(Code, Arc<str>, u32, u32), u64>,
-    pub(super) allows: Vec<Allow>,
+    /// What was said so far.
+    pub(super) before: Said,
+    pub(super) allows: HashMap<(Arc<str>, u32, Code), Allow>,
+    /// What the comments of the block allow.
+    pub(super) here: Vec<Code>,
     pub(super) broken: bool,
 }
 
@@ -98,7 +106,9 @@ impl Desk<'_> {
                 Arc::clone(&place.file),
                 place.start(),
             );
-            self.notes.entry(key).or_insert_with(|| place.clone());
+            if self.notes.len() < MAX_NOTES || self.notes.contains_key(&key) {
+                self.notes.entry(key).or_insert_with(|| place.clone());
+            }
         }
         self.said.clear();
         self.said.extend_from_slice(executed.diagnostics);
@@ -136,36 +146,34 @@ impl Desk<'_> {
         }))
     }
 
-    /// Applies the user's severities and `allow` comments, keeps lints once a place, and sorts.
+    /// Applies the user's severities and `allow` comments, keeps messages once a place, and sorts.
     fn filter(&mut self, line: u32) {
-        let (levels, allows, repeats) = (self.levels, &mut self.allows, &mut self.repeats);
+        let (levels, allows, here) = (self.levels, &mut self.allows, &self.here);
+        let (before, tally) = (&mut self.before, &mut *self.tally);
         self.said.retain_mut(|diagnostic| {
             let Some(severity) = levels.severity(diagnostic.code) else {
                 return false;
             };
             diagnostic.severity = severity;
-            if is_allowed(allows, diagnostic, line) {
+            let allowed = here.contains(&diagnostic.code) && !diagnostic.code.is_controller();
+            if is_allowed(allows, diagnostic, line) || allowed {
                 return false;
             }
-            if !is_lint(diagnostic.code) {
-                return true;
+            match before.take(diagnostic, line) {
+                Verdict::Say => true,
+                Verdict::Repeated => false,
+                Verdict::TooMany => {
+                    tally.count(diagnostic);
+                    false
+                }
             }
-            let place = &diagnostic.place;
-            let key = (
-                diagnostic.code,
-                place.file.clone(),
-                place.first_line,
-                place.span.start,
-            );
-            let times = repeats.entry(key).or_default();
-            *times += 1;
-            *times == 1
         });
         self.said
-            .sort_by_key(|diagnostic| (diagnostic.place.span.start, diagnostic.code));
+            .sort_by_key(|diagnostic| (diagnostic.place.start(), diagnostic.code));
     }
 
     fn note_allows(&mut self, executed: &Executed<'_>) {
+        self.here.clear();
         if executed.comments == Comments::Possible && executed.text.contains(allow::MARK) {
             let span = Span::new(0, executed.text.len());
             self.note_allow(executed, (executed.text, executed.line), span);
@@ -178,25 +186,22 @@ impl Desk<'_> {
 
     fn note_allow(&mut self, executed: &Executed<'_>, (text, line): (&str, u32), span: Span) {
         for code in allow::allowed(text) {
-            let known = self.allows.iter().any(|allow| {
-                allow.code == code
-                    && allow.line == executed.line
-                    && allow.place.file == *executed.file
-            });
-            if !known {
-                self.allows.push(Allow {
-                    code,
-                    line: executed.line,
-                    seq: executed.seq,
-                    place: Place {
-                        file: Arc::clone(executed.file),
-                        text: text.into(),
-                        first_line: line,
-                        span,
-                    },
-                    used: false,
-                });
+            self.here.push(code);
+            let key = (Arc::clone(executed.file), executed.line, code);
+            if self.allows.len() >= MAX_ALLOWS || self.allows.contains_key(&key) {
+                continue;
             }
+            let allow = Allow {
+                seq: executed.seq,
+                place: Place {
+                    file: Arc::clone(executed.file),
+                    text: text.into(),
+                    first_line: line,
+                    span,
+                },
+                used: false,
+            };
+            self.allows.insert(key, allow);
         }
     }
 
@@ -243,21 +248,28 @@ impl Desk<'_> {
             None => false,
         });
         notes.append(&mut unused);
+        let mut unsaid = 0;
+        for (code, times) in ended.unsaid {
+            if let Some(severity) = levels.severity(*code) {
+                unsaid += times;
+                *self.tally.counts.entry(severity).or_default() += times;
+            }
+        }
         for note in &notes {
             self.tally.count(&note.diagnostic);
         }
-        let mut repeated: Vec<Repeat> = self
-            .repeats
-            .iter()
-            .filter(|(_, times)| **times > 1)
-            .map(|((code, file, line, _), times)| Repeat {
-                code: *code,
-                file: file.to_string(),
-                line: *line,
-                times: *times,
-            })
-            .collect();
-        repeated.sort_by(|a, b| (&a.file, a.line, a.code).cmp(&(&b.file, b.line, b.code)));
+        notes.retain(|note| self.before.take_last(&note.diagnostic) == Verdict::Say);
+        let mut rest = self.before.rest(unsaid, ended.seq);
+        rest.retain_mut(|note| match levels.severity(note.diagnostic.code) {
+            Some(severity) => {
+                note.diagnostic.severity = severity;
+                self.tally.count(&note.diagnostic);
+                true
+            }
+            None => false,
+        });
+        notes.append(&mut rest);
+        let repeated = self.before.repeats();
         self.sink.record(&Record::End(End {
             program: self.program,
             seq: ended.seq,
@@ -276,12 +288,10 @@ impl Desk<'_> {
 }
 
 /// FC490 for comments that silenced nothing.
-fn unused_allows(allows: &[Allow]) -> Vec<EndNote> {
-    allows
-        .iter()
-        .filter(|allow| !allow.used)
-        .map(|allow| {
-            let code = allow.code;
+fn unused_allows(allows: &HashMap<(Arc<str>, u32, Code), Allow>) -> Vec<EndNote> {
+    let unused = allows.iter().filter(|(_, allow)| !allow.used);
+    let mut notes: Vec<EndNote> = unused
+        .map(|((.., code), allow)| {
             let message = if code.is_controller() {
                 format!("`allow {code}` has no effect: errors of the control cannot be silenced")
             } else {
@@ -293,32 +303,30 @@ fn unused_allows(allows: &[Allow]) -> Vec<EndNote> {
                     .with_help("remove the comment"),
             }
         })
-        .collect()
+        .collect();
+    notes.sort_by(|a, b| {
+        let order = |note: &EndNote| (note.seq, note.diagnostic.place.first_line);
+        let words = || a.diagnostic.message.cmp(&b.diagnostic.message);
+        order(a).cmp(&order(b)).then_with(words)
+    });
+    notes
 }
 
 /// Whether a comment allows a diagnostic about the block that starts on a line.
-fn is_allowed(allows: &mut [Allow], diagnostic: &Diagnostic, line: u32) -> bool {
-    if diagnostic.code.is_controller() {
+fn is_allowed(
+    allows: &mut HashMap<(Arc<str>, u32, Code), Allow>,
+    diagnostic: &Diagnostic,
+    line: u32,
+) -> bool {
+    if allows.is_empty() || diagnostic.code.is_controller() {
         return false;
     }
-    let allow = allows.iter_mut().find(|allow| {
-        allow.code == diagnostic.code
-            && allow.line == line
-            && allow.place.file == diagnostic.place.file
-    });
-    match allow {
+    let key = (Arc::clone(&diagnostic.place.file), line, diagnostic.code);
+    match allows.get_mut(&key) {
         Some(allow) => {
             allow.used = true;
             true
         }
         None => false,
     }
-}
-
-/// FC401 to FC406 are said once a place.
-fn is_lint(code: Code) -> bool {
-    matches!(
-        code,
-        Code::Fc401 | Code::Fc402 | Code::Fc403 | Code::Fc404 | Code::Fc405 | Code::Fc406
-    )
 }

@@ -3,6 +3,7 @@
 //! The state that one program leaves is the state that the next one starts with.
 
 mod desk;
+mod said;
 mod saved;
 
 use std::collections::{BTreeMap, HashMap};
@@ -23,6 +24,7 @@ use crate::source::{LineSource, SourceFile};
 use crate::syntax::Kind;
 use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
 use desk::{Desk, NoteBook, Tally};
+use said::Said;
 use saved::{difference, fingerprint};
 
 /// How a session runs.
@@ -180,7 +182,7 @@ impl Session {
     }
 
     /// What the programs needed from the machine, or what was passed over: names with their places,
-    /// sorted, each once. Empty unless [`SessionOptions::notes`] asks for them.
+    /// sorted, each once, 100 000 of them at most. Empty unless [`SessionOptions::notes`] asks for them.
     pub fn notes(&self, kind: NoteKind) -> impl Iterator<Item = (&str, &Place)> {
         self.notes
             .iter()
@@ -225,8 +227,9 @@ impl Session {
             program: self.programs,
             file,
             said: Vec::new(),
-            repeats: HashMap::new(),
-            allows: Vec::new(),
+            before: Said::default(),
+            allows: HashMap::new(),
+            here: Vec::new(),
             broken: false,
         };
         let mut listen = |event: Event<'_>| desk.event(event);

@@ -390,7 +390,7 @@ pub enum Node {
 }
 
 /// Whose parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Owner {
     /// `P`, shared with subprograms.
     Program,

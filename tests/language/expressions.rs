@@ -287,6 +287,7 @@ fn macros() {
       4 line 4 N20 X:inactive>active
         FC301 4:5-11
         FC402 4:5-11
+        FC402 4:5-11
         FC405 4:5-11
       5 line 5 N30
         FC207 5:5-11
@@ -298,7 +299,6 @@ fn macros() {
         FC207 10:5-10
       11 line 11 -
         FC401 3:5-10
-        FC402 line 4 2 times
       end 11 M30 X:active Y:inactive Z:unconfigured B:ineffective
     ");
     assert_snapshot!(Bench::new().run(&["\"A\" = \"X[COMP OFF FRICT]\"\nM30", "\"A\"\nM30"]), @"

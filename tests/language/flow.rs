@@ -297,7 +297,7 @@ fn budgets_name_the_loop_that_used_them_up() {
         .limits(limits)
         .said("X1\n$WHILE 1\n$IF 1\nX2\n$ENDIF\n$ENDWHILE\nM30");
     assert_snapshot!(said, @"
-    FC910 6:1 more than 5 blocks were executed
+    FC910 6:1 more than 5 blocks were executed; the dry run ends here
       help: look for a loop that does not end, or raise the budget with `--max-blocks`
       2:1: in this loop
     ");

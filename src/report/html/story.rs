@@ -10,6 +10,7 @@ use crate::compensation::Change;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::lists::AxisType;
 use crate::machine::{AcceptedList, AxisIndex, AxisSet, Origin, Parameterisation};
+use crate::source::Position;
 use crate::syntax::{Kind, KindSet};
 use crate::timeline::{AxisSummary, End, EndedBy, Record, Row, Sink, StateView, Summary};
 
@@ -46,7 +47,7 @@ pub struct RunStory {
     pub(super) more_events: u64,
     pub(super) summary: Option<SummaryStory>,
     by_name: HashMap<String, usize>,
-    by_place: HashMap<(Code, Arc<str>, u32, u32, String), usize>,
+    by_place: HashMap<(Code, Arc<str>, Position, String), usize>,
     /// The file of the last block.
     last_file: usize,
     counted_lines: usize,
@@ -292,8 +293,7 @@ impl RunStory {
         let key = (
             diagnostic.code,
             Arc::clone(&place.file),
-            place.first_line,
-            place.span.start,
+            place.start(),
             diagnostic.message.clone(),
         );
         if let Some(&known) = self.by_place.get(&key) {
@@ -329,12 +329,14 @@ impl RunStory {
             self.message(&note.diagnostic, Some((file, line, &place.text)));
         }
         for repeat in end.repeated {
-            let said = self.messages.iter_mut().find(|message| {
-                let place = &message.diagnostic.place;
-                message.diagnostic.code == repeat.code
-                    && *place.file == *repeat.file
-                    && place.start().line == repeat.line
-            });
+            let key = (
+                repeat.code,
+                Arc::from(repeat.file.as_str()),
+                repeat.start,
+                repeat.message.clone(),
+            );
+            let known = self.by_place.get(&key);
+            let said = known.and_then(|&known| self.messages.get_mut(known));
             if let Some(message) = said {
                 message.times = message.times.max(repeat.times);
             }

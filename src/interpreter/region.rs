@@ -1,0 +1,417 @@
+//! What a region of a program could change, found by looking through it without executing it
+//! (R2.51).
+//!
+//! What a region could change depends on its text and on the macros, not on the state: an
+//! assignment whose target has to be computed could go anywhere in its array. So a region is
+//! looked through once, however often a loop comes back to it.
+
+use std::collections::HashSet;
+use std::hash::Hash;
+use std::ops::Range;
+use std::rc::Rc;
+
+use super::at::{At, Shown};
+use super::budget::ITEM;
+use super::call::Wanted;
+use super::event::Notes;
+use super::expression::{unquoted, with_subscripts};
+use super::hash::declared_name;
+use super::program::EntryIndex;
+use super::value::rounded;
+use super::{Group, Interpreter};
+use crate::machine::AxisIndex;
+use crate::source::Span;
+use crate::syntax::ast::{
+    Address, Block, Call, CallName, CallScope, Expression, Flow, Hash as HashCommand, Item, Node,
+    Operand, Owner, Word,
+};
+use crate::syntax::{Comments, KindSet, Stretch};
+
+/// Something that a region could change.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum Effect {
+    /// These kinds on this axis.
+    Compensation(String, KindSet),
+    /// A G function comes into force; `None` for one that is not known.
+    G(Option<i64>),
+    /// The feeds.
+    Feeds,
+    /// The radius of circles.
+    Radius,
+    /// Where an axis stands.
+    Position(AxisIndex),
+    /// Where any axis stands.
+    Positions,
+    /// What G92 set for an axis.
+    Reference(AxisIndex),
+    /// A `#` command.
+    Hash(String),
+    /// A declaration.
+    Declaration(String),
+    /// Everything, through a call of nobody knows what.
+    All,
+}
+
+/// Something that a region could write.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum Target {
+    Parameter(Owner, u32),
+    Variable(String),
+    /// Any element of an array.
+    Elements(String),
+    /// Any P parameter.
+    Parameters,
+}
+
+/// What a region could change.
+#[derive(Debug, Default)]
+pub(super) struct Region {
+    pub(super) effects: Vec<Effect>,
+    pub(super) targets: Vec<Target>,
+    /// The targets, to ask whether something is one.
+    written: HashSet<Target>,
+    pub(super) calls: Vec<Wanted>,
+    /// The macros that it was looked through with.
+    macro_version: u64,
+}
+
+impl Region {
+    /// Whether the region could write what was written.
+    pub(super) fn writes(&self, written: &Target) -> bool {
+        let whole = match written {
+            Target::Parameter(Owner::Program, _) => self.written.contains(&Target::Parameters),
+            Target::Variable(name) => name.split_once('[').is_some_and(|(array, _)| {
+                self.written.contains(&Target::Elements(array.to_owned()))
+            }),
+            _ => false,
+        };
+        whole || self.written.contains(written)
+    }
+}
+
+impl Interpreter {
+    /// What a region could change.
+    pub(super) fn region(&mut self, unit: usize, range: Range<EntryIndex>) -> Rc<Region> {
+        let key = (unit, range.start, range.end);
+        let version = self.state.memory.macro_version();
+        let known = self.regions.get(&key);
+        if let Some(known) = known.filter(|known| known.macro_version == version) {
+            return Rc::clone(known);
+        }
+        let mut gathering = Gathering {
+            run: self,
+            region: Region {
+                macro_version: version,
+                ..Region::default()
+            },
+            effects: HashSet::new(),
+            calls: HashSet::new(),
+            macros: Vec::new(),
+            expanded: HashSet::new(),
+        };
+        gathering.blocks(unit, range);
+        let region = Rc::new(gathering.region);
+        self.regions.insert(key, Rc::clone(&region));
+        region
+    }
+
+    /// Notes the values of the machine that a block would read.
+    fn note_reads(&self, block: &Block, at: &At<'_>) {
+        if self.options.notes == Notes::None {
+            return;
+        }
+        let nodes = block.nodes.iter().enumerate();
+        let read = nodes.filter(|(_, node)| matches!(node, Node::Variable { subscripts: 0 }));
+        for (place, _) in read {
+            let node = Span::new(place, place + 1);
+            let read = Operand::Expression(Expression {
+                start: node.start,
+                end: node.end,
+            });
+            let _ = self.with_evaluator(block, at, |evaluator| {
+                evaluator.value(read, &mut Vec::new())
+            });
+        }
+    }
+}
+
+/// A subscript that is a plain number.
+fn subscript(node: &Node) -> String {
+    let number = match node {
+        Node::Number(number) => rounded(*number),
+        _ => None,
+    };
+    number.unwrap_or(i64::MAX).to_string()
+}
+
+/// A region on its way to be known.
+struct Gathering<'a> {
+    run: &'a Interpreter,
+    region: Region,
+    effects: HashSet<Effect>,
+    calls: HashSet<(bool, String)>,
+    /// Macros of the region whose code was not looked through yet.
+    macros: Vec<(String, Span)>,
+    expanded: HashSet<String>,
+}
+
+impl Gathering<'_> {
+    fn blocks(&mut self, unit: usize, range: Range<EntryIndex>) {
+        let index = &self.run.units[unit].index;
+        let file = index.source.name();
+        let Some(mut reader) = index.reader(range.start) else {
+            return;
+        };
+        let mut block = Block::default();
+        let mut left = range.len();
+        while left > 0 && !self.run.is_worn_out() {
+            let Some(raw) = reader.next(&mut block) else {
+                return;
+            };
+            if raw.stretch != Stretch::Block {
+                continue;
+            }
+            left -= 1;
+            self.run.state.charge(ITEM + raw.text.len());
+            let shown = Shown::default();
+            let at = At {
+                file,
+                text: raw.text,
+                line: raw.line,
+                comments: Comments::Possible,
+                remark: None,
+                level: 0,
+                called_from: None,
+                macro_depth: 0,
+                used: None,
+                shown: &shown,
+            };
+            self.block(&block, &at);
+            self.expand(&at);
+        }
+    }
+
+    fn block(&mut self, block: &Block, at: &At<'_>) {
+        self.run.note_reads(block, at);
+        for word in &block.words {
+            self.word(word, block, at);
+        }
+        for item in &block.items {
+            self.item(item, block, at);
+        }
+    }
+
+    /// Looks through the code of macros, each once however often it is used: macros that use each
+    /// other would be looked through without end.
+    fn expand(&mut self, at: &At<'_>) {
+        while let Some((name, used)) = self.macros.pop() {
+            let Some(code) = self.run.state.memory.macro_code(&name) else {
+                continue;
+            };
+            self.run.state.charge(ITEM + code.len());
+            let block = crate::syntax::parse_block(code);
+            let shown = Shown::default();
+            let inner = At {
+                text: code,
+                used: at.used.or(Some(used)),
+                shown: &shown,
+                ..*at
+            };
+            self.block(&block, &inner);
+        }
+    }
+
+    fn effect(&mut self, effect: Effect) {
+        if !self.effects.contains(&effect) {
+            self.effects.insert(effect.clone());
+            self.region.effects.push(effect);
+        }
+    }
+
+    fn writes(&mut self, target: Target) {
+        if !self.region.written.contains(&target) {
+            self.region.written.insert(target.clone());
+            self.region.targets.push(target);
+        }
+    }
+
+    fn calls(&mut self, wanted: Wanted) {
+        let key = (wanted.scope == CallScope::Local, wanted.name.clone());
+        if self.calls.insert(key) {
+            self.region.calls.push(wanted);
+        }
+    }
+
+    fn item(&mut self, item: &Item, block: &Block, at: &At<'_>) {
+        match item {
+            Item::Comp(command) => {
+                let kinds = command.selection.kinds();
+                self.effect(Effect::Compensation(command.axis.clone(), kinds));
+            }
+            Item::Assign(assignment) => self.target(assignment.target.place, block, at),
+            Item::Flow(Flow::For { counter, .. }, _) => self.target(counter.place, block, at),
+            Item::Flow(Flow::Switch(Some(target), _), _) => self.target(target.place, block, at),
+            Item::Word(word) => self.word(word, block, at),
+            Item::Call(call) => self.call(call, at),
+            Item::GCall(call) => self.configured(&format!("G{}", call.number)),
+            Item::Hash(hash) => self.hash(hash, at),
+            Item::MacroUse(span) => {
+                let name = unquoted(span.of(at.text)).trim();
+                if self.expanded.insert(name.to_owned()) {
+                    self.macros.push((name.to_owned(), at.in_block(*span)));
+                }
+            }
+            Item::MacroDefinition(..)
+            | Item::BadCommand(_)
+            | Item::Bracket { .. }
+            | Item::BareNumber(..)
+            | Item::Label(_)
+            | Item::Flow(..) => {}
+        }
+    }
+
+    fn call(&mut self, call: &Call, at: &At<'_>) {
+        let name = match call.name {
+            CallName::Literal(span) => span.of(at.text),
+            CallName::Quoted(span) => {
+                let name = unquoted(span.of(at.text));
+                self.run.state.memory.macro_code(name).unwrap_or(name)
+            }
+            CallName::Variable(_) => return self.effect(Effect::All),
+        };
+        let span = at.in_block(call.span);
+        self.calls(Wanted::program(call.scope, name.to_owned(), span));
+    }
+
+    fn hash(&mut self, hash: &HashCommand, at: &At<'_>) {
+        for declaration in &hash.declarations {
+            let name = declared_name(declaration, at);
+            self.effect(Effect::Declaration(name));
+        }
+        self.effect(Effect::Hash(hash.name.clone()));
+    }
+
+    /// What an assignment could write. A place that has to be computed may be another one each time.
+    fn target(&mut self, place: Expression, block: &Block, at: &At<'_>) {
+        let Some(root) = place.end.checked_sub(1) else {
+            return;
+        };
+        let inner = place.start as usize..root as usize;
+        let operands = block.nodes.get(inner).unwrap_or_default();
+        let is_plain = operands.iter().all(|node| matches!(node, Node::Number(_)));
+        let root = root as usize;
+        let (Some(node), Some(span)) = (block.nodes.get(root), block.spans.get(root)) else {
+            return;
+        };
+        let name = || {
+            let name = span.of(at.text).split('[').next().unwrap_or_default();
+            let name: String = name.split_whitespace().collect();
+            match name.strip_prefix('v') {
+                Some(rest) => format!("V{rest}"),
+                None => name,
+            }
+        };
+        match node {
+            Node::Parameter { owner, index } => self.writes(Target::Parameter(*owner, *index)),
+            Node::Variable { subscripts: 0 } => self.writes(Target::Variable(name())),
+            Node::Variable { .. } if is_plain => {
+                let values: Vec<String> = operands.iter().map(subscript).collect();
+                let name = with_subscripts(span.of(at.text), &values);
+                self.writes(Target::Variable(name));
+            }
+            Node::Variable { .. } => self.writes(Target::Elements(name())),
+            Node::IndexedParameter { owner, subscripts } => {
+                let index = match operands.first() {
+                    Some(Node::Number(number)) if is_plain || *subscripts > 0 => rounded(*number),
+                    _ => None,
+                };
+                let index = index.and_then(|index| u32::try_from(index).ok());
+                match (index, *subscripts) {
+                    (Some(index), 0) => self.writes(Target::Parameter(*owner, index)),
+                    (Some(index), _) if is_plain => {
+                        let mut element = format!("P{index}");
+                        for node in &operands[1..] {
+                            element.extend(["[", &subscript(node), "]"]);
+                        }
+                        self.writes(Target::Variable(element));
+                    }
+                    (Some(index), _) => self.writes(Target::Elements(format!("P{index}"))),
+                    (None, _) => self.writes(Target::Parameters),
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn word(&mut self, word: &Word, block: &Block, at: &At<'_>) {
+        let number = match word.value {
+            Some(Operand::Number(number)) => rounded(number),
+            _ => None,
+        };
+        match word.address {
+            Address::Letter(b'G') => self.g(number),
+            Address::Letter(b'F') => self.effect(Effect::Feeds),
+            Address::Letter(b'R') => self.effect(Effect::Radius),
+            Address::Letter(letter @ (b'M' | b'T')) => {
+                let number = number.map(|number| number.to_string());
+                let word = format!("{}{}", char::from(letter), number.unwrap_or_default());
+                self.configured(&word);
+            }
+            Address::Letter(letter @ b'A'..=b'Z') => {
+                if let Some(axis) = self.run.letters[usize::from(letter - b'A')] {
+                    self.axis(axis, block);
+                }
+            }
+            // Which axis it is depends on the plane, which the region may change.
+            Address::Main(_) => self.effect(Effect::Positions),
+            Address::Name(name) => {
+                if let Some(&axis) = self.run.names.get(name.of(at.text)) {
+                    self.axis(axis, block);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn g(&mut self, number: Option<i64>) {
+        let plain = number.and_then(|number| u32::try_from(number).ok());
+        let matters =
+            plain.is_none_or(|number| Group::of(number).is_some() || (20..=23).contains(&number));
+        if matters {
+            self.effect(Effect::G(number));
+        }
+        if let Some(number) = number {
+            self.configured(&format!("G{number}"));
+        }
+    }
+
+    fn axis(&mut self, axis: AxisIndex, block: &Block) {
+        let is_reference = |word: &Word| {
+            word.address == Address::Letter(b'G') && word.value == Some(Operand::Number(92.0))
+        };
+        let after = block.items.iter().filter_map(|item| match item {
+            Item::Word(word) => Some(word),
+            _ => None,
+        });
+        let effect = if block.words.iter().chain(after).any(is_reference) {
+            Effect::Reference(axis)
+        } else {
+            Effect::Position(axis)
+        };
+        self.effect(effect);
+    }
+
+    fn configured(&mut self, word: &str) {
+        let Some(head) = word.get(..1) else {
+            return;
+        };
+        let words = if head == "G" {
+            [word, word]
+        } else {
+            [word, head]
+        };
+        if let Some(wanted) = self.run.configured(words, Span::default()) {
+            self.calls(wanted);
+        }
+    }
+}

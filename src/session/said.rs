@@ -1,0 +1,165 @@
+//! What a program said so far: a message in a loop is said once a place, with how often it came
+//! true, and no file is allowed to say without end (R2.85).
+
+use std::collections::HashMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::Arc;
+
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, MAX_MESSAGES, Place};
+use crate::source::Position;
+use crate::timeline::{EndNote, Repeat};
+
+/// Different messages of one code at one place; further ones count with the last.
+const MAX_AT_A_PLACE: usize = 16;
+
+/// Whether a message is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// It is new.
+    Say,
+    /// It was said at this place before.
+    Repeated,
+    /// Its file said too much before; it counts all the same.
+    TooMany,
+}
+
+type Key = (Code, Arc<str>, Position);
+
+/// A message that was said.
+struct Saying {
+    /// A hash of its text.
+    hash: u64,
+    times: u64,
+    /// Its text, from the second time on.
+    message: String,
+    /// The line of its block.
+    line: u32,
+}
+
+/// What one file said.
+#[derive(Default)]
+struct PerFile {
+    said: usize,
+    /// How many messages were not said, and where the first of them belongs.
+    more: u64,
+    place: Option<Place>,
+}
+
+/// What a program said.
+#[derive(Default)]
+pub(super) struct Said {
+    places: HashMap<Key, Vec<Saying>>,
+    files: HashMap<Arc<str>, PerFile>,
+}
+
+impl Said {
+    /// Takes a message about the block that starts on a line.
+    pub(super) fn take(&mut self, diagnostic: &Diagnostic, line: u32) -> Verdict {
+        let place = &diagnostic.place;
+        let start = place.start();
+        let mut hasher = DefaultHasher::new();
+        diagnostic.message.hash(&mut hasher);
+        let hash = hasher.finish();
+        let key = (diagnostic.code, place.file.clone(), start);
+        let sayings = self.places.get_mut(&key);
+        if let Some(sayings) = sayings {
+            let full = sayings.len() >= MAX_AT_A_PLACE;
+            let known = sayings.iter().position(|saying| saying.hash == hash);
+            let known = known.or(full.then(|| sayings.len() - 1));
+            if let Some(saying) = known.and_then(|known| sayings.get_mut(known)) {
+                if saying.times == 1 {
+                    saying.message.clone_from(&diagnostic.message);
+                }
+                saying.times += 1;
+                return Verdict::Repeated;
+            }
+        }
+        if !self.has_room(place) {
+            return Verdict::TooMany;
+        }
+        self.places.entry(key).or_default().push(Saying {
+            hash,
+            times: 1,
+            message: String::new(),
+            line,
+        });
+        Verdict::Say
+    }
+
+    /// Takes a message that is said at the end, where nothing is said twice.
+    pub(super) fn take_last(&mut self, diagnostic: &Diagnostic) -> Verdict {
+        if self.has_room(&diagnostic.place) {
+            Verdict::Say
+        } else {
+            Verdict::TooMany
+        }
+    }
+
+    /// Counts a message against what its file may say.
+    fn has_room(&mut self, place: &Place) -> bool {
+        let file = match self.files.get_mut(&place.file) {
+            Some(file) => file,
+            None => self.files.entry(place.file.clone()).or_default(),
+        };
+        if file.said < MAX_MESSAGES {
+            file.said += 1;
+            return true;
+        }
+        file.more += 1;
+        if file.place.is_none() {
+            file.place = Some(place.clone());
+        }
+        false
+    }
+
+    /// What came true more often than it was said, in the order of the places.
+    pub(super) fn repeats(&self) -> Vec<Repeat> {
+        let mut repeated = Vec::new();
+        for ((code, file, start), sayings) in &self.places {
+            for saying in sayings.iter().filter(|saying| saying.times > 1) {
+                repeated.push(Repeat {
+                    code: *code,
+                    file: file.to_string(),
+                    line: saying.line,
+                    times: saying.times,
+                    start: *start,
+                    message: saying.message.clone(),
+                });
+            }
+        }
+        repeated.sort_by(|a, b| {
+            let order = (&a.file, a.line, a.code).cmp(&(&b.file, b.line, b.code));
+            let places = (a.start.line, a.start.column).cmp(&(b.start.line, b.start.column));
+            order.then(places).then_with(|| a.message.cmp(&b.message))
+        });
+        repeated
+    }
+
+    /// FC905 for each file that had more to say; `unsaid` messages about the program's own file
+    /// were counted before they came here.
+    pub(super) fn rest(&mut self, unsaid: u64, seq: u64) -> Vec<EndNote> {
+        let mut full: Vec<(&Arc<str>, &mut PerFile)> = self
+            .files
+            .iter_mut()
+            .filter(|(_, file)| file.place.is_some())
+            .collect();
+        full.sort_by_key(|(name, _)| Arc::clone(name));
+        if let Some((_, first)) = full.first_mut() {
+            first.more = first.more.saturating_add(unsaid);
+        }
+        let notes = full.into_iter().filter_map(|(_, file)| {
+            let more = file.more;
+            let messages = if more == 1 { "message" } else { "messages" };
+            let message = format!(
+                "{MAX_MESSAGES} messages about this file are shown; {more} more {messages}, from here on, are only counted"
+            );
+            Some(EndNote {
+                seq,
+                diagnostic: Diagnostic::new(Code::Fc905, file.place.clone()?, message)
+                    .with_help("put right what is shown, and run again"),
+            })
+        });
+        notes.collect()
+    }
+}

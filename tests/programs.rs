@@ -14,13 +14,14 @@ use frictcomp::codes::Code;
 /// The bound on executed blocks for all programs, so that a loop that does not end is seen.
 const MAX_BLOCKS: &str = "5000";
 
-/// Programs that are about the bound have one of their own.
-const OWN_BOUNDS: [(&str, &str); 1] = [("FC910-endless-loop.nc", "100")];
-
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 5] = [
+const ELSEWHERE: [(&str, &str); 6] = [
     ("FC903", "said by `current`; tests/spec_motion.rs has it"),
     ("FC904", "said by `current`; tests/spec_motion.rs has it"),
+    (
+        "FC905",
+        "needs 10 000 messages; tests/language/budgets.rs has them",
+    ),
     (
         "FC918",
         "needs a million values; tests/language/budgets.rs has it",
@@ -50,11 +51,6 @@ fn frictcomp(arguments: &[&str]) -> Output {
 fn shown(path: &Path) -> String {
     let below = path.strip_prefix(root()).expect("below the root");
     below.to_string_lossy().replace('\\', "/")
-}
-
-fn bound(name: &str) -> &'static str {
-    let found = OWN_BOUNDS.iter().find(|(program, _)| *program == name);
-    found.map_or(MAX_BLOCKS, |(_, bound)| bound)
 }
 
 fn name(path: &Path) -> String {
@@ -121,7 +117,7 @@ fn codes(arguments: &[&str]) -> BTreeMap<String, String> {
 fn program_codes(path: &Path) -> BTreeMap<String, String> {
     let path_text = shown(path);
     let mut arguments = vec!["run", "--keep-going", "--format", "ndjson"];
-    arguments.extend(["--max-blocks", bound(&name(path))]);
+    arguments.extend(["--max-blocks", MAX_BLOCKS]);
     let before = path.with_file_name("before.nc");
     let before_text = shown(&before);
     if before.is_file() && before != path {
@@ -141,7 +137,7 @@ fn timelines_are_as_reviewed() {
         insta::glob!("../programs", "**/*.nc", |path| {
             let program = shown(path);
             let mut arguments = vec!["run"];
-            arguments.extend(["--max-blocks", bound(&name(path))]);
+            arguments.extend(["--max-blocks", MAX_BLOCKS]);
             arguments.push(&program);
             insta::assert_snapshot!("timeline", transcript(&frictcomp(&arguments)));
         });

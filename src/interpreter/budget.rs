@@ -109,6 +109,7 @@ impl Interpreter {
         let wrote = std::mem::take(&mut self.work.wrote);
         if self.state.level.get() > self.options.limits.work && self.is_worn_out() {
             self.forget_all();
+            self.state.memory.forget_shared(&"--max-work".into());
             return Some(self.too_much_work(at));
         }
         let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);
@@ -151,7 +152,11 @@ impl Interpreter {
         match index.innermost_loop(entry) {
             Some(opener) => {
                 let place = index.block_place(opener);
-                diagnostic.with_label(place, "in this loop")
+                let passes = match self.passes(unit, opener) {
+                    Some(passes) => format!("in this loop, which came round {passes} times"),
+                    None => "in this loop".to_owned(),
+                };
+                diagnostic.with_label(place, passes)
             }
             None => diagnostic,
         }

@@ -58,6 +58,7 @@ impl Interpreter {
             state: &self.state,
             scope: Scope {
                 memory: &self.state.memory,
+                reads: self.state.watching.then_some(&self.state.reads),
                 own,
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
@@ -142,7 +143,15 @@ impl Interpreter {
         block: &Block,
         at: &At<'_>,
     ) -> Result<(), Box<Fault>> {
-        let value = self.value(assignment.value, block, at)?;
+        let watching = self.state.watching;
+        if watching {
+            // What only counts is not read (R2.84).
+            let place = self.target_place(assignment.target.place, block, at)?;
+            self.state.watching = !Self::counts(assignment, &place, (block, at.text));
+        }
+        let value = self.value(assignment.value, block, at);
+        self.state.watching = watching;
+        let value = value?;
         let place = self.target_place(assignment.target.place, block, at)?;
         self.write(place, value);
         Ok(())

@@ -3,14 +3,16 @@
 //! The nodes of an expression stand in postfix order, so a stack is all it takes: no recursion,
 //! whatever a program writes.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::State;
 use super::budget::ITEM;
+use super::endless::Reads;
 use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
+use super::region::Target;
 use super::value::{Value, rounded};
 use crate::codes::Code;
 use crate::source::Span;
@@ -24,6 +26,8 @@ pub(super) const MAX_EXPANSIONS: u32 = 4096;
 #[derive(Clone, Copy)]
 pub(super) struct Scope<'a> {
     pub(super) memory: &'a Memory,
+    /// Where what is read is noted, while that matters (R2.84).
+    pub(super) reads: Option<&'a RefCell<Reads>>,
     /// Own parameters of the call; `None` in the main program.
     pub(super) own: Option<&'a BTreeMap<u32, Value>>,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
@@ -178,6 +182,9 @@ impl Evaluator<'_> {
     }
 
     fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
+        if let Some(reads) = self.scope.reads {
+            reads.borrow_mut().note(Target::Parameter(owner, index));
+        }
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
             Owner::Call => {
@@ -196,11 +203,11 @@ impl Evaluator<'_> {
     fn keyed_parameter(&self, key: &ParameterKey, span: Span) -> Slot {
         match key {
             ParameterKey::Plain(owner, index) => self.parameter(*owner, *index, span),
-            ParameterKey::Element(name) => self
-                .scope
-                .memory
-                .variable(name)
-                .ok_or_else(|| never_written(span, self.text)),
+            ParameterKey::Element(name) => {
+                self.note_read(name);
+                let known = self.scope.memory.variable(name);
+                known.ok_or_else(|| never_written(span, self.text))
+            }
             ParameterKey::Unknown(_, cause) => Ok(cause.clone()),
         }
     }
@@ -305,7 +312,14 @@ impl Evaluator<'_> {
         }
     }
 
+    fn note_read(&self, name: &str) {
+        if let Some(reads) = self.scope.reads {
+            reads.borrow_mut().note(Target::Variable(name.to_owned()));
+        }
+    }
+
     fn variable(&self, name: &str, span: Span) -> Slot {
+        self.note_read(name);
         if let Some(value) = self.scope.memory.variable(name) {
             return Ok(value);
         }

@@ -8,6 +8,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::expression::Place as Target;
+use super::functions::finite;
 use super::program::{EntryIndex, LabelName};
 use super::value::rounded;
 use super::{
@@ -88,6 +89,13 @@ impl Interpreter {
             // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
             Step::Begin => {}
             Step::Jump(entry) => {
+                let next = self.state.frames.last().map_or(0, |frame| frame.next);
+                if entry < next
+                    && let Some(endless) = self.come_round(entry, next - 1)
+                {
+                    self.work.over = Some(endless);
+                    return ControlFlow::Break(EndedBy::Budget);
+                }
                 if let Some(frame) = self.state.frames.last_mut() {
                     frame.next = entry;
                 }
@@ -436,7 +444,7 @@ impl Interpreter {
         let value = self.value(operand, block, &head).map_err(shown)?;
         let width = self.value(step, block, &head).map_err(shown)?;
         let sum = match (value.number(), width.number()) {
-            (Some(value), Some(width)) => Value::Number(value + width),
+            (Some(value), Some(width)) => finite(value + width, span)?,
             _ => match (value, width) {
                 (unknown @ Value::Unknown(_), _) | (_, unknown) => unknown,
             },

@@ -82,7 +82,8 @@ fn arithmetic(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Sl
     finite(value, span)
 }
 
-fn finite(value: f64, span: Span) -> Slot {
+/// FC312 for a result that is no number: nothing could be computed with it, and no state be saved.
+pub(super) fn finite(value: f64, span: Span) -> Slot {
     if value.is_finite() {
         Ok(Value::Number(value))
     } else {

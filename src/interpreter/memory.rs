@@ -5,8 +5,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::region::Target;
 use super::value::Value;
 use crate::machine::Parameters;
+use crate::syntax::ast::Owner;
 
 /// Parameters up to this number have a place in a vector of their own.
 const DIRECT: u32 = 1024;
@@ -212,6 +214,37 @@ impl Names {
         }
     }
 
+    fn differing(&self, other: &Self, differing: &mut Vec<Target>) -> Option<()> {
+        if self.names.len() != other.names.len() {
+            return None;
+        }
+        for (name, mine) in &self.names {
+            let theirs = other.names.get(name)?;
+            let same = mine.array == theirs.array
+                && mine.lost == theirs.lost
+                && mine.elements.len() == theirs.elements.len();
+            if !same {
+                return None;
+            }
+            match (&mine.scalar, &theirs.scalar) {
+                (Some(mine), Some(theirs)) => {
+                    let target = || Target::Variable(name.clone());
+                    compare((mine, theirs), target, differing)?;
+                }
+                (None, None) => {}
+                _ => return None,
+            }
+            for ((key, mine), (at, theirs)) in mine.elements.iter().zip(&theirs.elements) {
+                if key != at {
+                    return None;
+                }
+                let target = || Target::Variable(format!("{name}{key}"));
+                compare((mine, theirs), target, differing)?;
+            }
+        }
+        Some(())
+    }
+
     fn weigh(&self) -> usize {
         let weight_of = |(name, variable): (&String, &Variable)| {
             let scalar = variable.scalar.as_ref();
@@ -221,6 +254,25 @@ impl Names {
             own + variable.elements_weight()
         };
         self.names.iter().map(weight_of).sum()
+    }
+}
+
+/// Different numbers beyond which a comparison is given up.
+const MAX_DIFFERING: usize = 16;
+
+/// Compares two values under one name; `None` where they differ in more than a number.
+fn compare(
+    values: (&Value, &Value),
+    target: impl Fn() -> Target,
+    differing: &mut Vec<Target>,
+) -> Option<()> {
+    match values {
+        (mine, theirs) if mine == theirs => Some(()),
+        (Value::Number(_), Value::Number(_)) if differing.len() < MAX_DIFFERING => {
+            differing.push(target());
+            Some(())
+        }
+        _ => None,
     }
 }
 
@@ -380,6 +432,18 @@ impl Memory {
         }
     }
 
+    /// No `V.S.` variable is known any more.
+    pub(super) fn forget_shared(&mut self, cause: &Arc<str>) {
+        let shared = self.variables.names.iter_mut();
+        for (_, variable) in shared.filter(|(name, _)| name.starts_with("V.S.")) {
+            let values = variable.elements.values_mut().chain(&mut variable.scalar);
+            for value in values {
+                *value = Value::Unknown(cause.clone());
+            }
+        }
+        self.variables.weight = Weight(self.variables.weigh());
+    }
+
     /// Some P parameter was written and nobody knows which: none is known any more.
     pub(super) fn forget_parameters(&mut self, cause: &Arc<str>) {
         self.direct.clear();
@@ -394,6 +458,41 @@ impl Memory {
         if let Some(place) = self.direct.get_mut(index as usize) {
             *place = None;
         }
+    }
+
+    /// The names whose numbers differ in another memory; `None` where anything else does, or more
+    /// than a few.
+    pub(super) fn differing_numbers(&self, other: &Self) -> Option<Vec<Target>> {
+        let same = self.lost == other.lost
+            && self.direct.len() == other.direct.len()
+            && self.parameters.len() == other.parameters.len()
+            && self.locals.len() == other.locals.len()
+            && self.macro_version == other.macro_version;
+        if !same {
+            return None;
+        }
+        let mut differing = Vec::new();
+        let parameter = |index| Target::Parameter(Owner::Program, index);
+        for (index, pair) in (0..).zip(self.direct.iter().zip(&other.direct)) {
+            match pair {
+                (Some(mine), Some(theirs)) => {
+                    compare((mine, theirs), || parameter(index), &mut differing)?;
+                }
+                (None, None) => {}
+                _ => return None,
+            }
+        }
+        for ((index, mine), (at, theirs)) in self.parameters.iter().zip(&other.parameters) {
+            if index != at {
+                return None;
+            }
+            compare((mine, theirs), || parameter(*index), &mut differing)?;
+        }
+        let levels = self.locals.iter().zip(&other.locals);
+        for (mine, theirs) in levels.chain([(&self.variables, &other.variables)]) {
+            mine.differing(theirs, &mut differing)?;
+        }
+        Some(differing)
     }
 
     pub(super) fn enter_call(&mut self, depth: usize) {

@@ -15,6 +15,7 @@ mod budget;
 mod call;
 mod comp;
 mod coupling;
+mod endless;
 mod evaluate;
 mod event;
 mod expression;
@@ -63,6 +64,7 @@ use crate::syntax::{Comments, FastPath, Fault, Remark};
 use at::{At, Shown};
 use call::Found;
 use coupling::Couplings;
+use endless::{Loop, Reads};
 use memory::Memory;
 use program::{EntryIndex, Index};
 use unknown::{Journal, Regions, Scan};
@@ -156,6 +158,11 @@ struct State {
     couplings: Couplings,
     /// The cycle that is repeated after blocks.
     repeated: Option<Repeated>,
+    /// The loops that came round, the outermost first.
+    loops: Vec<Loop>,
+    /// Whether a loop is compared with an earlier pass, so that what is read matters.
+    watching: bool,
+    reads: RefCell<Reads>,
     /// The called files of which it was said what is wrong with them.
     refused: BTreeSet<usize>,
     /// Set while the configured end program runs.
@@ -355,6 +362,9 @@ impl Interpreter {
             occurred,
             couplings: Couplings::default(),
             repeated: None,
+            loops: Vec::new(),
+            watching: false,
+            reads: RefCell::default(),
             refused: BTreeSet::new(),
             ending: None,
             last: None,
@@ -551,6 +561,8 @@ impl Interpreter {
         self.state.frames.clear();
         self.state.seq = 0;
         self.state.repeated = None;
+        self.state.loops.clear();
+        self.state.watching = false;
         self.state.refused.clear();
         self.state.ending = None;
         self.state.last = None;

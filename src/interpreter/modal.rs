@@ -173,10 +173,11 @@ pub(super) struct Saved {
     unknown: GroupSet,
 }
 
-/// A coordinate that counts from a place; not known where any part is not.
+/// A coordinate that counts from a place; not known where any part is not, nor where the sum
+/// leaves the range of numbers.
 #[inline]
 fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
-    Some(from? + value? * scale?)
+    Some(from? + value? * scale?).filter(|sum| sum.is_finite())
 }
 
 /// G functions that take positions away from the machine's.

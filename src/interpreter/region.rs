@@ -6,9 +6,12 @@
 //! looked through once, however often a loop comes back to it.
 
 use std::collections::HashSet;
+use std::fmt;
 use std::hash::Hash;
 use std::ops::Range;
 use std::rc::Rc;
+
+use serde::{Deserialize, Serialize};
 
 use super::at::{At, Shown};
 use super::budget::ITEM;
@@ -53,7 +56,7 @@ pub(super) enum Effect {
 }
 
 /// Something that a region could write.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub(super) enum Target {
     Parameter(Owner, u32),
     Variable(String),
@@ -61,6 +64,17 @@ pub(super) enum Target {
     Elements(String),
     /// Any P parameter.
     Parameters,
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Parameter(Owner::Program, index) => write!(f, "P{index}"),
+            Self::Parameter(Owner::Call, index) => write!(f, "@P{index}"),
+            Self::Variable(name) | Self::Elements(name) => f.write_str(name),
+            Self::Parameters => f.write_str("P"),
+        }
+    }
 }
 
 /// What a region could change.

@@ -390,7 +390,7 @@ pub enum Node {
 }
 
 /// Whose parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Owner {
     /// `P`, shared with subprograms.
     Program,

@@ -1,3 +1,4 @@
+mod budgets;
 mod expressions;
 mod flow;
 mod programs;

@@ -1,0 +1,330 @@
+//! 2.8 and 2.9: what a program can make the run do is bounded, and loops without an end are known.
+
+use std::ops::ControlFlow;
+
+use frictcomp::compensation::Compensation;
+use frictcomp::interpreter::{EndedBy, Event, Interpreter, NoFiles, Options, StopPolicy};
+use frictcomp::machine::Machine;
+use frictcomp::source::SourceFile;
+
+use crate::support::MACHINE;
+
+/// What a run came to.
+#[derive(Debug)]
+struct Ran {
+    by: EndedBy,
+    blocks: u64,
+    work: u64,
+    said: Vec<(String, String)>,
+    states: Vec<(String, String)>,
+}
+
+impl Ran {
+    fn codes(&self) -> Vec<&str> {
+        self.said.iter().map(|(code, _)| code.as_str()).collect()
+    }
+
+    fn message(&self, code: &str) -> &str {
+        let found = self.said.iter().find(|(said, _)| said == code);
+        found.map_or("", |(_, message)| message)
+    }
+}
+
+fn ran(text: &str, options: Options) -> Ran {
+    let machine = Machine::from_toml(MACHINE).expect("the test's machine");
+    let comp = Compensation::at_startup(&machine);
+    let mut run = Interpreter::new(machine, comp, options);
+    let mut ended = None;
+    let mut said = Vec::new();
+    run.program(
+        SourceFile::new("a.nc", text),
+        &mut NoFiles,
+        &mut |event: Event<'_>| {
+            let diagnostics = match event {
+                Event::Executed(block) => block.diagnostics,
+                Event::Ended(end) => {
+                    ended = Some(end.by);
+                    end.diagnostics
+                }
+                Event::Started { .. } => &[],
+            };
+            let new = diagnostics
+                .iter()
+                .map(|said| (said.code.text().to_owned(), said.message.clone()));
+            said.extend(new);
+            ControlFlow::Continue(())
+        },
+    );
+    let state = run.compensation().clone();
+    let axes = run.machine().axes.iter().enumerate();
+    let states = axes.map(|(at, axis)| {
+        let at = frictcomp::machine::AxisIndex::new(at);
+        let state = state.state(at, frictcomp::syntax::Kind::Frict);
+        (axis.name.clone(), state.word().to_owned())
+    });
+    Ran {
+        by: ended.expect("the program ends"),
+        blocks: run.blocks(),
+        work: run.work(),
+        states: states.collect(),
+        said,
+    }
+}
+
+fn run(text: &str) -> Ran {
+    ran(text, Options::default())
+}
+
+fn going_on() -> Options {
+    Options {
+        stop: StopPolicy::KeepGoing,
+        ..Options::default()
+    }
+}
+
+#[test]
+fn a_loop_whose_state_repeats_never_ends() {
+    // R2.84
+    for endless in [
+        "$WHILE 1\nX1\nX2\n$ENDWHILE\nM30",
+        "$WHILE TRUE\n$ENDWHILE\nM30",
+        "$REPEAT\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\n$UNTIL 0\nM30",
+        "$DO\nX1\n$ENDDO 1\nM30",
+        "$FOR P1=1,10,0\nX1\n$ENDFOR\nM30",
+        "N10: X1\n$GOTO N10\nM30",
+        "%L A\nX1\nM17\n%MAIN\n$WHILE 1\nLL A\n$ENDWHILE\nM30",
+        // A period of two passes.
+        "P1=0\n$WHILE 1\nP1 = 1-P1\n$IF P1\nX[COMP OFF FRICT]\n$ELSE\nX[COMP ON FRICT]\n$ENDIF\n$ENDWHILE\nM30",
+        // Loops in it that end, and one that does not.
+        "$WHILE 1\n$FOR P1=1,100,1\nX=P1\n$ENDFOR\n$ENDWHILE\nM30",
+        "$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX1\n$ENDWHILE\nM30",
+    ] {
+        let ran = run(endless);
+        assert_eq!(ran.by, EndedBy::Budget, "{endless}");
+        assert!(ran.blocks < 15_000, "{} blocks: {endless}", ran.blocks);
+        let said = ran.message("FC910");
+        assert!(
+            said.contains("never ends") && said.contains("nothing changes any more"),
+            "{ran:?}"
+        );
+    }
+}
+
+#[test]
+fn what_only_counts_does_not_keep_a_loop_from_repeating() {
+    // R2.84
+    let ran_through =
+        run("P1=0\nV.P.N=5\n$WHILE 1\nP1 = P1 + 1\nV.P.N = V.P.N - 2\nX1\n$ENDWHILE\nM30");
+    let said = ran_through.message("FC910");
+    assert!(
+        said.contains("but `P1`, `V.P.N`, which nothing reads"),
+        "{said}"
+    );
+    assert!(ran_through.blocks < 500);
+}
+
+#[test]
+fn a_loop_that_may_end_is_run_to_its_end() {
+    // R2.84: the counter is read, here and there, late or through something else.
+    for ends in [
+        "P1=0\n$WHILE 1\nP1=P1+1\n$IF P1>5000 $GOTO N99\n$ENDWHILE\nN99: M30",
+        "P1=0\n$WHILE P1<5000\nP1=P1+1\n$ENDWHILE\nM30",
+        "P1=0\nP2=0\n$WHILE 1\nP1=P1+1\nP2=P1*2\n$IF P2>9000\n$BREAK\n$ENDIF\n$ENDWHILE\nM30",
+        // Read only where another parameter says so, which counts for long.
+        "P1=0\nP3=0\n$WHILE 1\nP1=P1+1\n$IF P3>50\n$IF P1>4000 $GOTO N99\n$ENDIF\nP3=P3+0.01\n$ENDWHILE\nN99: M30",
+        "$FOR P1=1,5000,1\nX1\n$ENDFOR\nM30",
+        "G91\n$WHILE 1\nX1\n$IF V.A.ABS.X > 3000 $GOTO N99\n$ENDWHILE\nN99: M30",
+        "V.P.A=\"\"\n$WHILE LEN[V.P.A]<3000\nV.P.A=V.P.A+\"x\"\n$ENDWHILE\nM30",
+        "P1=1\n$WHILE 1\nP1=P1*1.01\n$IF EXIST[V.P.B]\n$BREAK\n$ENDIF\n$IF P1>1000\nV.P.B=1\n$ENDIF\n$ENDWHILE\nM30",
+        "\"N\"=\"P1\"\nP1=0\n$WHILE \"N\"<5000\nP1=P1+1\n$ENDWHILE\nM30",
+        "P1=0\nP2=1000\n$WHILE 1\nP1=P1+1\nPP2=1\nP2=P2+1\n$IF P2>4000\n$BREAK\n$ENDIF\n$ENDWHILE\nM30",
+    ] {
+        let ran = run(&format!("G1 F100 X0\n{ends}"));
+        assert!(!ran.codes().contains(&"FC910"), "{ends}: {ran:?}");
+        assert_eq!(ran.by, EndedBy::M30, "{ends}: {ran:?}");
+    }
+}
+
+#[test]
+fn a_loop_beyond_the_budget_of_blocks_is_named_with_its_passes() {
+    // R2.60, R2.84
+    let mut options = Options::default();
+    options.limits.blocks = 1000;
+    let ran = ran(
+        "P1=1\n$WHILE P1>0\nP1=P1*1.0001+P1\n$ENDWHILE\nM30",
+        options,
+    );
+    assert_eq!((ran.by, ran.blocks), (EndedBy::Budget, 1000));
+    assert!(
+        ran.message("FC910").contains("more than 1000 blocks"),
+        "{ran:?}"
+    );
+}
+
+#[test]
+fn macros_that_use_each_other_are_looked_through_once() {
+    // R2.60
+    let uses = |name: &str| format!("\\\"{name}\\\" ").repeat(4);
+    let text = format!(
+        "\"A\"=\"{}\"\n\"B\"=\"{} X[COMP OFF FRICT]\"\n$IF V.E.X\n\"A\"\n$ENDIF\nM30",
+        uses("B"),
+        uses("A")
+    );
+    let ran = run(&text);
+    assert_eq!(ran.by, EndedBy::M30);
+    assert!(ran.work < 1000, "{ran:?}");
+    assert_eq!(ran.states[0], ("X".to_owned(), "unknown".to_owned()));
+}
+
+#[test]
+fn work_beyond_what_is_written_ends_the_run() {
+    // R2.60
+    let mut options = going_on();
+    options.limits.work = 10_000;
+    let long = "X1 ".repeat(300);
+    let eight = |name: &str| format!("\\\"{name}\\\" ").repeat(8);
+    let text = format!(
+        "V.S.A=1\n\"A\"=\"{long}\"\n\"B\"=\"{}\"\n\"C\"=\"{}\"\n$FOR P1=1,100,1\n\"C\"\n$ENDFOR\nM30",
+        eight("A"),
+        eight("B")
+    );
+    let ran = ran(&text, options);
+    assert_eq!(ran.by, EndedBy::Budget);
+    assert_eq!(
+        ran.codes().iter().filter(|code| **code == "FC919").count(),
+        1
+    );
+    assert!(
+        ran.states
+            .iter()
+            .all(|(_, state)| state == "unknown" || state == "unconfigured"),
+        "{ran:?}"
+    );
+}
+
+#[test]
+fn a_loop_on_purpose_never_comes_near_the_budget_of_work() {
+    // R2.60
+    let mut options = Options::default();
+    options.limits.work = 1000;
+    let text = "P2=0\n$FOR P1=1,20000,1\nP2 = [P2 + P1 * 2 - [P1 + 1] / 3] * 0.5\n$ENDFOR\nM30";
+    let ran = ran(text, options);
+    assert_eq!(ran.by, EndedBy::M30, "{ran:?}");
+    assert!(ran.work > 100_000);
+}
+
+#[test]
+fn texts_have_a_length() {
+    // R2.60
+    let text = "P1=\"ab\"\n$WHILE 1\nP1=P1+P1\n$ENDWHILE\nM30";
+    let stopped = run(text);
+    assert_eq!(stopped.by, EndedBy::Error);
+    assert_eq!(
+        stopped.message("FC312"),
+        "the text has more than 4000 characters"
+    );
+    let went_on = ran(text, going_on());
+    assert_eq!(went_on.by, EndedBy::Budget);
+    assert!(went_on.blocks < 500, "{}", went_on.blocks);
+    for grows in [
+        "INSERT[V.S.A, V.S.A, 1]",
+        "REPLACE[V.S.A, V.S.A, 1, 1]",
+        "V.S.A + V.S.A",
+    ] {
+        let text = format!("V.S.A=\"ab\"\n$FOR P1=1,40,1\nV.S.A={grows}\n$ENDFOR\nM30");
+        let ran = run(&text);
+        assert_eq!(
+            ran.message("FC312"),
+            "the text has more than 4000 characters",
+            "{grows}"
+        );
+    }
+}
+
+#[test]
+fn values_are_counted() {
+    // R2.60
+    let mut options = going_on();
+    options.limits.values = 2000;
+    for grows in [
+        "PP1=1",
+        "V.P.A[P1]=1",
+        "V.S.A[P1]=1",
+        "P7[P1]=1",
+        "V.P.T[P1]=\"a text of some length that counts once more for every 32 bytes\"",
+        "#SET AX LINK [P1, Y=X]",
+    ] {
+        let text = format!("P1=2000\n$WHILE P1>0\n{grows}\nP1=P1+1\n$ENDWHILE\nM30");
+        let ran = ran(&text, options);
+        assert_eq!(ran.by, EndedBy::Budget, "{grows}");
+        assert_eq!(
+            ran.codes().last(),
+            Some(&"FC918"),
+            "{grows}: {:?}",
+            ran.codes()
+        );
+        assert!(ran.blocks < 9000, "{grows}: {}", ran.blocks);
+    }
+    let written_over = "$FOR P1=1,3000,1\nV.P.A[1]=P1\nP2000=P1\nV.S.B=\"x\"\n#VAR\nV.P.C[5]=[1,2]\n#ENDVAR\n#DELETE V.P.C\n$ENDFOR\nM30";
+    let ran = ran(written_over, options);
+    assert_eq!(ran.by, EndedBy::M30, "{:?}", ran.said.last());
+}
+
+#[test]
+fn a_number_that_is_none_is_said_where_it_arises() {
+    // R2.60, R2.37
+    for text in [
+        "$FOR V.S.A=17*10**307,1,10**308\nX1\n$ENDFOR\nM30",
+        "$FOR V.S.A=17*10**307,18*10**307,10**307\nX1\n$ENDFOR\nM30",
+        "P1=10**308\nP1=P1*10\nM30",
+        "P1=10**308+10**308\nM30",
+        "P1=EXP[1000]\nM30",
+    ] {
+        let ran = run(text);
+        assert!(
+            ran.codes().contains(&"FC312") || ran.by == EndedBy::M30,
+            "{text}: {ran:?}"
+        );
+    }
+    let counted = run("$FOR V.S.A=17*10**307,18*10**307,10**307\nX1\n$ENDFOR\nM30");
+    assert_eq!(counted.message("FC312"), "the result is no number");
+}
+
+#[test]
+fn a_region_in_a_loop_is_looked_through_once() {
+    // R2.51, R2.60: what is written in between is forgotten all the same.
+    let body = "P5=1\nV.P.B=2\nX[COMP OFF FRICT]\n".repeat(50);
+    let program = |passes: u32| {
+        format!(
+            "$FOR P1=1,{passes},1\nP5=3\nX[COMP ON FRICT]\n$IF V.E.X\n{body}$ENDIF\n$ENDFOR\nP6=P5\nM30"
+        )
+    };
+    let (once, often) = (run(&program(1)), run(&program(1001)));
+    let a_pass = (often.work - once.work) / 1000;
+    assert!(a_pass < 400, "{a_pass}");
+    assert_eq!(often.states[0], ("X".to_owned(), "unknown".to_owned()));
+    let asks = format!(
+        "{}$IF P5==3 $GOTO N99\nN99: M30",
+        program(3).replace("M30", "")
+    );
+    assert!(
+        run(&asks).codes().contains(&"FC902"),
+        "P5 is unknown after each pass"
+    );
+}
+
+#[test]
+fn a_computed_target_in_a_region_may_be_any() {
+    // R2.51
+    let text =
+        "P3=1\nP4=1\nP2=3\n$WHILE V.E.X\nPP2=5\nP2=P2+1\n$ENDWHILE\n$IF P4==1 $GOTO N9\nN9: M30";
+    assert!(
+        run(text).codes().contains(&"FC902"),
+        "P4 may have been written"
+    );
+    let text = "V.P.A[1]=1\nV.P.A[2]=1\nP2=1\n$WHILE V.E.X\nV.P.A[P2]=5\nP2=P2+1\n$ENDWHILE\n$IF V.P.A[2]==1 $GOTO N9\nN9: M30";
+    assert!(
+        run(text).codes().contains(&"FC902"),
+        "V.P.A[2] may have been written"
+    );
+}

@@ -153,6 +153,7 @@ fn options(stop: StopPolicy) -> SessionOptions {
             calls: 5,
             nesting: 5,
             macros: 4,
+            ..Limits::default()
         },
         ..SessionOptions::default()
     }

@@ -13,8 +13,11 @@ use super::console::Console;
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::fail_on::FailOn;
-use super::failure::Failure;
+use super::failure::{Failure, Failures};
 use super::files::{Input, Naming};
+use super::ledger::Ledger;
+use super::notes::{self, Note};
+use super::outputs::Outputs;
 use super::{walk, workers};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Severity};
@@ -26,15 +29,16 @@ use crate::timeline::{Record, Repeat, Sink};
 /// Prints every diagnostic of every program, each run from the start of the control
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// Programs and folders of programs, `-` for standard input
-    #[arg(required = true, value_name = "PATH")]
+    /// Programs and folders of programs, `-` for standard input, the current folder unless one is
+    /// given
+    #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
     /// List the values that the programs need from the machine, with their places, in place of the
     /// diagnostics
-    #[arg(long, conflicts_with = "opaque")]
+    #[arg(long, conflicts_with_all = ["opaque", "fail_on", "jobs"])]
     unknowns: bool,
     /// List what was accepted and passed over, with its places, in place of the diagnostics
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["fail_on", "jobs"])]
     opaque: bool,
     /// Check so many programs at once, as many as there are processors unless it is given
     #[arg(long, short, value_name = "N")]
@@ -94,83 +98,67 @@ impl From<Format> for ListingFormat {
 
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
-    let inputs = walk::programs(&args.paths)?;
-    if args.unknowns {
-        return list_notes(args, &inputs, console, NoteKind::Unknown);
-    }
-    if args.opaque {
-        return list_notes(args, &inputs, console, NoteKind::Opaque);
-    }
-    let mut machines = Machines::new(&args.machine);
-    let mut listed: Vec<Option<PathBuf>> = Vec::new();
-    let target = console.target(args.listing.output.as_deref())?;
-    let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
-    let mut failures: Vec<Failure> = Vec::new();
-    let jobs = inputs
-        .iter()
-        .map(|input| (input, machines.for_folder(input.folder())));
-    let workers = args.jobs.unwrap_or_else(workers::processors);
-    let workers = workers.min(NonZeroUsize::new(inputs.len()).unwrap_or(NonZeroUsize::MIN));
-    let check = |(input, loaded): (&Input, Result<Arc<LoadedMachine>, Failure>)| {
-        let loaded = loaded?;
-        let found = check_file(input, &loaded, &args.execution)?;
-        Ok((loaded, found))
-    };
-    workers::in_order(jobs, workers, check, |checked: Result<_, Failure>| {
-        let (loaded, found) = match checked {
-            Ok(checked) => checked,
-            Err(failure) => {
-                // One configuration may fail for many programs.
-                if failures.iter().all(|it| it.message != failure.message) {
+    let ledger = Ledger::default();
+    let mut machines = Machines::new(&args.machine, &ledger);
+    let found = walk::programs(&args.paths, |folder| machines.extensions(folder));
+    let mut failures = Failures::from(found.failures);
+    let inputs = found.inputs;
+    inputs.iter().for_each(|input| input.note(&ledger));
+    let mut outputs = Outputs::new(&ledger, console);
+    let target = outputs.result(args.listing.output.as_deref())?;
+    // Every list is known before anything runs.
+    let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
+    let jobs: Vec<Job> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
+    outputs.check()?;
+    if let Some(kind) = args.notes() {
+        notes::list(kind, (args.listing.format, target), |lines| {
+            for (input, loaded) in jobs {
+                if let Err(failure) = args.take_notes(kind, (input, loaded), lines) {
                     failures.push(failure);
                 }
-                return ControlFlow::Continue(());
             }
-        };
-        let mut flow = ControlFlow::Continue(());
-        if !listed.contains(&loaded.origin) {
-            listed.push(loaded.origin.clone());
-            for diagnostic in loaded.errors() {
-                flow = listing.diagnostic(diagnostic);
-            }
-        }
-        listing.file();
-        for diagnostic in &found {
-            flow = listing.diagnostic(diagnostic);
-        }
-        flow
-    });
-    listing.finish().map_err(|error| Failure::output(&error))?;
-    if let Some(last) = failures.pop() {
-        for failure in &failures {
-            console.explain(failure);
-        }
-        return Err(last);
+        })?;
+        outputs.finish()?;
+        return failures.status(console, super::exit::CLEAN);
     }
-    if listing.is_closed() {
+    let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
+    args.check_all(jobs, &mut listing, &mut failures);
+    listing.finish().map_err(|error| Failure::output(&error))?;
+    if listing.is_closed() && failures.is_empty() {
         return Ok(super::exit::CLEAN);
     }
+    outputs.finish()?;
     for remark in machines.loaded().filter_map(LoadedMachine::remark) {
-        Console::talk(&remark);
+        console.remark(&remark);
     }
     if args.listing.format == Format::Text {
-        Console::talk(&total(listing.tally()));
+        console.remark(&total(listing.tally()));
     }
-    Ok(args.listing.fail_on.status(&listing.tally().counts))
+    let status = args.listing.fail_on.status(&listing.tally().counts);
+    failures.status(console, status)
 }
 
-/// Lists names with their places, one a line: `V.E.PART mill.nc:12:5`.
-fn list_notes(
-    args: &CheckArgs,
-    inputs: &[Input],
-    console: Console,
-    kind: NoteKind,
-) -> Result<u8, Failure> {
-    let mut machines = Machines::new(&args.machine);
-    let mut lines = BTreeSet::new();
-    for input in inputs {
-        let loaded = machines.for_folder(input.folder())?;
-        let mut options = args.execution.options(&loaded, StopPolicy::CheckAll);
+/// A program and the machine that it runs on.
+type Job<'a> = (&'a Input, Result<Arc<LoadedMachine>, Failure>);
+
+impl CheckArgs {
+    fn notes(&self) -> Option<NoteKind> {
+        match (self.unknowns, self.opaque) {
+            (true, _) => Some(NoteKind::Unknown),
+            (_, true) => Some(NoteKind::Opaque),
+            _ => None,
+        }
+    }
+
+    /// Runs a program and keeps what there is to note.
+    fn take_notes(
+        &self,
+        kind: NoteKind,
+        (input, loaded): Job<'_>,
+        lines: &mut BTreeSet<Note>,
+    ) -> Result<(), Failure> {
+        let loaded = loaded?;
+        let mut options = self.execution.options(&loaded, StopPolicy::CheckAll);
         options.notes = Notes::Taken;
         let alone = Alone {
             options,
@@ -178,24 +166,51 @@ fn list_notes(
         };
         let session = run_alone(input, &loaded, alone, &mut Found::default())?;
         for (name, place) in session.notes(kind) {
-            lines.insert((name.to_owned(), place.file.to_string(), place.start()));
+            lines.insert(Note {
+                name: name.to_owned(),
+                file: place.file.to_string(),
+                start: place.start(),
+            });
         }
+        Ok(())
     }
-    let mut text = String::new();
-    for (name, file, start) in lines {
-        for part in [&name, " ", &file, ":", &start.to_string(), "\n"] {
-            text.push_str(part);
-        }
-    }
-    let mut writer = console.target(args.listing.output.as_deref())?.writer;
-    match writer
-        .write_all(text.as_bytes())
-        .and_then(|()| writer.flush())
-    {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Failure::output(&error))
-        }
-        _ => Ok(super::exit::CLEAN),
+
+    /// Checks the programs, many at once, and lists what was found in their order.
+    fn check_all(
+        &self,
+        jobs: Vec<Job<'_>>,
+        listing: &mut Listing<Box<dyn Write>>,
+        failures: &mut Failures,
+    ) {
+        let mut listed: Vec<Option<PathBuf>> = Vec::new();
+        let workers = self.jobs.unwrap_or_else(workers::processors);
+        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
+        let check = |(input, loaded): Job<'_>| {
+            let loaded = loaded?;
+            let found = check_file(input, &loaded, &self.execution)?;
+            Ok((loaded, found))
+        };
+        workers::in_order(jobs.into_iter(), workers, check, |checked| {
+            let (loaded, found) = match checked {
+                Ok(checked) => checked,
+                Err(failure) => {
+                    failures.push(failure);
+                    return ControlFlow::Continue(());
+                }
+            };
+            let mut flow = ControlFlow::Continue(());
+            if !listed.contains(&loaded.origin) {
+                listed.push(loaded.origin.clone());
+                for diagnostic in loaded.errors() {
+                    flow = listing.diagnostic(diagnostic);
+                }
+            }
+            listing.file();
+            for diagnostic in &found {
+                flow = listing.diagnostic(diagnostic);
+            }
+            flow
+        });
     }
 }
 

@@ -9,9 +9,10 @@ use super::current::{parse_reading, value_list};
 use super::exit;
 use super::failure::Failure;
 use super::jobs::Jobs;
+use super::ledger::Ledger;
+use super::outputs::Outputs;
 use super::plants::{Model, plant};
 use super::recorded;
-use super::sheet::Sheet;
 use crate::circle::{Circle, CircularTest, Job, Outcome, plant_list};
 use crate::current::Reading;
 use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
@@ -78,9 +79,25 @@ enum Format {
 
 /// Runs the command.
 pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.output.as_deref())?;
+    let svg = args.svg.as_deref().map(|path| outputs.file("--svg", path));
+    let svg = svg.transpose()?;
+    let html = args
+        .html
+        .as_deref()
+        .map(|path| outputs.file("--html", path));
+    let html = html.transpose()?;
     let report = if args.trace.is_empty() {
-        simulated(args)?
+        let (test, origin) = simulation(args, &ledger)?;
+        outputs.check()?;
+        simulated(test, origin)?
     } else {
+        args.trace
+            .iter()
+            .for_each(|path| ledger.reads("trace", path));
+        outputs.check()?;
         CircleReport::recorded(recorded::read(&args.trace, args.radius)?)
     };
     let text = match args.format {
@@ -88,24 +105,23 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         Format::Json => render_json(&report),
         Format::Csv => render_csv(&report),
     };
-    if let Some(path) = &args.svg {
-        console.deliver(Some(path), &circle(&report).render(Frame::Alone))?;
+    if let Some(mut svg) = svg {
+        svg.text(&circle(&report).render(Frame::Alone))?;
     }
-    if let Some(path) = &args.html {
-        let mut sheet = Sheet::create(Some(path), console)?;
-        render_circle(&report, &mut sheet)
-            .and_then(|()| sheet.finish())
-            .map_err(|error| Failure::writing(path, &error))?;
+    if let Some(mut html) = html {
+        render_circle(&report, &mut html).map_err(|error| Failure::output(&error))?;
     }
-    console.deliver(args.output.as_deref(), &text)?;
+    result.text(&text)?;
+    outputs.finish()?;
     Ok(exit::CLEAN)
 }
 
-fn simulated(args: &CircleArgs) -> Result<CircleReport, Failure> {
-    let plant = plant(&args.plant)?;
+/// What is simulated, and where the value lists come from.
+fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListOrigin), Failure> {
+    let plant = plant(&args.plant, ledger)?;
     let (lists, origin) = match &args.value_list {
         Some(path) => {
-            let list = value_list(path)?;
+            let list = value_list(path, ledger)?;
             (
                 [list.clone(), list],
                 ListOrigin::File(path.display().to_string()),
@@ -124,6 +140,10 @@ fn simulated(args: &CircleArgs) -> Result<CircleReport, Failure> {
         lists,
         reading: args.reading,
     };
+    Ok((test, origin))
+}
+
+fn simulated(test: CircularTest, origin: ListOrigin) -> Result<CircleReport, Failure> {
     let laps = Jobs::new("circle").map(&Job::ALL, |&job| test.run(job));
     let laps = laps.into_iter().collect::<Result<Vec<_>, _>>()?;
     let outcome = Outcome::of(laps);

@@ -9,6 +9,7 @@ use super::console::Console;
 use super::discovery::{CONFIG_NAME, LoadedMachine, MachineArgs, Machines};
 use super::exit;
 use super::failure::Failure;
+use super::ledger::Ledger;
 use crate::compensation::Compensation;
 use crate::diagnostic::Diagnostic;
 use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
@@ -34,7 +35,7 @@ pub(super) struct ShowArgs {
 /// Runs the command.
 pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failure> {
     let ConfigCommand::Show(args) = command;
-    let mut machines = Machines::new(&args.machine);
+    let mut machines = Machines::new(&args.machine, &Ledger::default());
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();
     append_machine(&mut output, &loaded);

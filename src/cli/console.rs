@@ -1,8 +1,6 @@
 //! Where data and talk go: stdout is data, stderr is talk (R9.27).
 
-use std::fs::File;
 use std::io::{self, Write};
-use std::path::Path;
 
 use anstream::{AutoStream, ColorChoice};
 use clap::ValueEnum;
@@ -35,6 +33,14 @@ pub(super) struct Console {
     color: Color,
     /// What `--width` says.
     width: Option<usize>,
+    remarks: Remarks,
+}
+
+/// What becomes of remarks beside the results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Remarks {
+    Said,
+    Kept,
 }
 
 /// A place for data and how text looks there.
@@ -43,9 +49,34 @@ pub(super) struct Target {
     pub(super) look: Look,
 }
 
+/// Whether somebody read what was printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Printed {
+    /// It went out.
+    Read,
+    /// The pipe was closed.
+    Unread,
+}
+
+impl Target {
+    /// Writes a text; a closed pipe is no failure.
+    pub(super) fn text(&mut self, text: &str) -> Result<Printed, Failure> {
+        let written = self.writer.write_all(text.as_bytes());
+        match written.and_then(|()| self.writer.flush()) {
+            Ok(()) => Ok(Printed::Read),
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Printed::Unread),
+            Err(error) => Err(Failure::output(&error)),
+        }
+    }
+}
+
 impl Console {
     pub(super) fn new(color: Color, width: Option<usize>) -> Self {
-        Self { color, width }
+        Self {
+            color,
+            width,
+            remarks: Remarks::Said,
+        }
     }
 
     /// The columns that text may use: what the user says, else the terminal, else `COLUMNS`, else
@@ -60,23 +91,24 @@ impl Console {
         })
     }
 
-    /// The file that the user named for the output, or stdout.
-    pub(super) fn target(self, file: Option<&Path>) -> Result<Target, Failure> {
-        let Some(path) = file else {
-            return Ok(self.stdout());
-        };
-        let created = File::create(path).map_err(|error| Failure::writing(path, &error))?;
+    /// The same console, which says nothing beside the results and failures.
+    pub(super) fn quiet(self) -> Self {
+        Self {
+            remarks: Remarks::Kept,
+            ..self
+        }
+    }
+
+    /// How text looks in a file.
+    pub(super) fn file_look(self) -> Look {
         let paint = match self.color {
             Color::Always => Paint::Styled,
             Color::Auto | Color::Never => Paint::Plain,
         };
-        Ok(Target {
-            writer: Box::new(created),
-            look: Look {
-                paint,
-                width: self.width(None),
-            },
-        })
+        Look {
+            paint,
+            width: self.width(None),
+        }
     }
 
     /// Standard output.
@@ -98,20 +130,20 @@ impl Console {
     }
 
     /// Writes a text to stdout; a closed pipe is no failure.
-    pub(super) fn print(self, text: &str) -> Result<(), Failure> {
-        let mut writer = self.stdout().writer;
-        let written = writer
-            .write_all(text.as_bytes())
-            .and_then(|()| writer.flush());
-        match written {
-            Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::output(&error)),
-            _ => Ok(()),
-        }
+    pub(super) fn print(self, text: &str) -> Result<Printed, Failure> {
+        self.stdout().text(text)
     }
 
     /// Says a line on stderr. When nobody listens, nothing is lost.
     pub(super) fn talk(line: &str) {
         let _ = writeln!(io::stderr().lock(), "{line}");
+    }
+
+    /// Says a line on stderr, unless the user wants only what counts.
+    pub(super) fn remark(self, line: &str) {
+        if self.remarks == Remarks::Said {
+            Self::talk(line);
+        }
     }
 
     /// Shows diagnostics on stderr.

@@ -8,12 +8,13 @@ use std::path::PathBuf;
 use clap::Args;
 use similar::{Algorithm, ChangeTag, capture_diff_slices};
 
-use super::console::Console;
+use super::console::{Console, Printed};
 use super::discovery::{MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::exit;
 use super::failure::Failure;
 use super::files::{Input, Naming};
+use super::ledger::Ledger;
 use super::settings;
 use crate::diagnostic::Severity;
 use crate::session::StopPolicy;
@@ -135,13 +136,15 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         let names = format!("--- {}\n+++ {}\n", args.old.display(), args.new.display());
         output.insert_str(0, &names);
     }
-    console.print(&output)?;
+    if let Printed::Unread = console.print(&output)? {
+        return Ok(exit::CLEAN);
+    }
     Ok(if same { exit::CLEAN } else { exit::FOUND })
 }
 
 fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
     input.probe()?;
-    let mut machines = Machines::new(&args.machine);
+    let mut machines = Machines::new(&args.machine, &Ledger::default());
     let loaded = machines.for_folder(input.folder())?;
     let options = args.execution.options(&loaded, StopPolicy::FirstError);
     let mut switches = Switches {

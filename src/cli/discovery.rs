@@ -9,6 +9,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::finder::Reach;
 use super::grounds::{Elsewhere, Grounds, absolute};
+use super::ledger::Ledger;
 use super::list_files::{Lists, read_list};
 use super::settings::{self, SetVariable};
 use crate::codes::Code;
@@ -62,10 +63,18 @@ pub(super) struct LoadedMachine {
     pub(super) origin: Option<PathBuf>,
     /// How many lists were read, and how many are named and are not there.
     pub(super) lists: (usize, usize),
+    /// The extensions of files that are programs.
+    pub(super) extensions: Option<Vec<String>>,
+    /// Where the files of a run on this machine are noted.
+    pub(super) ledger: Ledger,
 }
 
 impl LoadedMachine {
-    fn new(configuration: Configuration, path: &Path) -> Self {
+    fn new(configuration: Configuration, path: &Path, ledger: &Ledger) -> Self {
+        ledger.reads("configuration", path);
+        for file in &configuration.files {
+            ledger.reads("list", Path::new(&**file));
+        }
         let folder = path.parent().unwrap_or(Path::new(""));
         let folders = configuration.program_dirs.iter();
         Self {
@@ -81,13 +90,16 @@ impl LoadedMachine {
             reports: configuration.reports,
             origin: Some(path.to_owned()),
             lists: (configuration.files.len(), configuration.missing),
+            extensions: None,
+            ledger: ledger.clone(),
         }
     }
 
     /// The machine without a configuration.
-    fn unconfigured() -> Self {
+    fn unconfigured(ledger: &Ledger) -> Self {
         Self {
             machine: Machine::unconfigured(),
+            ledger: ledger.clone(),
             ..Self::default()
         }
     }
@@ -126,15 +138,17 @@ impl LoadedMachine {
 /// The machines of the programs of one command; each configuration is read once.
 pub(super) struct Machines<'a> {
     args: &'a MachineArgs,
+    ledger: Ledger,
     loaded: BTreeMap<Option<PathBuf>, Arc<LoadedMachine>>,
     /// The nearest configuration of each folder that was asked for.
     nearest: BTreeMap<PathBuf, Option<PathBuf>>,
 }
 
 impl<'a> Machines<'a> {
-    pub(super) fn new(args: &'a MachineArgs) -> Self {
+    pub(super) fn new(args: &'a MachineArgs, ledger: &Ledger) -> Self {
         Self {
             args,
+            ledger: ledger.clone(),
             loaded: BTreeMap::new(),
             nearest: BTreeMap::new(),
         }
@@ -150,9 +164,15 @@ impl<'a> Machines<'a> {
         if let Some(loaded) = self.loaded.get(&config) {
             return Ok(Arc::clone(loaded));
         }
-        let loaded = Arc::new(load_machine(config.as_deref(), self.args)?);
+        let loaded = Arc::new(load_machine(config.as_deref(), self.args, &self.ledger)?);
         self.loaded.insert(config, Arc::clone(&loaded));
         Ok(loaded)
+    }
+
+    /// The extensions of programs below a folder, where its configuration names them.
+    pub(super) fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
+        let loaded = self.for_folder(folder).ok()?;
+        loaded.extensions.clone()
     }
 
     fn nearest(&mut self, folder: &Path) -> Option<PathBuf> {
@@ -171,15 +191,19 @@ impl<'a> Machines<'a> {
 }
 
 /// Reads the configuration and applies what the command line says about the machine.
-fn load_machine(config: Option<&Path>, args: &MachineArgs) -> Result<LoadedMachine, Failure> {
+fn load_machine(
+    config: Option<&Path>,
+    args: &MachineArgs,
+    ledger: &Ledger,
+) -> Result<LoadedMachine, Failure> {
     let elsewhere = args.elsewhere();
     let mut loaded = match config {
-        Some(path) => read_config(path, args)?,
-        None => LoadedMachine::unconfigured(),
+        Some(path) => read_config(path, args, ledger)?,
+        None => LoadedMachine::unconfigured(ledger),
     };
     loaded.reach.elsewhere = elsewhere;
     if let Some(path) = &args.startup {
-        let axes = read_startup(path, args)?;
+        let axes = read_startup(path, args, ledger)?;
         loaded.machine = axes.machine;
         loaded.diagnostics = axes.diagnostics;
         loaded.reports = axes.reports;
@@ -227,11 +251,11 @@ impl MachineArgs {
 }
 
 /// Reads a `frictcomp.toml` and the lists that it names.
-fn read_config(path: &Path, args: &MachineArgs) -> Result<LoadedMachine, Failure> {
+fn read_config(path: &Path, args: &MachineArgs, ledger: &Ledger) -> Result<LoadedMachine, Failure> {
     let source = SourceFile::new(path.display().to_string(), read_list(path)?);
     match Configuration::from_toml(source, &mut Lists) {
         Ok(configuration) => {
-            let mut loaded = LoadedMachine::new(configuration, path);
+            let mut loaded = LoadedMachine::new(configuration, path, ledger);
             let grounds = args.grounds(path, &loaded.reach);
             grounds.conceal(&mut loaded.diagnostics);
             Ok(loaded)
@@ -253,7 +277,11 @@ fn read_config(path: &Path, args: &MachineArgs) -> Result<LoadedMachine, Failure
 }
 
 /// Reads a start-up list and the lists that it names.
-fn read_startup(path: &Path, args: &MachineArgs) -> Result<LoadedMachine, Failure> {
+fn read_startup(
+    path: &Path,
+    args: &MachineArgs,
+    ledger: &Ledger,
+) -> Result<LoadedMachine, Failure> {
     let source = SourceFile::new(path.display().to_string(), read_list(path)?);
     let configuration = Configuration::from_startup(source, &mut Lists);
     let wrong = configuration.diagnostics.iter().find(|said| {
@@ -274,7 +302,7 @@ fn read_startup(path: &Path, args: &MachineArgs) -> Result<LoadedMachine, Failur
             failure.with_help(help)
         });
     }
-    let mut loaded = LoadedMachine::new(configuration, path);
+    let mut loaded = LoadedMachine::new(configuration, path, ledger);
     let grounds = args.grounds(path, &loaded.reach);
     grounds.conceal(&mut loaded.diagnostics);
     Ok(loaded)
@@ -315,7 +343,7 @@ fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
 }
 
 /// The nearest configuration from a folder upwards, as a path from the current folder.
-fn nearest_config(folder: &Path) -> Option<PathBuf> {
+pub(super) fn nearest_config(folder: &Path) -> Option<PathBuf> {
     let found = absolute(folder)?
         .ancestors()
         .map(|ancestor| ancestor.join(CONFIG_NAME))

@@ -9,6 +9,7 @@ use super::discovery::LoadedMachine;
 use super::failure::Failure;
 use super::files::{Input, Naming, Opened};
 use super::finder::{ProgramFinder, Reach};
+use super::ledger::Ledger;
 use super::settings::{self, SkipLevels};
 use crate::session::{Limits, Motions, Notes, Program, Session, SessionOptions, StopPolicy};
 use crate::timeline::Sink;
@@ -72,6 +73,7 @@ impl ExecutionArgs {
 #[derive(Clone)]
 pub(super) struct Surroundings<'a> {
     reach: Reach,
+    ledger: Ledger,
     naming: Naming,
     before_waiting: &'a dyn Fn(),
 }
@@ -80,6 +82,7 @@ impl<'a> Surroundings<'a> {
     pub(super) fn new(loaded: &LoadedMachine, naming: Naming) -> Self {
         Self {
             reach: loaded.reach.clone(),
+            ledger: loaded.ledger.clone(),
             naming,
             before_waiting: &|| (),
         }
@@ -102,7 +105,8 @@ pub(super) fn run_program(
     sink: &mut dyn Sink,
 ) -> Result<ControlFlow<()>, Failure> {
     let name = input.name(surroundings.naming);
-    let mut finder = ProgramFinder::new(input, &surroundings.reach, surroundings.naming);
+    let finder = ProgramFinder::new(input, &surroundings.reach, surroundings.naming);
+    let mut finder = finder.noting(&surroundings.ledger);
     let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
         Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
         Opened::Lines(mut lines) => {

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::Path;
 
+use super::console::Console;
 use crate::diagnostic::Diagnostic;
 
 /// One clear sentence, what to do, and where the reason stands in a file of the user.
@@ -64,6 +65,10 @@ impl Failure {
                 "`{shown}` cannot be written: you may not write there"
             ))
             .with_help("give yourself the right to write there, or name another file"),
+            io::ErrorKind::IsADirectory => {
+                Self::new(format!("`{shown}` cannot be written: it is a folder"))
+                    .with_help("name a file in it")
+            }
             _ => Self::new(format!("`{shown}` cannot be written: {error}")),
         }
     }
@@ -71,5 +76,40 @@ impl Failure {
     /// Output that cannot be written.
     pub(super) fn output(error: &io::Error) -> Self {
         Self::new(format!("the output cannot be written: {error}"))
+    }
+}
+
+/// What could not be done of several things; the rest is done all the same (R9.77).
+#[derive(Debug, Default)]
+pub(super) struct Failures(Vec<Failure>);
+
+impl From<Vec<Failure>> for Failures {
+    fn from(failures: Vec<Failure>) -> Self {
+        Self(failures)
+    }
+}
+
+impl Failures {
+    /// One more. One reason may stop many programs and is said once.
+    pub(super) fn push(&mut self, failure: Failure) {
+        if self.0.iter().all(|it| it.message != failure.message) {
+            self.0.push(failure);
+        }
+    }
+
+    /// Whether everything was done.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Says what could not be done: the status of a command that could do the rest.
+    pub(super) fn status(mut self, console: Console, done: u8) -> Result<u8, Failure> {
+        let Some(last) = self.0.pop() else {
+            return Ok(done);
+        };
+        for failure in &self.0 {
+            console.explain(failure);
+        }
+        Err(last)
     }
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use encoding_rs::WINDOWS_1252;
 
 use super::failure::Failure;
+use super::ledger::Ledger;
 use super::lines::{LineReader, MOST_KEPT, too_big};
 use super::steady::Steady;
 use crate::source::SourceFile;
@@ -103,6 +104,13 @@ impl Input {
         Ok(())
     }
 
+    /// Notes the program among the files that are read.
+    pub(super) fn note(&self, ledger: &Ledger) {
+        if let Self::File(path) = self {
+            ledger.reads("program", path);
+        }
+    }
+
     /// Opens the program. Standard input or a pipe calls `before_waiting` whenever it may have to
     /// wait for more.
     pub(super) fn open<'a>(
@@ -191,6 +199,24 @@ pub(super) fn decode(bytes: Vec<u8>) -> String {
     text
 }
 
+/// Opens what is a file and nothing else: a pipe would be waited for, a device has no end.
+///
+/// # Errors
+/// There is none, it may not be read, is a folder or no regular file.
+pub(super) fn open_regular(path: &Path) -> io::Result<(File, Metadata)> {
+    // Asked before it is opened: opening a pipe waits for its other end.
+    let metadata = std::fs::metadata(path)?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if !metadata.is_file() {
+        return Err(io::Error::other("it is not a regular file"));
+    }
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    Ok((file, metadata))
+}
+
 /// Reads and decodes a whole file.
 pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
     read_bytes(path)
@@ -203,11 +229,7 @@ pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// There is none, it may not be read, is a folder, or is too big to be kept.
 pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    let metadata = file.metadata()?;
-    if metadata.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
+    let (file, metadata) = open_regular(path)?;
     read_whole(file, metadata.len())
 }
 

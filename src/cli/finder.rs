@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::files::{Input, Naming, decode, read_bytes};
 use super::grounds::{Elsewhere, Grounds, normal};
+use super::ledger::Ledger;
 use crate::session::{Finder, NoProgram};
 use crate::source::SourceFile;
 
@@ -44,6 +45,8 @@ pub(super) struct ProgramFinder {
     names: HashMap<PathBuf, String>,
     /// What the folders hold that were searched, by names in lower case.
     listings: HashMap<PathBuf, BTreeMap<String, Vec<OsString>>>,
+    /// Where the files are noted that were read.
+    ledger: Ledger,
 }
 
 impl ProgramFinder {
@@ -63,7 +66,14 @@ impl ProgramFinder {
             known,
             names,
             listings: HashMap::new(),
+            ledger: Ledger::default(),
         }
+    }
+
+    /// The same, which notes what it reads.
+    pub(super) fn noting(self, ledger: &Ledger) -> Self {
+        let ledger = ledger.clone();
+        Self { ledger, ..self }
     }
 
     fn locate(&mut self, name: &str, caller: &str) -> Result<PathBuf, NoProgram> {
@@ -199,6 +209,7 @@ impl ProgramFinder {
 impl Finder for ProgramFinder {
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
         let path = self.locate(name, caller)?;
+        self.ledger.reads("program", &path);
         let bytes = read_bytes(&path).map_err(|error| unusable(&error))?;
         Ok(SourceFile::new(self.name(&path), decode(bytes)))
     }

@@ -6,21 +6,25 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use similar::TextDiff;
 
-use super::console::Console;
+use super::console::{Console, Printed};
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
-use super::failure::Failure;
-use super::files::{Input, Naming};
-use super::replace::replace;
+use super::failure::{Failure, Failures};
+use super::files::{Input, Naming, read_bytes};
+use super::ledger::{Ledger, folder};
+use super::outputs::Outputs;
 use super::{exit, walk};
 use crate::report::{Report, Text, TextOptions};
 use crate::session::StopPolicy;
 
+/// The option that writes timelines.
+const UPDATE: &str = "golden --update";
+
 /// Compares each program's timeline with the `.timeline` file beside it
 #[derive(Debug, Args)]
 pub(super) struct GoldenArgs {
-    /// Programs and folders of programs
-    #[arg(required = true, value_name = "PATH")]
+    /// Programs and folders of programs, the current folder unless one is given
+    #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
     /// Write the timelines instead of comparing them
     #[arg(long)]
@@ -31,47 +35,212 @@ pub(super) struct GoldenArgs {
     execution: ExecutionArgs,
 }
 
+/// A program with the file that holds its timeline.
+struct Pair {
+    input: Input,
+    golden: PathBuf,
+}
+
+/// A timeline against the one that was agreed on.
+enum Verdict {
+    AsAgreed,
+    /// There is none yet.
+    Missing(String),
+    Drifted {
+        before: String,
+        now: String,
+    },
+}
+
+/// The programs of one call and what they run on.
+struct Bench<'a> {
+    args: &'a GoldenArgs,
+    machines: Machines<'a>,
+    ledger: Ledger,
+    /// The folders that the user named, in which timelines may lie.
+    trees: Vec<PathBuf>,
+}
+
 /// Runs the command.
 pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
-    let inputs = walk::programs(&args.paths)?;
-    let mut machines = Machines::new(&args.machine);
-    let mut drifted = 0_u64;
-    let mut output = String::new();
-    for input in &inputs {
-        let Input::File(path) = input else {
-            return Err(Failure::new(
+    let ledger = Ledger::default();
+    let mut machines = Machines::new(&args.machine, &ledger);
+    let found = walk::programs(&args.paths, |folder| machines.extensions(folder));
+    let mut failures = Failures::from(found.failures);
+    let mut pairs = Vec::new();
+    for input in found.inputs {
+        input.note(&ledger);
+        match &input {
+            Input::File(path) => {
+                let golden = golden_path(path);
+                pairs.push(Pair { input, golden });
+            }
+            Input::Stdin => failures.push(Failure::new(
                 "standard input has no `.timeline` file beside it",
+            )),
+        }
+    }
+    let tree = |path: &PathBuf| {
+        let tree = if path.is_dir() { path } else { folder(path) };
+        tree.canonicalize().ok()
+    };
+    let mut bench = Bench {
+        args,
+        machines,
+        ledger,
+        trees: args.paths.iter().filter_map(tree).collect(),
+    };
+    let status = if args.update {
+        bench.update(&pairs, console, &mut failures)?
+    } else {
+        bench.compare(&pairs, console, &mut failures)?
+    };
+    failures.status(console, status)
+}
+
+impl Bench<'_> {
+    fn compare(
+        &mut self,
+        pairs: &[Pair],
+        console: Console,
+        failures: &mut Failures,
+    ) -> Result<u8, Failure> {
+        let (mut drifted, mut missing) = (0_u64, 0_u64);
+        let mut output = String::new();
+        for pair in pairs {
+            let shown = pair.golden.display();
+            match self.verdict(pair) {
+                Ok(Verdict::AsAgreed) => {}
+                Ok(Verdict::Missing(_)) => {
+                    missing += 1;
+                    let _ = writeln!(output, "{shown} is missing\n");
+                }
+                Ok(Verdict::Drifted { before, now }) => {
+                    drifted += 1;
+                    append_drift(&mut output, &pair.golden, &before, &now);
+                }
+                Err(failure) => failures.push(failure),
+            }
+        }
+        if let Printed::Unread = console.print(&output)? {
+            return Ok(exit::CLEAN);
+        }
+        let all = pairs.len();
+        if drifted + missing > 0 {
+            let counts = [(drifted, "drifted"), (missing, "missing")];
+            let parts = counts.iter().filter(|(count, _)| *count > 0);
+            let parts: Vec<String> = parts.map(|(n, word)| format!("{n} {word}")).collect();
+            Console::talk(&format!(
+                "of {} {} (`--update` writes them)",
+                timelines(all),
+                parts.join(", ")
             ));
-        };
-        let loaded = machines.for_folder(input.folder())?;
-        let now = timeline(input, &loaded, &args.execution)?;
-        let golden = golden_path(path);
-        let before = read_golden(&golden)?;
-        if before.as_deref() == Some(now.as_str()) {
-            continue;
+            return Ok(exit::FOUND);
         }
-        drifted += 1;
-        if args.update {
-            replace(&golden, now.as_bytes())?;
-            let _ = writeln!(output, "wrote {}", golden.display());
-        } else {
-            append_drift(&mut output, &golden, before.as_deref(), &now);
+        if failures.is_empty() {
+            console.remark(&format!("{} as agreed", timelines(all)));
         }
+        Ok(exit::CLEAN)
     }
-    console.print(&output)?;
-    let all = inputs.len();
-    if args.update {
-        Console::talk(&format!("{drifted} of {all} timelines written"));
-        return Ok(exit::CLEAN);
+
+    /// Writes the timelines that drifted, all or none of a folder (R9.77).
+    fn update(
+        &mut self,
+        pairs: &[Pair],
+        console: Console,
+        failures: &mut Failures,
+    ) -> Result<u8, Failure> {
+        let mut all = Outputs::new(&self.ledger, console);
+        for pair in pairs {
+            all.claim(UPDATE, &pair.golden);
+        }
+        all.check()?;
+        let mut folders: Vec<(&Path, Vec<&Pair>)> = Vec::new();
+        for pair in pairs {
+            let folder = folder(&pair.golden);
+            match folders.iter_mut().find(|(known, _)| *known == folder) {
+                Some((_, pairs)) => pairs.push(pair),
+                None => folders.push((folder, vec![pair])),
+            }
+        }
+        let mut written = 0;
+        for (folder, pairs) in folders {
+            match self.update_folder(&pairs, console) {
+                Ok(count) => written += count,
+                Err(reasons) => {
+                    reasons.into_iter().for_each(|reason| failures.push(reason));
+                    let (shown, count) = (folder.display(), timelines(pairs.len()));
+                    Console::talk(&format!(
+                        "left out `{shown}`: nothing of its {count} was written"
+                    ));
+                }
+            }
+        }
+        console.remark(&format!("{written} of {} written", timelines(pairs.len())));
+        Ok(exit::CLEAN)
     }
-    if drifted == 0 {
-        Console::talk(&format!("{all} timelines are as agreed"));
-        return Ok(exit::CLEAN);
+
+    fn update_folder(&mut self, pairs: &[&Pair], console: Console) -> Result<usize, Vec<Failure>> {
+        let mut outputs = Outputs::new(&self.ledger, console);
+        let (mut written, mut reasons) = (0, Vec::new());
+        for pair in pairs {
+            let now = match self.verdict(pair) {
+                Ok(Verdict::AsAgreed) => continue,
+                Ok(Verdict::Missing(now) | Verdict::Drifted { now, .. }) => now,
+                Err(reason) => {
+                    reasons.push(reason);
+                    continue;
+                }
+            };
+            let write = |outputs: &mut Outputs| {
+                let mut file = outputs.file(UPDATE, &pair.golden)?;
+                file.text(&now)?;
+                file.sync()
+            };
+            match write(&mut outputs) {
+                Ok(()) => written += 1,
+                Err(reason) => reasons.push(reason),
+            }
+        }
+        if !reasons.is_empty() {
+            return Err(reasons);
+        }
+        outputs.finish().map_err(|reason| vec![reason])?;
+        Ok(written)
     }
-    Console::talk(&format!(
-        "{drifted} of {all} timelines drifted (`--update` writes them)"
-    ));
-    Ok(exit::FOUND)
+
+    fn verdict(&mut self, pair: &Pair) -> Result<Verdict, Failure> {
+        self.stay_in_tree(&pair.golden)?;
+        let loaded = self.machines.for_folder(pair.input.folder())?;
+        let now = timeline(&pair.input, &loaded, &self.args.execution)?;
+        Ok(match read_golden(&pair.golden)? {
+            None => Verdict::Missing(now),
+            Some(before) if before == now => Verdict::AsAgreed,
+            Some(before) => Verdict::Drifted { before, now },
+        })
+    }
+
+    /// A link may not lead to a file that the user did not hand over: it would be shown in a
+    /// difference, or overwritten.
+    fn stay_in_tree(&self, golden: &Path) -> Result<(), Failure> {
+        let is_link = std::fs::symlink_metadata(golden).is_ok_and(|it| it.is_symlink());
+        let inside = |path: PathBuf| self.trees.iter().any(|tree| path.starts_with(tree));
+        if is_link && !golden.canonicalize().is_ok_and(inside) {
+            let shown = golden.display();
+            return Err(Failure::new(format!(
+                "`{shown}` is a link that leads out of the folders that were named"
+            ))
+            .with_help("put the timeline itself there, or name the folder that it lies in"));
+        }
+        Ok(())
+    }
+}
+
+fn timelines(count: usize) -> String {
+    match count {
+        1 => "1 timeline".to_owned(),
+        _ => format!("{count} timelines"),
+    }
 }
 
 /// The timeline of one program, the same on every machine and in every folder.
@@ -106,7 +275,7 @@ fn golden_path(program: &Path) -> PathBuf {
 
 /// The agreed timeline, `None` when there is none. Line ends may be those of any system.
 fn read_golden(path: &Path) -> Result<Option<String>, Failure> {
-    match std::fs::read(path) {
+    match read_bytes(path) {
         Ok(bytes) => {
             let text = String::from_utf8_lossy(&bytes);
             Ok(Some(text.replace("\r\n", "\n")))
@@ -116,12 +285,8 @@ fn read_golden(path: &Path) -> Result<Option<String>, Failure> {
     }
 }
 
-fn append_drift(output: &mut String, golden: &Path, before: Option<&str>, now: &str) {
+fn append_drift(output: &mut String, golden: &Path, before: &str, now: &str) {
     let shown = golden.display();
-    let Some(before) = before else {
-        let _ = writeln!(output, "{shown} is missing\n");
-        return;
-    };
     let diff = TextDiff::from_lines(before, now);
     let agreed = format!("{shown} (agreed)");
     let found = format!("{shown} (now)");
@@ -139,15 +304,12 @@ mod tests {
         append_drift(
             &mut output,
             Path::new("a.nc.timeline"),
-            Some("one\ntwo\n"),
+            "one\ntwo\n",
             "one\n2\n",
         );
         assert_eq!(
             output,
             "--- a.nc.timeline (agreed)\n+++ a.nc.timeline (now)\n@@ -1,2 +1,2 @@\n one\n-two\n+2\n\n"
         );
-        output.clear();
-        append_drift(&mut output, Path::new("a.nc.timeline"), None, "x");
-        assert_eq!(output, "a.nc.timeline is missing\n\n");
     }
 }

@@ -1,12 +1,11 @@
 //! The HTML report of `run`: the story of the session, and its sources read once more.
 
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::console::Console;
 use super::failure::Failure;
 use super::lines::LineReader;
-use super::sheet::Sheet;
+use super::outputs::OutputFile;
 use crate::machine::AxisReport;
 use crate::report::html::{Given, RunStory, Sources, render_run};
 use crate::source::LineSource;
@@ -14,34 +13,17 @@ use crate::syntax::KindSet;
 
 /// A report that is written when the session has ended.
 pub(super) struct HtmlFile {
-    sheet: Sheet,
-    path: PathBuf,
+    file: OutputFile,
     story: RunStory,
 }
 
 impl HtmlFile {
-    /// A report in a file, which must not be one of the programs.
-    pub(super) fn create(
-        (path, kinds): (&Path, KindSet),
-        programs: &[PathBuf],
-        console: Console,
-    ) -> Result<Self, Failure> {
-        let same = |program: &PathBuf| match (program.canonicalize(), path.canonicalize()) {
-            (Ok(program), Ok(report)) => program == report,
-            _ => false,
-        };
-        if programs.iter().any(same) {
-            return Err(Failure::new(format!(
-                "the report would overwrite the program `{}`",
-                path.display()
-            ))
-            .with_help("name another file behind `--html`"));
-        }
-        Ok(Self {
-            sheet: Sheet::create(Some(path), console)?,
-            path: path.to_owned(),
+    /// A report on these kinds in a file.
+    pub(super) fn new(file: OutputFile, kinds: KindSet) -> Self {
+        Self {
+            file,
             story: RunStory::new(kinds),
-        })
+        }
     }
 
     /// Takes the records of the session.
@@ -59,9 +41,8 @@ impl HtmlFile {
             settings,
             parameters,
         };
-        render_run(&self.story, &given, &mut Files, &mut self.sheet)
-            .and_then(|()| self.sheet.finish())
-            .map_err(|error| Failure::writing(&self.path, &error))
+        render_run(&self.story, &given, &mut Files, &mut self.file)
+            .map_err(|error| Failure::output(&error))
     }
 }
 

@@ -147,7 +147,7 @@ fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, Failure> {
 /// What the programs below a folder do with axes. What cannot be read is no program to learn from.
 fn programs(folder: &Path) -> BTreeMap<String, AxisUse> {
     let mut uses: BTreeMap<String, AxisUse> = BTreeMap::new();
-    let inputs = walk::programs(&[folder.to_owned()]).unwrap_or_default();
+    let inputs = walk::programs(&[folder.to_owned()], |_| None).inputs;
     for input in inputs {
         let super::files::Input::File(path) = input else {
             continue;

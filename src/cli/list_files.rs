@@ -1,6 +1,5 @@
 //! The list files of the disk (R3.12).
 
-use std::fs::File;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -48,16 +47,8 @@ pub(super) fn read_list(path: &Path) -> Result<String, Failure> {
     })
 }
 
-/// The text of a regular file. Others may never end, or wait for somebody who writes.
+/// The text of a regular file.
 fn read_regular(path: &Path) -> io::Result<String> {
-    let metadata = std::fs::metadata(path)?;
-    if metadata.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    if !metadata.is_file() {
-        return Err(io::Error::other("it is not a regular file"));
-    }
-    File::open(path)?;
     read_bytes(path).map(decode)
 }
 

@@ -6,10 +6,13 @@ use clap::Args;
 
 use super::check::{Format, ListingArgs, total};
 use super::console::Console;
+use super::discovery::{CONFIG_NAME, nearest_config};
 use super::exit;
-use super::failure::Failure;
+use super::failure::{Failure, Failures};
 use super::grounds::{Elsewhere, Grounds};
+use super::ledger::Ledger;
 use super::list_files::{Lists, read_list};
+use super::outputs::Outputs;
 use crate::codes::Code;
 use crate::diagnostic::Severity;
 use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
@@ -25,8 +28,9 @@ use crate::source::SourceFile;
 /// list by itself.
 #[derive(Debug, Args)]
 pub(super) struct ListsArgs {
-    /// The lists, or the `frictcomp.toml` that names them
-    #[arg(required = true, value_name = "FILE")]
+    /// The lists, or the `frictcomp.toml` that names them; without any the nearest `frictcomp.toml`
+    /// from the current folder upwards
+    #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print the effective parameters of every axis and where each came from
     #[arg(long)]
@@ -65,6 +69,19 @@ impl ListsArgs {
         let grounds = Grounds::new(elsewhere).with(Path::new(""));
         named.chain(real).fold(grounds, Grounds::with)
     }
+
+    /// The files that are checked (R9.72).
+    fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+        if !self.files.is_empty() {
+            return Ok(self.files.clone());
+        }
+        let nearest = nearest_config(Path::new(""));
+        let failure = || {
+            Failure::new(format!("there is no {CONFIG_NAME} from here upwards"))
+                .with_help("name the lists, `frictcomp lists hochlauf.lis`")
+        };
+        nearest.map(|path| vec![path]).ok_or_else(failure)
+    }
 }
 
 /// Checks a list, or every list that a configuration names.
@@ -101,8 +118,8 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
     })
 }
 
-/// Draws the curves of all accepted value lists.
-fn draw(path: &Path, reports: &[ListsReport], console: Console) -> Result<(), Failure> {
+/// The curves of all accepted value lists.
+fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
     let accepted: Vec<&AcceptedList> = reports.iter().flat_map(|it| &it.accepted).collect();
     if accepted.is_empty() {
         return Err(Failure::new(
@@ -110,7 +127,7 @@ fn draw(path: &Path, reports: &[ListsReport], console: Console) -> Result<(), Fa
         )
         .with_help("leave `--svg` out to see why"));
     }
-    console.deliver(Some(path), &value_curves(&accepted).render(Frame::Alone))
+    Ok(value_curves(&accepted).render(Frame::Alone))
 }
 
 /// What to say of lists that are named and are not there.
@@ -125,17 +142,32 @@ fn lacking(missing: usize) -> String {
 /// Runs the command.
 pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let grounds = args.grounds();
+    let ledger = Ledger::default();
+    let mut outputs = Outputs::new(&ledger, console);
+    let target = outputs.result(args.listing.output.as_deref())?;
     let mut reports = Vec::new();
-    for path in &args.files {
-        let mut report = check(path, args.cnc_build)?;
+    let mut failures = Failures::default();
+    for path in &args.files()? {
+        ledger.reads("list", path);
+        let mut report = match check(path, args.cnc_build) {
+            Ok(report) => report,
+            Err(failure) => {
+                failures.push(failure);
+                continue;
+            }
+        };
         grounds.conceal(&mut report.diagnostics);
         for diagnostic in &mut report.diagnostics {
             if args.strict && diagnostic.code == Code::Fc132 {
                 diagnostic.severity = Severity::Error;
             }
         }
+        for file in &report.files {
+            ledger.reads("list", Path::new(&**file));
+        }
         reports.push(report);
     }
+    outputs.check()?;
     let mut table = String::new();
     if args.show && args.listing.format == Format::Text {
         for report in &reports {
@@ -144,9 +176,8 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
         }
     }
     if let Some(path) = &args.svg {
-        draw(path, &reports, console)?;
+        outputs.file("--svg", path)?.text(&draw(&reports)?)?;
     }
-    let target = console.target(args.listing.output.as_deref())?;
     let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
     for report in &reports {
         for _ in &report.files {
@@ -159,13 +190,15 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
         }
     }
     listing.finish().map_err(|error| Failure::output(&error))?;
-    if listing.is_closed() {
+    if listing.is_closed() && failures.is_empty() {
         return Ok(exit::CLEAN);
     }
     console.print(&table)?;
+    outputs.finish()?;
     if args.listing.format == Format::Text {
         let missing = reports.iter().map(|report| report.missing).sum();
         Console::talk(&(total(listing.tally()) + &lacking(missing)));
     }
-    Ok(args.listing.fail_on.status(&listing.tally().counts))
+    let status = args.listing.fail_on.status(&listing.tally().counts);
+    failures.status(console, status)
 }

@@ -20,25 +20,29 @@ mod golden;
 mod grounds;
 mod html;
 mod init;
+mod interrupt;
 mod jobs;
+mod ledger;
 mod lines;
 mod list_files;
 mod lists;
 mod man;
+mod notes;
+mod outputs;
 mod plants;
 mod progress;
 mod recorded;
-mod replace;
 mod run;
 mod settings;
-mod sheet;
 mod state;
 mod steady;
 mod tune;
+mod unfinished;
 mod walk;
 mod workers;
 
 use std::ffi::OsString;
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -89,22 +93,30 @@ enum Command {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
-        Err(error) => {
-            let _ = error.print();
-            let status = if error.use_stderr() {
-                exit::FAILED
-            } else {
-                exit::CLEAN
-            };
-            return ExitCode::from(status);
-        }
+        Err(error) => return ExitCode::from(say_usage(&error)),
     };
+    interrupt::survive_file_size_limit();
     let console = Console::new(arguments.color, arguments.width);
     let status = dispatch(&arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
         exit::FAILED
     });
     ExitCode::from(status)
+}
+
+/// Prints help, the version, or what is wrong with the arguments.
+fn say_usage(error: &clap::Error) -> u8 {
+    if error.use_stderr() {
+        let _ = error.print();
+        return exit::FAILED;
+    }
+    match error.print().and_then(|()| std::io::stdout().flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Console::new(Color::Auto, None).explain(&Failure::output(&error));
+            exit::FAILED
+        }
+        _ => exit::CLEAN,
+    }
 }
 
 fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::files::read_text;
+use super::ledger::Ledger;
 use crate::circle::{CircleError, FrictionModel, Plant, Preset};
 use crate::source::SourceFile;
 use clap::ValueEnum;
@@ -31,7 +32,7 @@ impl From<Model> for FrictionModel {
 }
 
 /// The plant that the user names: a preset, or a TOML file.
-pub(super) fn plant(word: &str) -> Result<Plant, Failure> {
+pub(super) fn plant(word: &str, ledger: &Ledger) -> Result<Plant, Failure> {
     if let Some(preset) = Preset::from_name(word) {
         return Ok(preset.plant());
     }
@@ -49,6 +50,7 @@ pub(super) fn plant(word: &str) -> Result<Plant, Failure> {
             },
         );
     }
+    ledger.reads("plant", path);
     let source = SourceFile::new(word.to_owned(), read_text(path)?);
     Plant::from_toml(source).map_err(|error| Failure {
         message: format!("the plant `{word}` cannot be used"),

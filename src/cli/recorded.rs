@@ -1,9 +1,9 @@
 //! Recorded circles: CSV files of actual positions.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use super::files::open_regular;
 use crate::circle::{RecordedCircle, RecordedError, Recording};
 
 /// Rows of a file at most; they are kept in memory until the circle is evaluated.
@@ -43,10 +43,7 @@ fn refused(path: &Path, error: &RecordedError) -> Failure {
 
 /// The actual positions in mm, in the order of the rows.
 fn points(path: &Path) -> Result<Vec<[f64; 2]>, Failure> {
-    let file = File::open(path).map_err(|error| Failure::reading(path, &error))?;
-    if path.is_dir() {
-        return Err(Failure::new(format!("`{}` is a folder", path.display())));
-    }
+    let (file, _) = open_regular(path).map_err(|error| Failure::reading(path, &error))?;
     let damaged = |error: &csv::Error| {
         Failure::new(format!(
             "the recording `{}` cannot be read: {error}",

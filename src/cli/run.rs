@@ -13,6 +13,8 @@ use super::fail_on::FailOn;
 use super::failure::Failure;
 use super::files::{Input, Naming};
 use super::html::HtmlFile;
+use super::ledger::Ledger;
+use super::outputs::Outputs;
 use super::progress::Progress;
 use super::settings;
 use super::state::StateFile;
@@ -180,10 +182,14 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     for input in &inputs {
         input.probe()?;
     }
+    let ledger = Ledger::default();
+    inputs.iter().for_each(|input| input.note(&ledger));
+    let mut outputs = Outputs::new(&ledger, console);
+    let target = outputs.result(args.output.as_deref())?;
     let html = args.html.as_deref();
-    let html = html.map(|path| HtmlFile::create((path, args.kinds), &args.files, console));
-    let mut html = html.transpose()?;
-    let mut machines = Machines::new(&args.machine);
+    let html = html.map(|path| outputs.file("--html", path)).transpose()?;
+    let mut html = html.map(|file| HtmlFile::new(file, args.kinds));
+    let mut machines = Machines::new(&args.machine, &ledger);
     let loaded = machines.for_folder(inputs[0].folder())?;
     if let Some(remark) = loaded.remark() {
         Console::talk(&remark);
@@ -201,6 +207,10 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
             ));
         }
     }
+    if let Some(path) = args.state.as_deref() {
+        StateFile::claim(path, &mut outputs);
+    }
+    outputs.check()?;
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
     let options = args.execution.options(&loaded, args.stop_policy());
@@ -209,30 +219,48 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
             .map_err(|error| file.refused(&error))?,
         _ => (Session::new(loaded.machine.clone(), options), Vec::new()),
     };
-    let start = Start {
+    let mut start = Start {
         inputs,
         loaded: &loaded,
         session,
         said,
         state,
     };
-    let report = args.report(console.target(args.output.as_deref())?);
+    let report = args.report(target);
     let given = args.given(&loaded);
-    let status = play(start, (report, html.as_mut()), args.fail_on)?;
+    let played = play(&mut start, (report, html.as_mut()))?;
+    if let Played::Unread = played {
+        // The reader has seen enough; a run that was cut short leaves nothing.
+        return Ok(super::exit::CLEAN);
+    }
     if let Some(html) = html {
         html.write(&given, &loaded.reports)?;
     }
-    Ok(status)
+    if let (Played::Whole, Some(file)) = (played, &start.state) {
+        file.save(&start.session.save(), &mut outputs)?;
+    }
+    outputs.finish()?;
+    Ok(args.fail_on.status(start.session.counts()))
+}
+
+/// How far the programs were played.
+#[derive(Clone, Copy)]
+enum Played {
+    /// To their end, or to the error that stopped the session.
+    Whole,
+    /// Something ended them before.
+    InPart,
+    /// Nobody read the timeline to its end, and there is no other output.
+    Unread,
 }
 
 fn play(
-    mut start: Start<'_>,
+    start: &mut Start<'_>,
     (report, html): (Box<dyn Report>, Option<&mut HtmlFile>),
-    fail_on: FailOn,
-) -> Result<u8, Failure> {
+) -> Result<Played, Failure> {
     let shared = RefCell::new(report);
     let goes_on_alone = html.is_some();
-    let mut sink = Outputs {
+    let mut sink = Listeners {
         report: &shared,
         html: html.map(HtmlFile::story),
         blocks: 0,
@@ -247,15 +275,12 @@ fn play(
     let mut report = shared.into_inner();
     report.finish().map_err(|error| Failure::output(&error))?;
     if report.is_closed() && !goes_on_alone {
-        // The reader has seen enough; a run that was cut short leaves no state.
-        return Ok(super::exit::CLEAN);
+        return Ok(Played::Unread);
     }
-    if flow?.is_continue()
-        && let Some(file) = start.state
-    {
-        file.save(&start.session.save())?;
-    }
-    Ok(fail_on.status(start.session.counts()))
+    Ok(match flow? {
+        ControlFlow::Continue(()) => Played::Whole,
+        ControlFlow::Break(()) => Played::InPart,
+    })
 }
 
 impl Start<'_> {
@@ -294,14 +319,14 @@ impl Start<'_> {
 const STEP: u64 = 1 << 16;
 
 /// The timeline, shared with who flushes it, and the story of the HTML report.
-struct Outputs<'a> {
+struct Listeners<'a> {
     report: &'a RefCell<Box<dyn Report>>,
     html: Option<&'a mut RunStory>,
     blocks: u64,
     progress: Progress,
 }
 
-impl Outputs<'_> {
+impl Listeners<'_> {
     fn step(&mut self) {
         self.blocks += 1;
         if self.blocks.is_multiple_of(STEP) {
@@ -310,7 +335,7 @@ impl Outputs<'_> {
     }
 }
 
-impl Sink for Outputs<'_> {
+impl Sink for Listeners<'_> {
     /// A reader of the timeline that has seen enough ends the run, unless there is a report.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         if let Record::Block(_) = record {

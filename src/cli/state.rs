@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::failure::Failure;
 use super::files::read_bytes;
-use super::replace::{replace, take_away_unfinished};
+use super::outputs::Outputs;
+use super::unfinished::target;
 use crate::session::{SavedState, StateError};
 
 /// How long a second run waits for the first (R9.31).
@@ -25,6 +26,12 @@ pub(super) struct StateFile {
 }
 
 impl StateFile {
+    /// Claims the files that hold the state and the lock.
+    pub(super) fn claim(path: &Path, outputs: &mut Outputs) {
+        outputs.claim("--state", path);
+        outputs.claim("the lock of --state", &suffixed(path, ".lock"));
+    }
+
     /// Locks the state file, whether it exists already or not.
     pub(super) fn lock(path: &Path) -> Result<Self, Failure> {
         Self::lock_within(path, PATIENCE)
@@ -32,14 +39,16 @@ impl StateFile {
 
     fn lock_within(path: &Path, patience: Duration) -> Result<Self, Failure> {
         // A link stays a link: the file that it names is replaced.
-        let path = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        if std::fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
-            let shown = path.display();
-            return Err(Failure::new(format!(
-                "`{shown}` is no file to keep a state in"
-            )));
-        }
+        let path = target(path).map_err(|error| Failure::writing(path, &error))?;
         let beside = suffixed(&path, ".lock");
+        for path in [&path, &beside] {
+            if path.exists() && !path.is_file() {
+                return Err(Failure::new(format!(
+                    "`{}` is not a regular file, no state can be kept there",
+                    path.display()
+                )));
+            }
+        }
         let lock = File::options()
             .create(true)
             .truncate(false)
@@ -49,10 +58,7 @@ impl StateFile {
         let start = Instant::now();
         loop {
             match lock.try_lock() {
-                Ok(()) => {
-                    take_away_unfinished(&path);
-                    return Ok(Self { path, _lock: lock });
-                }
+                Ok(()) => return Ok(Self { path, _lock: lock }),
                 Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
                     std::thread::sleep(PAUSE);
                 }
@@ -93,12 +99,13 @@ impl StateFile {
         .with_help("name another file, or remove this one to begin at a start of the control")
     }
 
-    /// Replaces the state. Whenever the tool is killed, the old or the new file is there, whole.
-    pub(super) fn save(self, state: &SavedState) -> Result<(), Failure> {
+    /// Replaces the state when the outputs take their place. Whenever the tool is killed, the old or
+    /// the new file is there, whole.
+    pub(super) fn save(&self, state: &SavedState, outputs: &mut Outputs) -> Result<(), Failure> {
         let mut text = serde_json::to_vec_pretty(state)
             .map_err(|error| Failure::writing(&self.path, &error.into()))?;
         text.push(b'\n');
-        replace(&self.path, &text)
+        outputs.begin(&self.path)?.bytes(&text)
     }
 }
 
@@ -110,6 +117,8 @@ fn suffixed(path: &Path, suffix: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use super::super::console::{Color, Console};
+    use super::super::ledger::Ledger;
     use super::*;
 
     fn state() -> SavedState {
@@ -124,7 +133,11 @@ mod tests {
         let path = folder.path().join("state.json");
         let file = StateFile::lock(&path).unwrap();
         assert!(file.load().unwrap().is_none());
-        file.save(&state()).unwrap();
+        let console = Console::new(Color::Never, None);
+        let mut outputs = Outputs::new(&Ledger::default(), console);
+        file.save(&state(), &mut outputs).unwrap();
+        outputs.finish().unwrap();
+        drop(file);
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.ends_with("}\n"), "{text}");
         let file = StateFile::lock(&path).unwrap();

@@ -9,6 +9,8 @@ use super::current::parse_reading;
 use super::exit;
 use super::failure::Failure;
 use super::jobs::Jobs;
+use super::ledger::Ledger;
+use super::outputs::Outputs;
 use super::plants::{Model, plant};
 use crate::circle::{Circle, FrictionModel, Plant, Ranges, Search, Task, Tuned};
 use crate::current::Reading;
@@ -104,11 +106,22 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         let message = format!("{} plants were given", args.plant.len());
         return Err(Failure::new(message).with_help(format!("give at most {MAX_PLANTS}")));
     }
+    let ledger = Ledger::default();
+    let mut outputs = Outputs::new(&ledger, console);
+    outputs.print("the result")?;
+    let list = args
+        .output
+        .as_deref()
+        .map(|path| outputs.file("--output", path));
+    let list = list.transpose()?;
+    let svg = args.svg.as_deref().map(|path| outputs.file("--svg", path));
+    let svg = svg.transpose()?;
     let plants: Vec<Plant> = args
         .plant
         .iter()
-        .map(|word| plant(word))
+        .map(|word| plant(word, &ledger))
         .collect::<Result<_, _>>()?;
+    outputs.check()?;
     let model = FrictionModel::from(args.model);
     let mut reports = Vec::new();
     for plant in plants {
@@ -128,16 +141,17 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             tuned: tune(&task)?,
         });
     }
-    if let (Some(path), Some(first)) = (&args.output, reports.first()) {
-        console.deliver(Some(path), &render_list(first, args.cnc_build))?;
+    if let (Some(mut list), Some(first)) = (list, reports.first()) {
+        list.text(&render_list(first, args.cnc_build))?;
     }
-    if let Some(path) = &args.svg {
-        console.deliver(Some(path), &tuning(&reports).render(Frame::Alone))?;
+    if let Some(mut svg) = svg {
+        svg.text(&tuning(&reports).render(Frame::Alone))?;
     }
     console.print(&match args.format {
         Format::Text => render_text(&reports),
         Format::Json => render_json(&reports),
     })?;
+    outputs.finish()?;
     Ok(exit::CLEAN)
 }
 

@@ -1,5 +1,6 @@
 //! The programs below the paths that the user names.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
@@ -8,49 +9,86 @@ use super::failure::Failure;
 use super::files::Input;
 
 /// Extensions of NC programs, in lower case.
-const EXTENSIONS: [&str; 9] = ["nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap"];
+pub(super) const EXTENSIONS: [&str; 9] =
+    ["nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap"];
 
-/// The programs in a fixed order: files as the user named them, folders walked by name. What a
-/// repository ignores is passed over; a file that is named counts whatever its extension.
-pub(super) fn programs(paths: &[PathBuf]) -> Result<Vec<Input>, Failure> {
-    let mut found: Vec<Input> = Vec::new();
-    for path in paths {
-        if !path.is_dir() {
-            let input = Input::new(path);
-            input.probe()?;
-            found.push(input);
-            continue;
-        }
-        let before = found.len();
-        for entry in WalkBuilder::new(path)
-            .sort_by_file_name(std::ffi::OsStr::cmp)
-            .build()
-        {
-            let entry = entry.map_err(|error| {
-                Failure::new(format!("`{}` cannot be walked: {error}", path.display()))
-            })?;
-            let is_file = entry.file_type().is_some_and(|kind| kind.is_file());
-            if is_file && is_program(entry.path()) {
-                found.push(Input::File(shown(entry.path())));
-            }
-        }
-        if found.len() == before {
-            return Err(
-                Failure::new(format!("there is no program below `{}`", path.display()))
-                    .with_help(format!("programs end in .{}", EXTENSIONS.join(", ."))),
-            );
-        }
-    }
-    let mut seen = std::collections::BTreeSet::new();
-    found.retain(|input| seen.insert(input.clone()));
-    Ok(found)
+/// What was found below the paths.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    /// The programs in a fixed order: files as the user named them, folders walked by name.
+    pub(super) inputs: Vec<Input>,
+    /// The paths that gave nothing (R9.77).
+    pub(super) failures: Vec<Failure>,
+    /// Files of folders whose extension is not that of a program.
+    pub(super) passed_over: u64,
 }
 
-fn is_program(path: &Path) -> bool {
+/// Finds the programs. What a repository ignores is passed over; a file that is named counts whatever
+/// its extension. `extensions` gives those of the programs in a folder.
+pub(super) fn programs(
+    paths: &[PathBuf],
+    mut extensions: impl FnMut(&Path) -> Option<Vec<String>>,
+) -> Found {
+    let mut found = Found::default();
+    for path in paths {
+        if path.is_dir() {
+            let extensions = extensions(path);
+            let extensions = extensions.unwrap_or_else(|| EXTENSIONS.map(str::to_owned).to_vec());
+            found.walk(path, &extensions);
+        } else {
+            let input = Input::new(path);
+            match input.probe() {
+                Ok(()) => found.inputs.push(input),
+                Err(failure) => found.failures.push(failure),
+            }
+        }
+    }
+    let mut seen = BTreeSet::new();
+    found.inputs.retain(|input| seen.insert(input.clone()));
+    found
+}
+
+impl Found {
+    fn walk(&mut self, folder: &Path, extensions: &[String]) {
+        let (before, failed) = (self.inputs.len(), self.failures.len());
+        let walk = WalkBuilder::new(folder)
+            .sort_by_file_name(std::ffi::OsStr::cmp)
+            .build();
+        for entry in walk {
+            let entry = match entry {
+                Ok(entry) => entry,
+                Err(error) => {
+                    let shown = folder.display();
+                    let message = format!("`{shown}` cannot be walked in full: {error}");
+                    self.failures.push(Failure::new(message));
+                    continue;
+                }
+            };
+            if !entry.file_type().is_some_and(|kind| kind.is_file()) {
+                continue;
+            }
+            if is_program(entry.path(), extensions) {
+                self.inputs.push(Input::File(shown(entry.path())));
+            } else {
+                self.passed_over += 1;
+            }
+        }
+        if self.inputs.len() == before && self.failures.len() == failed {
+            let shown = folder.display();
+            let failure = Failure::new(format!("there is no program below `{shown}`"));
+            self.failures.push(failure.with_help(format!(
+                "programs end in .{}; `[check] extensions` in frictcomp.toml names others",
+                extensions.join(", .")
+            )));
+        }
+    }
+}
+
+fn is_program(path: &Path, extensions: &[String]) -> bool {
     path.extension()
         .and_then(|extension| extension.to_str())
         .is_some_and(|extension| {
-            EXTENSIONS
+            extensions
                 .iter()
                 .any(|known| known.eq_ignore_ascii_case(extension))
         })
@@ -63,24 +101,33 @@ fn shown(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use super::super::files::Naming;
     use super::*;
 
     #[test]
     fn folders_are_walked_by_name() {
+        // R9.77
         let root = tempfile::tempdir().unwrap();
         let path = |name: &str| root.path().join(name);
         std::fs::create_dir(path("sub")).unwrap();
         for name in ["b.NC", "a.mpf", "c.txt", "sub/z.cyc"] {
             std::fs::write(path(name), "").unwrap();
         }
-        let found = programs(&[path(""), path("c.txt"), path("b.NC")]).unwrap();
-        let names: Vec<String> = found
-            .iter()
-            .map(|input| input.name(super::super::files::Naming::FileName))
-            .collect();
-        assert_eq!(names, ["a.mpf", "b.NC", "z.cyc", "c.txt"]);
+        let paths = [path(""), path("missing.nc"), path("c.txt"), path("b.NC")];
+        let found = programs(&paths, |_| None);
+        let names = |found: &Found| -> Vec<String> {
+            let inputs = found.inputs.iter();
+            inputs.map(|it| it.name(Naming::FileName)).collect()
+        };
+        assert_eq!(names(&found), ["a.mpf", "b.NC", "z.cyc", "c.txt"]);
+        assert_eq!((found.failures.len(), found.passed_over), (1, 1));
+        let found = programs(&paths[..1], |_| Some(vec!["TXT".to_owned()]));
+        assert_eq!(
+            (names(&found), found.passed_over),
+            (vec!["c.txt".to_owned()], 3)
+        );
         std::fs::create_dir(path("empty")).unwrap();
-        assert!(programs(&[path("empty")]).is_err());
-        assert!(programs(&[path("missing.nc")]).is_err());
+        let found = programs(&[path("empty")], |_| None);
+        assert!(found.failures[0].message.contains("no program below"));
     }
 }

@@ -4,7 +4,6 @@
 mod program;
 mod recorded;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,7 +14,8 @@ use super::discovery::MachineArgs;
 use super::dry_run::ExecutionArgs;
 use super::failure::Failure;
 use super::files::read_text;
-use super::sheet::Sheet;
+use super::ledger::Ledger;
+use super::outputs::{OutputFile, Outputs};
 use crate::current::{Below, Delay, Reading, Standstill};
 use crate::diagnostic::{Severity, did_you_mean};
 use crate::lists::{Conditions, Entries, FrictionDraft, FrictionList, Verdict};
@@ -117,8 +117,7 @@ pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
 
 /// A picture that is drawn while the cycles come in, and the file that it goes into.
 struct Plot {
-    sheet: Sheet,
-    path: PathBuf,
+    file: OutputFile,
     traces: CurrentPlot,
 }
 
@@ -126,26 +125,21 @@ impl Plot {
     /// The picture that the user asked for.
     fn create(
         args: &CurrentArgs,
-        console: Console,
+        outputs: &mut Outputs,
         axes: Vec<AxisPlot>,
     ) -> Result<Option<Self>, Failure> {
         let Some(path) = &args.plot else {
             return Ok(None);
         };
         Ok(Some(Self {
-            sheet: Sheet::create(Some(path), console)?,
-            path: path.clone(),
+            file: outputs.file("--plot", path)?,
             traces: CurrentPlot::new(axes),
         }))
     }
 
     /// Writes the picture.
     fn finish(mut self) -> Result<(), Failure> {
-        let svg = self.traces.chart().render(Frame::Alone);
-        let written = self.sheet.write_all(svg.as_bytes());
-        written
-            .and_then(|()| self.sheet.finish())
-            .map_err(|error| Failure::writing(&self.path, &error))
+        self.file.text(&self.traces.chart().render(Frame::Alone))
     }
 }
 
@@ -171,7 +165,8 @@ fn say_saturated(axis: &str, cycles: u64) {
 }
 
 /// The values that a list would give the control.
-pub(super) fn value_list(path: &Path) -> Result<FrictionList, Failure> {
+pub(super) fn value_list(path: &Path, ledger: &Ledger) -> Result<FrictionList, Failure> {
+    ledger.reads("value list", path);
     let source = Arc::new(SourceFile::new(
         path.display().to_string(),
         read_text(path)?,

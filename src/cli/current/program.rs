@@ -12,8 +12,9 @@ use super::super::dry_run::{Alone, run_alone};
 use super::super::exit;
 use super::super::failure::Failure;
 use super::super::files::{Input, Naming};
+use super::super::ledger::Ledger;
+use super::super::outputs::Outputs;
 use super::super::progress::Progress;
-use super::super::sheet::Sheet;
 use super::{Column, CurrentArgs, Plot, check_cycle, say_saturated, value_list};
 use crate::compensation::State;
 use crate::current::{AdditiveCurrent, Followers, Input as Commanded, Moment};
@@ -37,12 +38,19 @@ const STEP: u64 = 1 << 16;
 pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
     let input = Input::new(program);
     input.probe()?;
-    let mut machines = Machines::new(&args.machine);
+    let ledger = Ledger::default();
+    input.note(&ledger);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut machines = Machines::new(&args.machine, &ledger);
     let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
     if let Some(remark) = loaded.remark() {
         Console::talk(&remark);
     }
-    let followed = followed(&args.axes, &mut loaded, args.value_list.as_deref())?;
+    let followed = followed(
+        &args.axes,
+        &mut loaded,
+        (args.value_list.as_deref(), &ledger),
+    )?;
     let cycle = args
         .cycle_time
         .or(loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0));
@@ -51,7 +59,9 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         max_cycles: args.max_cycles,
     };
     say_limits(&loaded);
-    let sheet = Sheet::create(args.output.as_deref(), console)?;
+    let result = outputs.result(args.output.as_deref())?;
+    let plot = Plot::create(args, &mut outputs, plotted(&loaded, &followed))?;
+    outputs.check()?;
     let currents = followed.iter().map(|axis| {
         let list = values(&loaded, *axis);
         AdditiveCurrent::new(&list, args.reading)
@@ -62,13 +72,13 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
             followers: Followers::new(currents.collect()),
             waiting: VecDeque::new(),
             columns: args.columns.clone(),
-            writer: BufWriter::new(sheet),
+            writer: BufWriter::new(result.writer),
             written: Ok(()),
             cycles: 0,
             progress: Progress::beside_output(),
             begins: Vec::new(),
             seen: vec![Vec::new(); followed.len()],
-            plot: Plot::create(args, console, plotted(&loaded, &followed))?,
+            plot,
         },
         errors: Vec::new(),
         over: ControlFlow::Continue(()),
@@ -105,6 +115,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),
         written => written.map_err(|error| Failure::output(&error))?,
     }
+    outputs.finish()?;
     let told = Told {
         names: &names,
         table: &table,
@@ -125,9 +136,9 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
 fn followed(
     names: &[String],
     loaded: &mut LoadedMachine,
-    list: Option<&Path>,
+    (list, ledger): (Option<&Path>, &Ledger),
 ) -> Result<Vec<AxisIndex>, Failure> {
-    let list = list.map(value_list).transpose()?;
+    let list = list.map(|path| value_list(path, ledger)).transpose()?;
     let mut followed: Vec<AxisIndex> = Vec::new();
     for name in names {
         let machine = &mut loaded.machine;
@@ -246,7 +257,7 @@ struct Table {
     /// Time and line of the cycles whose current is not known yet.
     waiting: VecDeque<(f64, u32)>,
     columns: Vec<Column>,
-    writer: BufWriter<Sheet>,
+    writer: BufWriter<Box<dyn Write>>,
     written: io::Result<()>,
     cycles: u64,
     progress: Progress,
@@ -293,8 +304,7 @@ impl Table {
 
     fn finish(&mut self) -> io::Result<()> {
         std::mem::replace(&mut self.written, Ok(()))?;
-        self.writer.flush()?;
-        self.writer.get_mut().finish()
+        self.writer.flush()
     }
 }
 

@@ -7,6 +7,8 @@ use super::super::console::Console;
 use super::super::exit;
 use super::super::failure::Failure;
 use super::super::files::read_text;
+use super::super::ledger::Ledger;
+use super::super::outputs::Outputs;
 use super::{CurrentArgs, Plot, check_cycle, say_saturated, value_list};
 use crate::compensation::State;
 use crate::current::{AdditiveCurrent, Cycle, Switched};
@@ -26,11 +28,15 @@ pub(super) fn run(
     args: &CurrentArgs,
     console: Console,
 ) -> Result<u8, Failure> {
-    let list = value_list(list)?;
+    let ledger = Ledger::default();
+    ledger.reads("trace", trace);
+    let mut outputs = Outputs::new(&ledger, console);
+    let list = value_list(list, &ledger)?;
+    let mut writer = outputs.result(args.output.as_deref())?.writer;
+    let mut plot = Plot::create(args, &mut outputs, vec![AxisPlot::new("", None)])?;
+    outputs.check()?;
     let trace = Trace::read(trace, args.cycle_time)?;
     let mut current = AdditiveCurrent::new(&list, args.reading);
-    let mut writer = console.target(args.output.as_deref())?.writer;
-    let mut plot = Plot::create(args, console, vec![AxisPlot::new("", None)])?;
     let written = write_csv(&mut writer, &trace, (&mut current, plot.as_mut()));
     if let Some(plot) = plot {
         plot.finish()?;
@@ -39,6 +45,7 @@ pub(super) fn run(
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),
         written => written.map_err(|error| Failure::output(&error))?,
     }
+    outputs.finish()?;
     Console::talk(&format!("reading: {}", args.reading.words()));
     say_saturated("", current.saturated());
     Ok(exit::CLEAN)

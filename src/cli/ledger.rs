@@ -1,0 +1,188 @@
+//! What a command reads and what it writes, so that no output destroys an input (R9.70).
+
+use std::collections::BTreeMap;
+use std::collections::hash_map::{Entry, HashMap};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::failure::Failure;
+
+/// The files that one command reads. Its copies are the same ledger: called programs are known only
+/// while others run already.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ledger(Arc<Mutex<BTreeMap<PathBuf, &'static str>>>);
+
+/// A file that a command writes, and the option that names it.
+#[derive(Debug, Clone)]
+pub(super) struct Claim {
+    pub(super) option: &'static str,
+    pub(super) path: PathBuf,
+}
+
+impl Claim {
+    fn shown(&self) -> String {
+        format!("{} {}", self.option, self.path.display())
+    }
+}
+
+impl Ledger {
+    /// Notes a file that is read, and as what.
+    pub(super) fn reads(&self, what: &'static str, path: &Path) {
+        let mut inputs = self.inputs();
+        if !inputs.contains_key(path) {
+            inputs.insert(path.to_owned(), what);
+        }
+    }
+
+    /// Says which output is a file that is read, or another output; links, hard links and other
+    /// spellings included.
+    pub(super) fn check(&self, outputs: &[Claim]) -> Result<(), Failure> {
+        let mut written: HashMap<Identity, &Claim> = HashMap::new();
+        for output in outputs {
+            let Some(identity) = Identity::of_output(&output.path) else {
+                continue;
+            };
+            match written.entry(identity) {
+                Entry::Vacant(vacant) => {
+                    vacant.insert(output);
+                }
+                Entry::Occupied(other) => {
+                    let (one, two) = (other.get().shown(), output.shown());
+                    return Err(
+                        Failure::new(format!("`{one}` and `{two}` are the same file"))
+                            .with_help("give each output a file of its own"),
+                    );
+                }
+            }
+        }
+        if !written.keys().any(Identity::exists) {
+            return Ok(());
+        }
+        for (input, what) in self.inputs().iter() {
+            let identity = Identity::of_file(input);
+            if let Some(output) = identity.and_then(|identity| written.get(&identity)) {
+                let shown = output.shown();
+                let input = input.display();
+                return Err(Failure::new(format!(
+                    "`{shown}` would overwrite the {what} `{input}`"
+                ))
+                .with_help("name another file for the output"));
+            }
+        }
+        Ok(())
+    }
+
+    fn inputs(&self) -> MutexGuard<'_, BTreeMap<PathBuf, &'static str>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Which file a path names.
+#[derive(Debug, PartialEq, Eq, Hash)]
+enum Identity {
+    /// A file that is there.
+    File(FileKey),
+    /// The place of a file that is not there yet: its folder and its name.
+    Place(FileKey, OsString),
+}
+
+/// Device and number of a file.
+#[cfg(unix)]
+type FileKey = (u64, u64);
+
+/// The open file, which is how the system tells.
+#[cfg(not(unix))]
+type FileKey = same_file::Handle;
+
+impl Identity {
+    fn of_file(path: &Path) -> Option<Self> {
+        key(path).map(Self::File)
+    }
+
+    fn of_output(path: &Path) -> Option<Self> {
+        if let Some(identity) = Self::of_file(path) {
+            return Some(identity);
+        }
+        let name = path.file_name()?;
+        // Where a folder does not tell upper from lower case, neither may this.
+        let name = if cfg!(any(windows, target_os = "macos")) {
+            name.to_ascii_lowercase()
+        } else {
+            name.to_owned()
+        };
+        Some(Self::Place(key(folder(path))?, name))
+    }
+
+    fn exists(&self) -> bool {
+        matches!(self, Self::File(_))
+    }
+}
+
+#[cfg(unix)]
+fn key(path: &Path) -> Option<FileKey> {
+    use std::os::unix::fs::MetadataExt;
+    let metadata = std::fs::metadata(path).ok()?;
+    Some((metadata.dev(), metadata.ino()))
+}
+
+#[cfg(not(unix))]
+fn key(path: &Path) -> Option<FileKey> {
+    same_file::Handle::from_path(path).ok()
+}
+
+/// The folder of a file, `.` for a bare name.
+pub(super) fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(inputs: &[&Path], outputs: &[&Path]) -> Option<String> {
+        let ledger = Ledger::default();
+        inputs.iter().for_each(|path| ledger.reads("program", path));
+        let claim = |path: &&Path| Claim {
+            option: "-o",
+            path: path.to_path_buf(),
+        };
+        let outputs: Vec<Claim> = outputs.iter().map(claim).collect();
+        ledger.check(&outputs).err().map(|failure| failure.message)
+    }
+
+    #[test]
+    fn a_file_is_known_under_every_name() {
+        // R9.70
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir(path("sub")).unwrap();
+        std::fs::write(path("a.nc"), "").unwrap();
+        std::fs::hard_link(path("a.nc"), path("hard")).unwrap();
+        let mut names = vec![path("a.nc"), path("sub/../a.nc"), path("hard")];
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(path("a.nc"), path("soft")).unwrap();
+            names.push(path("soft"));
+        }
+        for name in &names {
+            let said = refused(&[&path("a.nc")], &[name]).unwrap();
+            assert!(said.contains("would overwrite the program"), "{said}");
+        }
+        assert_eq!(refused(&[&path("a.nc")], &[&path("new")]), None);
+    }
+
+    #[test]
+    fn two_outputs_are_two_files() {
+        // R9.70
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir(path("sub")).unwrap();
+        let said = refused(&[], &[&path("new"), &path("sub/../new")]).unwrap();
+        assert!(said.contains("are the same file"), "{said}");
+        assert_eq!(refused(&[], &[&path("new"), &path("sub/new")]), None);
+    }
+}

@@ -1,0 +1,64 @@
+//! Names with their places, as `check --unknowns` and `check --opaque` list them.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Value, json};
+
+use super::check::Format;
+use super::console::Target;
+use super::failure::Failure;
+use crate::session::NoteKind;
+use crate::source::Position;
+
+/// A name and where it stands.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Note {
+    pub(super) name: String,
+    pub(super) file: String,
+    pub(super) start: Position,
+}
+
+impl Note {
+    /// `V.E.PART mill.nc:12:5`
+    fn text(&self) -> String {
+        format!("{} {}:{}\n", self.name, self.file, self.start)
+    }
+
+    fn record(&self, kind: NoteKind) -> Value {
+        json!({
+            "record": match kind {
+                NoteKind::Unknown => "unknown",
+                NoteKind::Opaque => "opaque",
+            },
+            "name": self.name,
+            "file": self.file,
+            "line": self.start.line,
+            "column": self.start.column,
+        })
+    }
+}
+
+/// Writes the notes that `take` gathers, in the order of their names.
+pub(super) fn list(
+    kind: NoteKind,
+    (format, mut target): (Format, Target),
+    take: impl FnOnce(&mut BTreeSet<Note>),
+) -> Result<(), Failure> {
+    if matches!(format, Format::Github | Format::Sarif) {
+        return Err(Failure::new("this list has no such format")
+            .with_help("write `--format text`, `concise`, `json` or `ndjson`"));
+    }
+    let mut notes = BTreeSet::new();
+    take(&mut notes);
+    let records = notes.iter().map(|note| note.record(kind));
+    let text = match format {
+        Format::Ndjson => records.map(|record| format!("{record}\n")).collect(),
+        Format::Json => {
+            let records: Vec<Value> = records.collect();
+            format!("{:#}\n", json!({ "schema": 1, "records": records }))
+        }
+        _ => notes.iter().map(Note::text).collect(),
+    };
+    target.text(&text)?;
+    Ok(())
+}

@@ -1,0 +1,291 @@
+//! Files that are replaced in one step: whether the tool is killed or the disk is full, the old or
+//! the new file is there, whole.
+
+use std::collections::BTreeSet;
+use std::fs::{File, Metadata};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{NamedTempFile, TempPath};
+
+use super::interrupt::Unfinished;
+use super::ledger::folder;
+
+/// How the name of a file that is not whole begins and ends. The letters between are random.
+const PREFIX: &str = ".frictcomp-";
+const SUFFIX: &str = ".tmp";
+const LETTERS: usize = 16;
+
+/// How often a new file is tried where another run takes it for one that was left.
+const TRIES: u32 = 8;
+
+/// A file that is written beside the old one. Dropped before [`take_place`](Self::take_place), it
+/// leaves the old one as it was.
+#[derive(Debug)]
+pub(super) struct UnfinishedFile {
+    stage: Stage,
+    target: PathBuf,
+}
+
+#[derive(Debug)]
+enum Stage {
+    /// More may come. The file is locked, so that other runs know that somebody writes it.
+    Open(NamedTempFile),
+    /// It lies on the disk and is closed: many may wait for each other.
+    Synced(TempPath),
+    /// It has taken its place.
+    Done,
+}
+
+impl UnfinishedFile {
+    /// Begins a file beside the old one. It keeps the rights of the old one; a link stays a link.
+    ///
+    /// # Errors
+    /// The old file may not be written or is a link to nothing, or there can be no new one.
+    pub(super) fn begin(path: &Path) -> io::Result<Self> {
+        let target = target(path)?;
+        let file = create(folder(&target))?;
+        if let Ok(old) = std::fs::metadata(&target) {
+            file.as_file().set_permissions(old.permissions())?;
+        }
+        Ok(Self {
+            stage: Stage::Open(file),
+            target,
+        })
+    }
+
+    /// Everything is written: it goes to the disk.
+    pub(super) fn sync(&mut self) -> io::Result<()> {
+        if let Stage::Open(file) = &mut self.stage {
+            file.flush()?;
+            file.as_file().sync_all()?;
+        }
+        self.stage = match std::mem::replace(&mut self.stage, Stage::Done) {
+            Stage::Open(file) => Stage::Synced(file.into_temp_path()),
+            stage => stage,
+        };
+        Ok(())
+    }
+
+    /// The file takes the old one's place.
+    pub(super) fn take_place(&mut self) -> io::Result<()> {
+        self.sync()?;
+        let Stage::Synced(file) = std::mem::replace(&mut self.stage, Stage::Done) else {
+            return Ok(());
+        };
+        let mut unfinished = Unfinished::lock();
+        let path = file.to_path_buf();
+        let persisted = file.persist(&self.target);
+        unfinished.forget(&path);
+        persisted?;
+        #[cfg(unix)]
+        File::open(folder(&self.target))?.sync_all()?;
+        Ok(())
+    }
+}
+
+impl Write for UnfinishedFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.stage {
+            Stage::Open(file) => file.write(bytes),
+            Stage::Synced(_) | Stage::Done => Err(io::Error::other("it is whole already")),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.stage {
+            Stage::Open(file) => file.flush(),
+            Stage::Synced(_) | Stage::Done => Ok(()),
+        }
+    }
+}
+
+impl Drop for UnfinishedFile {
+    fn drop(&mut self) {
+        let path = match &self.stage {
+            Stage::Open(file) => file.path().to_owned(),
+            Stage::Synced(path) => path.to_path_buf(),
+            Stage::Done => return,
+        };
+        let mut unfinished = Unfinished::lock();
+        self.stage = Stage::Done;
+        unfinished.forget(&path);
+    }
+}
+
+/// The file that a path names, with links followed. It may be missing, a link to nothing may not.
+///
+/// # Errors
+/// It may not be written.
+pub(super) fn target(path: &Path) -> io::Result<PathBuf> {
+    let Ok(found) = std::fs::symlink_metadata(path) else {
+        return Ok(path.to_owned());
+    };
+    if found.is_symlink() && !path.exists() {
+        let reason = "it is a link to a file that does not exist";
+        return Err(io::Error::other(reason));
+    }
+    let target = std::fs::canonicalize(path)?;
+    let metadata = std::fs::metadata(&target)?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if metadata.permissions().readonly() {
+        return Err(io::Error::other("it is read-only"));
+    }
+    Ok(target)
+}
+
+/// A new file in a folder, which nobody takes for one that was left.
+fn create(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX).rand_bytes(LETTERS);
+    #[cfg(unix)]
+    builder.permissions(new_file_permissions());
+    let mut unfinished = Unfinished::lock();
+    for _ in 0..TRIES {
+        let file = builder.tempfile_in(folder)?;
+        // Who holds the lock lives (see `take_away_left`). Not every file system has locks.
+        let is_taken = matches!(
+            file.as_file().try_lock(),
+            Err(std::fs::TryLockError::WouldBlock)
+        );
+        if !is_taken && file.path().exists() {
+            unfinished.add(file.path());
+            return Ok(file);
+        }
+    }
+    Err(io::Error::other("other runs take every new file away"))
+}
+
+/// Takes away what killed runs of the same user left in the folder of a file. An unfinished file of a
+/// run that lives is locked.
+pub(super) fn take_away_left(beside: &UnfinishedFile, seen: &mut BTreeSet<PathBuf>) {
+    let folder = folder(&beside.target);
+    let Stage::Open(own) = &beside.stage else {
+        return;
+    };
+    if !seen.insert(folder.to_owned()) {
+        return;
+    }
+    let (Ok(entries), Ok(mine)) = (std::fs::read_dir(folder), own.as_file().metadata()) else {
+        return;
+    };
+    for entry in entries.filter_map(Result::ok) {
+        let name = entry.file_name();
+        if !name.to_str().is_some_and(is_unfinished) || own.path().file_name() == Some(&name) {
+            continue;
+        }
+        let is_ours = std::fs::symlink_metadata(entry.path())
+            .is_ok_and(|metadata| metadata.is_file() && same_owner(&metadata, &mine));
+        if is_ours
+            && let Ok(file) = File::open(entry.path())
+            && file.try_lock().is_ok()
+        {
+            // What cannot be removed does no harm.
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a name is one that [`create`] gives, to the letter.
+fn is_unfinished(name: &str) -> bool {
+    name.strip_prefix(PREFIX)
+        .and_then(|rest| rest.strip_suffix(SUFFIX))
+        .is_some_and(|letters| {
+            letters.len() == LETTERS && letters.bytes().all(|it| it.is_ascii_alphanumeric())
+        })
+}
+
+#[cfg(unix)]
+fn same_owner(one: &Metadata, other: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    one.uid() == other.uid()
+}
+
+#[cfg(not(unix))]
+fn same_owner(_: &Metadata, _: &Metadata) -> bool {
+    true
+}
+
+/// What a new file gets; the user's mask takes away from it.
+#[cfg(unix)]
+fn new_file_permissions() -> std::fs::Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::Permissions::from_mode(0o666)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let mut file = UnfinishedFile::begin(path)?;
+        file.write_all(bytes)?;
+        file.sync()?;
+        file.take_place()
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole() {
+        // R9.31
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("v.lis");
+        replace(&path, b"old").unwrap();
+        let mut unfinished = UnfinishedFile::begin(&path).unwrap();
+        unfinished.write_all(b"hal").unwrap();
+        drop(unfinished);
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        replace(&path, b"new").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert!(replace(&folder.path().join("no/v.lis"), b"x").is_err());
+    }
+
+    #[test]
+    fn only_what_killed_runs_left_is_taken_away() {
+        // R9.31
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let others = [
+            ".mill-backup.tmp",
+            ".frictcomp-notes.tmp",
+            ".frictcomp-abcdefghijklmnop.tmp~",
+            ".frictcomp-abcdefgh-jklmnop.tmp",
+            ".st-2-abcdef.tmp",
+        ];
+        let left = ".frictcomp-abcdefghijklmnop.tmp";
+        for name in others.into_iter().chain([left]) {
+            std::fs::write(path(name), "").unwrap();
+        }
+        let alive = UnfinishedFile::begin(&path("st-2")).unwrap();
+        let mine = UnfinishedFile::begin(&path("st")).unwrap();
+        take_away_left(&mine, &mut BTreeSet::new());
+        assert!(!path(left).exists());
+        assert!(others.iter().all(|name| path(name).exists()));
+        for mut file in [alive, mine] {
+            file.take_place().unwrap();
+        }
+        assert!(path("st").exists() && path("st-2").exists());
+    }
+
+    #[test]
+    fn what_may_not_be_written_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("kept");
+        std::fs::write(&path, "kept").unwrap();
+        let mut rights = std::fs::metadata(&path).unwrap().permissions();
+        rights.set_readonly(true);
+        std::fs::set_permissions(&path, rights).unwrap();
+        let error = UnfinishedFile::begin(&path).unwrap_err();
+        assert!(error.to_string().contains("read-only"));
+        assert!(UnfinishedFile::begin(folder.path()).is_err());
+        #[cfg(unix)]
+        {
+            let link = folder.path().join("link");
+            std::os::unix::fs::symlink(folder.path().join("no"), &link).unwrap();
+            let error = UnfinishedFile::begin(&link).unwrap_err();
+            assert!(error.to_string().contains("does not exist"));
+        }
+    }
+}

@@ -44,7 +44,7 @@ impl StateFile {
         for path in [&path, &beside] {
             if path.exists() && !path.is_file() {
                 return Err(Failure::new(format!(
-                    "`{}` is not a regular file, no state can be kept there",
+                    "`{}` is no file to keep a state in, it is not a regular file",
                     path.display()
                 )));
             }

@@ -8,11 +8,12 @@ use clap::{Args, Subcommand};
 use super::console::Console;
 use super::discovery::{CONFIG_NAME, LoadedMachine, MachineArgs, Machines};
 use super::exit;
-use super::failure::Failure;
+use super::failure::{Failure, shown};
 use super::ledger::Ledger;
 use crate::compensation::Compensation;
 use crate::diagnostic::Diagnostic;
 use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
+use crate::report::visible_line;
 use crate::syntax::Kind;
 
 /// The configuration of the machine
@@ -55,7 +56,7 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
 fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     let machine = &loaded.machine;
     let _ = match (&loaded.origin, machine.axis_set) {
-        (Some(path), _) => writeln!(output, "configuration  {}", path.display()),
+        (Some(path), _) => writeln!(output, "configuration  {}", shown(path)),
         (None, _) => writeln!(
             output,
             "configuration  none, no {CONFIG_NAME} from here upwards"
@@ -72,7 +73,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
         let _ = writeln!(output, "cycle time     {cycle} ms");
     }
     for folder in &loaded.reach.program_dirs {
-        let _ = writeln!(output, "programs in    {}", folder.display());
+        let _ = writeln!(output, "programs in    {}", shown(folder));
     }
     let _ = writeln!(
         output,
@@ -90,12 +91,14 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
         let origin = match &axis.frict_comp_origin {
             Origin::Default => "default".to_owned(),
             Origin::Assumed => "--enable".to_owned(),
-            Origin::File { file, line } => format!("{file}:{line}"),
+            Origin::File { file, line } => visible_line(&format!("{file}:{line}")).into_owned(),
         };
         let list = match &axis.friction {
             Parameterisation::Missing => "none".to_owned(),
             Parameterisation::Off => "mode 0, off".to_owned(),
-            Parameterisation::Rejected { file, code } => format!("{file} rejected, {code}"),
+            Parameterisation::Rejected { file, code } => {
+                format!("{} rejected, {code}", visible_line(file))
+            }
             Parameterisation::Assumed => "assumed".to_owned(),
             Parameterisation::Accepted(list) => format!("{} points", list.table.len()),
         };

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 
 use super::failure::Failure;
 use crate::diagnostic::Diagnostic;
-use crate::report::{Look, Paint, render};
+use crate::report::{Look, Paint, leading, render, visible, visible_line};
 
 /// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
 const FALLBACK_WIDTH: usize = 100;
@@ -129,14 +129,15 @@ impl Console {
         }
     }
 
-    /// Writes a text to stdout; a closed pipe is no failure.
+    /// Writes a text to stdout, with pictures for what cannot be seen (R9.76); a closed pipe is no
+    /// failure.
     pub(super) fn print(self, text: &str) -> Result<Printed, Failure> {
-        self.stdout().text(text)
+        self.stdout().text(&visible(text))
     }
 
     /// Says a line on stderr. When nobody listens, nothing is lost.
     pub(super) fn talk(line: &str) {
-        let _ = writeln!(io::stderr().lock(), "{line}");
+        let _ = writeln!(io::stderr().lock(), "{}", leading(line));
     }
 
     /// Says a line on stderr, unless the user wants only what counts.
@@ -177,8 +178,10 @@ impl Console {
                 anstyle::AnsiColor::Cyan.on_default(),
             ),
         };
-        let _ = writeln!(writer, "{bold}error{bold:#}: {}", failure.message);
+        let message = visible_line(&failure.message);
+        let _ = writeln!(writer, "{bold}error{bold:#}: {message}");
         for help in &failure.help {
+            let help = visible_line(help);
             let _ = writeln!(writer, "{plain}help{plain:#}: {help}");
         }
     }

@@ -12,11 +12,12 @@ use super::console::{Console, Printed};
 use super::discovery::{MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
 use super::exit;
-use super::failure::Failure;
+use super::failure::{Failure, shown};
 use super::files::{Input, Naming};
 use super::ledger::Ledger;
 use super::settings;
 use crate::diagnostic::Severity;
+use crate::report::visible_line;
 use crate::session::StopPolicy;
 use crate::syntax::KindSet;
 use crate::timeline::{Record, Row, Sink};
@@ -133,7 +134,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
             "no difference: {count} change{plural} of state in both"
         );
     } else {
-        let names = format!("--- {}\n+++ {}\n", args.old.display(), args.new.display());
+        let names = format!("--- {}\n+++ {}\n", shown(&args.old), shown(&args.new));
         output.insert_str(0, &names);
     }
     if let Printed::Unread = console.print(&output)? {
@@ -183,7 +184,9 @@ fn append_difference(output: &mut String, old: &[Switch], new: &[Switch]) -> boo
             let _ = writeln!(
                 output,
                 "{sign} {:>6}  {:<28}  {}",
-                switch.line, switch.change, switch.text
+                switch.line,
+                switch.change,
+                visible_line(&switch.text)
             );
         }
     }

@@ -5,6 +5,12 @@ use std::path::Path;
 
 use super::console::Console;
 use crate::diagnostic::Diagnostic;
+use crate::report::visible_line;
+
+/// A path as it is shown in a text of several lines (R9.76).
+pub(super) fn shown(path: &Path) -> String {
+    visible_line(&path.to_string_lossy()).into_owned()
+}
 
 /// One clear sentence, what to do, and where the reason stands in a file of the user.
 #[derive(Debug, Default)]

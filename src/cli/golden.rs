@@ -9,7 +9,7 @@ use similar::TextDiff;
 use super::console::{Console, Printed};
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{Alone, ExecutionArgs, run_alone};
-use super::failure::{Failure, Failures};
+use super::failure::{Failure, Failures, shown};
 use super::files::{Input, Naming, read_bytes};
 use super::ledger::{Ledger, folder};
 use super::outputs::Outputs;
@@ -108,7 +108,7 @@ impl Bench<'_> {
         let (mut drifted, mut missing) = (0_u64, 0_u64);
         let mut output = String::new();
         for pair in pairs {
-            let shown = pair.golden.display();
+            let shown = shown(&pair.golden);
             match self.verdict(pair) {
                 Ok(Verdict::AsAgreed) => {}
                 Ok(Verdict::Missing(_)) => {
@@ -286,7 +286,7 @@ fn read_golden(path: &Path) -> Result<Option<String>, Failure> {
 }
 
 fn append_drift(output: &mut String, golden: &Path, before: &str, now: &str) {
-    let shown = golden.display();
+    let shown = shown(golden);
     let diff = TextDiff::from_lines(before, now);
     let agreed = format!("{shown} (agreed)");
     let found = format!("{shown} (now)");

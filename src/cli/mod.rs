@@ -50,6 +50,8 @@ use clap::{Parser, Subcommand};
 use console::{Color, Console};
 use failure::Failure;
 
+use crate::report::{visible, visible_line};
+
 /// Dry-runs ISG and TwinCAT CNC programs and shows, block by block, which axis has friction
 /// compensation active.
 #[derive(Debug, Parser)]
@@ -91,9 +93,11 @@ enum Command {
 
 /// Runs the tool with its arguments, the name of the program first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let hidden = hidden(&arguments);
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
-        Err(error) => return ExitCode::from(say_usage(&error)),
+        Err(error) => return ExitCode::from(say_usage(&error, &hidden)),
     };
     interrupt::survive_file_size_limit();
     let console = Console::new(arguments.color, arguments.width);
@@ -104,10 +108,26 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     ExitCode::from(status)
 }
 
+/// The arguments that hold what cannot be seen, each with what is shown in its place (R9.76).
+fn hidden(arguments: &[OsString]) -> Vec<(String, String)> {
+    let texts = arguments.iter().map(|argument| argument.to_string_lossy());
+    let pairs = texts.map(|text| (text.clone().into_owned(), visible_line(&text).into_owned()));
+    pairs.filter(|(text, shown)| text != shown).collect()
+}
+
 /// Prints help, the version, or what is wrong with the arguments.
-fn say_usage(error: &clap::Error) -> u8 {
-    if error.use_stderr() {
+fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
+    if error.use_stderr() && hidden.is_empty() {
         let _ = error.print();
+        return exit::FAILED;
+    }
+    if error.use_stderr() {
+        let mut text = error.render().to_string();
+        for (argument, shown) in hidden {
+            text = text.replace(argument, shown);
+        }
+        // A part of an argument, as of `--set=...`, may stand there by itself.
+        visible(&text).lines().for_each(Console::talk);
         return exit::FAILED;
     }
     match error.print().and_then(|()| std::io::stdout().flush()) {

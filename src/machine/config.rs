@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::advice::no_toml;
 use super::assemble::{AxisDraft, Dynamics};
-use super::load::{Loader, MAX_AXES};
+use super::load::{AXIS_NAME_HELP, Loader, MAX_AXES, is_axis_name};
 use super::resolve::{ListFiles, NoLists};
 use super::section::{ROOT, Section, Shape};
 use super::{Configuration, ConfiguredPrograms, Machine, Parameters, Setting};
@@ -301,13 +301,9 @@ fn axis_name(section: &Section<'_>, named: &[Given<String>]) -> Result<Given<Str
         let message = "an axis needs a `name`";
         return Err(ConfigError::at(&section.whole(), message).with_help("add `name = \"X\"`"));
     };
-    // R2.20; a spindle's name may begin with other letters.
-    let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let begins = name.value.starts_with(|c: char| c.is_ascii_alphabetic());
-    if !begins || !name.value.chars().all(letter) || name.value.len() > 16 {
+    if !is_axis_name(&name.value) {
         let message = format!("`{}` is no name of an axis", name.value);
-        return Err(ConfigError::at(&name, message)
-            .with_help("a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`"));
+        return Err(ConfigError::at(&name, message).with_help(AXIS_NAME_HELP));
     }
     if let Some(other) = named.iter().find(|other| other.value == name.value) {
         let message = format!("there are two axes `{}`", name.value);

@@ -108,6 +108,7 @@ impl<'f> Loader<'f> {
                 );
             }
         }
+        self.drop_nameless(&mut axes);
         self.drop_repeated(&mut axes);
         for named in startup.value_lists.iter().take(MAX_AXES) {
             self.attach(named, &mut axes);
@@ -180,6 +181,21 @@ impl<'f> Loader<'f> {
         default
     }
 
+    /// Leaves out axes whose name no program can write (R2.20).
+    fn drop_nameless(&mut self, axes: &mut Vec<AxisDraft>) {
+        axes.retain(|axis| {
+            if is_axis_name(&axis.name) {
+                return true;
+            }
+            let place = axis.values.name.as_ref().map(Given::place);
+            let message = format!("`{}` is no name of an axis, it is left out", axis.name);
+            let diagnostic = place.map(|place| Diagnostic::new(Code::Fc124, place, message));
+            let advised = diagnostic.map(|it| it.with_help(AXIS_NAME_HELP));
+            self.diagnostics.extend(advised);
+            false
+        });
+    }
+
     /// Keeps the first of several axes with one name, and a number of axes that a control can
     /// have.
     fn drop_repeated(&mut self, axes: &mut Vec<AxisDraft>) {
@@ -238,6 +254,19 @@ impl<'f> Loader<'f> {
             .push(Diagnostic::new(Code::Fc135, place, message).with_help("the list has no effect"));
     }
 }
+
+/// Whether a name can stand in a program: a letter, then letters, digits or `_`, 16 at most (R2.20).
+/// Those of spindles begin with other letters than those of axes.
+pub(super) fn is_axis_name(name: &str) -> bool {
+    let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(letter)
+        && name.len() <= 16
+}
+
+/// How a name of an axis is written.
+pub(super) const AXIS_NAME_HELP: &str =
+    "a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`";
 
 /// FC124 for a channel whose axes have the names of another one's. Programs are taken to run in the
 /// channel that comes first (R3.13).

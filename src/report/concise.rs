@@ -3,11 +3,12 @@
 use crate::diagnostic::Diagnostic;
 
 use super::strings::integer;
+use super::visible::{leading, visible_line};
 
 /// Appends a diagnostic as one line.
 pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     let start = diagnostic.place.start();
-    append_flat(out, &diagnostic.place.file);
+    out.extend_from_slice(leading(&diagnostic.place.file).as_bytes());
     out.push(b':');
     integer(out, start.line);
     out.push(b':');
@@ -17,15 +18,6 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.push(b'[');
     out.extend_from_slice(diagnostic.code.text().as_bytes());
     out.extend_from_slice(b"] ");
-    append_flat(out, &diagnostic.message);
+    out.extend_from_slice(visible_line(&diagnostic.message).as_bytes());
     out.push(b'\n');
-}
-
-/// Line ends and other control characters would break the line.
-fn append_flat(out: &mut Vec<u8>, text: &str) {
-    let mut buffer = [0; 4];
-    for letter in text.chars() {
-        let shown = if letter.is_control() { ' ' } else { letter };
-        out.extend_from_slice(shown.encode_utf8(&mut buffer).as_bytes());
-    }
 }

@@ -9,6 +9,7 @@ use crate::syntax::Kind;
 use crate::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
 
 use super::strings::{any_byte, integer};
+use super::visible::{is_command, visible, visible_line};
 use super::{Output, Report, View};
 
 /// The last row: what is said at program end joins its codes.
@@ -90,7 +91,7 @@ impl<W: Write> Csv<W> {
         out.push(b',');
         integer(out, row.seq);
         out.push(b',');
-        field(out, row.file);
+        field(out, &visible_line(row.file));
         out.push(b',');
         integer(out, row.line);
         out.push(b',');
@@ -207,23 +208,37 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
     });
 }
 
-/// Appends a field, quoted where it must be.
+/// Appends a text as a field, quoted where it must be. Hidden characters have pictures; a text that
+/// a spreadsheet would compute gets a `'` before it, which makes it a text there (R9.76).
 fn field(out: &mut Vec<u8>, text: &str) {
-    let bytes = text.as_bytes();
-    let is_special =
-        |byte: u8| [b',', b'"', b'\n', b'\r'].map(|special| u8::from(byte == special)) != [0; 4];
-    if !any_byte(bytes, is_special) {
-        out.extend_from_slice(bytes);
+    let is_special = |byte: u8| byte < 0x20 || byte >= 0x7f || matches!(byte, b',' | b'"');
+    let computes = text.starts_with(['=', '+', '-', '@']);
+    if !computes && !any_byte(text.as_bytes(), is_special) {
+        out.extend_from_slice(text.as_bytes());
         return;
     }
-    out.push(b'"');
-    for &byte in bytes {
+    // A line of a cell is a line of the output, and none of those is a command of a runner.
+    let text = if text.lines().skip(1).any(is_command) {
+        visible_line(text)
+    } else {
+        visible(text)
+    };
+    let quoted = text.contains([',', '"', '\n']);
+    if quoted {
+        out.push(b'"');
+    }
+    if computes {
+        out.push(b'\'');
+    }
+    for &byte in text.as_bytes() {
         if byte == b'"' {
             out.push(b'"');
         }
         out.push(byte);
     }
-    out.push(b'"');
+    if quoted {
+        out.push(b'"');
+    }
 }
 
 /// Appends an item to a list with `;` between its items.

@@ -9,6 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use crate::diagnostic::{Diagnostic, Label, Place, Severity};
 
 use super::DEFAULT_WIDTH;
+use super::visible::{is_command, visible, visible_line};
 
 /// Whether text output carries colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -90,48 +91,40 @@ fn wrap(text: &str, width: usize, indent: usize) -> String {
     let room = width.saturating_sub(indent).max(20);
     let mut wrapped = String::with_capacity(text.len() + 8);
     let mut column = 0;
+    let text = visible_line(text);
     for (count, word) in text.split(' ').enumerate() {
         let columns = word.width();
-        if count > 0 && column + 1 + columns > room {
+        if count > 0 && column + 1 + columns > room && !is_command(word) {
             wrapped.push('\n');
             column = 0;
         } else if count > 0 {
             wrapped.push(' ');
             column += 1;
         }
-        wrapped.push_str(&visible(word));
+        wrapped.push_str(word);
         column += columns;
     }
     wrapped
 }
 
-/// A text without the control characters U+0080 to U+009F, which the renderer lets through and some
-/// terminals obey. What stands for them has as many bytes.
-fn visible(text: &str) -> Cow<'_, str> {
-    let is_control = |letter: char| ('\u{80}'..='\u{9f}').contains(&letter);
-    if text.contains(is_control) {
-        Cow::Owned(text.replace(is_control, "\u{b7}"))
-    } else {
-        Cow::Borrowed(text)
-    }
-}
-
 /// The part of a place's text that is handed to the renderer: all of it, unless a line is so long
-/// that only the surroundings of the span make sense.
+/// that only the surroundings of the span make sense. Hidden characters have pictures.
 struct Shown<'a> {
     text: Cow<'a, str>,
+    /// The part of the place's text that is shown, without pictures.
+    part: &'a str,
     /// How many bytes of the place's text were left out at its start.
     skipped: usize,
-    /// How many bytes stand in the shown text for what was left out.
-    mark: usize,
+    /// What stands in the shown text for what was left out.
+    mark: &'static str,
 }
 
 impl Shown<'_> {
     fn span(&self, place: &Place) -> Range<usize> {
         let shift = |offset: u32| {
             let offset = usize::try_from(offset).unwrap_or(usize::MAX);
-            let moved = offset.saturating_sub(self.skipped) + self.mark;
-            floor(&self.text, moved)
+            let before = floor(self.part, offset.saturating_sub(self.skipped));
+            self.mark.len() + visible(&self.part[..before]).len()
         };
         let start = shift(place.span.start);
         start..shift(place.span.end).max(start)
@@ -146,8 +139,9 @@ fn shown(place: &Place) -> Shown<'_> {
     if text.contains('\n') || text.len() <= 4 * SURROUNDINGS {
         return Shown {
             text: visible(text),
+            part: text,
             skipped: 0,
-            mark: 0,
+            mark: "",
         };
     }
     let at = |offset: u32| floor(text, usize::try_from(offset).unwrap_or(usize::MAX));
@@ -157,10 +151,12 @@ fn shown(place: &Place) -> Shown<'_> {
     let end = floor(text, last.max(first) + SURROUNDINGS);
     let before = if start > 0 { "…" } else { "" };
     let behind = if end < text.len() { "…" } else { "" };
+    let part = &text[start..end];
     Shown {
-        text: Cow::Owned(format!("{before}{}{behind}", visible(&text[start..end]))),
+        text: Cow::Owned(format!("{before}{}{behind}", visible(part))),
+        part,
         skipped: start,
-        mark: before.len(),
+        mark: before,
     }
 }
 
@@ -179,7 +175,7 @@ fn element<'a>(
     annotations: impl FnOnce(&Shown<'a>) -> Vec<Annotation<'a>>,
 ) -> Group<'a> {
     if place.text.is_empty() {
-        return group.element(Origin::path(&*place.file));
+        return group.element(Origin::path(visible_line(&place.file)));
     }
     if place.text.trim().is_empty() {
         // Nothing to show, or nothing that may be shown.
@@ -193,7 +189,7 @@ fn element<'a>(
     group.element(
         Snippet::source(shown.text)
             .line_start(usize::try_from(place.first_line).unwrap_or(usize::MAX))
-            .path(&*place.file)
+            .path(visible_line(&place.file))
             .annotations(annotations),
     )
 }
@@ -201,7 +197,7 @@ fn element<'a>(
 fn annotate<'a>(shown: &Shown<'_>, label: &'a Label) -> Annotation<'a> {
     AnnotationKind::Context
         .span(shown.span(&label.place))
-        .label(label.text.as_str())
+        .label(visible_line(&label.text))
 }
 
 fn shares_lines(one: &Place, other: &Place) -> bool {

@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Severity};
 
 use super::strings::integer;
+use super::visible::visible;
 
 /// Appends a diagnostic as a workflow command.
 pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
@@ -38,9 +39,10 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.push(b'\n');
 }
 
-/// Appends a text with the special bytes as `%` and two digits.
+/// Appends a text with the special bytes as `%` and two digits, and pictures for what cannot be
+/// seen.
 fn escape(out: &mut Vec<u8>, text: &str, special: &[u8]) {
-    for byte in text.bytes() {
+    for byte in visible(&text.replace('\r', "\n")).bytes() {
         if special.contains(&byte) {
             out.extend_from_slice(format!("%{byte:02X}").as_bytes());
         } else {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::visible::visible_line;
 use crate::lists::{AxisType, Origin, Parameter};
 use crate::machine::AxisReport;
 
@@ -30,7 +31,7 @@ fn render_axis(report: &AxisReport, out: &mut dyn fmt::Write) -> fmt::Result {
     let name = if report.axis.is_empty() {
         "without a name"
     } else {
-        &report.axis
+        &visible_line(&report.axis)
     };
     let what = match report.axis_type {
         AxisType::Linear => "linear",
@@ -63,9 +64,14 @@ pub(super) fn cells(row: &Parameter) -> [String; 4] {
     let origin = match &row.origin {
         Origin::Default => "default".to_owned(),
         Origin::Assumed => "--enable".to_owned(),
-        Origin::File { file, line } => format!("{file}:{line}"),
+        Origin::File { file, line } => visible_line(&format!("{file}:{line}")).into_owned(),
     };
-    [row.number.to_owned(), row.key.clone(), value, origin]
+    [
+        row.number.to_owned(),
+        row.key.clone(),
+        visible_line(&value).into_owned(),
+        origin,
+    ]
 }
 
 /// A text that fits into `room` columns; it loses its beginning, the end of a path says more.

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use super::visible::{is_hidden, push_picture};
+
 /// Appends a text with the characters of markup escaped and what cannot be seen made visible.
 ///
 /// Control characters become their pictures (`␀`); characters that turn the direction of writing
@@ -15,11 +17,7 @@ pub(super) fn push_escaped(out: &mut String, text: &str) {
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
             '\t' | '\n' => out.push(letter),
-            '\u{0}'..='\u{1f}' => out.push(control_picture(letter)),
-            '\u{7f}' => out.push('\u{2421}'),
-            letter if is_hidden(letter) => {
-                let _ = write!(out, "\u{27e8}U+{:04X}\u{27e9}", u32::from(letter));
-            }
+            letter if is_hidden(letter) => push_picture(out, letter),
             letter => out.push(letter),
         }
     }
@@ -45,26 +43,6 @@ pub(super) fn push_source_line(out: &mut String, text: &str) {
             let _ = write!(out, " \u{2026} and {left} more characters");
         }
     }
-}
-
-fn control_picture(letter: char) -> char {
-    char::from_u32(0x2400 + u32::from(letter)).unwrap_or('\u{fffd}')
-}
-
-/// Characters that change how their neighbours are read, or that nobody sees.
-fn is_hidden(letter: char) -> bool {
-    matches!(
-        letter,
-        '\u{80}'..='\u{9f}'
-            | '\u{ad}'
-            | '\u{61c}'
-            | '\u{200b}'..='\u{200f}'
-            | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}'
-            | '\u{feff}'
-            | '\u{fff0}'..='\u{fffb}'
-            | '\u{e0000}'..='\u{e007f}'
-    ) || u32::from(letter) & 0xfffe == 0xfffe
 }
 
 #[cfg(test)]

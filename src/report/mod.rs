@@ -22,6 +22,7 @@ mod strings;
 pub mod svg;
 mod text;
 pub mod tune;
+mod visible;
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -32,6 +33,8 @@ pub use json::Json;
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use text::{Runs, Text, TextOptions};
+#[cfg(feature = "cli")]
+pub(crate) use visible::{leading, visible, visible_line};
 
 use crate::syntax::{Kind, KindSet};
 use crate::timeline::{Row, Sink};

@@ -1,5 +1,7 @@
 //! Texts and numbers as JSON, appended to a buffer that is used again and again.
 
+use super::visible::is_hidden;
+
 /// What a byte becomes in a JSON string: 0 itself, `u` a code, else the letter behind `\`.
 const ESCAPES: [u8; 256] = {
     let mut table = [0; 256];
@@ -33,36 +35,130 @@ pub(super) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
     any_of(&filled)
 }
 
-/// Appends a text as a JSON string with its quotes.
+/// Appends a text as a JSON string with its quotes. What cannot be seen is escaped, whatever JSON
+/// itself asks for (R9.76).
 pub(super) fn string(out: &mut Vec<u8>, text: &str) {
-    let bytes = text.as_bytes();
     out.push(b'"');
-    let is_special = |byte: u8| byte < 0x20 || byte == b'"' || byte == b'\\';
-    if any_byte(bytes, is_special) {
-        escape(out, bytes);
+    let is_special = |byte: u8| byte < 0x20 || byte == b'"' || byte == b'\\' || byte >= 0x7f;
+    if any_byte(text.as_bytes(), is_special) {
+        escape(out, text);
     } else {
-        out.extend_from_slice(bytes);
+        out.extend_from_slice(text.as_bytes());
     }
     out.push(b'"');
 }
 
-fn escape(out: &mut Vec<u8>, mut rest: &[u8]) {
-    while let Some(at) = rest
-        .iter()
-        .position(|&byte| ESCAPES[usize::from(byte)] != 0)
-    {
-        out.extend_from_slice(&rest[..at]);
-        let byte = rest[at];
-        match ESCAPES[usize::from(byte)] {
-            b'u' => {
-                let (high, low) = (usize::from(byte >> 4), usize::from(byte & 0xf));
-                out.extend_from_slice(&[b'\\', b'u', b'0', b'0', HEX[high], HEX[low]]);
-            }
-            letter => out.extend_from_slice(&[b'\\', letter]),
+fn escape(out: &mut Vec<u8>, mut rest: &str) {
+    let special = |letter: char| matches!(letter, '"' | '\\') || is_hidden(letter);
+    while let Some(at) = rest.find(special) {
+        let (before, behind) = rest.split_at(at);
+        out.extend_from_slice(before.as_bytes());
+        let letter = behind.chars().next().unwrap_or_default();
+        let short = u8::try_from(letter).map_or(0, |byte| ESCAPES[usize::from(byte)]);
+        if short == 0 || short == b'u' {
+            push_units(out, letter);
+        } else {
+            out.extend_from_slice(&[b'\\', short]);
         }
-        rest = &rest[at + 1..];
+        rest = &behind[letter.len_utf8()..];
     }
-    out.extend_from_slice(rest);
+    out.extend_from_slice(rest.as_bytes());
+}
+
+/// Appends a character by its UTF-16 units, `\u202e`.
+fn push_units(out: &mut Vec<u8>, letter: char) {
+    for unit in letter.encode_utf16(&mut [0; 2]) {
+        let digit = |shift: u32| HEX[usize::from(*unit >> shift & 0xf)];
+        out.extend_from_slice(&[b'\\', b'u', digit(12), digit(8), digit(4), digit(0)]);
+    }
+}
+
+/// Writes a value as a JSON document in which nothing hidden stands (R9.76).
+///
+/// # Errors
+/// Those of the writer.
+pub(super) fn write_pretty(
+    writer: impl std::io::Write,
+    value: &impl serde::Serialize,
+) -> serde_json::Result<()> {
+    let mut serializer = serde_json::Serializer::with_formatter(writer, Shown::default());
+    value.serialize(&mut serializer)
+}
+
+/// A value as a JSON document in which nothing hidden stands.
+pub(super) fn to_pretty(value: &impl serde::Serialize) -> String {
+    let mut bytes = Vec::new();
+    write_pretty(&mut bytes, value).expect("numbers and texts are always JSON");
+    String::from_utf8(bytes).expect("JSON is UTF-8")
+}
+
+/// The usual layout; within texts, what cannot be seen is escaped.
+#[derive(Default)]
+struct Shown(serde_json::ser::PrettyFormatter<'static>);
+
+impl serde_json::ser::Formatter for Shown {
+    fn write_string_fragment<W: ?Sized + std::io::Write>(
+        &mut self,
+        writer: &mut W,
+        fragment: &str,
+    ) -> std::io::Result<()> {
+        let mut bytes = Vec::with_capacity(fragment.len());
+        escape(&mut bytes, fragment);
+        writer.write_all(&bytes)
+    }
+
+    fn begin_array<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
+        self.0.begin_array(writer)
+    }
+
+    fn end_array<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
+        self.0.end_array(writer)
+    }
+
+    fn begin_array_value<W: ?Sized + std::io::Write>(
+        &mut self,
+        writer: &mut W,
+        first: bool,
+    ) -> std::io::Result<()> {
+        self.0.begin_array_value(writer, first)
+    }
+
+    fn end_array_value<W: ?Sized + std::io::Write>(
+        &mut self,
+        writer: &mut W,
+    ) -> std::io::Result<()> {
+        self.0.end_array_value(writer)
+    }
+
+    fn begin_object<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
+        self.0.begin_object(writer)
+    }
+
+    fn end_object<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
+        self.0.end_object(writer)
+    }
+
+    fn begin_object_key<W: ?Sized + std::io::Write>(
+        &mut self,
+        writer: &mut W,
+        first: bool,
+    ) -> std::io::Result<()> {
+        self.0.begin_object_key(writer, first)
+    }
+
+    fn begin_object_value<W: ?Sized + std::io::Write>(
+        &mut self,
+        writer: &mut W,
+    ) -> std::io::Result<()> {
+        self.0.begin_object_value(writer)
+    }
+
+    fn end_object_value<W: ?Sized + std::io::Write>(
+        &mut self,
+        writer: &mut W,
+    ) -> std::io::Result<()> {
+        self.0.end_object_value(writer)
+    }
 }
 
 /// Appends a text as a JSON string, or `null`.
@@ -108,7 +204,7 @@ mod tests {
         }
 
         #[test]
-        fn every_control_character_is_escaped(text in "[\\x00-\\x7f]*") {
+        fn every_control_character_is_escaped(text in "[\\x00-\\x7e]*") {
             let mut out = Vec::new();
             string(&mut out, &text);
             prop_assert!(out.iter().all(|&byte| byte >= 0x20));

@@ -4,6 +4,8 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::strings::to_pretty;
+use super::visible::visible_line;
 use crate::circle::{Candidate, FeedResult, Tuned};
 use crate::lists::{CncBuild, Field, FrictionList, TablePoint};
 
@@ -38,7 +40,11 @@ pub fn render_text(reports: &[TuneReport]) -> String {
         let _ = writeln!(
             out,
             "plant {}, friction {}, diameter {} mm, {} sets of parameters tried\nreading: {}",
-            report.plant, report.model, report.diameter, report.tuned.trials, report.reading
+            visible_line(&report.plant),
+            report.model,
+            report.diameter,
+            report.tuned.trials,
+            report.reading
         );
         let _ = writeln!(
             out,
@@ -120,8 +126,7 @@ pub fn render_json(reports: &[TuneReport]) -> String {
         first: PlantRecord::of(first),
         compared: others.iter().map(PlantRecord::of).collect(),
     };
-    let mut text =
-        serde_json::to_string_pretty(&document).expect("numbers and texts are always JSON");
+    let mut text = to_pretty(&document);
     text.push('\n');
     text
 }
@@ -133,7 +138,7 @@ pub fn render_list(report: &TuneReport, build: Option<CncBuild>) -> String {
     let mut out = format!(
         "# Friction compensation for the plant {}, tuned with the model {}\n\
          # The table is the friction curve of its X axis\n",
-        report.plant.replace(['\r', '\n'], " "),
+        visible_line(&report.plant),
         report.model
     );
     let reals = build.is_some_and(CncBuild::reads_real_points);

@@ -184,6 +184,7 @@ fn without_axes_the_machine_is_unconfigured() {
 }
 
 #[test]
+#[allow(clippy::too_many_lines, reason = "a table of mistakes")]
 fn what_does_not_exist_is_refused_with_its_place() {
     for (text, place, help) in [
         ("[machin]\n", "1:2", "did you mean `machine`?"),

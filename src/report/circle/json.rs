@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::super::strings::to_pretty;
 use super::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{Advice, Crossing, Glitch, PathFigures};
 
@@ -192,8 +193,7 @@ pub fn render_json(report: &CircleReport) -> String {
         on: side("on"),
         recorded: side("recorded"),
     };
-    let mut text =
-        serde_json::to_string_pretty(&document).expect("numbers and texts are always JSON");
+    let mut text = to_pretty(&document);
     text.push('\n');
     text
 }

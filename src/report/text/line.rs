@@ -7,6 +7,7 @@ use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::compensation::State;
 use crate::report::Paint;
+use crate::report::visible::{visible, visible_line};
 
 /// Stands behind a state that the block changed.
 pub(super) const MARK: char = '◄';
@@ -39,12 +40,14 @@ impl<'a> Line<'a> {
 
     /// Appends text without a style.
     pub(super) fn plain(&mut self, text: &str) {
+        let text = &*visible_line(text);
         self.out.extend_from_slice(text.as_bytes());
         self.column += text.width();
     }
 
     /// Appends text with a style.
     pub(super) fn styled(&mut self, style: Style, text: &str) {
+        let text = &*visible_line(text);
         match self.paint {
             Paint::Plain => self.out.extend_from_slice(text.as_bytes()),
             Paint::Styled => {
@@ -65,11 +68,10 @@ impl<'a> Line<'a> {
         };
         let mut buffer = [0; 4];
         let mut blank = false;
-        for letter in text.trim_end().chars() {
+        for letter in visible(text.trim_end()).chars() {
             let shown = match letter {
                 '\n' | '\r' | '\t' | ' ' if blank && letter != ' ' => continue,
                 '\n' | '\r' | '\t' => ' ',
-                letter if letter.is_control() => '·',
                 letter => letter,
             };
             blank = shown == ' ';
@@ -153,7 +155,8 @@ mod tests {
             source("X[COMP ON \\\n  FRICT]", 30),
             "X[COMP ON \\   FRICT]"
         );
-        assert_eq!(source("A\tB\u{7}", 30), "A B·");
+        assert_eq!(source("A\tB\u{7}", 30), "A B\u{2407}");
+        assert_eq!(source("A\u{9b}B", 30), "A\u{27e8}U+009B\u{27e9}B");
     }
 
     #[test]

@@ -14,6 +14,7 @@ use crate::syntax::Kind;
 use crate::timeline::{End, EndedBy, Record, Row, Sink, StateView};
 
 use super::diagnostics::{Look, render};
+use super::visible::leading;
 use super::{Blocks, Output, Report, View};
 use columns::Columns;
 use line::{BOLD, DIM, Line, MARK, grouped};
@@ -88,7 +89,7 @@ impl<W: Write> Text<W> {
 
     fn program(&mut self, file: &str, name: Option<&str>, state: StateView<'_>) {
         let mut line = self.line();
-        line.styled(BOLD, file);
+        line.styled(BOLD, &leading(file));
         if let Some(name) = name {
             line.plain("  %");
             line.plain(name);

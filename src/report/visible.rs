@@ -1,0 +1,109 @@
+//! What cannot be seen, made visible or escaped (R9.76).
+//!
+//! Programs, lists, file names and messages of the operating system are not ours. A terminal obeys
+//! control characters, a log takes a line end for a new message, and characters that turn the
+//! direction of writing show another text than the control reads. Every place where bytes leave the
+//! tool goes through this file.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+use super::strings::any_byte;
+
+/// Whether a character is a control character or one that changes how its neighbours are read, or
+/// that nobody sees: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
+/// characters without width, and what is no character.
+pub(super) fn is_hidden(letter: char) -> bool {
+    matches!(
+        letter,
+        '\0'..='\u{1f}'
+            | '\u{7f}'..='\u{9f}'
+            | '\u{ad}'
+            | '\u{61c}'
+            | '\u{180e}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{fff0}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e007f}'
+    ) || u32::from(letter) & 0xfffe == 0xfffe
+}
+
+/// Appends what stands for a hidden character: `␛`, or `⟨U+202E⟩` where there is no picture.
+pub(super) fn push_picture(out: &mut String, letter: char) {
+    match letter {
+        '\0'..='\u{1f}' => {
+            let picture = char::from_u32(0x2400 + u32::from(letter));
+            out.push(picture.unwrap_or('\u{fffd}'));
+        }
+        '\u{7f}' => out.push('\u{2421}'),
+        letter => {
+            let _ = write!(out, "\u{27e8}U+{:04X}\u{27e9}", u32::from(letter));
+        }
+    }
+}
+
+/// Whether every byte of a text is a character that can be seen, or a blank.
+fn is_plain(text: &str) -> bool {
+    !any_byte(text.as_bytes(), |byte| byte < 0x20 || byte >= 0x7f)
+}
+
+fn replaced(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
+    let hidden = |letter: char| is_hidden(letter) && !stays(letter);
+    if is_plain(text) || !text.contains(hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 16);
+    for letter in text.chars() {
+        if hidden(letter) {
+            push_picture(&mut out, letter);
+        } else {
+            out.push(letter);
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// A text of several lines with pictures for hidden characters; line ends and tabs stay.
+pub(crate) fn visible(text: &str) -> Cow<'_, str> {
+    replaced(text, |letter| matches!(letter, '\n' | '\t'))
+}
+
+/// A text that stays on its line, with pictures for hidden characters.
+pub(crate) fn visible_line(text: &str) -> Cow<'_, str> {
+    replaced(text, |_| false)
+}
+
+/// A text at the start of a line. Runners of continuous integration take a line that begins with
+/// `::` or `##` for a command; a name that does so is shown as the path that it is.
+pub(crate) fn leading(text: &str) -> Cow<'_, str> {
+    let shown = visible_line(text);
+    if is_command(&shown) {
+        return Cow::Owned(format!("./{}", shown.trim_start()));
+    }
+    shown
+}
+
+/// Whether a runner would take a line that begins so for a command.
+pub(super) fn is_command(text: &str) -> bool {
+    let text = text.trim_start();
+    text.starts_with("::") || text.starts_with("##")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_seen_has_a_picture() {
+        // R9.76
+        assert_eq!(visible_line("a\u{1b}[31m\nb"), "a\u{241b}[31m\u{240a}b");
+        assert_eq!(visible("a\tb\n\r"), "a\tb\n\u{240d}");
+        assert_eq!(
+            visible("\u{9b}\u{202e}\u{2028}\u{7f}"),
+            "\u{27e8}U+009B\u{27e9}\u{27e8}U+202E\u{27e9}\u{27e8}U+2028\u{27e9}\u{2421}"
+        );
+        assert_eq!(visible("Übergröße 漢 ◄"), "Übergröße 漢 ◄");
+    }
+}

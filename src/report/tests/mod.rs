@@ -367,7 +367,7 @@ fn listing(format: ListingFormat) -> String {
 fn diagnostics_in_every_format() {
     // R9.25
     insta::assert_snapshot!(listing(ListingFormat::Concise), @r##"
-    a b,c.nc:3:5: error[P-ERR-70495] 50% is, "not" set: X
+    a b,c.nc:3:5: error[P-ERR-70495] 50% is, "not" set:␊X
     demo.nc:5:1: info[FC402] nothing
     "##);
     insta::assert_snapshot!(listing(ListingFormat::Github), @r##"

@@ -39,7 +39,7 @@ pub(super) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
 /// itself asks for (R9.76).
 pub(super) fn string(out: &mut Vec<u8>, text: &str) {
     out.push(b'"');
-    let is_special = |byte: u8| byte < 0x20 || byte == b'"' || byte == b'\\' || byte >= 0x7f;
+    let is_special = |byte: u8| !(0x20..0x7f).contains(&byte) || byte == b'"' || byte == b'\\';
     if any_byte(text.as_bytes(), is_special) {
         escape(out, text);
     } else {

@@ -46,7 +46,7 @@ pub(super) fn push_picture(out: &mut String, letter: char) {
 
 /// Whether every byte of a text is a character that can be seen, or a blank.
 fn is_plain(text: &str) -> bool {
-    !any_byte(text.as_bytes(), |byte| byte < 0x20 || byte >= 0x7f)
+    !any_byte(text.as_bytes(), |byte| !(0x20..0x7f).contains(&byte))
 }
 
 fn replaced(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {

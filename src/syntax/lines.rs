@@ -207,14 +207,20 @@ impl<S: LineSource> BlockReader<S> {
             return Some(Stretch::Block);
         }
         if let Some(span) = foreign {
-            block.faults.push(Fault::new(
-                Code::Fc101,
-                span,
-                format!(
-                    "`{}` is outside ASCII; programs are ASCII except in comments and texts",
-                    span.of(&self.text)
-                ),
-            ));
+            let found = span.of(&self.text);
+            let blank = found.chars().find(|letter| letter.is_whitespace());
+            let shown = blank.map_or_else(
+                || found.to_owned(),
+                |letter| format!("U+{:04X}", u32::from(letter)),
+            );
+            let message = format!(
+                "`{shown}` is outside ASCII; programs are ASCII except in comments and texts"
+            );
+            let mut fault = Fault::new(Code::Fc101, span, message);
+            if blank.is_some() {
+                fault = fault.with_help("it looks like a blank and is none: write a blank");
+            }
+            block.faults.push(fault);
         }
         lower::block(&self.code, block);
         block.faults.sort_by_key(|fault| fault.span.start);

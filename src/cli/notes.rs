@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::check::Format;
 use super::console::Target;
 use super::failure::Failure;
+use crate::report::{leading, shown_json};
 use crate::session::NoteKind;
 use crate::source::Position;
 
@@ -21,7 +22,8 @@ pub(super) struct Note {
 impl Note {
     /// `V.E.PART mill.nc:12:5`
     fn text(&self) -> String {
-        format!("{} {}:{}\n", self.name, self.file, self.start)
+        let line = format!("{} {}:{}", self.name, self.file, self.start);
+        leading(&line).into_owned() + "\n"
     }
 
     fn record(&self, kind: NoteKind) -> Value {
@@ -59,6 +61,6 @@ pub(super) fn list(
         }
         _ => notes.iter().map(Note::text).collect(),
     };
-    target.text(&text)?;
+    target.text(&shown_json(&text))?;
     Ok(())
 }

@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use super::diagnostics::{Look, render};
 use super::records::append_diagnostic;
 use super::sarif::Sarif;
-use super::strings::{integer, write_pretty};
+use super::strings::{integer, to_pretty};
 use super::{Output, concise, github, json};
 
 /// A format for diagnostics.
@@ -125,7 +125,8 @@ impl<W: Write> Listing<W> {
             }
             ListingFormat::Sarif => {
                 let document = self.sarif.document();
-                write_pretty(&mut self.output.bytes, &document)?;
+                let text = to_pretty(&document);
+                self.output.bytes.extend_from_slice(text.as_bytes());
                 self.output.bytes.push(b'\n');
             }
             ListingFormat::Text | ListingFormat::Concise | ListingFormat::Github => {}

@@ -32,6 +32,8 @@ pub use diagnostics::{Look, Paint, render};
 pub use json::Json;
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
+#[cfg(feature = "cli")]
+pub(crate) use strings::shown_json;
 pub use text::{Runs, Text, TextOptions};
 #[cfg(feature = "cli")]
 pub(crate) use visible::{leading, visible, visible_line};

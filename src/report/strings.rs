@@ -1,5 +1,7 @@
 //! Texts and numbers as JSON, appended to a buffer that is used again and again.
 
+use std::borrow::Cow;
+
 use super::visible::is_hidden;
 
 /// What a byte becomes in a JSON string: 0 itself, `u` a code, else the letter behind `\`.
@@ -73,92 +75,28 @@ fn push_units(out: &mut Vec<u8>, letter: char) {
     }
 }
 
-/// Writes a value as a JSON document in which nothing hidden stands (R9.76).
-///
-/// # Errors
-/// Those of the writer.
-pub(super) fn write_pretty(
-    writer: impl std::io::Write,
-    value: &impl serde::Serialize,
-) -> serde_json::Result<()> {
-    let mut serializer = serde_json::Serializer::with_formatter(writer, Shown::default());
-    value.serialize(&mut serializer)
+/// A JSON document of another writer, in which hidden characters stand only within texts, with
+/// those escaped (R9.76).
+pub(crate) fn shown_json(document: &str) -> Cow<'_, str> {
+    let hidden = |letter: char| letter != '\n' && is_hidden(letter);
+    if !document.contains(hidden) {
+        return Cow::Borrowed(document);
+    }
+    let mut out = Vec::with_capacity(document.len() + 64);
+    for letter in document.chars() {
+        if hidden(letter) {
+            push_units(&mut out, letter);
+        } else {
+            out.extend_from_slice(letter.encode_utf8(&mut [0; 4]).as_bytes());
+        }
+    }
+    Cow::Owned(String::from_utf8(out).expect("characters make UTF-8"))
 }
 
 /// A value as a JSON document in which nothing hidden stands.
 pub(super) fn to_pretty(value: &impl serde::Serialize) -> String {
-    let mut bytes = Vec::new();
-    write_pretty(&mut bytes, value).expect("numbers and texts are always JSON");
-    String::from_utf8(bytes).expect("JSON is UTF-8")
-}
-
-/// The usual layout; within texts, what cannot be seen is escaped.
-#[derive(Default)]
-struct Shown(serde_json::ser::PrettyFormatter<'static>);
-
-impl serde_json::ser::Formatter for Shown {
-    fn write_string_fragment<W: ?Sized + std::io::Write>(
-        &mut self,
-        writer: &mut W,
-        fragment: &str,
-    ) -> std::io::Result<()> {
-        let mut bytes = Vec::with_capacity(fragment.len());
-        escape(&mut bytes, fragment);
-        writer.write_all(&bytes)
-    }
-
-    fn begin_array<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
-        self.0.begin_array(writer)
-    }
-
-    fn end_array<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
-        self.0.end_array(writer)
-    }
-
-    fn begin_array_value<W: ?Sized + std::io::Write>(
-        &mut self,
-        writer: &mut W,
-        first: bool,
-    ) -> std::io::Result<()> {
-        self.0.begin_array_value(writer, first)
-    }
-
-    fn end_array_value<W: ?Sized + std::io::Write>(
-        &mut self,
-        writer: &mut W,
-    ) -> std::io::Result<()> {
-        self.0.end_array_value(writer)
-    }
-
-    fn begin_object<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
-        self.0.begin_object(writer)
-    }
-
-    fn end_object<W: ?Sized + std::io::Write>(&mut self, writer: &mut W) -> std::io::Result<()> {
-        self.0.end_object(writer)
-    }
-
-    fn begin_object_key<W: ?Sized + std::io::Write>(
-        &mut self,
-        writer: &mut W,
-        first: bool,
-    ) -> std::io::Result<()> {
-        self.0.begin_object_key(writer, first)
-    }
-
-    fn begin_object_value<W: ?Sized + std::io::Write>(
-        &mut self,
-        writer: &mut W,
-    ) -> std::io::Result<()> {
-        self.0.begin_object_value(writer)
-    }
-
-    fn end_object_value<W: ?Sized + std::io::Write>(
-        &mut self,
-        writer: &mut W,
-    ) -> std::io::Result<()> {
-        self.0.end_object_value(writer)
-    }
+    let text = serde_json::to_string_pretty(value).expect("numbers and texts are always JSON");
+    shown_json(&text).into_owned()
 }
 
 /// Appends a text as a JSON string, or `null`.

@@ -9,5 +9,6 @@ mod lists {
     mod friction;
     mod host;
     mod lines;
+    mod programs;
     mod robust;
 }

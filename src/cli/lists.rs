@@ -104,6 +104,7 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
             accepted: AcceptedList::of(&configuration.machine),
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
+            programs: configuration.programs,
             files: std::iter::once(name).chain(configuration.files).collect(),
             missing: configuration.missing,
         },
@@ -111,6 +112,7 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
             kind: None,
             diagnostics: vec![*error.diagnostic],
             reports: Vec::new(),
+            programs: Vec::new(),
             accepted: Vec::new(),
             files: vec![name],
             missing: 0,
@@ -171,7 +173,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let mut table = String::new();
     if args.show && args.listing.format == Format::Text {
         for report in &reports {
-            render_parameters(&report.reports, &mut table)
+            render_parameters(&report.reports, &report.programs, &mut table)
                 .map_err(|_| Failure::new("the table of the parameters cannot be written"))?;
         }
     }

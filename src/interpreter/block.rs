@@ -33,9 +33,9 @@ pub(super) struct Intent {
     /// M17, M29.
     pub(super) returns: bool,
     /// A jump, or a control block's business.
-    step: Option<Step>,
-    /// A call.
-    pub(super) call: Option<Box<Wanted>>,
+    pub(super) step: Option<Step>,
+    /// Calls, in the order in which they are made.
+    pub(super) calls: Vec<Wanted>,
     /// The G functions of the block, to find two of one group.
     pub(super) groups: [Option<u32>; Group::COUNT],
     /// What axis words are: G04, G92 … make them something else than coordinates.
@@ -63,14 +63,17 @@ impl Interpreter {
         let mut intent = Intent::default();
         let limit = self.first_refusal(block);
         self.items(block, at, &mut intent, limit);
-        if !self.work.diagnostics.iter().any(stops) || self.options.stop != StopPolicy::FirstError {
+        let goes_on = !self.work.diagnostics.iter().any(stops);
+        if (goes_on || self.options.stop != StopPolicy::FirstError)
+            && self.state.described.is_none()
+        {
             self.check_required(intent.axis_words, at);
         }
         if !self.pending.is_empty() {
             self.forget_called(finder);
         }
-        let call = intent.call.take();
-        let call = call.and_then(|wanted| self.resolve(*wanted, at, finder));
+        let calls = std::mem::take(&mut intent.calls);
+        let calls = self.resolve_all(calls, at, finder);
         let refused = self.work.diagnostics.iter().any(stops);
         let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
         if !block.faults.is_empty() {
@@ -99,8 +102,8 @@ impl Interpreter {
             Some(Step::End(ended_by(&self.work.diagnostics)))
         } else {
             let moved = !self.work.moved.is_empty();
-            if call.is_some() {
-                intent.step = call;
+            if !calls.is_empty() {
+                intent.step = Some(Step::Call(calls));
             }
             self.step(&mut intent, moved, at, finder)
         };
@@ -151,7 +154,7 @@ impl Interpreter {
     }
 
     /// Adds what is wrong with the text, up to the first error when that stops the program.
-    fn take_faults(&mut self, block: &Block, at: &At<'_>, stopped: bool) {
+    pub(super) fn take_faults(&mut self, block: &Block, at: &At<'_>, stopped: bool) {
         let error = |diagnostic: &&Diagnostic| stops(diagnostic);
         let executed = self
             .work
@@ -177,7 +180,13 @@ impl Interpreter {
         }
     }
 
-    fn items(&mut self, block: &Block, at: &At<'_>, intent: &mut Intent, limit: Option<u32>) {
+    pub(super) fn items(
+        &mut self,
+        block: &Block,
+        at: &At<'_>,
+        intent: &mut Intent,
+        limit: Option<u32>,
+    ) {
         let is_reached = |span: Span| limit.is_none_or(|limit| span.start < limit);
         for word in &block.words {
             if !is_reached(word.span) {
@@ -239,9 +248,9 @@ impl Interpreter {
             if let (None, Some(name)) = (self.state.ending, self.machine.programs.end.clone()) {
                 let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
                 self.state.frames.clear();
-                if let Some(step) = self.resolve(wanted, at, finder) {
+                if let Some(request) = self.resolve(wanted, at, finder) {
                     self.state.ending = Some(by);
-                    return Some(step);
+                    return Some(Step::Call(vec![request]));
                 }
             }
             return Some(Step::End(self.state.ending.take().unwrap_or(by)));
@@ -249,7 +258,11 @@ impl Interpreter {
         if intent.returns {
             return Some(Step::Return);
         }
-        intent.step.take().or_else(|| self.repetition(moved, at))
+        let step = intent.step.take();
+        if step.is_none() || matches!(step, Some(Step::Call(_))) {
+            return self.repetition(step, moved, at, finder);
+        }
+        step
     }
 
     fn item(
@@ -297,7 +310,8 @@ impl Interpreter {
             }
             Item::GCall(call) => self.g_call(call, block, at, intent),
             Item::Call(call) => {
-                intent.call = self.wanted(call, block, at)?.map(Box::new);
+                let wanted = self.wanted(call, block, at)?;
+                intent.calls.extend(wanted);
                 Ok(())
             }
             Item::Flow(flow, span) => {

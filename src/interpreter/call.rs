@@ -6,11 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::program::Index;
 use super::{
-    At, Finder, Frame, Interpreter, NoProgram, Repeated, Request, Step, StopPolicy, Value,
-    after_motion_only,
+    At, Finder, Frame, Interpreter, NoProgram, Repeated, RepeatedCall, Request, Step, StopPolicy,
+    Value, after_motion_only,
 };
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
+use crate::machine::Keeps;
 use crate::source::Span;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Call, CallForm, CallName, CallScope, Operand};
@@ -100,24 +101,35 @@ impl Interpreter {
         }
     }
 
-    /// The program that the configuration names for a word, `G80`, `M6`, or for every T word.
-    pub(super) fn configured(&self, words: [&str; 2], span: Span) -> Option<Wanted> {
-        let words_of = &self.machine.programs.words;
-        let found = words.iter().find_map(|word| {
-            words_of
-                .iter()
-                .find(|(configured, _)| configured.eq_ignore_ascii_case(word))
-        });
-        found.map(|(_, program)| Wanted::program(CallScope::Global, program.clone(), span))
+    /// Looks for the programs that a block calls.
+    pub(super) fn resolve_all(
+        &mut self,
+        calls: Vec<Wanted>,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        let mut requests = Vec::new();
+        for wanted in calls {
+            let refused = self.work.diagnostics.iter().any(super::stops);
+            if refused && self.options.stop == StopPolicy::FirstError {
+                break;
+            }
+            requests.extend(self.resolve(wanted, at, finder));
+        }
+        requests
     }
 
-    /// Looks for the wanted program and makes the step that calls it.
+    /// Looks for the wanted program.
     pub(super) fn resolve(
         &mut self,
         wanted: Wanted,
         at: &At<'_>,
         finder: &mut dyn Finder,
-    ) -> Option<Step> {
+    ) -> Option<Request> {
+        if self.is_external(&wanted) {
+            self.pass_over_external(wanted, at);
+            return None;
+        }
         let unit = self.state.frames.last().map_or(0, |frame| frame.unit);
         let found = match self.find(&wanted, (unit, at.file), finder) {
             Ok(found) => found?,
@@ -139,7 +151,7 @@ impl Interpreter {
         }
         if let Some(after_motion_only) = wanted.repeat {
             self.state.repeated = Some(Repeated {
-                found,
+                call: RepeatedCall::Program(found),
                 own: wanted.own.clone(),
                 after_motion_only,
             });
@@ -160,31 +172,125 @@ impl Interpreter {
             self.work.diagnostics.push(at.diagnostic(fault));
             return None;
         }
-        Some(Step::Call(Box::new(Request {
+        Some(Request {
             found,
             own: wanted.own,
             form: wanted.form,
             called_from: at.place(wanted.span),
-        })))
+        })
     }
 
-    /// The step that repeats a modal cycle after a block, unless the block is one of the cycle's.
-    pub(super) fn repetition(&self, moved: bool, at: &At<'_>) -> Option<Step> {
-        let repeated = self.state.repeated.as_ref()?;
+    /// A program that is on the machine only (R2.83): whatever it may change is unknown behind it.
+    fn pass_over_external(&mut self, wanted: Wanted, at: &At<'_>) {
+        let name = wanted.name;
+        self.pass_over(&name, wanted.span, at);
+        self.leave_to_machine(&name);
+        let keeps = self.machine.programs.keeps(&name);
+        if keeps != Keeps::ALL {
+            let what = match keeps {
+                Keeps {
+                    compensation: true, ..
+                } => "all positions become unknown",
+                Keeps {
+                    positions: true, ..
+                } => "the compensation of every axis becomes unknown",
+                Keeps { .. } => "every axis becomes unknown",
+            };
+            let fault = Fault::new(
+                Code::Fc902,
+                wanted.span,
+                format!(
+                    "the program `{name}` is on the machine only; the call is passed over, {what}"
+                ),
+            )
+            .with_help("if it leaves them as they are, say so in `[machine.external_keeps]`");
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+        if let Some(after_motion_only) = wanted.repeat {
+            self.state.repeated = Some(Repeated {
+                call: RepeatedCall::External(name),
+                own: wanted.own,
+                after_motion_only,
+            });
+        }
+    }
+
+    /// Whether only the machine has the program.
+    pub(super) fn is_external(&self, wanted: &Wanted) -> bool {
+        wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
+    }
+
+    /// Makes unknown what a program that is on the machine only does not keep.
+    pub(super) fn leave_to_machine(&mut self, name: &str) {
+        let keeps = self.machine.programs.keeps(name);
+        if !keeps.compensation {
+            self.forget_compensation();
+        }
+        if !keeps.positions {
+            self.state.modal.forget_positions();
+            self.state.modal.note_transformed(name);
+        }
+    }
+
+    /// The calls of a block with the modal cycle behind them, unless the block is one of the
+    /// cycle's.
+    pub(super) fn repetition(
+        &mut self,
+        step: Option<Step>,
+        moved: bool,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Step> {
+        let Some(repeated) = &self.state.repeated else {
+            return step;
+        };
+        let mut calls = match step {
+            Some(Step::Call(calls)) => calls,
+            // What was called with this block is the cycle itself.
+            step => {
+                debug_assert!(step.is_none());
+                Vec::new()
+            }
+        };
+        let (RepeatedCall::Program(found) | RepeatedCall::Perhaps(found)) = repeated.call else {
+            return self.repeat_external(calls, moved);
+        };
         let inside = self.state.frames.iter().any(|frame| {
-            frame.level > 0
-                && frame.unit == repeated.found.unit
-                && frame.section == repeated.found.section
+            frame.level > 0 && (frame.unit, frame.section) == (found.unit, found.section)
         });
+        let called = calls.iter().any(|call| call.found == found);
         let due = moved || !repeated.after_motion_only;
-        (due && !inside).then(|| {
-            Step::Call(Box::new(Request {
-                found: repeated.found,
-                own: repeated.own.clone(),
-                form: CallForm::Cycle,
-                called_from: at.place(Span::new(0, at.text.len())),
-            }))
-        })
+        if due && !inside && !called {
+            if let RepeatedCall::Perhaps(_) = repeated.call {
+                let section = &self.units[found.unit].index.sections[found.section];
+                let region = section.start..section.end;
+                let cause = self.units[found.unit].index.source.name().clone();
+                self.forget_region(found.unit, region, &cause);
+                self.forget_called(finder);
+            } else {
+                calls.push(Request {
+                    found,
+                    own: repeated.own.clone(),
+                    form: CallForm::Cycle,
+                    called_from: at.place(Span::new(0, at.text.len())),
+                });
+            }
+        }
+        (!calls.is_empty()).then_some(Step::Call(calls))
+    }
+
+    /// A modal cycle that is on the machine only leaves its traces behind each block.
+    fn repeat_external(&mut self, calls: Vec<Request>, moved: bool) -> Option<Step> {
+        let Some(repeated) = &self.state.repeated else {
+            return None;
+        };
+        if let RepeatedCall::External(name) = &repeated.call
+            && (moved || !repeated.after_motion_only)
+        {
+            let name = name.clone();
+            self.leave_to_machine(&name);
+        }
+        (!calls.is_empty()).then_some(Step::Call(calls))
     }
 
     pub(super) fn find(
@@ -232,6 +338,10 @@ impl Interpreter {
         let Some(name) = self.machine.programs.start.clone() else {
             return Ok(());
         };
+        if self.machine.programs.is_external(&name) {
+            self.leave_to_machine(&name);
+            return Ok(());
+        }
         let place = Place {
             file: name.as_str().into(),
             text: "".into(),
@@ -278,6 +388,7 @@ impl Interpreter {
             seeking: None,
             called_from: Some(request.called_from),
             restores,
+            waiting: Vec::new(),
         });
     }
 
@@ -319,11 +430,20 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
     };
     Box::new(match why {
         NoProgram::Absent => fault(Code::Fc320, "is not found")
-            .with_help("it is looked for beside the calling file, then in `program_dirs` of the configuration"),
+            .with_help("it is looked for beside the calling file, then in `program_dirs` of the configuration")
+            .with_help(on_machine_only(name)),
         NoProgram::Unusable(what) => fault(Code::Fc320, what)
             .with_help("a called program is a file of at most 1 GiB that may be read"),
         NoProgram::Outside => fault(Code::Fc321, "lies outside the folders that programs are called from")
             .with_help("these are the caller's folder, that of `frictcomp.toml` (the current one without), `program_dirs`, and all below them; a file of the same name is looked for there, too")
             .with_help("add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"),
     })
+}
+
+/// How a program is passed over that only the machine has (R2.83).
+fn on_machine_only(name: &str) -> String {
+    let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    format!(
+        "a program that only the machine has is passed over with `external = [\"{last}\"]` in `[machine]`"
+    )
 }

@@ -5,7 +5,7 @@
 //! endless. Parameters that only count, `P1 = P1 + 1`, and that nothing else reads may differ.
 //! What is compared is all of the state, so what a pass can see need not be known.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ use super::coupling::Couplings;
 use super::expression::Place;
 use super::program::EntryIndex;
 use super::region::Target;
-use super::{EndedBy, Frame, Interpreter, Memory, Modal, Repeated, State};
+use super::{EndedBy, Frame, Interpreter, Memory, Modal, Repeated, State, Value};
 use crate::codes::Code;
 use crate::compensation::Compensation;
 use crate::diagnostic::Diagnostic;
@@ -63,6 +63,8 @@ struct Mark {
     repeated: Option<Repeated>,
     refused: BTreeSet<usize>,
     ending: Option<EndedBy>,
+    named: BTreeMap<String, Value>,
+    described: Option<Box<Modal>>,
 }
 
 /// What was read since a loop was looked at.
@@ -99,6 +101,8 @@ impl Mark {
             repeated: state.repeated.clone(),
             refused: state.refused.clone(),
             ending: state.ending,
+            named: state.named.clone(),
+            described: state.described.clone(),
         }
     }
 
@@ -112,7 +116,9 @@ impl Mark {
             && self.couplings == state.couplings
             && self.repeated == state.repeated
             && self.refused == state.refused
-            && self.ending == state.ending;
+            && self.ending == state.ending
+            && self.named == state.named
+            && self.described == state.described;
         if !same {
             return None;
         }

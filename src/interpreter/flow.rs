@@ -29,6 +29,10 @@ impl Interpreter {
                 return Outlook::Ended(self.state.ending.take().unwrap_or(EndedBy::EndOfFile));
             };
             let (unit, section, next) = (frame.unit, frame.section, frame.next);
+            if !frame.waiting.is_empty() {
+                self.call_waiting();
+                continue;
+            }
             if next >= self.units[unit].index.sections[section].end {
                 if frame.level == 0 {
                     return Outlook::Ended(EndedBy::EndOfFile);
@@ -100,7 +104,16 @@ impl Interpreter {
                     frame.next = entry;
                 }
             }
-            Step::Call(request) => self.push_call(*request),
+            Step::Call(mut requests) => {
+                let Some(first) = (!requests.is_empty()).then(|| requests.remove(0)) else {
+                    return ControlFlow::Continue(());
+                };
+                if let Some(frame) = self.state.frames.last_mut() {
+                    requests.reverse();
+                    frame.waiting = requests;
+                }
+                self.push_call(first);
+            }
             Step::Return => match self.state.frames.last() {
                 Some(frame) if frame.level > 0 => self.leave(),
                 _ => {
@@ -112,6 +125,15 @@ impl Interpreter {
             Step::End(by) => return ControlFlow::Break(by),
         }
         ControlFlow::Continue(())
+    }
+
+    /// Calls the next of several programs that one block calls.
+    #[cold]
+    fn call_waiting(&mut self) {
+        let frame = self.state.frames.last_mut();
+        if let Some(request) = frame.and_then(|frame| frame.waiting.pop()) {
+            self.push_call(request);
+        }
     }
 
     fn leave(&mut self) {
@@ -349,7 +371,7 @@ impl Interpreter {
     }
 
     /// The statement that is executed and the end of its control block.
-    fn current_block(&self) -> (EntryIndex, EntryIndex) {
+    pub(super) fn current_block(&self) -> (EntryIndex, EntryIndex) {
         self.state.frames.last().map_or((0, 0), |frame| {
             let entry = frame.next - 1;
             (entry, self.units[frame.unit].index.links(entry).end)

@@ -1,7 +1,9 @@
 //! `#` commands (R2.34, R2.47) and axis couplings.
 
 use super::block::Intent;
+use super::chain;
 use super::expression::Place;
+use super::implicit::is_file_name;
 use super::words::AxisWords;
 use super::{At, Interpreter, Shown, Value};
 use crate::codes::Code;
@@ -45,13 +47,39 @@ impl Interpreter {
             "#DISABLE AX LINK" | "#AX LINK OFF" => self.disable_coupling(rest, at),
             "#DISABLE AX LINK ALL" | "#AX LINK OFF ALL" => self.release_couplings(),
             "#DISABLE MODAL CYCLE" => self.state.repeated = None,
-            "#INIT MACRO TAB" => self.state.memory.clear_macros(),
+            "#INIT MACRO TAB" => {
+                self.state.memory.clear_macros();
+                self.define_machine_macros();
+            }
             "#RETAIN CYCLE CHANGES" => self.retain_cycle_changes(),
             "#COMMENT END" | "#ENDVAR" => {}
+            name if is_file_name(name) => self.name_programs(hash, at),
+            // The blocks up to the end say what a cycle shall cut (tf5293, 717505035).
+            "#CONTOUR BEGIN" => {
+                let before = &self.state.modal;
+                self.state
+                    .described
+                    .get_or_insert_with(|| Box::new(before.clone()));
+            }
+            "#CONTOUR END" => {
+                if let Some(before) = self.state.described.take() {
+                    self.state.modal.end_description(&before);
+                }
+            }
+            "#RT WHILE" => self.real_time_loop(hash.span, at, intent),
+            "#RT ENDWHILE" => {}
             name => {
                 self.state.modal.hash(name);
-                let word = name.trim_end_matches(" OFF").trim_end_matches(" ON");
+                let word = match chain::command(name) {
+                    Some((words, ..)) => words,
+                    None => name.trim_end_matches(" OFF").trim_end_matches(" ON"),
+                };
                 self.pass_over(word, hash.span, at);
+                if let Some((point, code)) = point_behind(hash, at) {
+                    let inner = At { text: &code, ..*at };
+                    self.items(&point, &inner, intent, None);
+                    self.take_faults(&point, &inner, false);
+                }
                 if name.starts_with("#MACHINE DATA") && names_friction(rest) {
                     return Err(Box::new(
                         Fault::new(
@@ -65,6 +93,15 @@ impl Interpreter {
             }
         }
         Ok(())
+    }
+
+    /// `#RT WHILE` runs as long as a variable of real time says so (tf5261, 783727499).
+    fn real_time_loop(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) {
+        let (entry, end) = self.current_block();
+        if end > entry {
+            let cause = "V.RTG.LOOP.ENABLED".into();
+            intent.step = self.skip_unknown((entry, end), &cause, span, at);
+        }
     }
 
     /// The cycle that runs keeps what it did to G functions and feed.
@@ -224,6 +261,35 @@ pub(super) fn declared_name(declaration: &Declaration, at: &At<'_>) -> String {
         Some(rest) => format!("{}{rest}", compact[..1].to_ascii_uppercase()),
         None => compact,
     }
+}
+
+/// The words that may stand behind a command that switches a path, `#SPLINE ON X10 Y20`, as a block
+/// whose spans are those of the whole.
+pub(super) fn point_behind(hash: &Hash, at: &At<'_>) -> Option<(Block, String)> {
+    let (_, step, _) = chain::command(&hash.name)?;
+    if !matches!(step, chain::Step::Path | chain::Step::Machine) {
+        return None;
+    }
+    let text = hash.span.of(at.text);
+    let is_switch = |word: &&str| {
+        let word = word.trim();
+        word.eq_ignore_ascii_case("ON") || word.eq_ignore_ascii_case("OFF")
+    };
+    let mut length = 0;
+    let mut words = text.split_inclusive([' ', '\t']);
+    for word in words.by_ref() {
+        length += word.len();
+        if is_switch(&word) {
+            break;
+        }
+    }
+    let words = &text[length..];
+    let first = words.split_whitespace().next()?;
+    if first.starts_with('[') || first.eq_ignore_ascii_case("EX") {
+        return None;
+    }
+    let code = " ".repeat(hash.span.start as usize + length) + words;
+    Some((crate::syntax::parse_block(&code), code))
 }
 
 fn names_in(text: &str) -> impl Iterator<Item = &str> {

@@ -13,6 +13,7 @@ mod at;
 mod block;
 mod budget;
 mod call;
+mod chain;
 mod comp;
 mod coupling;
 mod endless;
@@ -23,6 +24,7 @@ mod finder;
 mod flow;
 mod functions;
 mod hash;
+mod implicit;
 mod memory;
 mod modal;
 mod motion;
@@ -125,6 +127,8 @@ struct Frame {
     called_from: Option<Place>,
     /// What the end of a cycle brings back.
     restores: Option<Box<modal::Saved>>,
+    /// Programs that are called before the next block, the first one last.
+    waiting: Vec<Request>,
 }
 
 /// What the next branch statement has to decide.
@@ -171,6 +175,10 @@ struct State {
     last: Option<Last>,
     /// What a paused run does first when it goes on.
     parked: Option<Step>,
+    /// What `#FILE NAME` says that a word calls, until the program ends.
+    named: BTreeMap<String, Value>,
+    /// G functions and positions before a contour description, inside it.
+    described: Option<Box<Modal>>,
 }
 
 /// The last executed block, in case that the program ends without M30.
@@ -184,9 +192,20 @@ struct Last {
 /// A modal cycle (R2.13).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Repeated {
-    found: Found,
+    call: RepeatedCall,
     own: BTreeMap<u32, Value>,
     after_motion_only: bool,
+}
+
+/// What a modal cycle calls.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum RepeatedCall {
+    /// A program that is at hand.
+    Program(Found),
+    /// The same, or nothing: nobody knows whether the cycle is in force.
+    Perhaps(Found),
+    /// A program that is on the machine only, by its name.
+    External(String),
 }
 
 /// A file of the run.
@@ -312,7 +331,8 @@ enum Step {
     Begin,
     /// To a block of the same program.
     Jump(EntryIndex),
-    Call(Box<Request>),
+    /// Programs, one after the other.
+    Call(Vec<Request>),
     /// M17, M29.
     Return,
     End(EndedBy),
@@ -369,8 +389,12 @@ impl Interpreter {
             ending: None,
             last: None,
             parked: None,
+            named: BTreeMap::new(),
+            described: None,
         };
-        Self::with_state(machine, options, state)
+        let mut interpreter = Self::with_state(machine, options, state);
+        interpreter.define_machine_macros();
+        interpreter
     }
 
     fn with_state(machine: Arc<Machine>, options: Options, state: State) -> Self {
@@ -567,6 +591,8 @@ impl Interpreter {
         self.state.ending = None;
         self.state.last = None;
         self.state.parked = None;
+        self.state.named.clear();
+        self.state.described = None;
         self.units.clear();
         self.found.clear();
         self.missing.clear();
@@ -610,6 +636,7 @@ impl Interpreter {
             seeking: None,
             called_from: None,
             restores: None,
+            waiting: Vec::new(),
         });
     }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use super::AxisWord;
+use super::chain::{self, Step};
 use super::motion::BlockEnd;
 use crate::machine::AxisIndex;
 
@@ -155,6 +156,8 @@ pub struct Modal {
     positions: Vec<Option<f64>>,
     /// G92; `None` where it is not known.
     references: Vec<Option<f64>>,
+    /// What G92 set before `#MCS ON`, which comes back with `#MCS OFF`.
+    suspended: Option<Vec<Option<f64>>>,
 }
 
 /// What the end of a cycle brings back (P-CHAN-00210): G functions and feed.
@@ -201,6 +204,7 @@ impl Modal {
             unknown: GroupSet::default(),
             positions: vec![None; axes],
             references: vec![Some(0.0); axes],
+            suspended: None,
         }
     }
 
@@ -312,11 +316,40 @@ impl Modal {
 
     /// What a `#` command does to the coordinate chain.
     pub fn hash(&mut self, name: &str) {
-        const CHAIN: [&str; 6] = ["#TRAFO", "#CS", "#ROTATION", "#SCALE", "#KIN", "#MIRROR"];
-        let head = name.split(' ').next().unwrap_or_default();
-        if CHAIN.contains(&head) {
-            let off = name.ends_with(" OFF") || name.contains(" DEL");
-            self.transform(head, !off);
+        let Some((words, step, off)) = chain::command(name) else {
+            return;
+        };
+        match step {
+            Step::Coordinates => self.transform(words, !off),
+            Step::Machine => self.machine_coordinates(words, off),
+            Step::Path if off => _ = self.transformed.remove(words),
+            Step::Path => self.note_transformed(words),
+            Step::Origin => {
+                self.note_transformed(words);
+                self.forget_positions();
+            }
+        }
+    }
+
+    /// `#MCS ON` takes all offsets away until `#MCS OFF`. What is programmed behind either of them
+    /// is no sure place of the machine any more.
+    fn machine_coordinates(&mut self, words: &str, off: bool) {
+        if off {
+            if let Some(references) = self.suspended.take() {
+                self.references = references;
+            }
+        } else if self.suspended.is_none() {
+            let none = vec![Some(0.0); self.references.len()];
+            self.suspended = Some(std::mem::replace(&mut self.references, none));
+        }
+        self.note_transformed(words);
+        self.forget_positions();
+    }
+
+    /// Positions are the program's from here on.
+    pub(super) fn note_transformed(&mut self, name: &str) {
+        if !self.transformed.contains(name) {
+            self.transformed.insert(name.to_owned());
         }
     }
 
@@ -324,10 +357,40 @@ impl Modal {
     pub(super) fn forget_hash(&mut self, name: &str) {
         let mut after = self.clone();
         after.hash(name);
-        if after.transformed != self.transformed {
+        if after != *self {
+            if after.references != self.references {
+                self.references.fill(None);
+                self.suspended = None;
+            }
             self.transformed.extend(after.transformed);
             self.forget_positions();
         }
+    }
+
+    /// What the blocks of a contour description leave of the state before it: whether their G
+    /// functions and feeds hold behind it is not documented (R2.81).
+    pub(super) fn end_description(&mut self, before: &Self) {
+        let value = |modal: &Self, group| match group {
+            Group::Motion => modal.motion,
+            Group::Plane => modal.plane,
+            Group::Unit => u32::from(modal.inch),
+            Group::Distance => u32::from(modal.absolute),
+            Group::Feed => modal.feed_mode,
+            Group::Offset => modal.offset,
+            Group::CutterRadius => u32::from(modal.transformed.contains("G41")),
+            Group::CircleCentre => u32::from(modal.centre_absolute),
+            Group::ExactStop => u32::from(modal.block_end == BlockEnd::ExactStop),
+        };
+        for group in Group::ALL {
+            if before.unknown.contains(group) || value(self, group) != value(before, group) {
+                self.unknown.insert(group);
+            }
+        }
+        for (feed, before) in self.feeds.iter_mut().zip(before.feeds) {
+            *feed = feed.filter(|_| *feed == before);
+        }
+        self.radius = self.radius.filter(|_| self.radius == before.radius);
+        self.forget_positions();
     }
 
     fn metric(&self) -> Option<f64> {
@@ -396,6 +459,7 @@ impl Modal {
             Some(Group::Offset) => self.forget_positions(),
             Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
             None if (21..=23).contains(&number) => self.transform("G21", true),
+            None if number == 151 => self.note_transformed("#SPLINE"),
             _ => {}
         }
         if let Some(group) = Group::of(number) {

@@ -196,7 +196,7 @@ impl Interpreter {
         let moves = !self.work.moved.is_empty() || (circular && centred);
         let form = match words {
             _ if !moves => return None,
-            AxisWords::Motion => self.form(geometry, &from),
+            AxisWords::Motion | AxisWords::Measuring => self.form(geometry, &from),
             AxisWords::Homing => Form::Unknown("homing ends at a reference point of the machine"),
             AxisWords::Reference | AxisWords::Other => return None,
         };

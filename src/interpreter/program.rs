@@ -83,6 +83,8 @@ enum Kind {
     While,
     Do,
     Repeat,
+    /// `#RT WHILE`, which real time leaves.
+    RealTime,
 }
 
 impl Kind {
@@ -94,6 +96,7 @@ impl Kind {
             Self::While => "$WHILE",
             Self::Do => "$DO",
             Self::Repeat => "$REPEAT",
+            Self::RealTime => REAL_TIME_LOOP,
         }
     }
 
@@ -105,9 +108,14 @@ impl Kind {
             Self::While => "$ENDWHILE",
             Self::Do => "$ENDDO",
             Self::Repeat => "$UNTIL",
+            Self::RealTime => REAL_TIME_END,
         }
     }
 }
+
+/// The loop of real time and its end (tf5261, 783727499).
+pub(super) const REAL_TIME_LOOP: &str = "#RT WHILE";
+const REAL_TIME_END: &str = "#RT ENDWHILE";
 
 /// A control block that is not closed yet.
 struct Open {
@@ -341,6 +349,12 @@ impl Builder {
                 // `$IF c $GOTO N10` opens nothing.
                 Item::Flow(Flow::If(_), _) if jumps => {}
                 Item::Flow(flow, span) => self.flow(entry, flow, (*span, text)),
+                Item::Hash(hash) if hash.name == REAL_TIME_LOOP => {
+                    self.opens(Kind::RealTime, entry, hash.span);
+                }
+                Item::Hash(hash) if hash.name == REAL_TIME_END => {
+                    self.closes(Kind::RealTime, entry, (hash.span, text));
+                }
                 _ => {}
             }
         }
@@ -378,10 +392,12 @@ impl Builder {
             Flow::EndWhile => self.closes(Kind::While, entry, (span, text)),
             Flow::EndDo(_) => self.closes(Kind::Do, entry, (span, text)),
             Flow::Until(_) => self.closes(Kind::Repeat, entry, (span, text)),
-            Flow::Break => self.leaves(entry, (span, text), |kind| kind != Kind::If),
+            Flow::Break => self.leaves(entry, (span, text), |kind| {
+                !matches!(kind, Kind::If | Kind::RealTime)
+            }),
             Flow::Continue => {
                 self.leaves(entry, (span, text), |kind| {
-                    !matches!(kind, Kind::If | Kind::Switch)
+                    !matches!(kind, Kind::If | Kind::Switch | Kind::RealTime)
                 });
             }
             Flow::Goto(target) => self.jump(target, (span, text)),

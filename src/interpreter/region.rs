@@ -18,10 +18,11 @@ use super::budget::ITEM;
 use super::call::Wanted;
 use super::event::Notes;
 use super::expression::{unquoted, with_subscripts};
-use super::hash::declared_name;
+use super::hash::{declared_name, point_behind};
+use super::implicit::{is_file_name, named_words};
 use super::program::EntryIndex;
 use super::value::rounded;
-use super::{Group, Interpreter};
+use super::{Group, Interpreter, after_motion_only};
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -51,6 +52,10 @@ pub(super) enum Effect {
     Hash(String),
     /// A declaration.
     Declaration(String),
+    /// A G, M, T or D word, which may call a program.
+    Function(u8, Option<i64>),
+    /// A word gets another program by `#FILE NAME`.
+    FileName(String),
     /// Everything, through a call of nobody knows what.
     All,
 }
@@ -163,7 +168,7 @@ struct Gathering<'a> {
     run: &'a Interpreter,
     region: Region,
     effects: HashSet<Effect>,
-    calls: HashSet<(bool, String)>,
+    calls: HashSet<(bool, Option<bool>, String)>,
     /// Macros of the region whose code was not looked through yet.
     macros: Vec<(String, Span)>,
     expanded: HashSet<String>,
@@ -250,7 +255,8 @@ impl Gathering<'_> {
     }
 
     fn calls(&mut self, wanted: Wanted) {
-        let key = (wanted.scope == CallScope::Local, wanted.name.clone());
+        let local = wanted.scope == CallScope::Local;
+        let key = (local, wanted.repeat, wanted.name.clone());
         if self.calls.insert(key) {
             self.region.calls.push(wanted);
         }
@@ -267,7 +273,10 @@ impl Gathering<'_> {
             Item::Flow(Flow::Switch(Some(target), _), _) => self.target(target.place, block, at),
             Item::Word(word) => self.word(word, block, at),
             Item::Call(call) => self.call(call, at),
-            Item::GCall(call) => self.configured(&format!("G{}", call.number)),
+            Item::GCall(call) => {
+                let number = Some(i64::from(call.number));
+                self.effect(Effect::Function(b'G', number));
+            }
             Item::Hash(hash) => self.hash(hash, at),
             Item::MacroUse(span) => {
                 let name = unquoted(span.of(at.text)).trim();
@@ -294,7 +303,11 @@ impl Gathering<'_> {
             CallName::Variable(_) => return self.effect(Effect::All),
         };
         let span = at.in_block(call.span);
-        self.calls(Wanted::program(call.scope, name.to_owned(), span));
+        let wanted = Wanted::program(call.scope, name.to_owned(), span);
+        self.calls(Wanted {
+            repeat: after_motion_only(call),
+            ..wanted
+        });
     }
 
     fn hash(&mut self, hash: &HashCommand, at: &At<'_>) {
@@ -302,7 +315,23 @@ impl Gathering<'_> {
             let name = declared_name(declaration, at);
             self.effect(Effect::Declaration(name));
         }
+        if is_file_name(&hash.name) {
+            for word in named_words(hash.rest.of(at.text)) {
+                self.effect(Effect::FileName(word));
+            }
+            return;
+        }
         self.effect(Effect::Hash(hash.name.clone()));
+        if let Some((point, code)) = point_behind(hash, at) {
+            let inner = At { text: &code, ..*at };
+            let items = point.items.iter().filter_map(|item| match item {
+                Item::Word(word) => Some(word),
+                _ => None,
+            });
+            for word in point.words.iter().chain(items) {
+                self.word(word, &point, &inner);
+            }
+        }
     }
 
     /// What an assignment could write. A place that has to be computed may be another one each time.
@@ -366,10 +395,8 @@ impl Gathering<'_> {
             Address::Letter(b'G') => self.g(number),
             Address::Letter(b'F') => self.effect(Effect::Feeds),
             Address::Letter(b'R') => self.effect(Effect::Radius),
-            Address::Letter(letter @ (b'M' | b'T')) => {
-                let number = number.map(|number| number.to_string());
-                let word = format!("{}{}", char::from(letter), number.unwrap_or_default());
-                self.configured(&word);
+            Address::Letter(letter @ (b'M' | b'T' | b'D')) => {
+                self.effect(Effect::Function(letter, number));
             }
             Address::Letter(letter @ b'A'..=b'Z') => {
                 if let Some(axis) = self.run.letters[usize::from(letter - b'A')] {
@@ -391,11 +418,11 @@ impl Gathering<'_> {
         let plain = number.and_then(|number| u32::try_from(number).ok());
         let matters =
             plain.is_none_or(|number| Group::of(number).is_some() || (20..=23).contains(&number));
-        if matters {
+        if matters || number == Some(151) {
             self.effect(Effect::G(number));
         }
-        if let Some(number) = number {
-            self.configured(&format!("G{number}"));
+        if plain.is_none_or(|number| Group::of(number).is_none()) {
+            self.effect(Effect::Function(b'G', number));
         }
     }
 
@@ -413,19 +440,5 @@ impl Gathering<'_> {
             Effect::Position(axis)
         };
         self.effect(effect);
-    }
-
-    fn configured(&mut self, word: &str) {
-        let Some(head) = word.get(..1) else {
-            return;
-        };
-        let words = if head == "G" {
-            [word, word]
-        } else {
-            [word, head]
-        };
-        if let Some(wanted) = self.run.configured(words, Span::default()) {
-            self.calls(wanted);
-        }
     }
 }

@@ -7,7 +7,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::program::Index;
+use super::program::{Index, REAL_TIME_LOOP};
 use super::{
     At, Departure, EndedBy, Finder, Interpreter, Observer, Outlook, Shown, SourceFile, StopPolicy,
     one,
@@ -234,6 +234,7 @@ fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
                     // A macro's code may be a jump or a call.
                     Item::Label(_) | Item::Flow(..) | Item::MacroUse(_) => true,
                     Item::Call(call) => call.scope == CallScope::Local,
+                    Item::Hash(hash) => hash.name == REAL_TIME_LOOP,
                     _ => false,
                 })
         }

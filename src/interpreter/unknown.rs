@@ -1,7 +1,7 @@
 //! What cannot be known offline: a region that may or may not be executed makes unknown whatever
 //! it could change (R2.50, R2.51).
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use super::call::Wanted;
 use super::expression::Place;
 use super::program::EntryIndex;
 use super::region::{Effect, Region, Target};
-use super::{Finder, Interpreter, Step, Value};
+use super::{Finder, Interpreter, Repeated, RepeatedCall, Step, Value};
 use crate::codes::Code;
 use crate::machine::AxisIndex;
 use crate::source::Span;
@@ -120,7 +120,7 @@ impl Interpreter {
         self.state
             .charge(ITEM * (region.effects.len() + region.calls.len()));
         for effect in &region.effects {
-            self.suffer(effect, cause);
+            self.suffer(effect, unit, cause);
         }
         let since = self.journal.since(key).filter(|_| !is_new);
         if let Some(written) = since {
@@ -149,7 +149,7 @@ impl Interpreter {
     }
 
     /// Something of the state may have changed.
-    fn suffer(&mut self, effect: &Effect, cause: &Arc<str>) {
+    fn suffer(&mut self, effect: &Effect, unit: usize, cause: &Arc<str>) {
         let modal = &mut self.state.modal;
         match effect {
             Effect::Compensation(axis, kinds) => {
@@ -171,7 +171,16 @@ impl Interpreter {
                 modal.forget_reference(*axis);
                 self.see(*axis);
             }
+            Effect::Hash(name) if name == "#DISABLE MODAL CYCLE" => self.doubt_repetition(),
             Effect::Hash(name) => modal.forget_hash(name),
+            Effect::Function(letter, number) => {
+                self.forget_function((*letter, *number), unit, cause);
+            }
+            Effect::FileName(word) => {
+                let unknown = Value::Unknown(cause.clone());
+                self.state.named.insert(word.clone(), unknown);
+                self.work.wrote = true;
+            }
             Effect::Declaration(name) => {
                 let unknown = Value::Unknown(cause.clone());
                 self.state.memory.declare(name, unknown);
@@ -199,13 +208,27 @@ impl Interpreter {
 
     /// Every kind of every axis becomes unknown, and all positions (R2.52).
     pub(super) fn forget_all(&mut self) {
+        self.forget_compensation();
+        self.state.modal.forget_positions();
+    }
+
+    /// Every kind of every axis becomes unknown.
+    pub(super) fn forget_compensation(&mut self) {
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);
             self.state
                 .compensation
                 .forget(axis, KindSet::ALL, &mut self.work.changes);
         }
-        self.state.modal.forget_positions();
+    }
+
+    /// The modal cycle may or may not have been switched off.
+    fn doubt_repetition(&mut self) {
+        if let Some(repeated) = &mut self.state.repeated
+            && let RepeatedCall::Program(found) = repeated.call
+        {
+            repeated.call = RepeatedCall::Perhaps(found);
+        }
     }
 
     /// What called programs of a region could change becomes unknown too (R2.51).
@@ -216,6 +239,12 @@ impl Interpreter {
             if self.is_worn_out() {
                 return;
             }
+            if self.is_external(&call) {
+                self.leave_to_machine(&call.name);
+                let name = call.name.clone();
+                self.perhaps_repeat(&call, RepeatedCall::External(name));
+                continue;
+            }
             let caller = self.units.get(unit).map(|unit| unit.index.source.name());
             let caller = caller.cloned().unwrap_or_default();
             let Ok(Some(found)) = self.find(&call, (unit, &caller), finder) else {
@@ -223,6 +252,7 @@ impl Interpreter {
                 self.forget_all();
                 continue;
             };
+            self.perhaps_repeat(&call, RepeatedCall::Perhaps(found));
             if !seen.insert((found.unit, found.section)) {
                 continue;
             }
@@ -230,6 +260,17 @@ impl Interpreter {
             let region = section.start..section.end;
             self.forget_region(found.unit, region, &cause);
             pending.append(&mut self.pending);
+        }
+    }
+
+    /// A modal cycle of a region may be in force behind it.
+    fn perhaps_repeat(&mut self, wanted: &Wanted, call: RepeatedCall) {
+        if let Some(after_motion_only) = wanted.repeat {
+            self.state.repeated = Some(Repeated {
+                call,
+                own: BTreeMap::new(),
+                after_motion_only,
+            });
         }
     }
 }

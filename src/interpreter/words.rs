@@ -1,17 +1,15 @@
 //! Words of a block: axes, G, M, T and the other letters (R2.20 to R2.25, R2.45, R2.46).
 
-use std::collections::BTreeMap;
-
 use super::block::{Feed, Intent};
 use super::motion::{BlockEnd, foreign};
 use super::value::rounded;
-use super::{At, AxisWord, EndedBy, Group, Interpreter};
+use super::{At, AxisWord, EndedBy, Group, Interpreter, chain};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Address, Block, GCall, Operand, Word};
+use crate::syntax::ast::{Address, Block, Operand, Word};
 
 /// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
 /// ramp time and jerk, feedforward (TF5200 channel parameters, P-CHAN-00210, names examples).
@@ -30,6 +28,8 @@ pub(super) enum AxisWords {
     Motion,
     /// G74: the axes move, nobody knows where to.
     Homing,
+    /// A measuring motion ends where the probe says.
+    Measuring,
     /// G92: offsets.
     Reference,
     /// G04 and the like: other values.
@@ -153,23 +153,21 @@ impl Interpreter {
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
         let whole = match letter {
-            b'G' | b'M' | b'T' => number.and_then(rounded),
+            b'G' | b'M' | b'T' | b'D' => number.and_then(rounded),
             _ => None,
         };
         match (letter, whole) {
             (b'G', Some(number)) => return self.g_word(number, word.span, at, intent),
-            (b'G', None) => self.state.modal.forget_g(None),
+            (b'G', None) => {
+                self.unknown_word("G", (word.span, at));
+                self.state.modal.forget_g(None);
+            }
             (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
             (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
             (b'M', Some(17 | 29)) => intent.returns = true,
             (b'F', _) => intent.feed = Feed::Given(number),
-            (b'M' | b'T', Some(number)) => {
-                if !self.machine.programs.words.is_empty() {
-                    let letter = char::from(letter).to_string();
-                    let words = [&format!("{letter}{number}"), &letter];
-                    let wanted = self.configured(words.map(String::as_str), at.in_block(word.span));
-                    intent.call = intent.call.take().or(wanted.map(Box::new));
-                }
+            (b'M' | b'T' | b'D', number) => {
+                self.function_word((letter, number), (word.span, at), intent);
             }
             (b'R', _) => {
                 intent.radius = Some(at.in_block(word.span));
@@ -177,7 +175,7 @@ impl Interpreter {
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number),
             (b'P', _) if self.work.dwells => self.dwell_parameter(number),
-            (b'M' | b'T' | b'D' | b'H' | b'E' | b'S' | b'N', _) => {}
+            (b'H' | b'E' | b'S' | b'N', _) => {}
             _ => self.pass_over(&char::from(letter).to_string(), word.span, at),
         }
         Ok(())
@@ -215,13 +213,14 @@ impl Interpreter {
                 self.work.dwells = true;
             }
             (None, 20..=23) => self.state.modal.mirror(number),
+            // PM/207256971, 207263627
+            (None, 150) => self.state.modal.hash("#SPLINE OFF"),
+            (None, 151) => self.state.modal.hash("#SPLINE ON"),
             (None, 60) => self.geometry().end = BlockEnd::ExactStop,
             (None, 92) => intent.axis_words = AxisWords::Reference,
             // G61 and the like have no bearing on the compensation; a configured cycle has.
             (None, _) => {
-                let name = format!("G{number}");
-                if let Some(wanted) = self.configured([&name, &name], at.in_block(span)) {
-                    intent.call = Some(Box::new(wanted));
+                if self.g_program(number, (span, at), intent) {
                     return Ok(());
                 }
                 if number == HOMING {
@@ -230,32 +229,12 @@ impl Interpreter {
                     intent.axis_words = AxisWords::Other;
                 } else if let Some(reason) = foreign(number) {
                     self.geometry().foreign = Some(reason);
+                    if chain::is_measuring(number) {
+                        intent.axis_words = AxisWords::Measuring;
+                    }
                 }
-                self.pass_over(&name, span, at);
+                self.pass_over(&format!("G{number}"), span, at);
             }
-        }
-        Ok(())
-    }
-
-    pub(super) fn g_call(
-        &mut self,
-        call: &GCall,
-        block: &Block,
-        at: &At<'_>,
-        intent: &mut Intent,
-    ) -> Result<(), Box<Fault>> {
-        let mut own = BTreeMap::new();
-        for (place, operand) in (1..).zip(&call.arguments) {
-            if let Some(operand) = operand {
-                own.insert(place, self.value(*operand, block, at)?);
-            }
-        }
-        let word = format!("G{}", call.number);
-        match self.configured([&word, &word], at.in_block(call.span)) {
-            Some(wanted) => {
-                intent.call = Some(Box::new(super::call::Wanted { own, ..wanted }));
-            }
-            None => self.pass_over(&word, call.span, at),
         }
         Ok(())
     }
@@ -266,12 +245,17 @@ impl Interpreter {
         if let Feed::Given(feed) = intent.feed {
             self.state.modal.set_feed(feed);
         }
+        if self.state.described.is_some() {
+            self.work.moved.clear();
+            self.work.geometry = None;
+            return;
+        }
         let start = self.stand();
         let before = intent.radius.map(|_| self.ends());
         let modal = &mut self.state.modal;
         match intent.axis_words {
             AxisWords::Motion => modal.move_axes(&self.work.moved),
-            AxisWords::Homing => {
+            AxisWords::Homing | AxisWords::Measuring => {
                 for word in &self.work.moved {
                     modal.forget_position(word.axis);
                 }

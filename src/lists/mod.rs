@@ -7,6 +7,7 @@ mod friction;
 mod kind;
 mod line;
 mod parameter;
+mod program;
 mod startup;
 mod value;
 
@@ -19,6 +20,7 @@ pub use friction::{Field, FrictionDraft, WrittenPoint};
 pub use kind::Facts;
 pub use line::{Entries, Entry};
 pub use parameter::{AxisType, Origin, Parameter};
+pub use program::{ChannelPrograms, Role};
 pub use startup::{ChannelAxis, ChannelList, ListKind, NamedList, StartupList};
 pub use value::{Given, Number, Written};
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::axis::{axis_number, text};
-use super::{Entries, Entry, Given};
+use super::{ChannelPrograms, Entries, Entry, Given};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 
@@ -59,6 +59,10 @@ const CHANNEL_KEYS: &[&str] = &[
     "start_init_prog_file",
     "final_prog_file",
     "m6_prog_file",
+    "t_prog_file",
+    "d_prog_file",
+    "g8",
+    "einrechnen_mit_t",
 ];
 
 const AXIS_KEYS: &[&str] = &[
@@ -224,12 +228,17 @@ pub struct ChannelList {
     spindles: BTreeMap<u32, ChannelAxis>,
     /// `gruppe[0].achs_anzahl`, P-CHAN-00003: how many axes there are.
     count: Option<u32>,
+    /// The programs and macros that it names.
+    pub programs: ChannelPrograms,
 }
 
 impl ChannelList {
     /// Gathers the axes of the first group and the spindles.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let mut channel = Self::default();
+        let mut channel = Self {
+            programs: ChannelPrograms::from_entries(list),
+            ..Self::default()
+        };
         for entry in &list.entries {
             let (axes, index, key) = match (entry.indices.as_slice(), entry.pattern.as_str()) {
                 (&[0, index], key) => match key.strip_prefix("gruppe[].achse[].") {
@@ -272,6 +281,7 @@ impl ChannelList {
             }
         }
         self.count = other.count.or(self.count);
+        self.programs.override_with(other.programs);
     }
 
     /// The axes in the order of their indices, as many as the group has. An axis with the number 0

@@ -10,7 +10,8 @@ use super::{AxisReport, CncBuild, Configuration, Machine, Parameterisation};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::lists::{
-    AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Verdict,
+    AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
+    Verdict,
 };
 use crate::source::{SourceFile, Span};
 
@@ -23,6 +24,8 @@ pub struct ListsReport {
     pub diagnostics: Vec<Diagnostic>,
     /// The effective parameters of each axis that the list describes.
     pub reports: Vec<AxisReport>,
+    /// The programs and macros of the channel, and where they stand.
+    pub programs: Vec<Parameter>,
     /// The value lists that the control would take.
     pub accepted: Vec<AcceptedList>,
     /// The lists that were read, in the order of reading.
@@ -76,6 +79,7 @@ pub fn check_list(
             kind,
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
+            programs: configuration.programs,
             accepted: AcceptedList::of(&configuration.machine),
             files: configuration.files,
             missing: configuration.missing,
@@ -83,11 +87,13 @@ pub fn check_list(
     }
     let mut diagnostics = entries.diagnostics.clone();
     let mut reports = Vec::new();
+    let mut programs = Vec::new();
     let mut accepted = Vec::new();
     match kind {
         Some(ListKind::Startup) => {}
         Some(ListKind::Channel) => {
-            ChannelList::from_entries(&entries, &mut diagnostics);
+            let channel = ChannelList::from_entries(&entries, &mut diagnostics);
+            programs = channel.programs.parameters(&|_| false);
         }
         Some(ListKind::Axis | ListKind::Head) => {
             let values = AxisValues::from_entries(&entries, &mut diagnostics);
@@ -136,6 +142,7 @@ pub fn check_list(
         kind,
         diagnostics,
         reports,
+        programs,
         accepted,
         files: vec![source.name().clone()],
         missing: 0,

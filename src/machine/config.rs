@@ -10,11 +10,11 @@ use super::assemble::{AxisDraft, Dynamics};
 use super::load::{AXIS_NAME_HELP, Loader, MAX_AXES, is_axis_name};
 use super::resolve::{ListFiles, NoLists};
 use super::section::{ROOT, Section, Shape};
-use super::{Configuration, ConfiguredPrograms, Machine, Parameters, Setting};
+use super::{Configuration, Machine, Parameters, Setting, canonical_word};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Label, Levels, Severity, did_you_mean};
 use crate::lists::{
-    AxisType, AxisValues, Field, FrictionDraft, Given, ListKind, Written, WrittenPoint,
+    AxisType, AxisValues, Field, FrictionDraft, Given, ListKind, Parameter, Written, WrittenPoint,
 };
 use crate::source::{SourceFile, Span};
 use crate::syntax::{Kind, KindSet};
@@ -117,15 +117,7 @@ impl Configuration {
         }
         let dirs = section.strings("program_dirs")?;
         self.program_dirs = dirs.into_iter().map(|dir| dir.value).collect();
-        let words = match section.table("programs", &WORDS)? {
-            Some(words) => words.string_pairs()?,
-            None => Vec::new(),
-        };
-        self.machine.programs = ConfiguredPrograms {
-            start: section.string("start_program")?.map(|given| given.value),
-            end: section.string("end_program")?.map(|given| given.value),
-            words,
-        };
+        self.read_programs(section)?;
         if section
             .truth("keep_parameters")?
             .is_some_and(|given| given.value)
@@ -134,6 +126,53 @@ impl Configuration {
         }
         Ok(())
     }
+
+    /// The programs that run by themselves, stand behind words, or are on the machine only.
+    fn read_programs(&mut self, section: &Section<'_>) -> Result<(), ConfigError> {
+        let mut rows = Vec::new();
+        let mut named = |number, key: &str, given: &Given<String>| {
+            rows.push(Parameter {
+                number,
+                key: key.to_owned(),
+                value: given.value.clone(),
+                unit: "",
+                origin: given.into(),
+            });
+            given.value.clone()
+        };
+        let programs = &mut self.machine.programs;
+        let start = section.string("start_program")?;
+        programs.start = start.map(|given| named("P-CHAN-00119", "start_program", &given));
+        let end = section.string("end_program")?;
+        programs.end = end.map(|given| named("P-CHAN-00252", "end_program", &given));
+        if let Some(words) = section.table("programs", &WORDS)? {
+            for name in words.names() {
+                if let Some(given) = words.string(name.value)? {
+                    let word = canonical_word(name.value);
+                    let key = format!("programs.{}", name.value);
+                    programs.words.push((word, named("", &key, &given)));
+                }
+            }
+        }
+        let patterns = section.strings("external")?;
+        programs.external = patterns.into_iter().map(|given| given.value).collect();
+        if let Some(keeps) = section.table("external_keeps", &EXTERNAL_KEEPS)? {
+            programs.keep_compensation = kept(&keeps, "compensation", &programs.external)?;
+            programs.keep_positions = kept(&keeps, "positions", &programs.external)?;
+        }
+        self.programs = rows;
+        Ok(())
+    }
+}
+
+/// The programs that keep something: all that are on the machine only, none, or those that match.
+fn kept(keeps: &Section<'_>, key: &str, all: &[String]) -> Result<Vec<String>, ConfigError> {
+    if let Ok(on) = keeps.truth(key) {
+        let all = on.filter(|on| on.value).map(|_| all.to_vec());
+        return Ok(all.unwrap_or_default());
+    }
+    let patterns = keeps.strings(key)?;
+    Ok(patterns.into_iter().map(|given| given.value).collect())
 }
 
 impl Machine {
@@ -167,7 +206,14 @@ const MACHINE: Shape = Shape {
         "end_program",
         "keep_parameters",
         "programs",
+        "external",
+        "external_keeps",
     ]),
+};
+
+const EXTERNAL_KEEPS: Shape = Shape {
+    name: "[machine.external_keeps]",
+    keys: Some(&["compensation", "positions"]),
 };
 
 const WORDS: Shape = Shape {

@@ -9,8 +9,8 @@ use super::{AxisSet, Configuration, Machine};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::lists::{
-    AxisType, AxisValues, ChannelAxis, ChannelList, Conditions, Entries, FrictionDraft, Given,
-    ListKind, NamedList, StartupList,
+    AxisType, AxisValues, ChannelAxis, ChannelList, ChannelPrograms, Conditions, Entries,
+    FrictionDraft, Given, ListKind, NamedList, StartupList,
 };
 use crate::source::{SourceFile, Span};
 
@@ -42,6 +42,8 @@ pub(super) struct Loader<'f> {
     pub(super) names: Vec<Arc<str>>,
     /// How many lists were asked for and are not there.
     pub(super) missing: usize,
+    /// What the first channel names.
+    pub(super) programs: Option<ChannelPrograms>,
 }
 
 impl<'f> Loader<'f> {
@@ -52,6 +54,7 @@ impl<'f> Loader<'f> {
             diagnostics: Vec::new(),
             names: Vec::new(),
             missing: 0,
+            programs: None,
         }
     }
 
@@ -133,6 +136,9 @@ impl<'f> Loader<'f> {
             };
             let mut channel = base.clone();
             channel.override_with(own);
+            // A program runs in one channel; the first one is taken.
+            self.programs
+                .get_or_insert_with(|| channel.programs.clone());
             let mut taken = Vec::new();
             for axis in channel.axes() {
                 let found = find_listed(axis, listed).map(|at| listed.remove(at).1);
@@ -349,6 +355,12 @@ impl Configuration {
         self.diagnostics.extend(loader.diagnostics);
         self.files.extend(loader.names);
         self.missing += loader.missing;
+        if let Some(programs) = loader.programs {
+            let named = &self.machine.programs;
+            self.programs
+                .extend(programs.parameters(&|role| named.has(role)));
+            self.machine.programs.add_channel(&programs);
+        }
         let conditions = Conditions {
             build: self.machine.build,
             ..Conditions::default()

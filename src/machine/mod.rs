@@ -8,6 +8,7 @@ mod check;
 mod config;
 mod described;
 mod load;
+mod programs;
 mod resolve;
 #[cfg(feature = "toml")]
 pub(crate) mod section;
@@ -20,12 +21,14 @@ pub use assemble::AxisReport;
 pub use check::{AcceptedList, ListsReport, check_list};
 #[cfg(feature = "toml")]
 pub use config::ConfigError;
+pub(crate) use programs::canonical_word;
+pub use programs::{ConfiguredPrograms, Keeps};
 pub use resolve::{ListFiles, NoList, NoLists};
 
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Place};
-use crate::lists::FrictionList;
 pub use crate::lists::{AxisType, CncBuild, NoBuild, Origin};
+use crate::lists::{FrictionList, Parameter};
 use crate::syntax::{Kind, KindSet};
 
 /// The position of an axis in the machine.
@@ -207,17 +210,6 @@ pub enum Parameters {
     Kept,
 }
 
-/// Programs that the configuration names (R2.14, R2.15).
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct ConfiguredPrograms {
-    /// Runs before the first block of every main program, P-CHAN-00119.
-    pub start: Option<String>,
-    /// Runs before M02 or M30 of every main program, P-CHAN-00252.
-    pub end: Option<String>,
-    /// What a word calls: `G80`, `M6`, `T`.
-    pub words: Vec<(String, String)>,
-}
-
 /// The value that the user gives to a variable that only the machine knows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -247,6 +239,8 @@ pub struct Configuration {
     pub missing: usize,
     /// The effective parameters of each axis, in the order of [`Machine::axes`].
     pub reports: Vec<AxisReport>,
+    /// The programs and macros that the configuration names, and where.
+    pub programs: Vec<Parameter>,
 }
 
 impl Machine {

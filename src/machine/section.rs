@@ -133,17 +133,6 @@ impl<'a> Section<'a> {
         Ok(texts)
     }
 
-    /// Every key with its text.
-    pub(crate) fn string_pairs(&self) -> Result<Vec<(String, String)>, ConfigError> {
-        let mut pairs = Vec::new();
-        for name in self.names() {
-            if let Some(text) = self.string(name.value)? {
-                pairs.push((name.value.to_owned(), text.value));
-            }
-        }
-        Ok(pairs)
-    }
-
     /// A truth value, also as `0` or `1`.
     pub(crate) fn truth(&self, key: &str) -> Result<Option<Given<bool>>, ConfigError> {
         let Some(value) = self.table.get(key) else {

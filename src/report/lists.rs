@@ -12,17 +12,28 @@ const WIDTH: usize = 100;
 /// Columns that an origin has at least, however wide the others are.
 const MIN_ORIGIN: usize = 16;
 
-/// Writes one table an axis: number, key, value with unit, origin. Lines have at most 100 columns
+/// Writes one table an axis, and one of the programs: number, key, value with unit, origin. Lines have at most 100 columns
 /// unless a value is longer than that by itself.
 ///
 /// # Errors
 /// Only those of `out`.
-pub fn render_parameters(reports: &[AxisReport], out: &mut dyn fmt::Write) -> fmt::Result {
+pub fn render_parameters(
+    reports: &[AxisReport],
+    programs: &[Parameter],
+    out: &mut dyn fmt::Write,
+) -> fmt::Result {
     for (at, report) in reports.iter().enumerate() {
         if at > 0 {
             writeln!(out)?;
         }
         render_axis(report, out)?;
+    }
+    if !programs.is_empty() {
+        if !reports.is_empty() {
+            writeln!(out)?;
+        }
+        writeln!(out, "programs and macros of the channel")?;
+        render_rows(programs, out)?;
     }
     Ok(())
 }
@@ -39,7 +50,11 @@ fn render_axis(report: &AxisReport, out: &mut dyn fmt::Write) -> fmt::Result {
         AxisType::Spindle => "spindle",
     };
     writeln!(out, "axis {name} ({what})")?;
-    let rows: Vec<[String; 4]> = report.parameters.iter().map(cells).collect();
+    render_rows(&report.parameters, out)
+}
+
+fn render_rows(parameters: &[Parameter], out: &mut dyn fmt::Write) -> fmt::Result {
+    let rows: Vec<[String; 4]> = parameters.iter().map(cells).collect();
     let width = |column: usize| rows.iter().map(|row| columns(&row[column])).max();
     let [number, key, value] = [0, 1, 2].map(|column| width(column).unwrap_or_default());
     let taken = 2 + number + 2 + key + 2 + value + 2;

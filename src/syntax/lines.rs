@@ -192,7 +192,9 @@ impl<S: LineSource> BlockReader<S> {
                 return None;
             }
             Some(word) if word == "#VAR" => self.take_region("#ENDVAR", block),
-            Some(word) if word == "#RT CYCLE" => self.take_region("#RT CYCLE END", block),
+            Some(word) if word == "#RT CYCLE" || word == "#RT CYCLE DEF" => {
+                self.take_region("#RT CYCLE END", block)
+            }
             _ => {}
         }
         if cut || (self.text.len() > MAX_LINE && self.text.lines().any(too_long)) {

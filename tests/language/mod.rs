@@ -1,6 +1,8 @@
 mod budgets;
 mod expressions;
 mod flow;
+mod implicit;
+mod places;
 mod programs;
 mod text;
 mod unknown;

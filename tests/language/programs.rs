@@ -251,10 +251,13 @@ fn implicit_calls() {
       14 line 1 - level 1 Y:active>inactive
       15 line 2 - level 1 Y:inactive>active
       16 line 3 - level 1
-      17 line 4 N40
-      18 line 5 N50
-      19 line 6 -
-      end 19 M30 X:active Y:active Z:unconfigured B:ineffective
+      17 line 1 - level 1 Y:active>inactive
+      18 line 2 - level 1 Y:inactive>active
+      19 line 3 - level 1
+      20 line 4 N40
+      21 line 5 N50
+      22 line 6 -
+      end 22 M30 X:active Y:active Z:unconfigured B:ineffective
     opaque {"G81": 1, "G82": 1}
     "#);
     assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.R": Number(124.0)}"#);

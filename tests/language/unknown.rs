@@ -139,7 +139,7 @@ fn unknown_regions_reach_through_calls() {
       1 line 1 -
       2 line 2 -
       3 line 3 -
-      4 line 4 - B:ineffective>unknown Y:active>unknown X:active>unknown
+      4 line 4 - B:ineffective>unknown X:active>unknown Y:active>unknown
         FC901 4:1-10
       5 line 10 -
       6 line 11 -

@@ -1,0 +1,211 @@
+//! The programs and macros that a channel list names (R2.75).
+
+use std::collections::BTreeMap;
+
+use super::{Entries, Entry, Given, Parameter};
+
+/// What runs a program of the channel list.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// The start of every main program.
+    Start,
+    /// The end of every main program.
+    End,
+    /// A word: `G80`, `M6`, `T`.
+    Word(String),
+}
+
+/// The keys that name a program, with the number of the parameter where the descriptions give one,
+/// and the word that calls it (TF5200 Channel parameters).
+const WORDS: [(&str, &str, &str); 13] = [
+    ("m6_prog_file", "P-CHAN-00118", "M6"),
+    ("t_prog_file", "", "T"),
+    ("d_prog_file", "P-CHAN-00429", "D"),
+    ("g80_prog_file", "P-CHAN-00160", "G80"),
+    ("g81_prog_file", "P-CHAN-00161", "G81"),
+    ("g82_prog_file", "P-CHAN-00162", "G82"),
+    ("g83_prog_file", "P-CHAN-00163", "G83"),
+    ("g84_prog_file", "P-CHAN-00164", "G84"),
+    ("g85_prog_file", "P-CHAN-00165", "G85"),
+    ("g86_prog_file", "P-CHAN-00166", "G86"),
+    ("g87_prog_file", "P-CHAN-00167", "G87"),
+    ("g88_prog_file", "P-CHAN-00168", "G88"),
+    ("g89_prog_file", "P-CHAN-00169", "G89"),
+];
+
+/// The number of `g800_prog_file[i]`.
+const G800: &str = "P-CHAN-00187";
+
+/// More macros than any channel list has; what lies beyond is not kept.
+const MAX_MACROS: usize = 4096;
+
+/// A program that a channel list names.
+#[derive(Debug, Clone)]
+struct Named {
+    number: &'static str,
+    key: String,
+    name: Given<String>,
+}
+
+/// A macro of a channel list.
+#[derive(Debug, Clone, Default)]
+struct Macro {
+    /// `makro_def[i].symbol`, P-CHAN-00085.
+    symbol: Option<Given<String>>,
+    /// `makro_def[i].nc_code`, P-CHAN-00062.
+    code: Option<Given<String>>,
+}
+
+/// The programs and macros of a channel list.
+#[derive(Debug, Clone, Default)]
+pub struct ChannelPrograms {
+    named: BTreeMap<Role, Named>,
+    macros: BTreeMap<u32, Macro>,
+    /// `einrechnen_mit_t`, P-CHAN-00014: a T word does what a D word does, too.
+    data_with_tool: Option<Given<bool>>,
+}
+
+impl ChannelPrograms {
+    /// Gathers what a list names.
+    pub fn from_entries(list: &Entries) -> Self {
+        let mut programs = Self::default();
+        for entry in &list.entries {
+            programs.add(entry);
+        }
+        programs
+    }
+
+    fn add(&mut self, entry: &Entry) {
+        let indices = entry.indices.as_slice();
+        match (entry.pattern.as_str(), indices) {
+            ("start_init_prog_file", []) => self.name(Role::Start, "P-CHAN-00119", entry),
+            ("final_prog_file", []) => self.name(Role::End, "P-CHAN-00252", entry),
+            ("g800_prog_file[]", &[index]) if index < 200 => {
+                self.name(Role::Word(format!("G{}", 800 + index)), G800, entry);
+            }
+            ("einrechnen_mit_t", []) => {
+                let given = entry.truth();
+                let on = given.value;
+                self.data_with_tool = on.map(|on| given.with(on)).or(self.data_with_tool.take());
+            }
+            ("makro_def[].symbol", &[index]) => {
+                if let Some(place) = self.macro_at(index) {
+                    place.symbol = Some(text(entry));
+                }
+            }
+            ("makro_def[].nc_code", &[index]) => {
+                if let Some(place) = self.macro_at(index) {
+                    place.code = Some(text(entry));
+                }
+            }
+            (key, []) => {
+                if let Some((_, number, word)) = WORDS.iter().find(|(known, ..)| *known == key) {
+                    self.name(Role::Word((*word).to_owned()), number, entry);
+                } else if let Some(word) = numbered(key) {
+                    self.name(Role::Word(word), G800, entry);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// An empty name takes a program away again.
+    fn name(&mut self, role: Role, number: &'static str, entry: &Entry) {
+        let named = Named {
+            number,
+            key: entry.key(),
+            name: text(entry),
+        };
+        self.named.insert(role, named);
+    }
+
+    fn macro_at(&mut self, index: u32) -> Option<&mut Macro> {
+        let is_room = self.macros.len() < MAX_MACROS || self.macros.contains_key(&index);
+        is_room.then(|| self.macros.entry(index).or_default())
+    }
+
+    /// Lets what another list names replace what is here.
+    pub fn override_with(&mut self, other: Self) {
+        self.named.extend(other.named);
+        for (index, found) in other.macros {
+            let kept = self.macros.entry(index).or_default();
+            kept.symbol = found.symbol.or(kept.symbol.take());
+            kept.code = found.code.or(kept.code.take());
+        }
+        self.data_with_tool = other.data_with_tool.or(self.data_with_tool.take());
+    }
+
+    /// The programs, by what runs them.
+    pub fn programs(&self) -> impl Iterator<Item = (&Role, &str)> {
+        let named = self
+            .named
+            .iter()
+            .map(|(role, named)| (role, &*named.name.value));
+        named.filter(|(_, name)| !name.is_empty())
+    }
+
+    /// The macros: name and code.
+    pub fn macros(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.macros.values().filter_map(|found| {
+            let symbol = found.symbol.as_ref()?;
+            let code = found.code.as_ref()?;
+            (!symbol.value.is_empty()).then_some((&*symbol.value, &*code.value))
+        })
+    }
+
+    /// Whether a T word does what a D word does, too.
+    pub fn data_with_tool(&self) -> bool {
+        self.data_with_tool
+            .as_ref()
+            .is_some_and(|given| given.value)
+    }
+
+    /// The parameters that hold, in the order of their keys; those of some roles are set elsewhere.
+    pub fn parameters(&self, elsewhere: &dyn Fn(&Role) -> bool) -> Vec<Parameter> {
+        let row = |number, key: String, given: &Given<String>| Parameter {
+            number,
+            key,
+            value: given.value.clone(),
+            unit: "",
+            origin: given.into(),
+        };
+        let named = self.named.iter().filter(|(role, _)| !elsewhere(role));
+        let mut rows: Vec<_> = named
+            .map(|(_, named)| row(named.number, named.key.clone(), &named.name))
+            .collect();
+        if let Some(given) = &self.data_with_tool {
+            rows.push(Parameter {
+                number: "P-CHAN-00014",
+                key: "einrechnen_mit_t".to_owned(),
+                value: u8::from(given.value).to_string(),
+                unit: "",
+                origin: given.into(),
+            });
+        }
+        for (index, found) in &self.macros {
+            for (number, key, given) in [
+                ("P-CHAN-00085", "symbol", &found.symbol),
+                ("P-CHAN-00062", "nc_code", &found.code),
+            ] {
+                let key = format!("makro_def[{index}].{key}");
+                rows.extend(given.as_ref().map(|given| row(number, key, given)));
+            }
+        }
+        rows
+    }
+}
+
+/// The word of `g812_prog_file`, as some lists write `g800_prog_file[12]`.
+fn numbered(key: &str) -> Option<String> {
+    let number = key.strip_prefix('g')?.strip_suffix("_prog_file")?;
+    let number: u32 = number.parse().ok()?;
+    (800..1000).contains(&number).then(|| format!("G{number}"))
+}
+
+/// The text of an entry; the descriptions write `*` for an empty one.
+fn text(entry: &Entry) -> Given<String> {
+    let given = entry.text();
+    let text = given.value.trim();
+    let text = if text == "*" { "" } else { text };
+    given.with(text.to_owned())
+}

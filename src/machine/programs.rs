@@ -1,0 +1,200 @@
+//! The programs that the configuration names, and those that only the machine has (R2.14, R2.15,
+//! R2.75, R2.83).
+
+use crate::lists::{ChannelPrograms, Role};
+
+/// Programs that the configuration names (R2.14, R2.15).
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ConfiguredPrograms {
+    /// Runs before the first block of every main program, P-CHAN-00119.
+    pub start: Option<String>,
+    /// Runs before M02 or M30 of every main program, P-CHAN-00252.
+    pub end: Option<String>,
+    /// What a word calls: `G80`, `M6`, `T`.
+    pub words: Vec<(String, String)>,
+    /// The macros of the channel list: name and code.
+    pub macros: Vec<(String, String)>,
+    /// Whether a T word does what a D word does, too, P-CHAN-00014.
+    pub data_with_tool: bool,
+    /// Patterns of programs that only the machine has (R2.83).
+    pub external: Vec<String>,
+    /// Patterns of those that leave the compensation as it is.
+    pub keep_compensation: Vec<String>,
+    /// Patterns of those that leave the axes where they are.
+    pub keep_positions: Vec<String>,
+}
+
+/// What a program that only the machine has leaves as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Keeps {
+    /// The compensation of all axes.
+    pub compensation: bool,
+    /// All positions.
+    pub positions: bool,
+}
+
+impl Keeps {
+    /// It leaves everything as it is.
+    pub const ALL: Self = Self {
+        compensation: true,
+        positions: true,
+    };
+}
+
+impl ConfiguredPrograms {
+    /// Adds what the channel list names; what is here already counts before it (R2.75).
+    pub(super) fn add_channel(&mut self, channel: &ChannelPrograms) {
+        for (role, name) in channel.programs() {
+            let name = name.to_owned();
+            match role {
+                Role::Start => _ = self.start.get_or_insert(name),
+                Role::End => _ = self.end.get_or_insert(name),
+                Role::Word(word) if self.word(word).is_none() => {
+                    self.words.push((word.clone(), name));
+                }
+                Role::Word(_) => {}
+            }
+        }
+        let macros = channel.macros();
+        self.macros
+            .extend(macros.map(|(name, code)| (name.to_owned(), code.to_owned())));
+        self.data_with_tool |= channel.data_with_tool();
+    }
+
+    /// Whether a program is named for a role.
+    pub(super) fn has(&self, role: &Role) -> bool {
+        match role {
+            Role::Start => self.start.is_some(),
+            Role::End => self.end.is_some(),
+            Role::Word(word) => self.word(word).is_some(),
+        }
+    }
+
+    /// The program that a word calls, which is written as [`canonical_word`] writes it.
+    pub fn word(&self, word: &str) -> Option<&str> {
+        let found = self
+            .words
+            .iter()
+            .find(|(configured, _)| canonical_word(configured) == word);
+        found.map(|(_, program)| program.as_str())
+    }
+
+    /// Whether only the machine has a program.
+    pub fn is_external(&self, name: &str) -> bool {
+        any_matches(&self.external, name)
+    }
+
+    /// What a program that only the machine has leaves as it is.
+    pub fn keeps(&self, name: &str) -> Keeps {
+        Keeps {
+            compensation: any_matches(&self.keep_compensation, name),
+            positions: any_matches(&self.keep_positions, name),
+        }
+    }
+}
+
+/// A word in upper case with a number without leading zeros: `m06` is `M6`.
+pub(crate) fn canonical_word(word: &str) -> String {
+    let upper = word.trim().to_ascii_uppercase();
+    let (letter, number) = upper.split_at(upper.len().min(1));
+    match number.trim_start_matches('0') {
+        "" if number.is_empty() => upper,
+        "" => format!("{letter}0"),
+        digits if digits.bytes().all(|byte| byte.is_ascii_digit()) => format!("{letter}{digits}"),
+        _ => upper,
+    }
+}
+
+/// Whether one of the patterns is a program's name, its folders aside unless the pattern has any.
+fn any_matches(patterns: &[String], name: &str) -> bool {
+    let name = name.replace('\\', "/").to_lowercase();
+    let last = name.rsplit('/').next().unwrap_or(&name);
+    patterns.iter().any(|pattern| {
+        let pattern = pattern.replace('\\', "/").to_lowercase();
+        let name = if pattern.contains('/') { &name } else { last };
+        matches(&pattern, name)
+    })
+}
+
+/// `*` stands for any letters, `?` for one. Both texts are gone through from the left; what the last
+/// `*` stands for grows where the rest does not fit, so the work is bounded by the product of both
+/// lengths.
+fn matches(pattern: &str, name: &str) -> bool {
+    let (pattern, name): (Vec<char>, Vec<char>) =
+        (pattern.chars().collect(), name.chars().collect());
+    let (mut at, mut in_name) = (0, 0);
+    let mut star = None;
+    while in_name < name.len() {
+        match pattern.get(at) {
+            Some('*') => {
+                star = Some((at, in_name));
+                at += 1;
+            }
+            Some(letter) if *letter == '?' || *letter == name[in_name] => {
+                at += 1;
+                in_name += 1;
+            }
+            _ => {
+                let Some((place, taken)) = star else {
+                    return false;
+                };
+                star = Some((place, taken + 1));
+                at = place + 1;
+                in_name = taken + 1;
+            }
+        }
+    }
+    pattern[at..].iter().all(|letter| *letter == '*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_compared_by_their_numbers() {
+        // R2.75
+        for (word, wanted) in [
+            ("m06", "M6"),
+            ("G080", "G80"),
+            ("t", "T"),
+            ("M00", "M0"),
+            ("MSG", "MSG"),
+            ("", ""),
+        ] {
+            assert_eq!(canonical_word(word), wanted);
+        }
+    }
+
+    #[test]
+    fn patterns_name_programs() {
+        // R2.83
+        let programs = ConfiguredPrograms {
+            external: ["*.ecy", "SysCycle*.cyc", "plc/?.nc", "**"].map(str::to_owned)[..3].to_vec(),
+            ..ConfiguredPrograms::default()
+        };
+        for name in [
+            "a.ecy",
+            "A.ECY",
+            r"C:\CNC\x.ecy",
+            "syscycleDrill.cyc",
+            "SysCycle.cyc",
+            "plc/a.nc",
+        ] {
+            assert!(programs.is_external(name), "{name}");
+        }
+        for name in [
+            "a.nc",
+            "ecy",
+            "MySysCycle.cyc",
+            "a.nc/plc",
+            "a.nc",
+            "plc/ab.nc",
+            "",
+        ] {
+            assert!(!programs.is_external(name), "{name}");
+        }
+        assert!(!matches(&"*a".repeat(200), &"a".repeat(150)));
+        assert!(matches("**", "") && matches("*", "abc") && !matches("?", ""));
+    }
+}

@@ -43,8 +43,9 @@ impl Jobs {
             results
         };
         let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
+            // Where the system starts no more threads, those that there are do the work.
             let others: Vec<_> = (1..cores.min(pieces.len()))
-                .map(|_| scope.spawn(worker))
+                .map_while(|_| std::thread::Builder::new().spawn_scoped(scope, worker).ok())
                 .collect();
             let mut results = worker();
             for other in others {

@@ -19,7 +19,8 @@ pub(super) fn processors() -> NonZeroUsize {
 
 /// Gives each item to one of `workers` threads and the results to `take`, in the order of the items.
 /// The items are drawn by this thread, and never so fast that more than a bounded number of results
-/// wait. `Break` ends the work.
+/// wait. `Break` ends the work. Where the system starts fewer threads, those do the work; without
+/// any, this thread does it.
 pub(super) fn in_order<T: Send, R: Send>(
     items: impl Iterator<Item = T>,
     workers: NonZeroUsize,
@@ -30,13 +31,21 @@ pub(super) fn in_order<T: Send, R: Send>(
     let queue = Mutex::new(queue);
     let (queue, work) = (&queue, &work);
     std::thread::scope(|scope| {
-        for _ in 0..workers.get() {
-            scope.spawn(move || {
-                while let Some((item, result)) = next(queue) {
-                    // Nobody waits for it after a `Break`.
-                    let _ = result.send(work(item));
-                }
-            });
+        let started = (0..workers.get())
+            .map_while(|_| {
+                let worker = move || {
+                    while let Some((item, result)) = next(queue) {
+                        // Nobody waits for it after a `Break`.
+                        let _ = result.send(work(item));
+                    }
+                };
+                std::thread::Builder::new().spawn_scoped(scope, worker).ok()
+            })
+            .count();
+        if started == 0 {
+            let mut results = items.map(work);
+            let _ = results.try_for_each(take);
+            return;
         }
         let mut waiting = VecDeque::new();
         let mut settle = |waiting: &mut VecDeque<Receiver<R>>, most: usize| {
@@ -53,7 +62,7 @@ pub(super) fn in_order<T: Send, R: Send>(
             if jobs.send((item, sender)).is_err() {
                 break;
             }
-            flow = settle(&mut waiting, AHEAD * workers.get());
+            flow = settle(&mut waiting, AHEAD * started);
             if flow.is_break() {
                 break;
             }

@@ -15,6 +15,9 @@ use crate::source::Span;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
 use crate::syntax::{FastPath, Fault};
 
+/// Messages about one block that are said one by one (R2.85).
+const MAX_SAID: usize = 1000;
+
 /// The F word of a block.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) enum Feed {
@@ -81,6 +84,13 @@ impl Interpreter {
         }
         if !stopped {
             self.move_axes(&intent, at);
+        }
+        if let Some((span, more)) = self.work.unsaid.take() {
+            let message = format!(
+                "the first {MAX_SAID} messages about this block are shown; there are {more} more"
+            );
+            let fault = Fault::new(Code::Fc905, at.in_block(span), message);
+            self.work.diagnostics.push(at.diagnostic(fault));
         }
         let number = self.block_number(block, at);
         self.state.grant(at.text);
@@ -216,7 +226,11 @@ impl Interpreter {
     #[inline]
     fn say(&mut self, done: Result<(), Box<Fault>>, at: &At<'_>) -> ControlFlow<()> {
         if let Err(fault) = done {
-            self.work.diagnostics.push(at.diagnostic(*fault));
+            if self.work.diagnostics.len() < MAX_SAID || !self.work.diagnostics.iter().any(stops) {
+                self.work.diagnostics.push(at.diagnostic(*fault));
+            } else {
+                self.work.unsaid.get_or_insert((fault.span, 0)).1 += 1;
+            }
         }
         let refused =
             self.options.stop == StopPolicy::FirstError && self.work.diagnostics.iter().any(stops);

@@ -291,6 +291,8 @@ struct Work {
     /// Its axis words.
     moved: Vec<AxisWord>,
     diagnostics: Vec<Diagnostic>,
+    /// How many messages about the block are not said, and where the first of them belongs.
+    unsaid: Option<(Span, u64)>,
     stack: Vec<Result<Value, Box<Fault>>>,
     /// I, J, K, R and the like, where the block has any.
     geometry: Option<motion::Geometry>,

@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use super::diagnostics::{Look, render};
 use super::records::append_diagnostic;
 use super::sarif::Sarif;
-use super::strings::{integer, to_pretty};
+use super::strings::integer;
 use super::{Output, concise, github, json};
 
 /// A format for diagnostics.
@@ -66,8 +66,10 @@ impl<W: Write> Listing<W> {
     /// A list in a format; `look` matters for text only.
     pub fn new(writer: W, format: ListingFormat, look: Look) -> Self {
         let mut output = Output::new(writer);
-        if format == ListingFormat::Json {
-            output.bytes.extend_from_slice(json::OPENING);
+        match format {
+            ListingFormat::Json => output.bytes.extend_from_slice(json::OPENING),
+            ListingFormat::Sarif => Sarif::open(&mut output.bytes),
+            _ => {}
         }
         Self {
             output,
@@ -100,7 +102,7 @@ impl<W: Write> Listing<W> {
             }
             ListingFormat::Concise => concise::append(&mut self.output.bytes, diagnostic),
             ListingFormat::Github => github::append(&mut self.output.bytes, diagnostic),
-            ListingFormat::Sarif => self.sarif.push(diagnostic),
+            ListingFormat::Sarif => self.sarif.append(&mut self.output.bytes, diagnostic),
             ListingFormat::Json | ListingFormat::Ndjson => self.object(|out| {
                 out.extend_from_slice(b"{\"record\":\"diagnostic\"");
                 append_diagnostic(out, diagnostic);
@@ -123,12 +125,7 @@ impl<W: Write> Listing<W> {
                     self.output.bytes.extend_from_slice(b"\n]}\n");
                 }
             }
-            ListingFormat::Sarif => {
-                let document = self.sarif.document();
-                let text = to_pretty(&document);
-                self.output.bytes.extend_from_slice(text.as_bytes());
-                self.output.bytes.push(b'\n');
-            }
+            ListingFormat::Sarif => self.sarif.close(&mut self.output.bytes),
             ListingFormat::Text | ListingFormat::Concise | ListingFormat::Github => {}
         }
         self.output.finish()

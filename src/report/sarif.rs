@@ -8,47 +8,46 @@ use serde_json::{Value, json};
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Place, Severity};
 
-/// The results of one run; the rules that they name come with it.
+use super::strings::to_pretty;
+
+/// What stands before the results. The keys of SARIF may come in any order, so the results go out one
+/// by one, and what they add up to comes after them.
+const BEFORE: &str = r#"{
+  "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+  "runs": [
+    {
+      "columnKind": "unicodeCodePoints",
+      "results": ["#;
+
+/// Columns of a result.
+const RESULT: usize = 8;
+
+/// Columns of the keys of a run.
+const RUN: usize = 6;
+
+/// The rules that the results of one run name so far.
 #[derive(Debug, Default)]
 pub(super) struct Sarif {
-    results: Vec<Value>,
     used: BTreeSet<Code>,
+    results: u64,
 }
 
 impl Sarif {
-    pub(super) fn push(&mut self, diagnostic: &Diagnostic) {
-        self.used.insert(diagnostic.code);
-        let mut text = diagnostic.message.clone();
-        for help in &diagnostic.help {
-            text.push_str("\nhelp: ");
-            text.push_str(help);
-        }
-        let mut result = json!({
-            "ruleId": diagnostic.code.text(),
-            "level": level(diagnostic.severity),
-            "message": { "text": text },
-            "locations": [{ "physicalLocation": location(&diagnostic.place) }],
-        });
-        if !diagnostic.labels.is_empty() {
-            let related: Vec<Value> = diagnostic
-                .labels
-                .iter()
-                .enumerate()
-                .map(|(id, label)| {
-                    json!({
-                        "id": id,
-                        "message": { "text": label.text },
-                        "physicalLocation": location(&label.place),
-                    })
-                })
-                .collect();
-            result["relatedLocations"] = Value::Array(related);
-        }
-        self.results.push(result);
+    /// Appends the beginning of the document.
+    pub(super) fn open(out: &mut Vec<u8>) {
+        out.extend_from_slice(BEFORE.as_bytes());
     }
 
-    /// The document.
-    pub(super) fn document(&mut self) -> Value {
+    /// Appends a result.
+    pub(super) fn append(&mut self, out: &mut Vec<u8>, diagnostic: &Diagnostic) {
+        self.used.insert(diagnostic.code);
+        out.extend_from_slice(if self.results == 0 { b"\n" } else { b",\n" });
+        self.results += 1;
+        indented(out, &result(diagnostic), RESULT);
+    }
+
+    /// Appends the end of the document: the rules that were named.
+    pub(super) fn close(&self, out: &mut Vec<u8>) {
         let rules: Vec<Value> = Code::ALL
             .iter()
             .filter(|code| self.used.contains(code))
@@ -61,20 +60,63 @@ impl Sarif {
                 })
             })
             .collect();
-        json!({
-            "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
-            "version": "2.1.0",
-            "runs": [{
-                "tool": { "driver": {
-                    "name": env!("CARGO_PKG_NAME"),
-                    "version": env!("CARGO_PKG_VERSION"),
-                    "rules": rules,
-                }},
-                "columnKind": "unicodeCodePoints",
-                "results": std::mem::take(&mut self.results),
-            }],
-        })
+        let tool = json!({ "driver": {
+            "name": env!("CARGO_PKG_NAME"),
+            "version": env!("CARGO_PKG_VERSION"),
+            "rules": rules,
+        }});
+        if self.results > 0 {
+            out.extend_from_slice(b"\n      ");
+        }
+        out.extend_from_slice(b"],\n      \"tool\": ");
+        let from = out.len();
+        indented(out, &tool, RUN);
+        // The first line stands behind its key.
+        out.drain(from..from + RUN);
+        out.extend_from_slice(b"\n    }\n  ],\n  \"version\": \"2.1.0\"\n}\n");
     }
+}
+
+/// Appends a value as it is printed at some column.
+fn indented(out: &mut Vec<u8>, value: &Value, column: usize) {
+    let text = to_pretty(value);
+    for (at, line) in text.lines().enumerate() {
+        if at > 0 {
+            out.push(b'\n');
+        }
+        out.resize(out.len() + column, b' ');
+        out.extend_from_slice(line.as_bytes());
+    }
+}
+
+fn result(diagnostic: &Diagnostic) -> Value {
+    let mut text = diagnostic.message.clone();
+    for help in &diagnostic.help {
+        text.push_str("\nhelp: ");
+        text.push_str(help);
+    }
+    let mut result = json!({
+        "ruleId": diagnostic.code.text(),
+        "level": level(diagnostic.severity),
+        "message": { "text": text },
+        "locations": [{ "physicalLocation": location(&diagnostic.place) }],
+    });
+    if !diagnostic.labels.is_empty() {
+        let related: Vec<Value> = diagnostic
+            .labels
+            .iter()
+            .enumerate()
+            .map(|(id, label)| {
+                json!({
+                    "id": id,
+                    "message": { "text": label.text },
+                    "physicalLocation": location(&label.place),
+                })
+            })
+            .collect();
+        result["relatedLocations"] = Value::Array(related);
+    }
+    result
 }
 
 fn level(severity: Severity) -> &'static str {
@@ -112,4 +154,31 @@ fn uri(path: &str) -> String {
         }
     }
     uri
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::{SourceFile, Span};
+
+    #[test]
+    fn results_that_went_out_one_by_one_are_one_document() {
+        // R2.85, R9.25
+        let file = SourceFile::new("a b.nc", "N10 X1");
+        for results in 0..3 {
+            let (mut sarif, mut out) = (Sarif::default(), Vec::new());
+            Sarif::open(&mut out);
+            for _ in 0..results {
+                let place = file.place(Span::new(0, 3));
+                let said = Diagnostic::new(Code::Fc402, place.clone(), "a \"message\"\nof two lines");
+                sarif.append(&mut out, &said.with_help("help").with_label(place, "here"));
+            }
+            sarif.close(&mut out);
+            let text = String::from_utf8(out).expect("text");
+            let document: Value = serde_json::from_str(&text).expect("JSON");
+            assert_eq!(document["runs"][0]["results"].as_array().map(Vec::len), Some(results));
+            let pretty = serde_json::to_string_pretty(&document).expect("JSON");
+            assert_eq!(text, format!("{pretty}\n"));
+        }
+    }
 }

@@ -6,14 +6,18 @@
 use super::ast::Block;
 use super::{Fault, fast, lower};
 use crate::codes::Code;
+use crate::diagnostic::Severity;
 use crate::source::{LineSource, Span};
 
 /// Characters that one line may have (R2.2).
 pub const MAX_LINE: usize = 4000;
 
-/// Lines that one continued block, or one `#VAR` region, may have. The documents state no bound;
+/// Bytes that one continued block, or one `#VAR` region, may have. The documents state no bound;
 /// without one a damaged file would be read into memory whole.
-const MAX_LINES: u32 = 4000;
+const MAX_REGION: usize = 1 << 20;
+
+/// Faults of one block that are said one by one (R2.85).
+const MAX_FAULTS: usize = 1000;
 
 /// What a stretch of source lines is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -182,7 +186,7 @@ impl<S: LineSource> BlockReader<S> {
         let mut foreign = masked.foreign;
         if masked.continues {
             foreign = foreign.or(self.take_continuation(block));
-            if self.code.trim_ascii().is_empty() {
+            if self.code.trim_ascii().is_empty() && block.faults.is_empty() {
                 return None;
             }
         }
@@ -226,6 +230,7 @@ impl<S: LineSource> BlockReader<S> {
         }
         lower::block(&self.code, block);
         block.faults.sort_by_key(|fault| fault.span.start);
+        cap_faults(&mut block.faults);
         Some(Stretch::Block)
     }
 
@@ -246,7 +251,7 @@ impl<S: LineSource> BlockReader<S> {
     /// Appends the lines that a `\` continues on; blank and comment lines in between are free.
     fn take_continuation(&mut self, block: &mut Block) -> Option<Span> {
         let mut foreign = None;
-        for _ in 0..MAX_LINES {
+        while self.text.len() <= MAX_REGION {
             if !self.source.advance() {
                 return foreign;
             }
@@ -262,12 +267,29 @@ impl<S: LineSource> BlockReader<S> {
                 return foreign;
             }
         }
+        self.pass_over(|code, continues| !continues && !code.trim_ascii().is_empty());
+        // What is cut off cannot be understood.
+        self.code.clear();
         block.faults.push(Fault::new(
             Code::Fc206,
             Span::new(0, self.text.find('\n').unwrap_or_default()),
-            format!("a block is continued over more than {MAX_LINES} lines"),
+            format!("a block is continued over more than {MAX_REGION} bytes"),
         ));
         foreign
+    }
+
+    /// Passes over the lines up to the last one of what is too long to be kept. Whether it was found.
+    fn pass_over(&mut self, is_last: impl Fn(&str, bool) -> bool) -> bool {
+        let mut code = String::new();
+        while self.source.advance() {
+            self.line += 1;
+            code.clear();
+            let masked = mask(trimmed(self.source.line().text), &mut code);
+            if is_last(&code, masked.continues) {
+                return true;
+            }
+        }
+        false
     }
 
     fn skip_comment_region(&mut self) {
@@ -285,8 +307,10 @@ impl<S: LineSource> BlockReader<S> {
     fn take_region(&mut self, end: &str, block: &mut Block) {
         let opener = Span::new(0, self.text.len());
         let mut continued = false;
-        for _ in 0..MAX_LINES {
+        let mut is_whole = true;
+        while self.text.len() <= MAX_REGION {
             if !self.source.advance() {
+                is_whole = false;
                 break;
             }
             self.line += 1;
@@ -299,15 +323,40 @@ impl<S: LineSource> BlockReader<S> {
                 return;
             }
         }
-        block.faults.push(
+        let is_end = |code: &str, _| hash_word(code).is_some_and(|word| word == end);
+        let name = opener.of(&self.text).trim().to_owned();
+        block.faults.push(if is_whole && self.pass_over(is_end) {
+            self.code.clear();
             Fault::new(
-                Code::Fc208,
+                Code::Fc206,
                 opener,
-                format!("`{}` has no `{end}`", opener.of(&self.text).trim()),
+                format!("the region from `{name}` to `{end}` has more than {MAX_REGION} bytes"),
             )
-            .with_help(format!("write `{end}` in a block of its own")),
-        );
+            .with_help("divide it into several")
+        } else {
+            Fault::new(Code::Fc208, opener, format!("`{name}` has no `{end}`"))
+                .with_help(format!("write `{end}` in a block of its own"))
+        });
     }
+}
+
+/// Keeps the first faults of a block and says how many more there are. An error stays one.
+fn cap_faults(faults: &mut Vec<Fault>) {
+    if faults.len() <= MAX_FAULTS {
+        return;
+    }
+    let is_error = |fault: &Fault| fault.code.severity() == Severity::Error;
+    let rest = faults.split_off(MAX_FAULTS);
+    let more = rest.len();
+    let place = rest.first().map_or(Span::default(), |fault| fault.span);
+    if !faults.iter().any(is_error) {
+        faults.extend(rest.into_iter().find(is_error));
+    }
+    faults.push(Fault::new(
+        Code::Fc905,
+        place,
+        format!("the first {MAX_FAULTS} faults of this block are shown; there are {more} more"),
+    ));
 }
 
 impl Remark {

@@ -3,9 +3,12 @@
 use std::ops::ControlFlow;
 
 use frictcomp::compensation::Compensation;
+use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::{EndedBy, Event, Interpreter, NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
+use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::source::SourceFile;
+use frictcomp::timeline::{Record, Sink};
 
 use crate::support::MACHINE;
 
@@ -327,4 +330,194 @@ fn a_computed_target_in_a_region_may_be_any() {
         run(text).codes().contains(&"FC902"),
         "V.P.A[2] may have been written"
     );
+}
+
+/// What a session said: messages with the bytes of source that each holds, how often each came
+/// true, and how many were counted by severity.
+#[derive(Debug, Default)]
+struct Heard {
+    said: Vec<(String, String, usize)>,
+    repeated: Vec<(String, u32, u64)>,
+    opaque: Vec<(String, u64)>,
+    errors: u64,
+}
+
+impl Sink for Heard {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        let hear = |said: &Diagnostic| {
+            let held = said.place.text.len();
+            (said.code.text().to_owned(), said.message.clone(), held)
+        };
+        match record {
+            Record::Block(row) => self.said.extend(row.diagnostics.iter().map(hear)),
+            Record::End(end) => {
+                self.said
+                    .extend(end.notes.iter().map(|note| hear(&note.diagnostic)));
+                let repeated = end.repeated.iter();
+                self.repeated
+                    .extend(repeated.map(|it| (it.code.text().to_owned(), it.line, it.times)));
+            }
+            Record::Summary(summary) => {
+                self.errors = summary.count(Severity::Error);
+                self.opaque = summary.opaque.clone().into_iter().collect();
+            }
+            _ => {}
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Heard {
+    fn count(&self, code: &str) -> usize {
+        self.said.iter().filter(|(said, ..)| said == code).count()
+    }
+
+    fn message(&self, code: &str) -> &str {
+        let found = self.said.iter().find(|(said, ..)| said == code);
+        found.map_or("", |(_, message, _)| message)
+    }
+}
+
+fn heard(text: &str, stop: StopPolicy) -> Heard {
+    let machine = Machine::from_toml(MACHINE).expect("the test's machine");
+    let options = SessionOptions {
+        stop,
+        ..SessionOptions::default()
+    };
+    let mut session = Session::new(machine, options);
+    let mut heard = Heard::default();
+    let program = Program::Whole(SourceFile::new("a.nc", text));
+    let _ = session.program("a.nc", program, &mut NoFiles, &mut heard);
+    let _ = session.finish(&mut heard);
+    heard
+}
+
+#[test]
+fn a_message_in_a_loop_or_a_macro_is_said_once() {
+    // R2.85
+    let heard = heard(
+        "\"A\"=\"P2=P7\"\n$FOR P1=1,500,1\nP2=P9\n\"A\"\nX[COMP ON FRICT]\n$IF V.E.X $GOTO N9\n$ENDFOR\nN9: M30",
+        StopPolicy::KeepGoing,
+    );
+    assert_eq!(
+        (
+            heard.count("FC311"),
+            heard.count("FC402"),
+            heard.count("FC902")
+        ),
+        (2, 1, 1)
+    );
+    let counts: Vec<(&str, u32, u64)> = heard
+        .repeated
+        .iter()
+        .map(|(code, line, times)| (code.as_str(), *line, *times))
+        .collect();
+    let expected = [
+        ("FC311", 3, 500),
+        ("FC311", 4, 500),
+        ("FC402", 5, 500),
+        ("FC902", 6, 500),
+    ];
+    assert_eq!(counts, expected);
+    assert_eq!(heard.errors, 2);
+}
+
+#[test]
+fn different_messages_at_one_place_are_each_said() {
+    // R2.85
+    let heard = heard(
+        "$FOR P1=1,3,1\n$IF P1==1\nP2=1\n$ELSE\nP2=\"x\"\n$ENDIF\nP3=[P2+P9]*[P2+P8]\n$ENDFOR\nM30",
+        StopPolicy::KeepGoing,
+    );
+    assert_eq!(
+        heard.count("FC311") + heard.count("FC312"),
+        heard.said.len()
+    );
+    assert!(
+        heard
+            .said
+            .iter()
+            .any(|(_, message, _)| message.contains("P9")),
+        "{heard:?}"
+    );
+}
+
+#[test]
+fn a_file_says_ten_thousand_messages_and_counts_the_rest() {
+    // R2.85
+    let executed: String = (0..12_000).map(|n| format!("P1=P{}\n", n + 10)).collect();
+    let heard_of = heard(&format!("{executed}M30"), StopPolicy::KeepGoing);
+    assert_eq!(
+        (heard_of.count("FC311"), heard_of.count("FC905")),
+        (10_000, 1)
+    );
+    assert_eq!(heard_of.errors, 12_000);
+    assert_eq!(
+        heard_of.message("FC905"),
+        "10000 messages about this file are shown; 2000 more messages, from here on, are only counted"
+    );
+    let never_run: String = (0..12_000).map(|n| format!("X1 ?{n}\n")).collect();
+    let heard_of = heard(&format!("M30\n{never_run}"), StopPolicy::CheckAll);
+    assert_eq!((heard_of.said.len(), heard_of.errors), (10_001, 12_000));
+    let labels: String = (0..12_000).map(|n| format!("$GOTO N{n}\n")).collect();
+    let heard_of = heard(&format!("{labels}M30"), StopPolicy::CheckAll);
+    assert_eq!((heard_of.said.len(), heard_of.errors), (10_001, 12_000));
+}
+
+#[test]
+fn messages_about_a_continued_block_hold_their_lines_only() {
+    // R2.85
+    let text = format!(
+        "V.P.T[9] = [1,\\\n{}1]\nM30",
+        "1,2,3,4,5,6,7,8,9,0,\\\n".repeat(1600)
+    );
+    let heard = heard(&text, StopPolicy::CheckAll);
+    assert!(
+        heard.said.len() > 1000 && heard.said.len() <= 2002,
+        "{}",
+        heard.said.len()
+    );
+    assert!(heard.count("FC905") > 0);
+    assert!(heard.said.iter().all(|(.., held)| *held < 100));
+}
+
+#[test]
+fn a_region_of_declarations_is_read_to_its_end() {
+    // R2.60
+    let values = |count: u32| -> String {
+        let lines: Vec<String> = (0..count).map(|value| value.to_string()).collect();
+        lines.join(",\\\n")
+    };
+    let text = format!(
+        "#VAR\nV.P.T[20000] = [{}]\n#ENDVAR\nX=V.P.T[19999]\nM30",
+        values(20_000)
+    );
+    let whole = heard(&text, StopPolicy::CheckAll);
+    assert_eq!(whole.said, []);
+    let text = format!(
+        "#VAR\nV.P.T[200000] = [{}]\n#ENDVAR\nX1 P1=P2\nM30",
+        values(200_000)
+    );
+    let beyond = heard(&text, StopPolicy::CheckAll);
+    let codes: Vec<&str> = beyond.said.iter().map(|(code, ..)| code.as_str()).collect();
+    assert_eq!(
+        codes,
+        ["FC206", "FC311"],
+        "what stands after the region is run"
+    );
+    let open = heard(
+        &format!("#VAR\nV.P.T[3] = [{}]\nM30", values(3)),
+        StopPolicy::CheckAll,
+    );
+    assert_eq!(open.count("FC208"), 1);
+}
+
+#[test]
+fn words_that_were_passed_over_are_counted_together_beyond_a_thousand() {
+    // R2.85
+    let text: String = (0..1500).map(|word| format!("#FOO{word}\n")).collect();
+    let heard = heard(&format!("{text}M30"), StopPolicy::KeepGoing);
+    assert_eq!(heard.opaque.len(), 1001);
+    let others = heard.opaque.iter().find(|(word, _)| word == "other words");
+    assert_eq!(others.map(|(_, times)| *times), Some(500));
 }

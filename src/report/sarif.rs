@@ -170,13 +170,17 @@ mod tests {
             Sarif::open(&mut out);
             for _ in 0..results {
                 let place = file.place(Span::new(0, 3));
-                let said = Diagnostic::new(Code::Fc402, place.clone(), "a \"message\"\nof two lines");
+                let said =
+                    Diagnostic::new(Code::Fc402, place.clone(), "a \"message\"\nof two lines");
                 sarif.append(&mut out, &said.with_help("help").with_label(place, "here"));
             }
             sarif.close(&mut out);
             let text = String::from_utf8(out).expect("text");
             let document: Value = serde_json::from_str(&text).expect("JSON");
-            assert_eq!(document["runs"][0]["results"].as_array().map(Vec::len), Some(results));
+            assert_eq!(
+                document["runs"][0]["results"].as_array().map(Vec::len),
+                Some(results)
+            );
             let pretty = serde_json::to_string_pretty(&document).expect("JSON");
             assert_eq!(text, format!("{pretty}\n"));
         }

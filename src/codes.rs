@@ -95,13 +95,16 @@ codes! {
     Fc316 "FC316" Warning "circle by radius without an end point of its own";
     Fc320 "FC320" Error "called program not found or not readable";
     Fc321 "FC321" Error "called program outside its folders";
-    Fc401 "FC401" Warning "left changed past program end";
-    Fc402 "FC402" Info "command changes nothing";
+    Fc401 "FC401" Warning "left away from home past program end";
+    Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Info "depends on the program before";
     Fc404 "FC404" Info "lower-case keyword";
     Fc405 "FC405" Info "COMP and motion in one block";
     Fc406 "FC406" Info "kind named twice";
+    Fc407 "FC407" Warning "the second run differs from the first";
+    Fc408 "FC408" Warning "effect depends on a machine that is not described";
     Fc490 "FC490" Warning "unused `allow` comment";
+    Fc491 "FC491" Warning "`allow` comment not understood";
     Fc901 "FC901" Warning "condition not known offline";
     Fc902 "FC902" Warning "jump or call not known offline";
     Fc903 "FC903" Warning "motion not known offline";

@@ -130,6 +130,11 @@ pub struct AxisSummary {
     pub start: State,
     /// Friction compensation now.
     pub end: State,
+    /// Friction compensation at the start of the control (R1.22).
+    pub home: State,
+    /// Whether the user was told that it is left away from home (FC401, FC407), or does not want to
+    /// hear it.
+    pub told: bool,
     /// The blocks that changed it: file, line and block number of at most the first hundred.
     pub changed_by: Vec<ChangedBy>,
     /// How many executed blocks changed it.
@@ -182,6 +187,8 @@ pub enum Record<'a> {
     Session {
         /// The state that the first program starts with.
         state: StateView<'a>,
+        /// What stands above everything else: that no machine is described (R1.37).
+        remark: Option<&'a str>,
     },
     /// A statement about the machine's lists; the programs have not begun.
     Machine(&'a Diagnostic),

@@ -32,7 +32,6 @@ fn the_documented_example() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc FRICTION
       1 line 2 N15
-        FC402 2:5-21
       2 line 3 N25 Y:active>inactive
       3 line 4 N35
       4 line 5 N45 X:active>inactive
@@ -42,8 +41,8 @@ fn the_documented_example() {
       end 5 M30 X:inactive Y:inactive Z:unconfigured B:ineffective
     b.nc -
       1 line 1 -
-      2 line 2 -
         FC403 1:1-3
+      2 line 2 -
       end 2 M30 X:inactive Y:inactive Z:unconfigured B:ineffective
     ");
 }
@@ -116,7 +115,6 @@ fn several_axes_in_one_block() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 N10 X:active>inactive
-        FC402 1:23-44
       2 line 2 N20 X:inactive>active Y:active>inactive
       3 line 3 N30 Y:inactive>active
       end 3 M30 X:active Y:active Z:unconfigured B:ineffective
@@ -385,7 +383,6 @@ fn off_without_configuration_is_no_error() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
-        FC402 1:1-18
       2 line 2 -
         FC402 2:1-16
       3 line 3 -
@@ -431,7 +428,6 @@ fn the_state_outlives_programs() {
     c.nc -
       1 line 1 - X:inactive>active
         FC310 1:1-17
-        FC401 1:1-17
       end 1 end-of-file X:active Y:inactive Z:unconfigured B:ineffective
     d.nc -
       1 line 1 -
@@ -616,7 +612,6 @@ fn lints_on_use() {
     a.nc -
       1 line 1 -
       2 line 2 -
-        FC402 2:1-17
       3 line 3 - X:active>inactive
         FC405 3:1-24
         FC406 3:18-23
@@ -637,11 +632,11 @@ fn lints_on_use() {
       end 12 M30 X:inactive Y:active Z:unconfigured B:ineffective
     b.nc -
       1 line 1 -
+        FC403 1:4-6
       2 line 2 - Y:active>inactive
         FC405 2:1-18
       3 line 3 -
         FC401 2:1-18
-        FC403 1:4-6
       end 3 M30 X:inactive Y:inactive Z:unconfigured B:ineffective
     ");
 }
@@ -661,6 +656,7 @@ fn a_saved_state_is_what_the_next_session_starts_with() {
     start X:inactive Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 -
+        FC403 1:1-3
       2 line 2 -
       end 2 M30 X:inactive Y:active Z:unconfigured B:ineffective
     ");

@@ -65,6 +65,7 @@ impl ExecutionArgs {
             settings: loaded.settings.clone(),
             notes: Notes::None,
             motions: Motions::None,
+            switched: Vec::new(),
         }
     }
 }

@@ -5,17 +5,25 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use serde::Deserialize;
+
 use super::failure::Failure;
 use super::files::read_bytes;
 use super::outputs::Outputs;
 use super::unfinished::target;
-use crate::session::{SavedState, StateError};
+use crate::session::{STATE_SCHEMA, SavedState, StateError};
 
 /// How long a second run waits for the first (R9.31).
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// How often it looks.
 const PAUSE: Duration = Duration::from_millis(25);
+
+/// What every state file has, whatever its version.
+#[derive(Deserialize)]
+struct Schema {
+    schema: u32,
+}
 
 /// A state file that no other run touches until this is dropped.
 #[derive(Debug)]
@@ -81,9 +89,13 @@ impl StateFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::reading(&self.path, &error)),
         };
-        serde_json::from_slice(&text)
-            .map(Some)
-            .map_err(|error| self.unusable(&format!("it is damaged ({error})")))
+        let damaged = |error| self.unusable(&format!("it is damaged ({error})"));
+        // A later version may have keys that this one does not know: its number comes first.
+        let Schema { schema } = serde_json::from_slice(&text).map_err(damaged)?;
+        if schema > STATE_SCHEMA {
+            return Err(self.refused(&StateError::Schema { found: schema }));
+        }
+        serde_json::from_slice(&text).map(Some).map_err(damaged)
     }
 
     /// The failure for a state that the session does not take. The file stays as it is.

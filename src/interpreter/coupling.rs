@@ -31,6 +31,12 @@ impl Couplings {
         self.groups.len()
     }
 
+    /// The groups that are defined, with their axes.
+    pub(super) fn groups(&self) -> impl Iterator<Item = (&str, &[AxisIndex])> {
+        let groups = self.groups.iter();
+        groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
+    }
+
     /// Whether a group in force couples the axis.
     pub(super) fn holds(&self, axis: AxisIndex) -> bool {
         self.holding.contains_key(&axis)

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::carried::{ArrayShape, Carried};
 use super::region::Target;
 use super::value::Value;
 use crate::machine::Parameters;
@@ -103,6 +104,27 @@ impl Variable {
         match &self.lost {
             Some(cause) => Some(Value::Unknown(cause.clone())),
             None => array.map(|array| array.default.clone()),
+        }
+    }
+
+    /// Appends what the next program finds.
+    fn carry(&self, name: &str, carried: &mut Carried) {
+        if let Some(value) = &self.scalar {
+            carried.variables.insert(name.to_owned(), value.clone());
+        }
+        if let Some(array) = &self.array {
+            let shape = ArrayShape {
+                dimensions: array.dimensions.clone(),
+                default: array.default.clone(),
+            };
+            carried.arrays.insert(name.to_owned(), shape);
+        }
+        if let Some(cause) = &self.lost {
+            carried.lost.insert(name.to_owned(), cause.clone());
+        }
+        for (subscripts, value) in &self.elements {
+            let element = format!("{name}{subscripts}");
+            carried.variables.insert(element, value.clone());
         }
     }
 
@@ -296,9 +318,7 @@ impl Memory {
     /// (R2.33, R2.34). `V.S.`, macros (PM/206014219: valid across programs) and what the machine
     /// holds stay.
     pub(super) fn start_program(&mut self, parameters: Parameters) {
-        let kept = |name: &str| {
-            !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
-        };
+        let kept = |name: &str| is_kept(name, parameters);
         if parameters == Parameters::Cleared {
             self.direct.clear();
             self.parameters.clear();
@@ -507,8 +527,10 @@ impl Memory {
     }
 
     pub(super) fn define_macro(&mut self, name: &str, code: &str) {
-        let code = code.replace("\\\"", "\"");
-        let name = name.trim();
+        self.hold_macro(name.trim(), code.replace("\\\"", "\""));
+    }
+
+    fn hold_macro(&mut self, name: &str, code: String) {
         self.macro_version = self.macro_version.wrapping_add(1);
         self.weight.add(1 + (name.len() + code.len()) / WEIGHT);
         if let Some(before) = self.macros.insert(name.to_owned(), code) {
@@ -534,6 +556,47 @@ impl Memory {
         self.macro_version
     }
 
+    /// What a program start leaves (R9.32).
+    pub(super) fn carried(&self, parameters: Parameters) -> Carried {
+        let mut carried = Carried {
+            macros: self.macros.clone().into_iter().collect(),
+            ..Carried::default()
+        };
+        if parameters == Parameters::Kept {
+            let direct = (0..).zip(&self.direct);
+            let direct = direct.filter_map(|(at, value)| Some((at, value.clone()?)));
+            let rest = self.parameters.iter();
+            let rest = rest.map(|(at, value)| (*at, value.clone()));
+            carried.parameters = direct.chain(rest).collect();
+            carried.lost_parameters.clone_from(&self.lost);
+        }
+        let names = self.variables.names.iter();
+        for (name, variable) in names.filter(|(name, _)| is_kept(name, parameters)) {
+            variable.carry(name, &mut carried);
+        }
+        carried
+    }
+
+    /// Takes over what an earlier session left.
+    pub(super) fn take_over(&mut self, carried: Carried) {
+        for (name, shape) in carried.arrays {
+            self.declare_array(&name, shape.dimensions, shape.default);
+        }
+        for (name, cause) in &carried.lost {
+            self.variables.forget_elements(name, cause);
+        }
+        for (name, value) in carried.variables {
+            self.set_variable(&name, value);
+        }
+        self.lost = carried.lost_parameters;
+        for (index, value) in carried.parameters {
+            self.set_parameter(index, value);
+        }
+        for (name, code) in carried.macros {
+            self.hold_macro(&name, code);
+        }
+    }
+
     /// The `V.S.` variables, which outlive programs.
     pub(super) fn shared(&self) -> BTreeMap<String, Value> {
         let shared = self.variables.names.iter();
@@ -549,6 +612,11 @@ impl Memory {
         }
         all
     }
+}
+
+/// Whether a program start leaves a variable or array.
+fn is_kept(name: &str, parameters: Parameters) -> bool {
+    !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
 }
 
 fn is_of_run(name: &str) -> bool {

@@ -13,6 +13,7 @@ mod at;
 mod block;
 mod budget;
 mod call;
+mod carried;
 mod chain;
 mod comp;
 mod coupling;
@@ -45,6 +46,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 pub use budget::Limits;
+pub use carried::{ArrayShape, Carried};
 pub use event::{
     AxisWord, Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome,
 };
@@ -488,12 +490,6 @@ impl Interpreter {
     pub fn set_compensation(&mut self, compensation: Compensation) {
         self.state.compensation = compensation;
         self.version += 1;
-    }
-
-    /// Takes over a variable of an earlier session.
-    pub fn set_shared(&mut self, name: &str, value: Value) {
-        self.state.memory.set_variable(name, value);
-        self.journal.begin_anew();
     }
 
     /// Runs a main program whose text is in memory.

@@ -495,6 +495,11 @@ impl Modal {
         self.references[axis.get()]
     }
 
+    /// Takes over where an axis stands.
+    pub(super) fn place(&mut self, axis: AxisIndex, position: Option<f64>) {
+        self.positions[axis.get()] = position;
+    }
+
     /// Where an axis stands.
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         AxisPosition {

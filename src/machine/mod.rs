@@ -282,6 +282,13 @@ impl Machine {
         admitted
     }
 
+    /// Whether a configuration, a list or `--enable` says anything about friction compensation.
+    /// Without, every axis has the documented default (R1.37).
+    pub fn is_described(&self) -> bool {
+        let given = |axis: &Axis| axis.frict_comp_origin != Origin::Default;
+        self.axis_set == AxisSet::Configured || self.axes.iter().any(given)
+    }
+
     /// The position of an axis by its name.
     pub fn find(&self, name: &str) -> Option<AxisIndex> {
         self.axes

@@ -6,12 +6,12 @@ use crate::timeline::{AxisSummary, EndedBy};
 /// What the operator has to know or to do about an axis, behind its name (R1.27: the state
 /// outlives the program).
 pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
-    let changed = axis.start != axis.end;
+    let untold = axis.end != axis.home && !axis.told;
     match axis.end {
-        State::Inactive if changed => Some(format!(
+        State::Inactive if untold => Some(format!(
             " stays inactive for the next program: switch it on with {name}[COMP ON FRICT]"
         )),
-        State::Active if changed => Some(format!(
+        State::Active if untold => Some(format!(
             " stays active for the next program: switch it off with {name}[COMP OFF FRICT]"
         )),
         State::Ineffective => Some(
@@ -41,8 +41,15 @@ pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static 
     }
 }
 
-/// Said where there is nothing else to say.
-pub(super) const NOTHING_TO_DO: &str = "Nothing to do: every axis is left as it was found.";
+/// Whether an axis is known to be as at the start of the control.
+pub(super) fn is_home(axis: &AxisSummary) -> bool {
+    axis.end == axis.home
+}
+
+/// Said where there is nothing else to say, every axis is at home and the machine is described
+/// (R1.37).
+pub(super) const NOTHING_TO_DO: &str =
+    "Nothing to do: every axis is as at the start of the control.";
 
 #[cfg(test)]
 mod tests {
@@ -52,11 +59,13 @@ mod tests {
     #[test]
     fn advice_follows_what_is_left() {
         // R1.27
-        let advice = |start, end| {
+        let advice = |home, end| {
             let axis = AxisSummary {
                 axis: AxisIndex::new(0),
-                start,
+                start: home,
                 end,
+                home,
+                told: false,
                 changed_by: Vec::new(),
                 changes: 0,
             };

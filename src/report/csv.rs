@@ -162,7 +162,7 @@ impl<W: Write> Csv<W> {
 impl<W: Write> Sink for Csv<W> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
-            Record::Session { state } => self.header(*state),
+            Record::Session { state, .. } => self.header(*state),
             Record::Block(row) => self.block(row),
             Record::End(end) => {
                 self.end(end);

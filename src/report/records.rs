@@ -47,7 +47,7 @@ impl Encoder {
     /// Appends the objects of a record, each in its frame.
     pub(super) fn append(&mut self, out: &mut Vec<u8>, record: &Record<'_>) {
         match *record {
-            Record::Session { state } => {
+            Record::Session { state, remark } => {
                 self.open(out, "session");
                 out.extend_from_slice(b",\"schema\":");
                 integer(out, SCHEMA);
@@ -56,6 +56,10 @@ impl Encoder {
                 out.extend_from_slice(b",\"axes\":[");
                 separated(out, state.axes(), |out, (_, name)| string(out, name));
                 out.push(b']');
+                if let Some(remark) = remark {
+                    out.extend_from_slice(b",\"remark\":");
+                    string(out, remark);
+                }
                 self.close(out, state);
             }
             Record::Machine(diagnostic) => self.diagnostic(out, diagnostic, None),

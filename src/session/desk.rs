@@ -9,7 +9,7 @@ use crate::codes::Code;
 use crate::compensation::State;
 use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
 use crate::interpreter::{Ended, Event, Executed, NoteKind};
-use crate::lint::Linter;
+use crate::lint::{Linter, Told};
 use crate::machine::{AxisIndex, Machine};
 use crate::source::{Position, Span};
 use crate::syntax::{Comments, Kind, allow};
@@ -78,17 +78,22 @@ impl Desk<'_> {
                 compensation,
                 occurred,
                 version,
-            } => self.sink.record(&Record::Program {
-                program: self.program,
-                file: self.file,
-                name,
-                state: StateView {
-                    machine: self.machine,
-                    compensation,
-                    listed: occurred,
-                    version,
-                },
-            }),
+            } => {
+                if let Some(name) = name {
+                    self.linter.named(name);
+                }
+                self.sink.record(&Record::Program {
+                    program: self.program,
+                    file: self.file,
+                    name,
+                    state: StateView {
+                        machine: self.machine,
+                        compensation,
+                        listed: occurred,
+                        version,
+                    },
+                })
+            }
             Event::Executed(executed) => self.executed(&executed),
             Event::Ended(ended) => self.ended(&ended),
         };
@@ -175,17 +180,26 @@ impl Desk<'_> {
     fn note_allows(&mut self, executed: &Executed<'_>) {
         self.here.clear();
         if executed.comments == Comments::Possible && executed.text.contains(allow::MARK) {
-            let span = Span::new(0, executed.text.len());
-            self.note_allow(executed, (executed.text, executed.line), span);
+            self.note_allow(executed, (executed.text, executed.line));
         }
         if let Some(remark) = executed.remark {
-            let span = Span::new(0, remark.text.len());
-            self.note_allow(executed, (&remark.text, remark.line), span);
+            self.note_allow(executed, (&remark.text, remark.line));
         }
     }
 
-    fn note_allow(&mut self, executed: &Executed<'_>, (text, line): (&str, u32), span: Span) {
-        for code in allow::allowed(text) {
+    fn note_allow(&mut self, executed: &Executed<'_>, (text, line): (&str, u32)) {
+        let place = |span| Place {
+            file: Arc::clone(executed.file),
+            text: text.into(),
+            first_line: line,
+            span,
+        };
+        let allowance = allow::allowed(text);
+        if let Some(fault) = allowance.fault {
+            let diagnostic = Diagnostic::new(Code::Fc491, place(fault.span), fault.message);
+            self.said.push(diagnostic.with_help(fault.help));
+        }
+        for code in allowance.codes {
             self.here.push(code);
             let key = (Arc::clone(executed.file), executed.line, code);
             if self.allows.len() >= MAX_ALLOWS || self.allows.contains_key(&key) {
@@ -193,12 +207,7 @@ impl Desk<'_> {
             }
             let allow = Allow {
                 seq: executed.seq,
-                place: Place {
-                    file: Arc::clone(executed.file),
-                    text: text.into(),
-                    first_line: line,
-                    span,
-                },
+                place: place(Span::new(0, text.len())),
                 used: false,
             };
             self.allows.insert(key, allow);
@@ -228,7 +237,7 @@ impl Desk<'_> {
                 diagnostic: diagnostic.clone(),
             })
             .collect();
-        self.linter.end(ended.by, ended.compensation, &mut notes);
+        let left = self.linter.end(ended.by, ended.compensation);
         let (levels, allows) = (self.levels, &mut self.allows);
         let mut judge = |note: &mut EndNote| {
             let Some(severity) = levels.severity(note.diagnostic.code) else {
@@ -239,6 +248,17 @@ impl Desk<'_> {
             !is_allowed(allows, &note.diagnostic, line)
         };
         notes.retain_mut(&mut judge);
+        for mut left in left {
+            let told = if judge(&mut left.note) {
+                Told::Said
+            } else {
+                Told::Silenced
+            };
+            self.linter.settle(&left, told);
+            if told == Told::Said {
+                notes.push(left.note);
+            }
+        }
         let mut unused = unused_allows(allows);
         unused.retain_mut(|note| match levels.severity(note.diagnostic.code) {
             Some(severity) => {

@@ -5,27 +5,29 @@
 mod desk;
 mod said;
 mod saved;
+mod undescribed;
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-pub use saved::{SavedAxis, SavedState, StateError};
+pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 
 use crate::compensation::Compensation;
 use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
-use crate::interpreter::{Event, Interpreter, Options, Outlook};
+use crate::interpreter::{Event, Interpreter, Options, Outlook, Value};
 pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, StopPolicy,
 };
-use crate::lint::Linter;
-use crate::machine::{AxisIndex, Machine, Parameterisation, Setting};
+pub use crate::lint::Maker;
+use crate::lint::{History, Linter, Told};
+use crate::machine::{AxisIndex, AxisSet, Machine, Parameterisation, Setting};
 use crate::source::{LineSource, SourceFile};
 use crate::syntax::Kind;
 use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
 use desk::{Desk, NoteBook, Tally};
 use said::Said;
-use saved::{difference, fingerprint};
+use saved::{fingerprint, storable};
 
 /// How a session runs.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +46,9 @@ pub struct SessionOptions {
     pub notes: Notes,
     /// Whether rows say what their block moves.
     pub motions: Motions,
+    /// The axes that the programs switch, as far as a look ahead found them: what is proposed where
+    /// no machine is described (R1.37).
+    pub switched: Vec<String>,
 }
 
 /// The text of a program.
@@ -87,6 +92,10 @@ pub struct Session {
     levels: Levels,
     /// The state that the session began with.
     start: Compensation,
+    history: History,
+    /// The variables that the user gave.
+    given: BTreeMap<String, Value>,
+    remark: Option<String>,
     programs: u32,
     stopped: bool,
     tally: Tally,
@@ -107,14 +116,19 @@ impl Session {
             ..Options::default()
         };
         let mut interpreter = Interpreter::new(Arc::clone(&machine), compensation.clone(), run);
+        let mut given = BTreeMap::new();
         for (name, setting) in &options.settings {
             interpreter.set(name, setting);
+            given.insert(name.clone(), setting.into());
         }
         let axes = machine.axes.len();
         Self {
+            remark: undescribed::remark(&machine, &options.switched),
             machine,
             interpreter,
             levels: options.levels,
+            history: History::new(compensation.clone()),
+            given,
             start: compensation,
             programs: 0,
             stopped: false,
@@ -138,17 +152,12 @@ impl Session {
         options: SessionOptions,
         saved: SavedState,
     ) -> Result<(Self, Vec<Diagnostic>), StateError> {
-        if saved.schema != 1 {
-            return Err(StateError::Schema {
-                found: saved.schema,
-            });
-        }
-        let here = fingerprint(&machine);
-        if let Some(difference) = difference(&saved.machine, &here) {
-            return Err(StateError::OtherMachine { difference });
-        }
+        saved.check(&machine)?;
         let mut said = Vec::new();
-        for (axis, saved) in machine.axes.iter_mut().zip(&saved.axes) {
+        for axis in &mut machine.axes {
+            let Some(saved) = saved.axes.iter().find(|saved| saved.axis == axis.name) else {
+                continue;
+            };
             if let Some(diagnostic) = axis.check_max_points(saved.max_points) {
                 said.push(diagnostic);
                 axis.max_points = saved.max_points;
@@ -159,16 +168,30 @@ impl Session {
             }
         }
         let mut session = Self::new(machine, options);
-        let mut compensation = session.start.clone();
-        for (position, axis) in saved.axes.iter().enumerate().take(compensation.len()) {
-            compensation.restore(AxisIndex::new(position), axis.selected, axis.unknown);
+        for saved in &saved.axes {
+            session.restore(saved);
         }
-        session.interpreter.set_compensation(compensation.clone());
-        session.start = compensation;
-        for (name, value) in saved.variables {
-            session.interpreter.set_shared(&name, value);
-        }
+        session.interpreter.set_compensation(session.start.clone());
+        session.interpreter.take_over(saved.into_carried());
         Ok((session, said))
+    }
+
+    fn restore(&mut self, saved: &SavedAxis) {
+        let Some(axis) = self.machine.find(&saved.axis) else {
+            return;
+        };
+        self.start.restore(axis, saved.selected, saved.unknown);
+        for away in &saved.away {
+            if let Some(maker) = &away.by {
+                self.history.restore(axis, away.kind, maker.clone());
+            }
+            if away.allowed {
+                self.history.set_told(axis, away.kind, Told::Silenced);
+            }
+        }
+        if saved.occurred || saved.position.is_some() {
+            self.interpreter.place_axis(axis, saved.position);
+        }
     }
 
     /// The state of the moment.
@@ -199,6 +222,7 @@ impl Session {
     pub fn begin(&mut self, lists: &[Diagnostic], sink: &mut dyn Sink) -> ControlFlow<()> {
         sink.record(&Record::Session {
             state: self.state(),
+            remark: self.remark.as_deref(),
         })?;
         for diagnostic in lists {
             self.tally.count(diagnostic);
@@ -220,7 +244,7 @@ impl Session {
         let mut desk = Desk {
             machine: &machine,
             levels: &self.levels,
-            linter: Linter::new(&machine, self.interpreter.compensation(), &self.start),
+            linter: Linter::new(&machine, &mut self.history, file),
             tally: &mut self.tally,
             notes: &mut self.notes,
             sink,
@@ -263,6 +287,8 @@ impl Session {
             axis,
             start: self.start.state(axis, Kind::Frict),
             end: state.state(axis, Kind::Frict),
+            home: self.history.home(axis, Kind::Frict),
+            told: self.history.told(axis, Kind::Frict) != Told::No,
             changed_by: self.tally.changed_by[axis.get()].clone(),
             changes: self.tally.changes[axis.get()],
         });
@@ -278,30 +304,54 @@ impl Session {
 
     /// What the next session starts with.
     pub fn save(&self) -> SavedState {
-        let compensation = self.interpreter.compensation();
-        let axes = self
-            .machine
-            .axes
-            .iter()
-            .enumerate()
-            .map(|(position, axis)| {
-                let index = AxisIndex::new(position);
-                SavedAxis {
-                    axis: axis.name.clone(),
-                    selected: compensation.selected(index),
-                    unknown: compensation.unknown(index),
-                    max_points: axis.max_points,
-                    friction: match &axis.friction {
-                        Parameterisation::Accepted(list) => Some(list.clone()),
-                        _ => None,
-                    },
-                }
-            });
+        let axes = (0..self.machine.axes.len()).map(AxisIndex::new);
+        let mut carried = self.interpreter.carried();
+        // What the user gave is given again; what the programs wrote is not.
+        carried.variables.retain(|name, value| {
+            let given = self.given.get(name);
+            name.starts_with("V.S.") || given != Some(value)
+        });
         SavedState {
-            schema: 1,
+            schema: STATE_SCHEMA,
             machine: fingerprint(&self.machine),
-            axes: axes.collect(),
-            variables: self.interpreter.shared_variables(),
+            axes: axes.map(|axis| self.save_axis(axis)).collect(),
+            variables: carried.variables.into_iter().map(storable).collect(),
+            arrays: carried.arrays,
+            parameters: carried.parameters,
+            macros: carried.macros,
+            couplings: carried.couplings,
+            lost: carried.lost,
+            lost_parameters: carried.lost_parameters,
+        }
+    }
+
+    fn save_axis(&self, index: AxisIndex) -> SavedAxis {
+        let compensation = self.interpreter.compensation();
+        let axis = self.machine.axis(index);
+        let away =
+            |kind: &Kind| compensation.state(index, *kind) != self.history.home(index, *kind);
+        let position = self.interpreter.position(index).value;
+        SavedAxis {
+            axis: axis.name.clone(),
+            selected: compensation.selected(index),
+            unknown: compensation.unknown(index),
+            max_points: axis.max_points,
+            friction: match &axis.friction {
+                Parameterisation::Accepted(list) => Some(list.clone()),
+                _ => None,
+            },
+            away: Kind::ALL
+                .into_iter()
+                .filter(away)
+                .map(|kind| SavedAway {
+                    kind,
+                    by: self.history.maker(index, kind).cloned(),
+                    allowed: self.history.told(index, kind) == Told::Silenced,
+                })
+                .collect(),
+            occurred: self.machine.axis_set == AxisSet::AsTheyOccur
+                && self.interpreter.occurred()[index.get()],
+            position: position.filter(|position| position.is_finite()),
         }
     }
 }

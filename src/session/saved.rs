@@ -1,20 +1,26 @@
-//! What outlives the programs of a session: axis states, shared variables, value lists (R9.30).
+//! What outlives the programs of a session: axis states and who made them, variables, value lists
+//! (R9.30, R9.32).
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::interpreter::Value;
+use crate::interpreter::{ArrayShape, Carried, Value};
+use crate::lint::Maker;
 use crate::lists::FrictionList;
 use crate::machine::Machine;
 use crate::syntax::{Kind, KindSet};
+
+/// The number of the format that is written.
+pub const STATE_SCHEMA: u32 = 2;
 
 /// Why a saved state cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum StateError {
     /// It has another schema.
-    #[error("the state has schema {found}, this version reads schema 1")]
+    #[error("the state has schema {found}, this version reads schema 1 and {STATE_SCHEMA}")]
     Schema {
         /// The schema that it has.
         found: u32,
@@ -25,20 +31,44 @@ pub enum StateError {
         /// What differs.
         difference: String,
     },
+    /// It contradicts itself.
+    #[error("it is damaged ({reason})")]
+    Damaged {
+        /// How.
+        reason: String,
+    },
 }
 
 /// What outlives the programs of a session (R9.30).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedState {
-    /// 1.
+    /// 2; a state of schema 1 knows neither who made a state nor anything below `variables`.
     pub schema: u32,
     /// The axes with what the start of the control read: another text is another machine.
     pub machine: Vec<String>,
     /// The state of each axis.
     pub axes: Vec<SavedAxis>,
-    /// The `V.S.` variables.
+    /// The `V.S.` variables, and others that programs wrote.
     pub variables: BTreeMap<String, Value>,
+    /// Declared arrays.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub arrays: BTreeMap<String, ArrayShape>,
+    /// P parameters, where the machine keeps them.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub parameters: BTreeMap<u32, Value>,
+    /// Macros with their code.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub macros: BTreeMap<String, String>,
+    /// Coupling groups with the names of their axes.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub couplings: BTreeMap<String, Vec<String>>,
+    /// Arrays of which some element was written and nobody knows which.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub lost: BTreeMap<String, Arc<str>>,
+    /// Set when some kept P parameter was written and nobody knows which.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lost_parameters: Option<Arc<str>>,
 }
 
 /// What outlives the programs of a session on one axis.
@@ -55,6 +85,87 @@ pub struct SavedAxis {
     pub max_points: u32,
     /// The value list that was accepted.
     pub friction: Option<FrictionList>,
+    /// The kinds that are not at home, with the block that made them so.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub away: Vec<SavedAway>,
+    /// Whether a program named it, where no configuration lists the axes.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub occurred: bool,
+    /// The programmed position, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<f64>,
+}
+
+/// A kind that is not at home.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedAway {
+    /// The kind.
+    pub kind: Kind,
+    /// The block that made it so, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by: Option<Maker>,
+    /// Whether the user does not want to hear of it (R9.24).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub allowed: bool,
+}
+
+impl SavedState {
+    /// Whether the state is one of a machine: each of its axes once, by name, and nothing that
+    /// contradicts that.
+    pub(super) fn check(&self, machine: &Machine) -> Result<(), StateError> {
+        if !(1..=STATE_SCHEMA).contains(&self.schema) {
+            return Err(StateError::Schema { found: self.schema });
+        }
+        if let Some(difference) = difference(&self.machine, &fingerprint(machine)) {
+            return Err(StateError::OtherMachine { difference });
+        }
+        let damaged = |reason: String| Err(StateError::Damaged { reason });
+        for axis in &machine.axes {
+            let name = &axis.name;
+            let mut entries = self.axes.iter().filter(|entry| entry.axis == *name);
+            let Some(entry) = entries.next() else {
+                return damaged(format!("axis `{name}` is missing"));
+            };
+            if entries.next().is_some() {
+                return damaged(format!("axis `{name}` stands twice"));
+            }
+            let kinds = entry.selected.iter().chain(entry.unknown.iter());
+            let mut surplus = kinds.filter(|kind| !axis.configured.contains(*kind));
+            if let Some(kind) = surplus.next() {
+                let keyword = kind.keyword();
+                return damaged(format!("`{keyword}` of axis `{name}` is not configured"));
+            }
+        }
+        let known = |entry: &&SavedAxis| machine.find(&entry.axis).is_none();
+        match self.axes.iter().find(known) {
+            Some(entry) => damaged(format!("the machine has no axis `{}`", entry.axis)),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn into_carried(self) -> Carried {
+        Carried {
+            variables: self.variables,
+            arrays: self.arrays,
+            parameters: self.parameters,
+            macros: self.macros,
+            couplings: self.couplings,
+            lost: self.lost,
+            lost_parameters: self.lost_parameters,
+        }
+    }
+}
+
+/// A value that can be written and read again. What is no finite number is not known any more.
+pub(super) fn storable((name, value): (String, Value)) -> (String, Value) {
+    match value {
+        Value::Number(number) if !number.is_finite() => {
+            let cause = name.as_str().into();
+            (name, Value::Unknown(cause))
+        }
+        value => (name, value),
+    }
 }
 
 /// One line an axis with what only a start of the control reads. Value lists may be loaded anew
@@ -86,7 +197,8 @@ pub(super) fn fingerprint(machine: &Machine) -> Vec<String> {
         .collect()
 }
 
-pub(super) fn difference(saved: &[String], here: &[String]) -> Option<String> {
+/// What differs between the machines; the order of the axes does not count.
+fn difference(saved: &[String], here: &[String]) -> Option<String> {
     if saved.len() != here.len() {
         return Some(format!(
             "it has {} axes, this machine has {}",
@@ -94,9 +206,14 @@ pub(super) fn difference(saved: &[String], here: &[String]) -> Option<String> {
             here.len()
         ));
     }
-    saved
+    let sorted = |lines: &[String]| {
+        let mut lines = lines.to_vec();
+        lines.sort_unstable();
+        lines
+    };
+    sorted(saved)
         .iter()
-        .zip(here)
+        .zip(&sorted(here))
         .find(|(saved, here)| saved != here)
         .map(|(saved, here)| format!("it has `{saved}`, this machine has `{here}`"))
 }

@@ -1,22 +1,127 @@
 //! `; frictcomp: allow FC402 reason`: a user's word that a remark is known (R9.24).
 
 use crate::codes::Code;
+use crate::diagnostic::did_you_mean;
+use crate::source::Span;
 
 /// What a comment that speaks to this tool contains.
 pub(crate) const MARK: &str = "frictcomp:";
 
-/// The codes that a text allows; words that are no code end the list, they are the reason.
-pub(crate) fn allowed(text: &str) -> Vec<Code> {
-    let Some((_, behind)) = text.split_once(MARK) else {
-        return Vec::new();
-    };
-    let mut words = behind
-        .split(|c: char| c.is_whitespace() || matches!(c, ',' | ')'))
-        .filter(|word| !word.is_empty());
-    if words.next() != Some("allow") {
-        return Vec::new();
+/// The word that allows.
+const ALLOW: &str = "allow";
+
+/// What a comment says to this tool.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Allowance {
+    /// The codes that it allows.
+    pub(crate) codes: Vec<Code>,
+    /// What is wrong with it (FC491).
+    pub(crate) fault: Option<AllowFault>,
+}
+
+/// What keeps a comment from being understood.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct AllowFault {
+    /// The word, or the mark where a word is missing.
+    pub(crate) span: Span,
+    /// One sentence.
+    pub(crate) message: String,
+    /// What to write.
+    pub(crate) help: String,
+}
+
+/// A word behind the mark.
+struct Word<'a> {
+    text: &'a str,
+    start: usize,
+}
+
+impl Word<'_> {
+    fn fault(&self, message: String, help: String) -> AllowFault {
+        AllowFault {
+            span: Span::new(self.start, self.start + self.text.len()),
+            message,
+            help,
+        }
     }
-    words.map_while(Code::find).collect()
+}
+
+/// What a text says to this tool; the first word that is no code and does not look like one begins
+/// the reason.
+pub(crate) fn allowed(text: &str) -> Allowance {
+    let mut allowance = Allowance::default();
+    let Some(mark) = text.find(MARK) else {
+        return allowance;
+    };
+    let mut words = words(text, mark + MARK.len()).peekable();
+    let Some(first) = words.next() else {
+        return allowance;
+    };
+    if first.text != ALLOW {
+        let near = did_you_mean(first.text, [ALLOW]).is_some();
+        let speaks_of_code = words.peek().is_some_and(|word| looks_like_code(word.text));
+        if near || speaks_of_code {
+            let message = format!(
+                "`{}` is no word of this tool, the code is not allowed",
+                first.text
+            );
+            allowance.fault = Some(first.fault(message, format!("did you mean `{ALLOW}`?")));
+        }
+        return allowance;
+    }
+    for word in words {
+        let first = allowance.codes.is_empty() && allowance.fault.is_none();
+        let code_like = looks_like_code(word.text);
+        match Code::find(word.text) {
+            Some(code) => allowance.codes.push(code),
+            None if first || code_like => {
+                allowance.fault.get_or_insert_with(|| unknown(&word));
+            }
+            None => break,
+        }
+    }
+    if allowance.codes.is_empty() && allowance.fault.is_none() {
+        let message = "`allow` names no code".to_owned();
+        allowance.fault = Some(first.fault(message, how()));
+    }
+    allowance
+}
+
+/// The words behind a place, with their places.
+fn words(text: &str, from: usize) -> impl Iterator<Item = Word<'_>> {
+    let separates = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ')');
+    let mut rest = from;
+    std::iter::from_fn(move || {
+        let behind = text.get(rest..)?;
+        let start = rest + behind.find(|letter| !separates(letter))?;
+        let length = text[start..].find(separates).unwrap_or(text.len() - start);
+        rest = start + length;
+        let text = &text[start..rest];
+        Some(Word { text, start })
+    })
+}
+
+/// `FC499`, `fc4O1`, `P-ERR-1`: letters of a code and a digit behind them.
+fn looks_like_code(word: &str) -> bool {
+    let upper = word.to_ascii_uppercase();
+    let number = upper
+        .strip_prefix("P-ERR-")
+        .or_else(|| upper.strip_prefix("FC"));
+    number.is_some_and(|number| number.starts_with(|letter: char| letter.is_ascii_digit()))
+}
+
+fn unknown(word: &Word<'_>) -> AllowFault {
+    let message = format!("`{}` is no code, it allows nothing", word.text);
+    let codes = Code::ALL.iter().map(|code| code.text());
+    let help = match did_you_mean(word.text, codes) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => how(),
+    };
+    word.fault(message, help)
+}
+
+fn how() -> String {
+    "write `frictcomp: allow`, the codes as the messages show them, and the reason".to_owned()
 }
 
 #[cfg(test)]
@@ -26,12 +131,52 @@ mod tests {
     #[test]
     fn codes_stand_before_the_reason() {
         // R9.24
+        let codes = |text| {
+            let allowance = allowed(text);
+            assert_eq!(allowance.fault, None, "{text}");
+            allowance.codes
+        };
         assert_eq!(
-            allowed("X[COMP ON FRICT] ; frictcomp: allow FC402 FC405, on purpose"),
+            codes("X[COMP ON FRICT] ; frictcomp: allow FC402 FC405, on purpose"),
             [Code::Fc402, Code::Fc405]
         );
-        assert_eq!(allowed("(frictcomp: allow FC402)"), [Code::Fc402]);
-        assert_eq!(allowed("; frictcomp: allow because"), []);
-        assert_eq!(allowed("; frictcomp"), []);
+        assert_eq!(codes("(frictcomp: allow FC402)"), [Code::Fc402]);
+        assert_eq!(codes("; frictcomp"), []);
+        assert_eq!(codes("; frictcomp: the machine of hall 2"), []);
+        assert_eq!(
+            codes("; frictcomp: allow FC401 FCT drives stay off"),
+            [Code::Fc401]
+        );
+    }
+
+    #[test]
+    fn what_is_not_understood_is_said() {
+        // R9.80
+        let fault = |text: &str| {
+            let fault = allowed(text).fault.map(|fault| {
+                let word = fault.span.of(text).to_owned();
+                (word, fault.help)
+            });
+            fault.unwrap_or_default()
+        };
+        let (word, help) = fault("X1 ; frictcomp: alow FC402");
+        assert_eq!(
+            (word.as_str(), help.as_str()),
+            ("alow", "did you mean `allow`?")
+        );
+        assert_eq!(fault("; frictcomp: Allow FC402").0, "Allow");
+        assert_eq!(fault("; frictcomp: ignore FC402").0, "ignore");
+        assert_eq!(fault("; frictcomp: allow FC4O1 known").0, "FC4O1");
+        assert_eq!(fault("; frictcomp: allow FC401 FC499").0, "FC499");
+        assert_eq!(fault("; frictcomp: allow because").0, "because");
+        assert_eq!(fault("; frictcomp: allow").0, "allow");
+    }
+
+    #[test]
+    fn known_codes_count_beside_unknown_ones() {
+        // R9.80
+        let allowance = allowed("; frictcomp: allow FC499 FC402");
+        assert_eq!(allowance.codes, [Code::Fc402]);
+        assert!(allowance.fault.is_some());
     }
 }

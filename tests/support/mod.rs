@@ -135,6 +135,11 @@ impl Bench {
 
     /// What is said about a program, with advice and labels.
     pub(crate) fn said(&self, program: &str) -> String {
+        self.said_in_session(&[program])
+    }
+
+    /// What is said about programs that run one after another.
+    pub(crate) fn said_in_session(&self, programs: &[&str]) -> String {
         struct Said(String);
         impl Sink for Said {
             fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
@@ -165,8 +170,14 @@ impl Bench {
             let text = files.get(name)?;
             Some(SourceFile::new(name, text.as_str()))
         };
-        let source = Program::Whole(SourceFile::new("a.nc", program));
-        let _ = self.session().program("a.nc", source, &mut find, &mut said);
+        let mut session = self.session();
+        for (name, program) in ["a.nc", "b.nc", "c.nc", "d.nc"].into_iter().zip(programs) {
+            if name != "a.nc" {
+                writeln!(said.0, "{name}").expect("text");
+            }
+            let source = Program::Whole(SourceFile::new(name, *program));
+            let _ = session.program(name, source, &mut find, &mut said);
+        }
         said.0
     }
 
@@ -288,7 +299,7 @@ impl Transcript {
 impl Sink for Transcript {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
-            Record::Session { state } => {
+            Record::Session { state, .. } => {
                 let states = self.states(*state);
                 writeln!(self.text, "start {states}").expect("text");
             }

@@ -45,8 +45,9 @@ fn a_state_of_another_time_or_machine_is_refused_and_left_alone() {
     // R9.30
     let (bench, good) = bench_with_state();
     let wrongs = [
-        ("\"schema\": 1", "\"schema\": 2", "schema 2"),
-        ("\"schema\": 1", "\"schema\": -1", "damaged"),
+        ("\"schema\": 2", "\"schema\": 3", "schema 3"),
+        ("\"schema\": 2", "\"schema\": 0", "schema 0"),
+        ("\"schema\": 2", "\"schema\": -1", "damaged"),
         ("axis Z number", "axis C number", "another machine"),
         ("\"variables\"", "\"variable\"", "damaged"),
         ("\"axis\": \"X\"", "\"axis\": 1", "damaged"),

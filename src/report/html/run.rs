@@ -12,7 +12,7 @@ use super::track::{Stretch, Track};
 use super::{assumptions, machine, messages};
 use crate::diagnostic::Severity;
 use crate::machine::AxisReport;
-use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice};
+use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
 use crate::report::markup::escaped;
 use crate::report::svg::{Axis, Band, BandChart, BandRow, Frame};
 use crate::syntax::Kind;
@@ -173,7 +173,9 @@ fn render_advice(page: &mut Page<'_>, story: &RunStory, summary: &SummaryStory) 
         .collect();
     advice.extend(error_advice(errors.unwrap_or_default(), story.ended()).map(str::to_owned));
     if advice.is_empty() {
-        page.paragraph(NOTHING_TO_DO);
+        if story.remark.is_none() && summary.axes.iter().all(is_home) {
+            page.paragraph(NOTHING_TO_DO);
+        }
         return;
     }
     page.raw("<div class=\"to-do\"><ul>\n");

@@ -35,6 +35,8 @@ pub struct RunStory {
     kinds: KindSet,
     pub(super) axes: Vec<AxisStory>,
     pub(super) axis_set: AxisSet,
+    /// That no machine is described (R1.37).
+    pub(super) remark: Option<String>,
     pub(super) accepted: Vec<AcceptedList>,
     pub(super) programs: Vec<ProgramStory>,
     /// Programs beyond [`MAX_PROGRAMS`].
@@ -148,7 +150,8 @@ impl RunStory {
         self.programs.last().and_then(|program| program.by)
     }
 
-    fn session(&mut self, state: StateView<'_>) {
+    fn session(&mut self, state: StateView<'_>, remark: Option<&str>) {
+        self.remark = remark.map(str::to_owned);
         let listed = state.listed.iter().copied().chain(std::iter::repeat(false));
         self.axis_set = state.machine.axis_set;
         self.accepted = AcceptedList::of(state.machine);
@@ -364,7 +367,7 @@ impl RunStory {
 impl Sink for RunStory {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match *record {
-            Record::Session { state } => self.session(state),
+            Record::Session { state, remark } => self.session(state, remark),
             Record::Machine(diagnostic) => self.message(diagnostic, None),
             Record::Program {
                 program,

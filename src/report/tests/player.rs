@@ -120,6 +120,7 @@ impl<'a> Player<'a> {
     pub(super) fn begin(&mut self) {
         let _ = self.sink.record(&Record::Session {
             state: state!(self),
+            remark: None,
         });
         let _ = self.sink.record(&Record::Program {
             program: 1,
@@ -153,6 +154,8 @@ impl<'a> Player<'a> {
                 axis,
                 start: from,
                 end: to,
+                home: from,
+                told: changed,
                 changed_by: changed
                     .then(|| ChangedBy {
                         program: 1,

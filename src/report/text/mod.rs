@@ -13,7 +13,7 @@ use crate::diagnostic::Diagnostic;
 use crate::syntax::Kind;
 use crate::timeline::{End, EndedBy, Record, Row, Sink, StateView};
 
-use super::diagnostics::{Look, render};
+use super::diagnostics::{Look, render, wrap};
 use super::visible::leading;
 use super::{Blocks, Output, Report, View};
 use columns::Columns;
@@ -101,6 +101,16 @@ impl<W: Write> Text<W> {
         self.header();
         self.state_line("at start", state);
         file.clone_into(&mut self.file);
+    }
+
+    /// What stands above everything else.
+    fn remark(&mut self, remark: &str) {
+        for part in wrap(remark, self.options.look.width, 0).lines() {
+            let mut line = self.line();
+            line.plain(part);
+            line.end();
+        }
+        self.line().end();
     }
 
     fn header(&mut self) {
@@ -280,7 +290,11 @@ impl<W: Write> Text<W> {
 impl<W: Write> Sink for Text<W> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match *record {
-            Record::Session { .. } => {}
+            Record::Session { remark, .. } => {
+                if let Some(remark) = remark {
+                    self.remark(remark);
+                }
+            }
             Record::Machine(diagnostic) => {
                 let text = render(diagnostic, self.options.look);
                 self.output.bytes.extend_from_slice(text.as_bytes());

@@ -4,7 +4,7 @@ use unicode_width::UnicodeWidthStr;
 
 use crate::diagnostic::Severity;
 use crate::report::Look;
-use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice};
+use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
 use super::line::{BOLD, DIM, Line, grouped, style};
@@ -153,7 +153,7 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
         return;
     }
     out.push(b'\n');
-    let mut said = false;
+    let mut said = !summary.state.machine.is_described() || !summary.axes.iter().all(is_home);
     for axis in &summary.axes {
         let name = summary.state.name(axis.axis);
         let Some(text) = axis_advice(axis, name) else {
@@ -193,6 +193,8 @@ mod tests {
             axis: AxisIndex::new(0),
             start: State::Active,
             end: State::Inactive,
+            home: State::Active,
+            told: false,
             changed_by: Vec::new(),
             changes: 0,
         };

@@ -1,0 +1,112 @@
+//! What outlives a program: which block made each state that is not home (R1.52, R9.32).
+
+use serde::{Deserialize, Serialize};
+
+use super::memory::{Memory, Site};
+use crate::compensation::{Compensation, State};
+use crate::machine::AxisIndex;
+use crate::syntax::Kind;
+
+/// A block is remembered with so many characters of its text.
+const MAX_TEXT: usize = 400;
+
+/// The block that made a state what it is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Maker {
+    /// The name of the main program behind `%`, or else its file.
+    pub program: String,
+    /// The file that holds the block, as the user named it.
+    pub file: String,
+    /// The line of the block.
+    pub line: u32,
+    /// The text of the block.
+    pub text: String,
+}
+
+impl Maker {
+    fn new(program: &str, site: &Site) -> Self {
+        let place = &site.place;
+        Self {
+            program: program.to_owned(),
+            file: place.file.to_string(),
+            line: place.first_line,
+            text: place.text.chars().take(MAX_TEXT).collect(),
+        }
+    }
+}
+
+/// Whether the user has been told that a state is left away from home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Told {
+    /// Nobody said it.
+    #[default]
+    No,
+    /// FC401 or FC407 stands under a program of this session.
+    Said,
+    /// The user does not want to hear it.
+    Silenced,
+}
+
+/// A state that may be away from home.
+#[derive(Debug, Clone, Default)]
+struct Away {
+    maker: Option<Maker>,
+    told: Told,
+}
+
+/// What the programs of a session left, and the state at the start of the control.
+#[derive(Debug, Clone)]
+pub(crate) struct History {
+    home: Compensation,
+    axes: Vec<[Away; Kind::ALL.len()]>,
+}
+
+impl History {
+    pub(crate) fn new(home: Compensation) -> Self {
+        Self {
+            axes: vec![Default::default(); home.len()],
+            home,
+        }
+    }
+
+    /// The state at the start of the control (R1.22).
+    pub(crate) fn home(&self, axis: AxisIndex, kind: Kind) -> State {
+        self.home.state(axis, kind)
+    }
+
+    /// The block that made a state, `None` where nobody knows.
+    pub(crate) fn maker(&self, axis: AxisIndex, kind: Kind) -> Option<&Maker> {
+        self.axes[axis.get()][kind as usize].maker.as_ref()
+    }
+
+    pub(crate) fn told(&self, axis: AxisIndex, kind: Kind) -> Told {
+        self.axes[axis.get()][kind as usize].told
+    }
+
+    pub(crate) fn set_told(&mut self, axis: AxisIndex, kind: Kind, told: Told) {
+        self.axes[axis.get()][kind as usize].told = told;
+    }
+
+    /// Takes over what an earlier session knows.
+    pub(crate) fn restore(&mut self, axis: AxisIndex, kind: Kind, maker: Maker) {
+        self.axes[axis.get()][kind as usize].maker = Some(maker);
+    }
+
+    /// Takes over what a program did that leaves a state.
+    pub(super) fn program_ended(&mut self, program: &str, did: &Memory, left: &Compensation) {
+        for (position, kinds) in self.axes.iter_mut().enumerate() {
+            let axis = AxisIndex::new(position);
+            for (kind, away) in Kind::ALL.into_iter().zip(kinds) {
+                if left.state(axis, kind) == self.home.state(axis, kind) {
+                    *away = Away::default();
+                } else if let Some((_, site)) = &did.axis(axis).kind(kind).last {
+                    *away = Away {
+                        maker: Some(Maker::new(program, site)),
+                        told: Told::No,
+                    };
+                }
+            }
+        }
+    }
+}

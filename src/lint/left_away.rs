@@ -1,0 +1,99 @@
+//! FC401: a program leaves a kind away from home (R1.50). FC407: it moved the axis before, so that
+//! its second run differs from the first (R1.53).
+
+use super::memory::{Deed, KindMemory, Site};
+use super::{EndNote, LeftAway, Linter};
+use crate::codes::Code;
+use crate::compensation::{Compensation, State};
+use crate::diagnostic::Diagnostic;
+use crate::machine::AxisIndex;
+use crate::syntax::Kind;
+
+pub(super) fn lint(linter: &Linter<'_>, left: &Compensation) -> Vec<LeftAway> {
+    let mut found = Vec::new();
+    for axis in (0..left.len()).map(AxisIndex::new) {
+        for kind in Kind::ALL {
+            let end = left.state(axis, kind);
+            if end == State::Unknown || end == linter.history.home(axis, kind) {
+                continue;
+            }
+            let did = linter.memory.axis(axis).kind(kind);
+            if let Some((Deed::On | Deed::Off, site)) = &did.last {
+                let subject = Subject {
+                    linter,
+                    axis,
+                    kind,
+                    end,
+                };
+                let diagnostic = match moved_before(linter, axis, did) {
+                    Some(moved) => subject.second_run_differs(site, moved),
+                    None => subject.left_changed(site),
+                };
+                let note = EndNote {
+                    seq: site.seq,
+                    diagnostic,
+                };
+                found.push(LeftAway { axis, kind, note });
+            }
+        }
+    }
+    found
+}
+
+/// The first motion of the axis, where it comes before the first command on the kind.
+fn moved_before<'a>(linter: &'a Linter<'_>, axis: AxisIndex, did: &KindMemory) -> Option<&'a Site> {
+    let moved = linter.memory.axis(axis).moved.as_ref()?;
+    did.first
+        .is_some_and(|first| moved.seq < first)
+        .then_some(moved)
+}
+
+/// What is left, and how.
+struct Subject<'a> {
+    linter: &'a Linter<'a>,
+    axis: AxisIndex,
+    kind: Kind,
+    end: State,
+}
+
+impl Subject<'_> {
+    fn left_changed(&self, site: &Site) -> Diagnostic {
+        let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
+        let message = format!(
+            "`{keyword}` of axis `{name}` is left {} past program end; the control starts with it {}",
+            self.end.word(),
+            self.linter.history.home(self.axis, self.kind).word()
+        );
+        Diagnostic::new(Code::Fc401, site.place.clone(), message)
+            .with_axis(name)
+            .with_help(format!("bring it home before M30: `{}`", self.way_home()))
+    }
+
+    fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {
+        let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
+        let place = &site.place;
+        let message = format!(
+            "the second run differs from the first: {} moves axis `{name}` before the program sets \
+             `{keyword}`, and line {} leaves it {}",
+            moved.seen_from(&place.file),
+            place.start().line,
+            self.end.word()
+        );
+        Diagnostic::new(Code::Fc407, place.clone(), message)
+            .with_axis(name)
+            .with_help(format!(
+                "set it before the first motion, and bring it home before M30: `{}`",
+                self.way_home()
+            ))
+            .with_label(moved.place.clone(), "the axis moves here first")
+    }
+
+    fn way_home(&self) -> String {
+        let way = match self.end {
+            State::Inactive => "ON",
+            _ => "OFF",
+        };
+        let name = self.linter.name(self.axis);
+        format!("{name}[COMP {way} {}]", self.kind.keyword())
+    }
+}

@@ -1,0 +1,152 @@
+//! What the lints remember of the program that runs: its commands and its first motions.
+
+use std::sync::Arc;
+
+use crate::compensation::{Change, State};
+use crate::diagnostic::Place;
+use crate::interpreter::{AxisWord, Executed, Outcome};
+use crate::machine::AxisIndex;
+use crate::source::Span;
+use crate::syntax::{Kind, KindSet, Selection};
+
+/// A block that a lint may have to name later.
+#[derive(Debug, Clone)]
+pub(super) struct Site {
+    /// The executed block.
+    pub(super) seq: u64,
+    /// The words that are meant.
+    pub(super) place: Place,
+}
+
+impl Site {
+    pub(super) fn new(executed: &Executed<'_>, span: Span) -> Self {
+        Self {
+            seq: executed.seq,
+            place: place(executed, span),
+        }
+    }
+
+    /// The block as a message names it, seen from a file: `line 4`, or `sub.nc:4`.
+    pub(super) fn seen_from(&self, file: &str) -> String {
+        let (place, line) = (&self.place, self.place.start().line);
+        if *place.file == *file {
+            format!("line {line}")
+        } else {
+            format!("{}:{line}", place.file)
+        }
+    }
+}
+
+/// Words of an executed block.
+pub(super) fn place(executed: &Executed<'_>, span: Span) -> Place {
+    Place {
+        file: Arc::clone(executed.file),
+        text: executed.text.into(),
+        first_line: executed.line,
+        span,
+    }
+}
+
+/// What a block did to a kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Deed {
+    /// A command switched it on.
+    On,
+    /// A command switched it off.
+    Off,
+    /// A region that may or may not be executed could have switched it (R2.51).
+    Unknown,
+}
+
+impl From<Selection> for Deed {
+    fn from(selection: Selection) -> Self {
+        match selection {
+            Selection::On(_) => Self::On,
+            Selection::Off(_) | Selection::OffAll => Self::Off,
+        }
+    }
+}
+
+/// What the program did to one kind of one axis.
+#[derive(Debug, Clone, Default)]
+pub(super) struct KindMemory {
+    /// The executed block of the first command on it.
+    pub(super) first: Option<u64>,
+    /// What was done to it last; one site for all kinds of a command.
+    pub(super) last: Option<(Deed, Arc<Site>)>,
+}
+
+/// What the program did to one axis.
+#[derive(Debug, Clone, Default)]
+pub(super) struct AxisMemory {
+    kinds: [KindMemory; Kind::ALL.len()],
+    /// Whether a command of the program named the axis.
+    pub(super) commanded: bool,
+    /// The first block that moved the axis.
+    pub(super) moved: Option<Site>,
+}
+
+impl AxisMemory {
+    pub(super) fn kind(&self, kind: Kind) -> &KindMemory {
+        &self.kinds[kind as usize]
+    }
+
+    fn note(&mut self, kinds: KindSet, deed: Deed, site: &Arc<Site>) {
+        for kind in kinds.iter() {
+            self.kinds[kind as usize].last = Some((deed, Arc::clone(site)));
+        }
+    }
+}
+
+/// What the program did.
+#[derive(Debug, Clone)]
+pub(super) struct Memory {
+    axes: Vec<AxisMemory>,
+}
+
+impl Memory {
+    pub(super) fn new(axes: usize) -> Self {
+        Self {
+            axes: vec![AxisMemory::default(); axes],
+        }
+    }
+
+    pub(super) fn axis(&self, axis: AxisIndex) -> &AxisMemory {
+        &self.axes[axis.get()]
+    }
+
+    /// A command that the control took.
+    pub(super) fn command(&mut self, axis: AxisIndex, outcome: &Outcome, executed: &Executed<'_>) {
+        let site = Arc::new(Site::new(executed, outcome.command.span));
+        let selection = outcome.command.selection;
+        let memory = &mut self.axes[axis.get()];
+        memory.commanded = true;
+        for kind in selection.kinds().iter() {
+            memory.kinds[kind as usize].first.get_or_insert(site.seq);
+        }
+        memory.note(selection.kinds(), selection.into(), &site);
+    }
+
+    /// The states that no command made unknown, but a region in whose place this block stands.
+    pub(super) fn forgotten(&mut self, executed: &Executed<'_>) {
+        let lost = |change: &&Change| change.to == State::Unknown;
+        let mut site = None;
+        for change in executed.changes.iter().filter(lost) {
+            let site = site.get_or_insert_with(|| {
+                Arc::new(Site::new(executed, Span::new(0, executed.text.len())))
+            });
+            let kinds = KindSet::from_iter([change.kind]);
+            self.axes[change.axis.get()].note(kinds, Deed::Unknown, site);
+        }
+    }
+
+    /// An axis word that moves. Says whether it is the first of its axis.
+    pub(super) fn moved(&mut self, word: &AxisWord, executed: &Executed<'_>) -> bool {
+        let memory = &mut self.axes[word.axis.get()];
+        let first = memory.moved.is_none();
+        if first {
+            memory.moved = Some(Site::new(executed, word.span));
+        }
+        first
+    }
+}

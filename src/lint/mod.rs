@@ -1,0 +1,129 @@
+//! Lints on the use of COMP (chapter 1.4): one file a lint, one memory of what the program did,
+//! one of what programs left.
+//!
+//! FC404 and FC406 are statements about a block's text and come from `syntax`.
+
+mod history;
+mod left_away;
+mod memory;
+mod moved_before;
+mod repeated;
+mod shared_block;
+mod undescribed;
+
+pub use history::Maker;
+pub(crate) use history::{History, Told};
+
+use crate::compensation::Compensation;
+use crate::diagnostic::Diagnostic;
+use crate::interpreter::{EndedBy, Executed, Outcome};
+use crate::machine::{AxisIndex, Machine};
+use crate::syntax::Kind;
+use memory::Memory;
+
+/// A diagnostic at the end of a program, with the executed block that it is about.
+#[derive(Debug, Clone)]
+pub struct EndNote {
+    /// The executed block that it is about.
+    pub seq: u64,
+    /// What there is to say.
+    pub diagnostic: Diagnostic,
+}
+
+/// That a program leaves a kind of an axis away from home.
+pub(crate) struct LeftAway {
+    pub(crate) axis: AxisIndex,
+    pub(crate) kind: Kind,
+    /// FC401 or FC407.
+    pub(crate) note: EndNote,
+}
+
+/// A command that the control took.
+struct Taken<'a> {
+    axis: AxisIndex,
+    outcome: &'a Outcome,
+    executed: &'a Executed<'a>,
+}
+
+/// The lints on a command, before it is remembered; the first that has something to say wins, so
+/// that nothing is said twice about it.
+const ON_COMMAND: [fn(&Linter<'_>, &Taken<'_>) -> Option<Diagnostic>; 2] =
+    [repeated::lint, undescribed::lint];
+
+/// What the lints know while a program runs.
+pub(crate) struct Linter<'m> {
+    machine: &'m Machine,
+    history: &'m mut History,
+    /// The name of the program behind `%`, or else its file.
+    program: String,
+    memory: Memory,
+}
+
+impl<'m> Linter<'m> {
+    /// A program begins.
+    pub(crate) fn new(machine: &'m Machine, history: &'m mut History, file: &str) -> Self {
+        Self {
+            memory: Memory::new(machine.axes.len()),
+            machine,
+            history,
+            program: file.to_owned(),
+        }
+    }
+
+    /// The program has a name.
+    pub(crate) fn named(&mut self, name: &str) {
+        name.clone_into(&mut self.program);
+    }
+
+    /// Looks at an executed block and appends what there is to say.
+    pub(crate) fn block(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
+        if !executed.outcomes.is_empty() {
+            self.commands(executed, said);
+        }
+        if !executed.changes.is_empty() {
+            self.memory.forgotten(executed);
+        }
+        // The commands of a block act before its motion (R1.9).
+        for word in executed.moved {
+            if self.memory.moved(word, executed) {
+                said.extend(moved_before::lint(self, word.axis, executed));
+            }
+        }
+    }
+
+    fn commands(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
+        for outcome in executed.outcomes {
+            let Ok(axis) = outcome.result else {
+                continue;
+            };
+            let taken = Taken {
+                axis,
+                outcome,
+                executed,
+            };
+            said.extend(ON_COMMAND.iter().find_map(|lint| lint(self, &taken)));
+            self.memory.command(axis, outcome, executed);
+        }
+        said.extend(shared_block::lint(executed));
+    }
+
+    /// Looks at the state that an ended program leaves, and remembers who made it. A program that
+    /// an error or a budget stopped is not blamed for what it did not come to.
+    pub(crate) fn end(&mut self, by: EndedBy, left: &Compensation) -> Vec<LeftAway> {
+        self.history
+            .program_ended(&self.program, &self.memory, left);
+        if matches!(by, EndedBy::Error | EndedBy::Budget) {
+            return Vec::new();
+        }
+        left_away::lint(self, left)
+    }
+
+    /// What became of a note that [`end`](Self::end) gave.
+    pub(crate) fn settle(&mut self, left: &LeftAway, told: Told) {
+        self.history.set_told(left.axis, left.kind, told);
+    }
+
+    fn name(&self, axis: AxisIndex) -> &str {
+        &self.machine.axis(axis).name
+    }
+}

@@ -1,0 +1,67 @@
+//! FC403: the program moves an axis in a state that an earlier program left (R1.52).
+
+use super::{Linter, Maker};
+use crate::codes::Code;
+use crate::compensation::State;
+use crate::diagnostic::Diagnostic;
+use crate::interpreter::Executed;
+use crate::machine::AxisIndex;
+use crate::syntax::Kind;
+
+/// A message shows a block with so many characters.
+const MAX_SHOWN: usize = 60;
+
+pub(super) fn lint(
+    linter: &Linter<'_>,
+    axis: AxisIndex,
+    executed: &Executed<'_>,
+) -> Option<Diagnostic> {
+    let memory = linter.memory.axis(axis);
+    let state = executed.compensation.state(axis, Kind::Frict);
+    let own = memory.kind(Kind::Frict).last.is_some();
+    if own || state == linter.history.home(axis, Kind::Frict) {
+        return None;
+    }
+    let name = linter.name(axis);
+    let how = match state {
+        State::Unknown => "in an unknown state of friction compensation".to_owned(),
+        known => format!("with friction compensation {}", known.word()),
+    };
+    let who = match linter.history.maker(axis, Kind::Frict) {
+        Some(maker) => named(maker),
+        None => "a program that is not known".to_owned(),
+    };
+    let place = memory.moved.as_ref()?.place.clone();
+    Some(
+        Diagnostic::new(
+            Code::Fc403,
+            place,
+            format!("axis `{name}` moves {how}, left so by {who}"),
+        )
+        .with_axis(name)
+        .with_help(format!(
+            "set it at program start, `{name}[COMP ON FRICT]` or `{name}[COMP OFF FRICT]`"
+        )),
+    )
+}
+
+/// The text of a block as far as its first comment.
+fn code(text: &str) -> &str {
+    text.split([';', '(']).next().unwrap_or(text)
+}
+
+/// Program, line and block.
+fn named(maker: &Maker) -> String {
+    let words: Vec<&str> = code(&maker.text).split_whitespace().collect();
+    let text = words.join(" ");
+    let mut shown: String = text.chars().take(MAX_SHOWN).collect();
+    if shown.len() < text.len() {
+        shown.push('…');
+    }
+    let (file, line) = (&maker.file, maker.line);
+    if maker.program == *file {
+        format!("`{shown}` at {file}:{line}")
+    } else {
+        format!("`{shown}` at {file}:{line} of program `{}`", maker.program)
+    }
+}

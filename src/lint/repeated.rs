@@ -1,0 +1,65 @@
+//! FC402: a command that repeats what the program already did, or switches off what is not
+//! configured (R1.51).
+
+use std::sync::Arc;
+
+use super::memory::{Deed, Site, place};
+use super::{Linter, Taken};
+use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
+use crate::syntax::{Kind, Selection};
+
+pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
+    let memory = linter.memory.axis(taken.axis);
+    if !memory.commanded {
+        // To set at program start what one needs is the recommended habit.
+        return None;
+    }
+    let command = &taken.outcome.command;
+    let deed = Deed::from(command.selection);
+    let mut repeated: Option<&Arc<Site>> = None;
+    for kind in command.selection.kinds().iter() {
+        match &memory.kind(kind).last {
+            Some((earlier, site)) if *earlier == deed => {
+                if repeated.is_none_or(|other| other.seq < site.seq) {
+                    repeated = Some(site);
+                }
+            }
+            _ if deed == Deed::Off && is_unconfigured(linter, taken, kind) => {}
+            _ => return None,
+        }
+    }
+    let place = place(taken.executed, command.span);
+    let what = what(command.selection);
+    let name = &command.axis;
+    let state = if deed == Deed::On { "on" } else { "off" };
+    let message = match repeated {
+        None => {
+            format!("this command changes nothing: {what} of axis `{name}` is not configured")
+        }
+        Some(site) if site.place == place => {
+            format!("this command repeats itself: {what} of axis `{name}` is already {state}")
+        }
+        Some(site) => {
+            let site = site.seen_from(&place.file);
+            format!("this command repeats {site}: {what} of axis `{name}` is already {state}")
+        }
+    };
+    Some(Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone()))
+}
+
+/// Whether the machine is known to lack a kind on the axis.
+fn is_unconfigured(linter: &Linter<'_>, taken: &Taken<'_>, kind: Kind) -> bool {
+    let compensation = taken.executed.compensation;
+    linter.machine.is_described() && !compensation.is_configured(taken.axis, kind)
+}
+
+fn what(selection: Selection) -> String {
+    match selection {
+        Selection::OffAll => "every compensation".to_owned(),
+        Selection::On(kinds) | Selection::Off(kinds) => {
+            let words: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
+            format!("`{}`", words.join(" "))
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! FC408: a command whose effect depends on a machine that is not described (R1.37).
+
+use super::memory::place;
+use super::{Linter, Taken};
+use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
+use crate::syntax::{Kind, Selection};
+
+pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
+    let command = &taken.outcome.command;
+    let off = !matches!(command.selection, Selection::On(_));
+    if linter.machine.is_described() || !off || !command.selection.kinds().contains(Kind::Frict) {
+        return None;
+    }
+    let name = &command.axis;
+    let message = format!(
+        "whether this leaves friction compensation of axis `{name}` off depends on a machine that \
+         is not described"
+    );
+    Some(
+        Diagnostic::new(Code::Fc408, place(taken.executed, command.span), message)
+            .with_axis(name.clone()),
+    )
+}

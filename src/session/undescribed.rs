@@ -1,0 +1,37 @@
+//! What stands above everything that depends on a machine that is not described (R1.37).
+
+use crate::machine::Machine;
+
+/// Says that no machine is described, and how to mend it for the axes that the programs switch.
+/// `None` where one is.
+pub(super) fn remark(machine: &Machine, switched: &[String]) -> Option<String> {
+    if machine.is_described() {
+        return None;
+    }
+    let mut text = "no machine is described, so P-AXIS-00522 counts as 0 on every axis: describe \
+                    it with `frictcomp init`"
+        .to_owned();
+    if !switched.is_empty() {
+        text.push_str(", or assume friction compensation with `--enable ");
+        text.push_str(&switched.join(","));
+        text.push('`');
+    }
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_axes_are_proposed_in_one_list() {
+        // R1.37
+        let axes = ["X".to_owned(), "Y".to_owned()];
+        let said = remark(&Machine::unconfigured(), &axes).unwrap_or_default();
+        assert!(said.contains("`frictcomp init`"), "{said}");
+        assert!(said.ends_with("`--enable X,Y`"), "{said}");
+        let said = remark(&Machine::unconfigured(), &[]).unwrap_or_default();
+        assert!(said.ends_with("`frictcomp init`"), "{said}");
+        assert_eq!(remark(&Machine::enabled(["X"]), &axes), None);
+    }
+}

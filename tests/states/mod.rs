@@ -1,0 +1,7 @@
+mod advice;
+mod lints;
+mod model;
+mod program;
+mod saved;
+mod sessions;
+mod undescribed;

@@ -1,0 +1,163 @@
+//! The lints on use once more, as plainly as the rules say them, to compare with.
+
+use super::program::{AXES, Block, Command, KINDS, Program};
+
+/// What is said: program, executed block, line, code, axis.
+pub(crate) type Said = (usize, u64, u32, &'static str, &'static str);
+
+/// Whether the machine has a kind on an axis.
+fn has(axis: usize, kind: usize) -> bool {
+    matches!(
+        (AXES[axis], KINDS[kind]),
+        ("X", _) | ("Y" | "B", "FRICT") | ("Z", "LEAD")
+    )
+}
+
+/// The state at the start of the control: CROSS has manual activation.
+fn home(axis: usize, kind: usize) -> bool {
+    has(axis, kind) && KINDS[kind] != "CROSS"
+}
+
+/// A command on a kind: executed block, line, direction.
+#[derive(Clone, Copy)]
+struct Done {
+    seq: u64,
+    line: u32,
+    on: bool,
+    allows: [bool; 2],
+}
+
+/// What one program did to a kind.
+#[derive(Clone, Copy, Default)]
+struct Kind {
+    first: Option<u64>,
+    last: Option<Done>,
+}
+
+/// A session.
+pub(crate) struct Model {
+    on: [[bool; 3]; 4],
+    programs: usize,
+    pub(crate) said: Vec<Said>,
+}
+
+impl Model {
+    pub(crate) fn new() -> Self {
+        Self {
+            on: std::array::from_fn(|axis| std::array::from_fn(|kind| home(axis, kind))),
+            programs: 0,
+            said: Vec::new(),
+        }
+    }
+
+    /// Runs a program as `--keep-going` does: a refused command is as if it were not there.
+    pub(crate) fn run(&mut self, program: &Program) {
+        self.programs += 1;
+        let mut run = Run {
+            model: self,
+            kinds: [[Kind::default(); 3]; 4],
+            commanded: [false; 4],
+            moved: [None; 4],
+            said: Vec::new(),
+        };
+        for (seq, block) in (1..).zip(&program.executed) {
+            run.block(seq, block);
+        }
+        run.end();
+    }
+}
+
+struct Run<'a> {
+    model: &'a mut Model,
+    kinds: [[Kind; 3]; 4],
+    commanded: [bool; 4],
+    moved: [Option<u64>; 4],
+    said: Vec<(u32, &'static str, usize, usize)>,
+}
+
+impl Run<'_> {
+    fn say(&mut self, block: (u64, u32), code: &'static str, axis: usize) {
+        let entry = (self.model.programs, block.0, block.1, code, AXES[axis]);
+        self.model.said.push(entry);
+    }
+
+    fn block(&mut self, seq: u64, block: &Block) {
+        let at = (seq, block.line);
+        for (place, command) in block.commands.iter().enumerate() {
+            self.command(at, (place, command), block);
+        }
+        for &axis in &block.moves {
+            if self.moved[axis].is_some() {
+                continue;
+            }
+            self.moved[axis] = Some(seq);
+            let depends =
+                self.kinds[axis][0].first.is_none() && self.model.on[axis][0] != home(axis, 0);
+            if depends && !block.allows.contains(&"FC403") {
+                self.say(at, "FC403", axis);
+            }
+        }
+    }
+
+    fn command(&mut self, at: (u64, u32), (place, command): (usize, &Command), block: &Block) {
+        let axis = command.axis;
+        let kinds: Vec<usize> = match command.kinds.as_slice() {
+            [] => (0..KINDS.len()).collect(),
+            kinds => kinds.to_vec(),
+        };
+        if command.on && kinds.contains(&0) && !has(axis, 0) {
+            return;
+        }
+        let repeats = |kind: &usize| {
+            let last = self.kinds[axis][*kind].last;
+            last.is_some_and(|last| last.on == command.on) || (!command.on && !has(axis, *kind))
+        };
+        // Kinds of the control that this model leaves out are configured nowhere.
+        let useless = self.commanded[axis] && kinds.iter().all(repeats);
+        let once = (at.1, "FC402", place, axis);
+        if useless && !block.allows.contains(&"FC402") && !self.said.contains(&once) {
+            self.said.push(once);
+            self.say(at, "FC402", axis);
+        }
+        self.commanded[axis] = true;
+        for kind in kinds {
+            let entry = &mut self.kinds[axis][kind];
+            entry.first.get_or_insert(at.0);
+            entry.last = Some(Done {
+                seq: at.0,
+                line: at.1,
+                on: command.on,
+                allows: ["FC401", "FC407"].map(|code| block.allows.contains(&code)),
+            });
+            if has(axis, kind) {
+                self.model.on[axis][kind] = command.on;
+            }
+        }
+    }
+
+    fn end(&mut self) {
+        // CROSS falls off.
+        self.model.on[0][2] = false;
+        for axis in 0..AXES.len() {
+            // The tool goes through the kinds in the order of its own table: FRICT comes last.
+            for kind in [2, 1, 0] {
+                let did = self.kinds[axis][kind];
+                let Some(last) = did.last else {
+                    continue;
+                };
+                if self.model.on[axis][kind] == home(axis, kind) {
+                    continue;
+                }
+                let before = self.moved[axis].is_some_and(|moved| Some(moved) < did.first);
+                let (code, allowed) = if before {
+                    ("FC407", last.allows[1])
+                } else {
+                    ("FC401", last.allows[0])
+                };
+                if !allowed {
+                    self.say((last.seq, last.line), code, axis);
+                }
+            }
+        }
+    }
+}

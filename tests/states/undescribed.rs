@@ -1,0 +1,68 @@
+//! Where no machine is described.
+
+use crate::folder::{Bench, json};
+
+const OFF: &str = "X[COMP OFF FRICT]\nX1\nX[COMP OFF FRICT]\nY[COMP OFF_ALL]\nM30\n";
+
+fn bench(program: &str) -> Bench {
+    let bench = Bench::new(&[("a.nc", program)]);
+    std::fs::remove_file(bench.folder().join("frictcomp.toml")).unwrap();
+    bench
+}
+
+#[test]
+fn what_a_command_leaves_depends_on_the_machine() {
+    // R1.37 R1.51
+    let bench = bench(OFF);
+    let text = bench.stdout(&["check", "--isolated", "--format", "concise", "a.nc"]);
+    let codes: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.split(' ').nth(1))
+        .collect();
+    assert_eq!(
+        codes,
+        ["warning[FC408]", "info[FC402]", "warning[FC408]"],
+        "{text}"
+    );
+    let enabled = [
+        "check",
+        "--isolated",
+        "--enable",
+        "X,Y",
+        "--format",
+        "concise",
+        "a.nc",
+    ];
+    assert!(!bench.stdout(&enabled).contains("FC408"));
+}
+
+#[test]
+fn nothing_says_that_there_is_nothing_to_do() {
+    // R1.37
+    for program in [OFF, "X1\nM30\n"] {
+        let bench = bench(program);
+        let text = bench.stdout(&["run", "--isolated", "a.nc"]);
+        let first = text.lines().next().unwrap_or_default();
+        assert!(first.starts_with("no machine is described"), "{text}");
+        assert!(text.contains("`frictcomp init`"), "{text}");
+        assert!(!text.to_lowercase().contains("nothing to do"), "{text}");
+        let page = bench.folder().join("a.html");
+        bench.stdout(&["run", "--isolated", "--html", "a.html", "a.nc"]);
+        let page = std::fs::read_to_string(page).unwrap();
+        assert!(page.contains("no machine is described"));
+        assert!(!page.to_lowercase().contains("nothing to do"));
+    }
+}
+
+#[test]
+fn the_session_record_says_it() {
+    // R1.37
+    let bench = bench(OFF);
+    let records = bench.records(&["--isolated", "a.nc"]);
+    let session = json(&records[0]);
+    assert_eq!(session["record"], "session");
+    let remark = session["remark"].as_str().unwrap_or_default();
+    assert!(remark.starts_with("no machine is described"), "{remark}");
+    let described = json(&bench.records(&["--enable", "X", "a.nc"])[0]);
+    assert!(described.get("remark").is_none(), "{described}");
+}

@@ -7,7 +7,7 @@ const MOVED_BEFORE: &str = "X1\nX[COMP OFF FRICT]\nM30\n";
 
 fn shown(program: &str, arguments: &[&str]) -> String {
     let bench = Bench::new(&[("a.nc", program)]);
-    let mut all = vec!["run"];
+    let mut all = vec!["run", "--width", "200"];
     all.extend(arguments);
     all.push("a.nc");
     bench.stdout(&all)
@@ -71,7 +71,7 @@ fn an_allow_comment_that_is_not_understood_is_said() {
     )]);
     let text = bench.stdout(&["check", "--format", "concise", "a.nc"]);
     assert!(text.contains("a.nc:1:20: warning[FC491]"), "{text}");
-    assert!(text.contains("a.nc:4:32: warning[FC491]"), "{text}");
+    assert!(text.contains("a.nc:4:31: warning[FC491]"), "{text}");
     assert_eq!(text.matches("FC491").count(), 2, "once a place: {text}");
     assert!(text.contains("FC402"), "{text}");
     bench.write("b.nc", "X1 ; frictcomp: allow FC401, FC402\nM30\n");

@@ -13,19 +13,43 @@ fn said(programs: &[&str]) -> String {
 #[test]
 fn what_is_left_away_from_home_is_said_at_the_last_command() {
     // R1.50: also where that command changed nothing.
-    assert_snapshot!(said(&["X[COMP OFF FRICT]\nX1\nX[COMP OFF FRICT]\nM30"]), @"");
+    assert_snapshot!(said(&["X[COMP OFF FRICT]\nX1\nX[COMP OFF FRICT]\nM30"]), @"
+    FC402 3:1 this command repeats line 1: `FRICT` of axis `X` is already off
+    FC401 3:1 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON FRICT]`
+    ");
     // What a program found and did not touch, or brought home, is none of its business.
     let left = "X[COMP OFF FRICT]\nM30";
-    assert_snapshot!(said(&[left, "G90\nM30", "X[COMP OFF FRICT]\nX1\nX[COMP ON FRICT]\nM30"]), @"");
+    assert_snapshot!(said(&[left, "G90\nM30", "X[COMP OFF FRICT]\nX1\nX[COMP ON FRICT]\nM30"]), @"
+    FC401 1:1 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON FRICT]`
+    b.nc
+    c.nc
+    ");
     // Set to what it is already, and left.
-    assert_snapshot!(said(&[left, "X[COMP OFF FRICT]\nX1\nM30"]), @"");
+    assert_snapshot!(said(&[left, "X[COMP OFF FRICT]\nX1\nM30"]), @"
+    FC401 1:1 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON FRICT]`
+    b.nc
+    FC401 1:1 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON FRICT]`
+    ");
 }
 
 #[test]
 fn every_kind_counts_by_itself() {
     // R1.50 R1.53: CROSS of X falls off at program end and is at home there.
-    assert_snapshot!(said(&["X[COMP OFF FRICT LEAD]\nX1\nX[COMP ON FRICT CROSS]\nM30"]), @"");
-    assert_snapshot!(said(&["X[COMP OFF LEAD]\nX1\nX[COMP OFF_ALL]\nM30"]), @"");
+    assert_snapshot!(said(&["X[COMP OFF FRICT LEAD]\nX1\nX[COMP ON FRICT CROSS]\nM30"]), @"
+    FC401 1:1 `LEAD` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON LEAD]`
+    ");
+    assert_snapshot!(said(&["X[COMP OFF LEAD]\nX1\nX[COMP OFF_ALL]\nM30"]), @"
+    FC401 3:1 `LEAD` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON LEAD]`
+    FC407 3:1 the second run differs from the first: line 2 moves axis `X` before the program sets `FRICT`, and line 3 leaves it inactive
+      help: set it before the first motion, and bring it home before M30: `X[COMP ON FRICT]`
+      2:1: the axis moves here first
+    ");
 }
 
 #[test]
@@ -34,17 +58,30 @@ fn a_repeat_is_one_of_the_same_program() {
     assert_snapshot!(said(&[
         "X[COMP ON FRICT]\nX[COMP ON FRICT LEAD]\nX[COMP ON LEAD]\nX[COMP ON LEAD FRICT]\nM30",
         "X[COMP ON FRICT]\nM30",
-    ]), @"");
+    ]), @"
+    FC402 3:1 this command repeats line 2: `LEAD` of axis `X` is already on
+    FC402 4:1 this command repeats line 3: `LEAD FRICT` of axis `X` is already on
+    b.nc
+    ");
     // Off what is not configured, but never the first command on an axis.
-    assert_snapshot!(said(&["Z[COMP OFF FRICT]\nZ[COMP OFF_ALL]\nZ[COMP ON LEAD]\nZ[COMP OFF CROSS]\nM30"]), @"");
+    assert_snapshot!(said(&["Z[COMP OFF FRICT]\nZ[COMP OFF_ALL]\nZ[COMP ON LEAD]\nZ[COMP OFF CROSS]\nM30"]), @"FC402 4:1 this command repeats line 2: `CROSS` of axis `Z` is already off");
     // A refused command is as if it were not there; something unknown lies between.
     assert_snapshot!(said(&[
         "Z[COMP ON FRICT]\nZ[COMP OFF FRICT]\nX[COMP ON FRICT]\n$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30",
-    ]), @"");
+    ]), @"
+    P-ERR-70495 1:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
+      help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
+      help: to go on as if it were set, run with `--enable Z`
+    FC901 4:1 this control block hangs on `V.E.A`, which only the machine knows; what it could change is unknown from here
+      help: make it known with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
+    ");
     // In a loop and from a subprogram.
     assert_snapshot!(said(&[
         "%L S\nY[COMP ON FRICT]\nM17\n%M\n$FOR P1=1,2,1\nX[COMP ON FRICT]\n$ENDFOR\nY[COMP ON FRICT]\nLL S\nM30",
-    ]), @"");
+    ]), @"
+    FC402 6:1 this command repeats itself: `FRICT` of axis `X` is already on
+    FC402 2:1 this command repeats line 8: `FRICT` of axis `Y` is already on
+    ");
 }
 
 #[test]
@@ -55,18 +92,49 @@ fn who_made_it_so_is_named() {
         "%SECOND\nX[COMP OFF FRICT NO_MOVE]\nX1\nM30",
         "G01 Y1 F100\nX1\nX[COMP ON FRICT]\nM30",
         "X1\nM30",
-    ]), @"");
+    ]), @"
+    FC401 2:5 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON FRICT]`
+    b.nc
+    FC401 2:1 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON FRICT]`
+    c.nc
+    FC403 2:1 axis `X` moves with friction compensation inactive, left so by `X[COMP OFF FRICT NO_MOVE]` at b.nc:2 of program `SECOND`
+      help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
+    d.nc
+    ");
     // The state that a region may have changed is not known.
-    assert_snapshot!(said(&["$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX1\nM30", "X1\nM30"]), @"");
+    assert_snapshot!(said(&["$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX1\nM30", "X1\nM30"]), @"
+    FC901 1:1 this control block hangs on `V.E.A`, which only the machine knows; what it could change is unknown from here
+      help: make it known with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
+    b.nc
+    FC403 1:1 axis `X` moves in an unknown state of friction compensation, left so by `$IF V.E.A` at a.nc:1
+      help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
+    ");
 }
 
 #[test]
 fn motion_before_the_first_command_makes_the_second_run_differ() {
     // R1.53: also where the axis was found away from home; FC403 stands beside it.
     let program = "X1\nX[COMP OFF FRICT]\nX2\nM30";
-    assert_snapshot!(said(&[program, program]), @"");
+    assert_snapshot!(said(&[program, program]), @"
+    FC407 2:1 the second run differs from the first: line 1 moves axis `X` before the program sets `FRICT`, and line 2 leaves it inactive
+      help: set it before the first motion, and bring it home before M30: `X[COMP ON FRICT]`
+      1:1: the axis moves here first
+    b.nc
+    FC403 1:1 axis `X` moves with friction compensation inactive, left so by `X[COMP OFF FRICT]` at a.nc:2
+      help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
+    FC407 2:1 the second run differs from the first: line 1 moves axis `X` before the program sets `FRICT`, and line 2 leaves it inactive
+      help: set it before the first motion, and bring it home before M30: `X[COMP ON FRICT]`
+      1:1: the axis moves here first
+    ");
     // In one block the command comes first.
-    assert_snapshot!(said(&["X1 X[COMP OFF FRICT]\nX2\nM30"]), @"");
+    assert_snapshot!(said(&["X1 X[COMP OFF FRICT]\nX2\nM30"]), @"
+    FC405 1:4 COMP and motion share a block; the command takes effect before the motion
+      help: write the command in a block of its own
+    FC401 1:4 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
+      help: bring it home before M30: `X[COMP ON FRICT]`
+    ");
     // At home in the end: no difference.
     assert_snapshot!(said(&["X1\nX[COMP OFF FRICT]\nX2\nX[COMP ON FRICT]\nM30"]), @"");
 }
@@ -74,12 +142,26 @@ fn motion_before_the_first_command_makes_the_second_run_differ() {
 #[test]
 fn remarks_on_the_text_of_a_command() {
     // R1.54 R1.55 R1.56
-    assert_snapshot!(said(&["x[COMP ON FRICT]\nX[comp ON FRICT FRICT] Y1\nM30"]), @"");
+    assert_snapshot!(said(&["x[COMP ON FRICT]\nX[comp ON FRICT FRICT] Y1\nM30"]), @r#"
+    P-ERR-21947 1:1 the machine has no axis `x`
+      help: did you mean `X`?
+      help: the configuration lists all axes: X, Y, Z, B
+      help: if the machine has axis `x`, add it: `[[axis]]` with `name = "x"` in `frictcomp.toml`
+    FC405 2:1 COMP and motion share a block; the command takes effect before the motion
+      help: write the command in a block of its own
+    FC404 2:3 keyword `comp` is not in upper case
+      help: write `COMP`
+    FC406 2:17 kind `FRICT` is named twice in this bracket, it counts once
+    "#);
 }
 
 #[test]
 fn an_error_ends_without_blame() {
     // R1.50 R1.53: the program is not blamed for what it did not come to; who made it so is known.
     let bench = Bench::on(MACHINE);
-    assert_snapshot!(bench.said_in_session(&["X1\nX[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30"]), @"");
+    assert_snapshot!(bench.said_in_session(&["X1\nX[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30"]), @"
+    P-ERR-70495 3:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
+      help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
+      help: to go on as if it were set, run with `--enable Z`
+    ");
 }

@@ -117,12 +117,11 @@ impl Program {
         let head = self.plain("$FOR P1=1,2,1");
         let body = self.stretch(rng);
         let foot = self.plain("$ENDFOR");
+        self.executed.push(head);
         for _ in 0..2 {
-            self.executed.push(head.clone());
             self.executed.extend(body.iter().cloned());
             self.executed.push(foot.clone());
         }
-        self.executed.push(head);
     }
 
     fn stretch(&mut self, rng: &mut Rng) -> Vec<Block> {

@@ -137,7 +137,7 @@ fn a_file_of_schema_1_is_read_with_nobody_known() {
         });
     }
     bench.write("s.json", &old.to_string());
-    let text = bench.stdout(&["run", "--state", "s.json", "b.nc"]);
+    let text = bench.stdout(&["run", "--width", "200", "--state", "s.json", "b.nc"]);
     assert!(text.contains("info[FC403]"), "{text}");
     assert!(text.contains("a program that is not known"), "{text}");
     assert_eq!(json(&bench.read("s.json"))["schema"], 2);
@@ -153,7 +153,7 @@ fn the_demo_says_fc403_twice_in_two_processes() {
     let (friction, next) = (demo("friction.nc"), demo("next.nc"));
     let bench = Bench::new(&[("friction.nc", &friction), ("next.nc", &next)]);
     bench.stdout(&["run", "--state", "s", "friction.nc"]);
-    let apart = bench.stdout(&["run", "--state", "s", "next.nc"]);
+    let apart = bench.stdout(&["run", "--width", "200", "--state", "s", "next.nc"]);
     assert_eq!(apart.matches("info[FC403]").count(), 2, "{apart}");
     assert!(
         apart.contains("friction.nc:5") && apart.contains("friction.nc:3"),

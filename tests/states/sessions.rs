@@ -77,7 +77,7 @@ fn random_sessions_say_what_the_rules_say() {
     // R1.50 R1.51 R1.52 R1.53 R9.24
     let mut rng = Rng::with_seed(11);
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for round in 0..3000 {
+    for round in 0..1500 {
         let programs: Vec<Program> = (0..3).map(|_| Program::random(&mut rng)).collect();
         let mut session = Session::new(machine(), options());
         let (mut lints, mut model) = (Lints::default(), Model::new());
@@ -105,7 +105,7 @@ fn random_sessions_say_what_the_rules_say() {
     }
     for lint in LINTS {
         assert!(
-            counts.get(lint).is_some_and(|count| *count > 500),
+            counts.get(lint).is_some_and(|count| *count > 250),
             "{counts:?}"
         );
     }
@@ -158,7 +158,7 @@ fn a_state_file_carries_a_session_on_to_the_byte() {
     // R9.32 R1.52
     let mut rng = Rng::with_seed(12);
     let (mut depends, mut unknown) = (0, 0);
-    for round in 0..1500 {
+    for round in 0..400 {
         let mut texts: Vec<String> = Vec::new();
         for _ in 0..3 {
             let mut text = Program::random(&mut rng).text;
@@ -174,18 +174,17 @@ fn a_state_file_carries_a_session_on_to_the_byte() {
         for (name, text) in ["a.nc", "b.nc", "c.nc"].iter().zip(&texts) {
             let expected = last_records(&mut together, (name, text));
             let found = last_records(&mut apart, (name, text));
-            assert_eq!(
-                found,
-                expected,
-                "round {round}, {name}\n{}",
-                texts.join("---\n")
-            );
+            for (found, expected) in found.lines().zip(expected.lines()) {
+                let texts = texts.join("---\n");
+                assert_eq!(found, expected, "round {round}, {name}\n{texts}");
+            }
+            assert_eq!(found.len(), expected.len());
             depends += expected.matches("FC403").count();
             unknown += usize::from(expected.contains("unknown"));
             apart = resumed(machine(), &apart);
         }
     }
-    assert!(depends > 300 && unknown > 300, "{depends} {unknown}");
+    assert!(depends > 100 && unknown > 100, "{depends} {unknown}");
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn nothing_says_that_there_is_nothing_to_do() {
     // R1.37
     for program in [OFF, "X1\nM30\n"] {
         let bench = bench(program);
-        let text = bench.stdout(&["run", "--isolated", "a.nc"]);
+        let text = bench.stdout(&["run", "--width", "200", "--isolated", "a.nc"]);
         let first = text.lines().next().unwrap_or_default();
         assert!(first.starts_with("no machine is described"), "{text}");
         assert!(text.contains("`frictcomp init`"), "{text}");

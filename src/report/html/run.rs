@@ -111,7 +111,15 @@ fn title(story: &RunStory) -> String {
     title
 }
 
+/// What stands under the title, first of all that no machine is described (R1.37).
 fn lead(story: &RunStory) -> String {
+    match &story.remark {
+        Some(remark) => format!("{remark}. {}", counts(story)),
+        None => counts(story),
+    }
+}
+
+fn counts(story: &RunStory) -> String {
     let Some(summary) = &story.summary else {
         return "The session did not come to its end.".to_owned();
     };

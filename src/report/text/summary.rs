@@ -152,27 +152,31 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
     if summary.axes.is_empty() {
         return;
     }
+    let before = out.len();
     out.push(b'\n');
-    let mut said = !summary.state.machine.is_described() || !summary.axes.iter().all(is_home);
+    let bare = out.len();
     for axis in &summary.axes {
         let name = summary.state.name(axis.axis);
         let Some(text) = axis_advice(axis, name) else {
             continue;
         };
-        said = true;
         let mut line = Line::new(out, look.paint);
         line.styled(style(axis.end).bold(), name);
         line.plain(&text);
         line.end();
     }
+    let all_home = summary.state.machine.is_described() && summary.axes.iter().all(is_home);
     if let Some(text) = error_advice(summary.count(Severity::Error), by) {
         let mut line = Line::new(out, look.paint);
         line.plain(text);
         line.end();
-    } else if !said {
+    } else if out.len() == bare && all_home {
         let mut line = Line::new(out, look.paint);
         line.styled(DIM, NOTHING_TO_DO);
         line.end();
+    }
+    if out.len() == bare {
+        out.truncate(before);
     }
 }
 

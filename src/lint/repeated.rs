@@ -17,35 +17,38 @@ pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic>
     }
     let command = &taken.outcome.command;
     let deed = Deed::from(command.selection);
+    let kinds = command.selection.kinds();
+    let place = place(taken.executed, command.span);
+    let (what, name) = (what(command.selection), &command.axis);
+    let say = |message| Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone());
+    let useless = |kind| deed == Deed::Off && is_unconfigured(linter, taken, kind);
+    if kinds.iter().all(useless) {
+        let message =
+            format!("this command changes nothing: {what} of axis `{name}` is not configured");
+        return Some(say(message));
+    }
     let mut repeated: Option<&Arc<Site>> = None;
-    for kind in command.selection.kinds().iter() {
+    for kind in kinds.iter() {
         match &memory.kind(kind).last {
             Some((earlier, site)) if *earlier == deed => {
                 if repeated.is_none_or(|other| other.seq < site.seq) {
                     repeated = Some(site);
                 }
             }
-            _ if deed == Deed::Off && is_unconfigured(linter, taken, kind) => {}
+            _ if useless(kind) => {}
             _ => return None,
         }
     }
-    let place = place(taken.executed, command.span);
-    let what = what(command.selection);
-    let name = &command.axis;
     let state = if deed == Deed::On { "on" } else { "off" };
-    let message = match repeated {
-        None => {
-            format!("this command changes nothing: {what} of axis `{name}` is not configured")
-        }
-        Some(site) if site.place == place => {
-            format!("this command repeats itself: {what} of axis `{name}` is already {state}")
-        }
-        Some(site) => {
-            let site = site.seen_from(&place.file);
-            format!("this command repeats {site}: {what} of axis `{name}` is already {state}")
-        }
-    };
-    Some(Diagnostic::new(Code::Fc402, place, message).with_axis(name.clone()))
+    let said = say(format!(
+        "this command repeats an earlier one: {what} of axis `{name}` is already {state}"
+    ));
+    // In a loop it repeats itself.
+    let other = repeated.filter(|site| site.place != said.place);
+    Some(match other {
+        Some(site) => said.with_label(site.place.clone(), "the earlier one"),
+        None => said,
+    })
 }
 
 /// Whether the machine is known to lack a kind on the axis.

@@ -14,7 +14,8 @@ fn said(programs: &[&str]) -> String {
 fn what_is_left_away_from_home_is_said_at_the_last_command() {
     // R1.50: also where that command changed nothing.
     assert_snapshot!(said(&["X[COMP OFF FRICT]\nX1\nX[COMP OFF FRICT]\nM30"]), @"
-    FC402 3:1 this command repeats line 1: `FRICT` of axis `X` is already off
+    FC402 3:1 this command repeats an earlier one: `FRICT` of axis `X` is already off
+      1:1: the earlier one
     FC401 3:1 `FRICT` of axis `X` is left inactive past program end; the control starts with it active
       help: bring it home before M30: `X[COMP ON FRICT]`
     ");
@@ -59,12 +60,14 @@ fn a_repeat_is_one_of_the_same_program() {
         "X[COMP ON FRICT]\nX[COMP ON FRICT LEAD]\nX[COMP ON LEAD]\nX[COMP ON LEAD FRICT]\nM30",
         "X[COMP ON FRICT]\nM30",
     ]), @"
-    FC402 3:1 this command repeats line 2: `LEAD` of axis `X` is already on
-    FC402 4:1 this command repeats line 3: `LEAD FRICT` of axis `X` is already on
+    FC402 3:1 this command repeats an earlier one: `LEAD` of axis `X` is already on
+      2:1: the earlier one
+    FC402 4:1 this command repeats an earlier one: `LEAD FRICT` of axis `X` is already on
+      3:1: the earlier one
     b.nc
     ");
     // Off what is not configured, but never the first command on an axis.
-    assert_snapshot!(said(&["Z[COMP OFF FRICT]\nZ[COMP OFF_ALL]\nZ[COMP ON LEAD]\nZ[COMP OFF CROSS]\nM30"]), @"FC402 4:1 this command repeats line 2: `CROSS` of axis `Z` is already off");
+    assert_snapshot!(said(&["Z[COMP OFF FRICT]\nZ[COMP OFF_ALL]\nZ[COMP ON LEAD]\nZ[COMP OFF CROSS]\nM30"]), @"FC402 4:1 this command changes nothing: `CROSS` of axis `Z` is not configured");
     // A refused command is as if it were not there; something unknown lies between.
     assert_snapshot!(said(&[
         "Z[COMP ON FRICT]\nZ[COMP OFF FRICT]\nX[COMP ON FRICT]\n$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30",
@@ -72,15 +75,16 @@ fn a_repeat_is_one_of_the_same_program() {
     P-ERR-70495 1:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
       help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
       help: to go on as if it were set, run with `--enable Z`
-    FC901 4:1 this control block hangs on `V.E.A`, which only the machine knows; what it could change is unknown from here
+    FC901 4:1 this control block depends on `V.E.A`, which only the machine knows; what it could change is unknown from here
       help: make it known with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
     ");
     // In a loop and from a subprogram.
     assert_snapshot!(said(&[
         "%L S\nY[COMP ON FRICT]\nM17\n%M\n$FOR P1=1,2,1\nX[COMP ON FRICT]\n$ENDFOR\nY[COMP ON FRICT]\nLL S\nM30",
     ]), @"
-    FC402 6:1 this command repeats itself: `FRICT` of axis `X` is already on
-    FC402 2:1 this command repeats line 8: `FRICT` of axis `Y` is already on
+    FC402 6:1 this command repeats an earlier one: `FRICT` of axis `X` is already on
+    FC402 2:1 this command repeats an earlier one: `FRICT` of axis `Y` is already on
+      8:1: the earlier one
     ");
 }
 
@@ -105,7 +109,7 @@ fn who_made_it_so_is_named() {
     ");
     // The state that a region may have changed is not known.
     assert_snapshot!(said(&["$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX1\nM30", "X1\nM30"]), @"
-    FC901 1:1 this control block hangs on `V.E.A`, which only the machine knows; what it could change is unknown from here
+    FC901 1:1 this control block depends on `V.E.A`, which only the machine knows; what it could change is unknown from here
       help: make it known with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
     b.nc
     FC403 1:1 axis `X` moves in an unknown state of friction compensation, left so by `$IF V.E.A` at a.nc:1

@@ -47,6 +47,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
     (
         "timeline",
         &[
+            "source",
             "diagnostic",
             "codes",
             "syntax",

@@ -323,7 +323,7 @@ impl LineSource for TextLines<'_> {
 }
 
 /// Looks through the bytes of a program, piece by piece, for anything that needs the whole text at
-/// once: a `$` statement or a local subprogram (`%L name`).
+/// once: a `$` statement, a local subprogram (`%L name`), a part of the program (`L SEQUENCE`).
 #[derive(Debug, Clone, Default)]
 pub struct FlowScan {
     found: bool,
@@ -334,10 +334,15 @@ impl FlowScan {
     pub fn feed(&mut self, piece: &[u8]) {
         let mut from = 0;
         while !self.found {
-            let Some(at) = memchr::memchr2(b'$', b'%', &piece[from..]).map(|at| from + at) else {
+            let found = memchr::memchr3(b'$', b'%', b'Q', &piece[from..]);
+            let Some(at) = found.map(|at| from + at) else {
                 break;
             };
-            self.found = piece[at] == b'$' || Self::opens_subprogram(&piece[at + 1..]);
+            self.found = match piece[at] {
+                b'$' => true,
+                b'%' => Self::opens_subprogram(&piece[at + 1..]),
+                _ => Self::calls_part(&piece[..at], &piece[at + 1..]),
+            };
             from = at + 1;
         }
     }
@@ -345,6 +350,16 @@ impl FlowScan {
     /// Whether the whole text is needed.
     pub fn needs_whole_text(&self) -> bool {
         self.found
+    }
+
+    /// The word `SEQUENCE` around its `Q`; what lies in another piece is taken as fitting. In lower
+    /// case it is rare, and said where a block of it was not kept.
+    fn calls_part(before: &[u8], after: &[u8]) -> bool {
+        let before = before.iter().rev().zip(b"ES");
+        let after = after.iter().zip(b"UENCE");
+        before
+            .chain(after)
+            .all(|(found, wanted)| found.eq_ignore_ascii_case(wanted))
     }
 
     /// `%L` with a separator behind it; a piece that ends before that is taken as one.

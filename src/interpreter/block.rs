@@ -323,6 +323,8 @@ impl Interpreter {
                 Ok(())
             }
             Item::GCall(call) => self.g_call(call, block, at, intent),
+            Item::Sequence(sequence) => self.sequence(sequence, block, at, intent),
+            Item::Return(back) => self.return_to(back, block, at, intent),
             Item::Call(call) => {
                 let wanted = self.wanted(call, block, at)?;
                 intent.calls.extend(wanted);

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::program::Index;
+use super::sequence::Part;
 use super::{
     At, Finder, Frame, Interpreter, NoProgram, Repeated, RepeatedCall, Request, Step, StopPolicy,
     Value, after_motion_only,
@@ -30,6 +31,8 @@ pub(super) struct Wanted {
     pub(super) form: CallForm,
     /// Set for a modal cycle: whether it waits for motion.
     pub(super) repeat: Option<bool>,
+    /// The part of the program, where it is not the whole.
+    pub(super) part: Option<Part>,
 }
 
 impl Wanted {
@@ -42,6 +45,7 @@ impl Wanted {
             span,
             form: CallForm::Plain,
             repeat: None,
+            part: None,
         }
     }
 }
@@ -81,6 +85,7 @@ impl Interpreter {
                 span: at.in_block(call.span),
                 form: call.form,
                 repeat: after_motion_only(call),
+                part: None,
             })),
             Value::Unknown(cause) => {
                 self.forget_all();
@@ -131,7 +136,11 @@ impl Interpreter {
             return None;
         }
         let unit = self.state.frames.last().map_or(0, |frame| frame.unit);
-        let found = match self.find(&wanted, (unit, at.file), finder) {
+        let here = self.current_program().filter(|_| self.is_here(&wanted));
+        let found = match here.map_or_else(
+            || self.find(&wanted, (unit, at.file), finder),
+            |here| Ok(Some(here)),
+        ) {
             Ok(found) => found?,
             Err(fault) => {
                 self.work.diagnostics.push(at.diagnostic(*fault));
@@ -172,8 +181,10 @@ impl Interpreter {
             self.work.diagnostics.push(at.diagnostic(fault));
             return None;
         }
+        let passage = self.passage(&wanted, found, at).ok()?;
         Some(Request {
             found,
+            passage,
             own: wanted.own,
             form: wanted.form,
             called_from: at.place(wanted.span),
@@ -270,6 +281,7 @@ impl Interpreter {
             } else {
                 calls.push(Request {
                     found,
+                    passage: None,
                     own: repeated.own.clone(),
                     form: CallForm::Cycle,
                     called_from: at.place(Span::new(0, at.text.len())),
@@ -353,6 +365,7 @@ impl Interpreter {
             Ok(Some(found)) => {
                 self.push_call(Request {
                     found,
+                    passage: None,
                     own: BTreeMap::new(),
                     form: CallForm::Plain,
                     called_from: place,
@@ -382,13 +395,18 @@ impl Interpreter {
         self.state.frames.push(Frame {
             unit,
             section,
-            next: self.units[unit].index.sections[section].start,
+            next: request
+                .passage
+                .map_or(self.units[unit].index.sections[section].start, |passage| {
+                    passage.first
+                }),
             level,
             own: request.own,
             seeking: None,
             called_from: Some(request.called_from),
             restores,
             waiting: Vec::new(),
+            passage: request.passage,
         });
     }
 

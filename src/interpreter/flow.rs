@@ -33,11 +33,12 @@ impl Interpreter {
                 self.call_waiting();
                 continue;
             }
-            if next >= self.units[unit].index.sections[section].end {
+            let is_past = next >= self.units[unit].index.sections[section].end;
+            if is_past || frame.passage.is_some_and(|passage| next > passage.last) {
                 if frame.level == 0 {
                     return Outlook::Ended(EndedBy::EndOfFile);
                 }
-                self.leave();
+                self.end_of_pass();
                 continue;
             }
             let parsed = self.parsed(unit, next);
@@ -115,13 +116,14 @@ impl Interpreter {
                 self.push_call(first);
             }
             Step::Return => match self.state.frames.last() {
-                Some(frame) if frame.level > 0 => self.leave(),
+                Some(frame) if frame.level > 0 => self.end_of_pass(),
                 _ => {
                     // A subprogram run by itself ends as it should.
                     self.state.last = None;
                     return ControlFlow::Break(EndedBy::EndOfFile);
                 }
             },
+            Step::ReturnTo(destination) => self.go_back(&destination),
             Step::End(by) => return ControlFlow::Break(by),
         }
         ControlFlow::Continue(())
@@ -136,7 +138,22 @@ impl Interpreter {
         }
     }
 
-    fn leave(&mut self) {
+    /// A part of a program begins once more, or a program is left.
+    fn end_of_pass(&mut self) {
+        let executed = self.state.seq;
+        let frame = self.state.frames.last_mut();
+        let again = frame.and_then(|frame| {
+            let start = frame.passage.as_mut()?.again(executed)?;
+            frame.next = start;
+            frame.seeking = None;
+            Some(())
+        });
+        if again.is_none() {
+            self.leave();
+        }
+    }
+
+    pub(super) fn leave(&mut self) {
         if let Some(frame) = self.state.frames.pop() {
             self.journal.begin_anew();
             self.state

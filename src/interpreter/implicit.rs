@@ -108,7 +108,7 @@ impl Interpreter {
         self.work.diagnostics.push(at.diagnostic(fault));
     }
 
-    fn unknown_program(&mut self, cause: &str, (span, at): (Span, &At<'_>)) {
+    pub(super) fn unknown_program(&mut self, cause: &str, (span, at): (Span, &At<'_>)) {
         self.forget_all();
         let fault = Fault::new(
             Code::Fc902,

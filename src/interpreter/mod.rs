@@ -31,6 +31,7 @@ mod modal;
 mod motion;
 mod program;
 mod region;
+mod sequence;
 mod snapshot;
 mod stream;
 mod unknown;
@@ -71,6 +72,7 @@ use coupling::Couplings;
 use endless::{Loop, Reads};
 use memory::Memory;
 use program::{EntryIndex, Index};
+use sequence::{Destination, Passage, Sought};
 use unknown::{Journal, Regions, Scan};
 
 /// What happens at an error of the control (R9.20).
@@ -131,6 +133,8 @@ struct Frame {
     restores: Option<Box<modal::Saved>>,
     /// Programs that are called before the next block, the first one last.
     waiting: Vec<Request>,
+    /// The blocks that are executed, where that is not the whole program.
+    passage: Option<Passage>,
 }
 
 /// What the next branch statement has to decide.
@@ -264,6 +268,10 @@ pub struct Interpreter {
     /// Whether any axis requires a compensation (P-AXIS-00465).
     any_required: bool,
     units: Vec<Unit>,
+    /// The blocks of sections by their numbers, where those were asked for.
+    numbers: HashMap<(usize, usize), HashMap<i64, EntryIndex>>,
+    /// Where a main program that is read line by line goes on.
+    sought: Option<Sought>,
     /// Which file a call by name from a file meant.
     found: BTreeMap<(String, String), usize>,
     /// Which calls found none, and why.
@@ -339,6 +347,8 @@ enum Step {
     Call(Vec<Request>),
     /// M17, M29.
     Return,
+    /// The same with a place to return to.
+    ReturnTo(Destination),
     End(EndedBy),
 }
 
@@ -353,6 +363,7 @@ enum Departure {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Request {
     found: Found,
+    passage: Option<Passage>,
     own: BTreeMap<u32, Value>,
     form: CallForm,
     called_from: Place,
@@ -420,6 +431,8 @@ impl Interpreter {
             letters,
             names,
             units: Vec::new(),
+            numbers: HashMap::new(),
+            sought: None,
             found: BTreeMap::new(),
             missing: BTreeMap::new(),
             unit_names: HashMap::new(),
@@ -514,6 +527,8 @@ impl Interpreter {
         let main = index.main();
         let name = main.and_then(|main| index.sections[main].name.clone());
         self.units.clear();
+        self.numbers.clear();
+        self.sought = None;
         self.unit_names.clear();
         self.hold(index);
         if self.announce(name.as_deref(), observer).is_break() {
@@ -635,6 +650,7 @@ impl Interpreter {
             called_from: None,
             restores: None,
             waiting: Vec::new(),
+            passage: None,
         });
     }
 

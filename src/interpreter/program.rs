@@ -204,6 +204,32 @@ impl Index {
         self.labels.get(&(section, label)).copied()
     }
 
+    /// The blocks of a section by their numbers; of a number given twice the first one.
+    pub(super) fn numbers(&self, section: usize) -> HashMap<i64, EntryIndex> {
+        let mut numbers = HashMap::new();
+        let Some(section) = self.sections.get(section) else {
+            return numbers;
+        };
+        let Some(mut reader) = self.reader(section.start) else {
+            return numbers;
+        };
+        let mut block = Block::default();
+        for entry in section.start..section.end {
+            while let Some(raw) = reader.next(&mut block) {
+                if raw.stretch == Stretch::Block {
+                    break;
+                }
+            }
+            if let Some(number) = &block.number
+                && let Operand::Number(value) = number.value
+                && let Some(value) = rounded(value)
+            {
+                numbers.entry(value).or_insert(entry);
+            }
+        }
+        numbers
+    }
+
     /// The span of a block's first line in the file's text, shifted to a span in the block.
     pub(super) fn place(&self, entry: EntryIndex, span: Span) -> crate::diagnostic::Place {
         let offset = self

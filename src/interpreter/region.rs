@@ -20,7 +20,7 @@ use super::event::Notes;
 use super::expression::{unquoted, with_subscripts};
 use super::hash::{declared_name, point_behind};
 use super::implicit::{is_file_name, named_words};
-use super::program::EntryIndex;
+use super::program::{EntryIndex, Section};
 use super::value::rounded;
 use super::{Group, Interpreter, after_motion_only};
 use crate::machine::AxisIndex;
@@ -127,8 +127,16 @@ impl Interpreter {
             calls: HashSet::new(),
             macros: Vec::new(),
             expanded: HashSet::new(),
+            whole: false,
         };
-        gathering.blocks(unit, range);
+        gathering.blocks(unit, range.clone());
+        if gathering.whole {
+            let sections = &self.units[unit].index.sections;
+            let around = |section: &&Section| (section.start..section.end).contains(&range.start);
+            if let Some(section) = sections.iter().find(around) {
+                gathering.blocks(unit, section.start..section.end);
+            }
+        }
         let region = Rc::new(gathering.region);
         self.regions.insert(key, Rc::clone(&region));
         region
@@ -172,6 +180,8 @@ struct Gathering<'a> {
     /// Macros of the region whose code was not looked through yet.
     macros: Vec<(String, Span)>,
     expanded: HashSet<String>,
+    /// Whether it may execute any part of its program.
+    whole: bool,
 }
 
 impl Gathering<'_> {
@@ -273,6 +283,16 @@ impl Gathering<'_> {
             Item::Flow(Flow::Switch(Some(target), _), _) => self.target(target.place, block, at),
             Item::Word(word) => self.word(word, block, at),
             Item::Call(call) => self.call(call, at),
+            Item::Sequence(sequence) => match sequence.name {
+                // Some part of the program that holds the region.
+                None => self.whole = true,
+                Some(CallName::Variable(_)) => self.effect(Effect::All),
+                Some(CallName::Literal(name) | CallName::Quoted(name)) => {
+                    let name = unquoted(name.of(at.text));
+                    let span = at.in_block(sequence.span);
+                    self.calls(Wanted::program(CallScope::Global, name.to_owned(), span));
+                }
+            },
             Item::GCall(call) => {
                 let number = Some(i64::from(call.number));
                 self.effect(Effect::Function(b'G', number));
@@ -289,6 +309,7 @@ impl Gathering<'_> {
             | Item::Bracket { .. }
             | Item::BareNumber(..)
             | Item::Label(_)
+            | Item::Return(_)
             | Item::Flow(..) => {}
         }
     }

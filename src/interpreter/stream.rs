@@ -7,14 +7,15 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::program::{Index, REAL_TIME_LOOP};
+use super::program::{Index, LabelName, REAL_TIME_LOOP};
+use super::value::rounded;
 use super::{
     At, Departure, EndedBy, Finder, Interpreter, Observer, Outlook, Shown, SourceFile, StopPolicy,
     one,
 };
 use crate::diagnostic::Collected;
 use crate::source::LineSource;
-use crate::syntax::ast::{Block, CallScope, Item};
+use crate::syntax::ast::{Block, CallScope, Item, Operand};
 use crate::syntax::{BlockReader, RawBlock, Stretch};
 
 /// How far the program has come.
@@ -94,6 +95,9 @@ impl Interpreter {
                     return outlook;
                 }
             }
+            if self.is_on_the_way(&block) {
+                continue;
+            }
             let shown = Shown::default();
             let at = At {
                 file: &file,
@@ -141,6 +145,24 @@ impl Interpreter {
             return outlook;
         }
         self.end_of_lines(stage, notes, observer)
+    }
+
+    /// Whether a block is passed over on the way to the one that M17 returned to.
+    fn is_on_the_way(&mut self, block: &Block) -> bool {
+        let Some(sought) = &self.sought else {
+            return false;
+        };
+        let number = block.number.map(|number| number.value);
+        let is_it = match (&sought.label, number) {
+            (LabelName::Number(wanted), Some(Operand::Number(number))) => {
+                rounded(number) == Some(*wanted)
+            }
+            _ => false,
+        };
+        if is_it {
+            self.sought = None;
+        }
+        !is_it
     }
 
     /// Enters the program that was announced and runs the one that comes before each; an outlook
@@ -197,6 +219,13 @@ impl Interpreter {
             Stage::Before | Stage::Announced => self.begin(Some(0), finder, observer),
             Stage::Running if self.is_refused() => self.refuse(observer),
             Stage::Running => {
+                if let Some(sought) = self.sought.take() {
+                    let found = self.block_of((0, 0), &sought.label);
+                    match (found, self.state.frames.last_mut()) {
+                        (Some(entry), Some(frame)) => frame.next = entry,
+                        _ => return self.ended(EndedBy::Error, one(sought.missing), observer),
+                    }
+                }
                 let outlook = self.run(finder, observer);
                 self.close(outlook, observer)
             }
@@ -211,6 +240,9 @@ impl Interpreter {
         notes: Collected,
         observer: &mut dyn Observer,
     ) -> Outlook {
+        if let Some(sought) = self.sought.take() {
+            return self.ended(EndedBy::Error, one(sought.missing), observer);
+        }
         let mut said = self.refused();
         let by = if let Stage::Beyond(Some(by)) = stage {
             by
@@ -234,6 +266,7 @@ fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
                     // A macro's code may be a jump or a call.
                     Item::Label(_) | Item::Flow(..) | Item::MacroUse(_) => true,
                     Item::Call(call) => call.scope == CallScope::Local,
+                    Item::Sequence(sequence) => sequence.name.is_none(),
                     Item::Hash(hash) => hash.name == REAL_TIME_LOOP,
                     _ => false,
                 })

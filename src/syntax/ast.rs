@@ -144,6 +144,10 @@ pub enum Item {
     Hash(Hash),
     /// A subprogram call.
     Call(Call),
+    /// A call of a part of a program, `L SEQUENCE […]`.
+    Sequence(Sequence),
+    /// `M17 […]`, `M29 […]`.
+    Return(Return),
     /// `"NAME" = "code"`, both with their quotes.
     MacroDefinition(Span, Span),
     /// `"NAME"`, with its quotes.
@@ -166,6 +170,8 @@ impl Item {
             Self::Assign(assignment) => assignment.span,
             Self::Hash(hash) => hash.span,
             Self::Call(call) => call.span,
+            Self::Sequence(sequence) => sequence.span,
+            Self::Return(back) => back.span,
             Self::MacroDefinition(name, code) => name.to(*code),
         }
     }
@@ -309,6 +315,45 @@ pub enum CallScope {
     Local,
     /// `L`: in a file.
     Global,
+}
+
+/// `L SEQUENCE [NAME=a.nc N10 N20 REPEAT=3 ENDTAG]`: the blocks from one to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sequence {
+    /// The program; the one that is executed where it is left out.
+    pub name: Option<CallName>,
+    /// The first block.
+    pub first: JumpTarget,
+    /// The last block.
+    pub last: Option<JumpTarget>,
+    /// Whether the call itself ends the sequence, too.
+    pub end_tag: bool,
+    /// How often it is executed; once where it is left out.
+    pub passes: Option<Operand>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// `M17 [MAIN [LABEL]]`: where a subprogram returns to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Return {
+    /// Over how many programs.
+    pub levels: Levels,
+    /// To which block, where that is not the next one.
+    pub target: Option<JumpTarget>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// How far a subprogram returns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Levels {
+    /// To its caller.
+    One,
+    /// To the main program.
+    Main,
+    /// Over so many programs.
+    Number(Operand),
 }
 
 /// Whether a call is one of a cycle.

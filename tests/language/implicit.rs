@@ -94,7 +94,6 @@ fn a_program_names_what_its_words_call() {
     b.nc -
       1 line 1 -
       2 line 1 N3 level 1
-        FC402 1:4-20 in data.nc
       3 line 2 - level 1
       4 line 2 -
       end 4 M30 X:active Y:active Z:unconfigured B:ineffective

@@ -2,6 +2,7 @@ mod budgets;
 mod expressions;
 mod flow;
 mod implicit;
+mod parts;
 mod places;
 mod programs;
 mod text;

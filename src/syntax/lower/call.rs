@@ -29,7 +29,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn call_name(&mut self, pair: Pair<'_, Rule>) -> CallName {
+    pub(super) fn call_name(&mut self, pair: Pair<'_, Rule>) -> CallName {
         let span = trimmed(span_of(&pair), self.code);
         match pair.as_rule() {
             Rule::text => CallName::Quoted(span),

@@ -2,6 +2,7 @@
 
 mod call;
 mod flow;
+mod part;
 
 use pest::Parser;
 use pest::iterators::Pair;
@@ -157,6 +158,8 @@ impl Lowering<'_> {
                 self.block.items.push(Item::Label(name));
             }
             Rule::cycle_call => self.cycle_call(pair, span),
+            Rule::sequence_call => self.sequence_call(pair, span),
+            Rule::return_call => self.return_call(pair, span),
             Rule::local_call => self.plain_call(pair, CallScope::Local, span),
             Rule::global_call => self.plain_call(pair, CallScope::Global, span),
             Rule::assignment => self.assignment(pair, span),

@@ -1,0 +1,84 @@
+//! Calls of parts of programs, and returns to places of programs.
+
+use pest::iterators::Pair;
+
+use super::{Lowering, not_understood, span_of};
+use crate::source::Span;
+use crate::syntax::ast::{Item, JumpTarget, Levels, Operand, Return, Sequence};
+use crate::syntax::expression;
+use crate::syntax::grammar::Rule;
+
+impl Lowering<'_> {
+    pub(super) fn sequence_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut name = None;
+        let mut targets = Vec::new();
+        let mut end_tag = false;
+        let mut passes = None;
+        for part in pair.into_inner() {
+            let Some(argument) = part.into_inner().next() else {
+                continue;
+            };
+            match argument.as_rule() {
+                Rule::cycle_name => {
+                    let inner = argument.into_inner().next();
+                    name = inner.map(|inner| self.call_name(inner));
+                }
+                Rule::passes => {
+                    let value = argument.into_inner().next();
+                    passes = value.map(|value| expression::lower(value, 0, self.block));
+                }
+                Rule::end_tag => end_tag = true,
+                _ => targets.push(self.jump_target(argument)),
+            }
+        }
+        let mut targets = targets.into_iter();
+        match (targets.next(), targets.next(), targets.next()) {
+            (Some(first), last, None) => self.block.items.push(Item::Sequence(Sequence {
+                name,
+                first,
+                last,
+                end_tag,
+                passes,
+                span,
+            })),
+            _ => self.refuse(
+                not_understood(span, self.code)
+                    .with_help("name the first and the last block: `L SEQUENCE [N10 N20]`"),
+                span,
+            ),
+        }
+    }
+
+    pub(super) fn return_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut levels = Levels::One;
+        let mut target = None;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::return_word => {}
+                Rule::to_main => levels = Levels::Main,
+                Rule::jumps => {
+                    if let Some(value) = part.into_inner().next() {
+                        levels = Levels::Number(expression::lower(value, 0, self.block));
+                    }
+                }
+                _ => target = Some(self.jump_target(part)),
+            }
+        }
+        self.block.items.push(Item::Return(Return {
+            levels,
+            target,
+            span,
+        }));
+    }
+
+    /// `N10`, `[LABEL]`.
+    fn jump_target(&mut self, pair: Pair<'_, Rule>) -> JumpTarget {
+        let is_label = pair.as_rule() == Rule::target_label;
+        let inner = pair.into_inner().next();
+        match inner {
+            Some(inner) if is_label => JumpTarget::Label(span_of(&inner)),
+            Some(inner) => JumpTarget::Number(expression::lower(inner, 0, self.block)),
+            None => JumpTarget::Number(Operand::Number(0.0)),
+        }
+    }
+}

@@ -73,10 +73,10 @@ fn what_cannot_be_driven_is_refused() {
         (["--feed=0", "--radius=100"], "a feed of 0 mm/min"),
         (["--feed=nan", "--radius=100"], "a feed of NaN mm/min"),
         (["--radius=1e9", "--feed=1000"], "a radius of 1000000000 mm"),
-        (["--cycle-time=1", "--feed=1000"], "a CNC cycle of 1 s"),
+        (["--cycle-time=1", "--feed=1000"], "a CNC cycle of 1000 ms"),
         (
             ["--cycle-time=1e-12", "--feed=1000"],
-            "a CNC cycle of 0.000000000001 s",
+            "a CNC cycle of 1e-9 ms",
         ),
         (["--feed=1", "--radius=100"], "at most 1500 s are simulated"),
         (["--plant=stif", "--feed=1000"], "did you mean `stiff`"),

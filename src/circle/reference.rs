@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::diagnostic::Shown;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -74,15 +75,16 @@ impl Default for Circle {
 #[non_exhaustive]
 pub enum CircleError {
     /// `--radius 0`
-    #[error("a radius of {0} mm is not possible, it lies between 0.1 and 100000 mm")]
+    #[error("a radius of {} mm is not possible, it lies between 0.1 and 100000 mm", Shown(*.0))]
     Radius(f64),
     /// `--feed 0`
-    #[error("a feed of {0} mm/min is not possible, it lies between 0.1 and 1000000 mm/min")]
+    #[error("a feed of {} mm/min is not possible, it lies between 0.1 and 1000000 mm/min", Shown(*.0))]
     Feed(f64),
-    /// `--cycle-time 0.0001`
+    /// `--cycle-time-ms 0.1`
     #[error(
-        "a CNC cycle of {0} s is not possible, it is a whole multiple of 0.00025 s, the cycle of \
-         the position loop, up to 0.1 s"
+        "a CNC cycle of {} ms is not possible, it is a whole multiple of 0.25 ms, the cycle of \
+         the position loop, up to 100 ms",
+        Shown(.0 * 1000.0)
     )]
     CycleTime(f64),
     /// `--feed 1`: the circle takes hours.
@@ -100,8 +102,9 @@ pub enum CircleError {
     },
     /// `--radius 1 --feed 10000`: the circle has hardly a cycle.
     #[error(
-        "a circle of {radius} mm at {feed} mm/min has only {cycles:.0} CNC cycles of {cycle_time} \
-         s, {MIN_CYCLES} are needed"
+        "a circle of {radius} mm at {feed} mm/min has only {cycles:.0} CNC cycles of {} \
+         ms, {MIN_CYCLES} are needed",
+        Shown(.cycle_time * 1000.0)
     )]
     TooFast {
         /// Radius in mm.
@@ -131,8 +134,8 @@ impl CircleError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::Radius(_) => "write the radius in mm, `--radius 100`",
-            Self::Feed(_) => "write the feed in mm/min, `--feed 1000`",
-            Self::CycleTime(_) => "write the seconds of a cycle, `--cycle-time 0.001`",
+            Self::Feed(_) => "write feeds in mm/min, 1000 for instance",
+            Self::CycleTime(_) => "write the milliseconds of a cycle, `--cycle-time-ms 1`",
             Self::TooLong { .. } => "choose a smaller radius or a higher feed",
             Self::TooFast { .. } => "choose a larger radius, a lower feed or a shorter cycle",
             Self::Unstable { .. } => {

@@ -1,27 +1,26 @@
 //! `frictcomp check`: every diagnostic of every program.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::console::Console;
+use super::console::{Console, Printed};
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
-use super::dry_run::{Alone, ExecutionArgs, run_alone};
-use super::fail_on::FailOn;
+use super::dry_run::{Alone, Axes, ExecutionArgs, run_alone};
 use super::failure::{Failure, Failures};
 use super::files::{Input, Naming};
 use super::ledger::Ledger;
+use super::listing::{Lister, ListingArgs, total};
 use super::notes::{self, Note};
 use super::outputs::Outputs;
+use super::unread::say_unread;
 use super::{walk, workers};
 use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::report::{Listing, ListingFormat, Tally};
+use crate::diagnostic::Diagnostic;
 use crate::session::{NoteKind, Notes, StopPolicy};
 use crate::source::Position;
 use crate::timeline::{Record, Repeat, Sink};
@@ -35,10 +34,10 @@ pub(super) struct CheckArgs {
     paths: Vec<PathBuf>,
     /// List the values that the programs need from the machine, with their places, in place of the
     /// diagnostics
-    #[arg(long, conflicts_with_all = ["opaque", "fail_on", "jobs"])]
+    #[arg(long, conflicts_with_all = ["opaque", "fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
     unknowns: bool,
     /// List what was accepted and passed over, with its places, in place of the diagnostics
-    #[arg(long, conflicts_with_all = ["fail_on", "jobs"])]
+    #[arg(long, conflicts_with_all = ["fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
     opaque: bool,
     /// Check so many programs at once, as many as there are processors unless it is given
     #[arg(long, short, value_name = "N")]
@@ -51,59 +50,17 @@ pub(super) struct CheckArgs {
     execution: ExecutionArgs,
 }
 
-/// How diagnostics are listed.
-#[derive(Debug, Clone, Args)]
-pub(super) struct ListingArgs {
-    /// The format of the diagnostics
-    #[arg(long, default_value = "text")]
-    pub(super) format: Format,
-    /// Write the diagnostics into this file
-    #[arg(long, short, value_name = "FILE")]
-    pub(super) output: Option<PathBuf>,
-    /// The severity from which on the exit status is 1
-    #[arg(long, value_name = "SEVERITY", default_value = "error")]
-    pub(super) fail_on: FailOn,
-}
-
-/// A format of diagnostics (R9.25).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum Format {
-    /// Source lines with carets, for people.
-    #[default]
-    Text,
-    /// One line a diagnostic.
-    Concise,
-    /// One JSON document.
-    Json,
-    /// One JSON object a line.
-    Ndjson,
-    /// Workflow commands of GitHub.
-    Github,
-    /// SARIF 2.1.0.
-    Sarif,
-}
-
-impl From<Format> for ListingFormat {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::Text => Self::Text,
-            Format::Concise => Self::Concise,
-            Format::Json => Self::Json,
-            Format::Ndjson => Self::Ndjson,
-            Format::Github => Self::Github,
-            Format::Sarif => Self::Sarif,
-        }
-    }
-}
-
 /// Runs the command.
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
+    let console = args.listing.console(console);
     let mut machines = Machines::new(&args.machine, &ledger);
+    machines.weigh(&args.listing.severities)?;
     let found = walk::programs(&args.paths, |folder| machines.extensions(folder));
     let mut failures = Failures::from(found.failures);
     let inputs = found.inputs;
     inputs.iter().for_each(|input| input.note(&ledger));
+    machines.look_ahead(&inputs);
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     // Every list is known before anything runs.
@@ -111,7 +68,8 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let jobs: Vec<Job> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
     outputs.check()?;
     if let Some(kind) = args.notes() {
-        notes::list(kind, (args.listing.format, target), |lines| {
+        let format = args.listing.format.of_records("this list")?;
+        notes::list(kind, (format, target), |lines| {
             for (input, loaded) in jobs {
                 if let Err(failure) = args.take_notes(kind, (input, loaded), lines) {
                     failures.push(failure);
@@ -121,21 +79,23 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         outputs.finish()?;
         return failures.status(console, super::exit::CLEAN);
     }
-    let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
+    let mut listing = args.listing.lister(target)?;
     args.check_all(jobs, &mut listing, &mut failures);
-    listing.finish().map_err(|error| Failure::output(&error))?;
-    if listing.is_closed() && failures.is_empty() {
+    let printed = listing.finish()?;
+    if printed == Printed::Unread && failures.is_empty() {
         return Ok(super::exit::CLEAN);
     }
     outputs.finish()?;
     for remark in machines.loaded().filter_map(LoadedMachine::remark) {
         console.remark(&remark);
     }
-    if args.listing.format == Format::Text {
-        console.remark(&total(listing.tally()));
+    say_unread(&args.machine, &ledger, console);
+    if args.listing.format.is_text() {
+        let passed_over = walk::passed_over(found.passed_over);
+        console.remark(&(total(listing.tally()) + &passed_over));
+        listing.hint().iter().for_each(|hint| console.remark(hint));
     }
-    let status = args.listing.fail_on.status(&listing.tally().counts);
-    failures.status(console, status)
+    failures.status(console, listing.status())
 }
 
 /// A program and the machine that it runs on.
@@ -163,6 +123,7 @@ impl CheckArgs {
         let alone = Alone {
             options,
             naming: Naming::AsGiven,
+            axes: Axes::AsTheyOccur,
         };
         let session = run_alone(input, &loaded, alone, &mut Found::default())?;
         for (name, place) in session.notes(kind) {
@@ -176,12 +137,7 @@ impl CheckArgs {
     }
 
     /// Checks the programs, many at once, and lists what was found in their order.
-    fn check_all(
-        &self,
-        jobs: Vec<Job<'_>>,
-        listing: &mut Listing<Box<dyn Write>>,
-        failures: &mut Failures,
-    ) {
+    fn check_all(&self, jobs: Vec<Job<'_>>, listing: &mut Lister<'_>, failures: &mut Failures) {
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
         let workers = self.jobs.unwrap_or_else(workers::processors);
         let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
@@ -228,6 +184,7 @@ fn check_file(
         Alone {
             options,
             naming: Naming::AsGiven,
+            axes: Axes::AsTheyOccur,
         },
         &mut found,
     )?;
@@ -294,21 +251,6 @@ impl Sink for Found {
         }
         ControlFlow::Continue(())
     }
-}
-
-/// What was found, in one line.
-pub(super) fn total(tally: &Tally) -> String {
-    let count = |number: u64, noun: &str| {
-        let plural = if number == 1 { "" } else { "s" };
-        format!("{number} {noun}{plural}")
-    };
-    format!(
-        "{} checked: {}, {}, {}",
-        count(tally.files, "file"),
-        count(tally.of(Severity::Error), "error"),
-        count(tally.of(Severity::Warning), "warning"),
-        count(tally.of(Severity::Info), "note"),
-    )
 }
 
 #[cfg(test)]

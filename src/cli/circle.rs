@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::console::Console;
 use super::current::{parse_reading, value_list};
+use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
 use super::jobs::Jobs;
@@ -28,10 +29,15 @@ use crate::report::svg::Frame;
 #[derive(Debug, Args)]
 pub(super) struct CircleArgs {
     /// Radius in mm; for recorded circles the commanded one
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Feed in mm/min
-    #[arg(long, value_name = "MM/MIN", default_value_t = 1000.0)]
+    #[arg(
+        long,
+        value_name = "MM/MIN",
+        default_value_t = 1000.0,
+        allow_negative_numbers = true
+    )]
     feed: f64,
     /// The machine: `stiff`, `mid`, `soft`, or a TOML file
     #[arg(long, value_name = "PLANT", default_value = "stiff")]
@@ -42,14 +48,13 @@ pub(super) struct CircleArgs {
     /// The compensation value list of both axes; without it that of the plant's own friction
     #[arg(long, value_name = "LIST")]
     value_list: Option<PathBuf>,
-    /// The CNC cycle in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.001)]
-    cycle_time: f64,
+    #[command(flatten)]
+    cycle: CycleArgs,
     /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
     #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
     reading: Reading,
     /// A recorded circle in place of a simulated one; twice for both directions
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["feed", "plant", "model", "value_list", "cycle_time", "reading"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["feed", "plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
     trace: Vec<PathBuf>,
     /// The format of the result
     #[arg(long, default_value = "text")]
@@ -133,7 +138,10 @@ fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListO
         circle: Circle {
             radius: args.radius.unwrap_or(Circle::default().radius),
             feed: args.feed,
-            cycle_time: args.cycle_time,
+            cycle_time: args
+                .cycle
+                .seconds()?
+                .unwrap_or(Circle::default().cycle_time),
         },
         plant,
         model: args.model.into(),

@@ -1,11 +1,12 @@
 //! Where data and talk go: stdout is data, stderr is talk (R9.27).
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 
 use anstream::{AutoStream, ColorChoice};
 use clap::ValueEnum;
 
 use super::failure::Failure;
+use super::progress::{OverProgress, clear};
 use crate::diagnostic::Diagnostic;
 use crate::report::{Look, Paint, leading, render, visible, visible_line};
 
@@ -123,8 +124,9 @@ impl Console {
             },
             // Old Windows consoles need their own calls; elsewhere nothing stands between.
             writer: match paint(choice) {
+                Paint::Styled => Box::new(OverProgress(AutoStream::new(stdout.lock(), choice))),
+                Paint::Plain if stdout.is_terminal() => Box::new(OverProgress(stdout.lock())),
                 Paint::Plain => Box::new(stdout.lock()),
-                Paint::Styled => Box::new(AutoStream::new(stdout.lock(), choice)),
             },
         }
     }
@@ -137,6 +139,7 @@ impl Console {
 
     /// Says a line on stderr. When nobody listens, nothing is lost.
     pub(super) fn talk(line: &str) {
+        clear();
         let _ = writeln!(io::stderr().lock(), "{}", leading(line));
     }
 

@@ -10,11 +10,12 @@ use similar::{Algorithm, ChangeTag, capture_diff_slices};
 
 use super::console::{Console, Printed};
 use super::discovery::{MachineArgs, Machines};
-use super::dry_run::{Alone, ExecutionArgs, run_alone};
+use super::dry_run::{Alone, Axes, ExecutionArgs, run_alone};
 use super::exit;
 use super::failure::{Failure, shown};
 use super::files::{Input, Naming};
 use super::ledger::Ledger;
+use super::painted::{difference, painted};
 use super::settings;
 use crate::diagnostic::Severity;
 use crate::report::visible_line;
@@ -137,7 +138,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         let names = format!("--- {}\n+++ {}\n", shown(&args.old), shown(&args.new));
         output.insert_str(0, &names);
     }
-    if let Printed::Unread = console.print(&output)? {
+    if let Printed::Unread = console.print(&painted(&output, console.stdout().look, difference))? {
         return Ok(exit::CLEAN);
     }
     Ok(if same { exit::CLEAN } else { exit::FOUND })
@@ -146,6 +147,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
 fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
     input.probe()?;
     let mut machines = Machines::new(&args.machine, &Ledger::default());
+    machines.look_ahead(std::slice::from_ref(input));
     let loaded = machines.for_folder(input.folder())?;
     let options = args.execution.options(&loaded, StopPolicy::FirstError);
     let mut switches = Switches {
@@ -159,6 +161,7 @@ fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
         Alone {
             options,
             naming: Naming::AsGiven,
+            axes: Axes::AsTheyOccur,
         },
         &mut switches,
     )?;

@@ -7,14 +7,18 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::failure::Failure;
+use super::files::Input;
 use super::finder::Reach;
 use super::grounds::{Elsewhere, Grounds, absolute};
 use super::ledger::Ledger;
 use super::list_files::{Lists, read_list};
+use super::lookahead::AxesAhead;
 use super::settings::{self, SetVariable};
+use super::severities::SeverityArgs;
+use super::watch::Watch;
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
-use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
+use crate::machine::{AxisReport, AxisSet, AxisType, Configuration, Machine, Origin, Setting};
 use crate::source::SourceFile;
 
 /// The name of the configuration file.
@@ -33,7 +37,7 @@ pub(super) struct MachineArgs {
     /// Take the axes from this start-up list, whatever the configuration says
     #[arg(long, value_name = "LIST")]
     pub(super) startup: Option<PathBuf>,
-    /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes
+    /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes, or for `all`
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
     pub(super) enable: Vec<String>,
     /// Call programs from any folder, and show the text of lists wherever they lie
@@ -67,6 +71,8 @@ pub(super) struct LoadedMachine {
     pub(super) extensions: Option<Vec<String>>,
     /// Where the files of a run on this machine are noted.
     pub(super) ledger: Ledger,
+    /// Who watches the runs on this machine.
+    pub(super) watch: Arc<Watch>,
 }
 
 impl LoadedMachine {
@@ -90,8 +96,12 @@ impl LoadedMachine {
             reports: configuration.reports,
             origin: Some(path.to_owned()),
             lists: (configuration.files.len(), configuration.missing),
-            extensions: None,
+            extensions: match configuration.extensions {
+                given if given.is_empty() => None,
+                given => Some(given),
+            },
             ledger: ledger.clone(),
+            watch: Arc::default(),
         }
     }
 
@@ -139,6 +149,10 @@ impl LoadedMachine {
 pub(super) struct Machines<'a> {
     args: &'a MachineArgs,
     ledger: Ledger,
+    severities: Option<&'a SeverityArgs>,
+    /// The axes of the programs, where somebody asks for axes.
+    ahead: Option<AxesAhead>,
+    watch: Arc<Watch>,
     loaded: BTreeMap<Option<PathBuf>, Arc<LoadedMachine>>,
     /// The nearest configuration of each folder that was asked for.
     nearest: BTreeMap<PathBuf, Option<PathBuf>>,
@@ -149,6 +163,9 @@ impl<'a> Machines<'a> {
         Self {
             args,
             ledger: ledger.clone(),
+            severities: None,
+            ahead: None,
+            watch: Arc::default(),
             loaded: BTreeMap::new(),
             nearest: BTreeMap::new(),
         }
@@ -164,9 +181,33 @@ impl<'a> Machines<'a> {
         if let Some(loaded) = self.loaded.get(&config) {
             return Ok(Arc::clone(loaded));
         }
-        let loaded = Arc::new(load_machine(config.as_deref(), self.args, &self.ledger)?);
+        let mut loaded = load_machine(config.as_deref(), self.args, &self.ledger)?;
+        enable_all(&mut loaded, self.args, self.ahead.as_ref())?;
+        if let Some(severities) = self.severities {
+            severities.apply(&mut loaded.levels);
+            severities.sift(&mut loaded.diagnostics);
+        }
+        loaded.watch = Arc::clone(&self.watch);
+        let loaded = Arc::new(loaded);
         self.loaded.insert(config, Arc::clone(&loaded));
         Ok(loaded)
+    }
+
+    /// Changes severities for this call.
+    pub(super) fn weigh(&mut self, severities: &'a SeverityArgs) -> Result<(), Failure> {
+        severities.check()?;
+        self.severities = Some(severities);
+        Ok(())
+    }
+
+    /// The programs are known: `--enable` takes axes that they name.
+    pub(super) fn look_ahead(&mut self, inputs: &[Input]) {
+        self.watch.expect(inputs.len());
+        if !self.args.enable.is_empty() {
+            let names = self.args.enable.iter().map(|name| name.trim());
+            self.ahead = Some(AxesAhead::of(inputs, names));
+            self.loaded.clear();
+        }
     }
 
     /// The extensions of programs below a folder, where its configuration names them.
@@ -209,15 +250,6 @@ fn load_machine(
         loaded.reports = axes.reports;
         loaded.origin = axes.origin;
         loaded.lists = axes.lists;
-    }
-    for name in &args.enable {
-        enable(&mut loaded.machine, name.trim())?;
-        assume(&mut loaded.reports, &loaded.machine, name.trim());
-        // What is assumed need not be found missing.
-        loaded.diagnostics.retain(|said| {
-            let assumed = matches!(said.code, Code::Fc135 | Code::Fc303);
-            !(assumed && said.axis.as_deref() == Some(name.trim()))
-        });
     }
     let given = args.settings.iter();
     loaded
@@ -306,6 +338,58 @@ fn read_startup(
     let grounds = args.grounds(path, &loaded.reach);
     grounds.conceal(&mut loaded.diagnostics);
     Ok(loaded)
+}
+
+/// Assumes friction compensation on the axes that the user names, or on all.
+fn enable_all(
+    loaded: &mut LoadedMachine,
+    args: &MachineArgs,
+    ahead: Option<&AxesAhead>,
+) -> Result<(), Failure> {
+    let mut names: Vec<String> = args.enable.iter().map(|it| it.trim().to_owned()).collect();
+    if names.iter().any(|name| name.eq_ignore_ascii_case("all")) {
+        names = all_axes(&loaded.machine, ahead);
+    }
+    for name in &names {
+        if loaded.machine.axis_set == AxisSet::AsTheyOccur {
+            occurs(name, ahead)?;
+        }
+        enable(&mut loaded.machine, name)?;
+        assume(&mut loaded.reports, &loaded.machine, name);
+        // What is assumed need not be found missing.
+        loaded.diagnostics.retain(|said| {
+            let assumed = matches!(said.code, Code::Fc135 | Code::Fc303);
+            !(assumed && said.axis.as_deref() == Some(name))
+        });
+    }
+    Ok(())
+}
+
+/// What `--enable all` means: the axes of the machine, or those that the programs name.
+fn all_axes(machine: &Machine, ahead: Option<&AxesAhead>) -> Vec<String> {
+    if let (AxisSet::AsTheyOccur, Some(ahead)) = (machine.axis_set, ahead)
+        && ahead.is_complete()
+    {
+        return ahead.names().map(str::to_owned).collect();
+    }
+    let axes = machine.axes.iter();
+    axes.filter(|axis| axis.axis_type != AxisType::Spindle)
+        .map(|axis| axis.name.clone())
+        .collect()
+}
+
+/// Whether a program names an axis, where no machine is described (R9.74).
+fn occurs(name: &str, ahead: Option<&AxesAhead>) -> Result<(), Failure> {
+    let Some(ahead) = ahead.filter(|ahead| !ahead.may_hold(name)) else {
+        return Ok(());
+    };
+    let failure = Failure::new(format!("no program names an axis `{name}`"));
+    let names: Vec<&str> = ahead.names().collect();
+    Err(match did_you_mean(name, names.iter().copied()) {
+        Some(near) => failure.with_help(format!("did you mean `{near}`?")),
+        None if names.is_empty() => failure,
+        None => failure.with_help(format!("they name {}", names.join(", "))),
+    })
 }
 
 fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 
 use clap::Args;
 
@@ -10,7 +11,10 @@ use super::failure::Failure;
 use super::files::{Input, Naming, Opened};
 use super::finder::{ProgramFinder, Reach};
 use super::ledger::Ledger;
+use super::lookahead::AxesAhead;
 use super::settings::{self, SkipLevels};
+use super::watch::{Watch, Watched};
+use crate::machine::AxisSet;
 use crate::session::{Limits, Motions, Notes, Program, Session, SessionOptions, StopPolicy};
 use crate::timeline::Sink;
 
@@ -75,6 +79,7 @@ impl ExecutionArgs {
 pub(super) struct Surroundings<'a> {
     reach: Reach,
     ledger: Ledger,
+    watch: Arc<Watch>,
     naming: Naming,
     before_waiting: &'a dyn Fn(),
 }
@@ -84,6 +89,7 @@ impl<'a> Surroundings<'a> {
         Self {
             reach: loaded.reach.clone(),
             ledger: loaded.ledger.clone(),
+            watch: Arc::clone(&loaded.watch),
             naming,
             before_waiting: &|| (),
         }
@@ -106,6 +112,14 @@ pub(super) fn run_program(
     sink: &mut dyn Sink,
 ) -> Result<ControlFlow<()>, Failure> {
     let name = input.name(surroundings.naming);
+    let watch = &*surroundings.watch;
+    let mut watched;
+    let sink: &mut dyn Sink = if watch.is_on() {
+        watched = Watched::new(sink, watch);
+        &mut watched
+    } else {
+        sink
+    };
     let finder = ProgramFinder::new(input, &surroundings.reach, surroundings.naming);
     let mut finder = finder.noting(&surroundings.ledger);
     let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
@@ -118,6 +132,7 @@ pub(super) fn run_program(
             flow
         }
     };
+    watch.program_done();
     Ok(match flow {
         ControlFlow::Break(()) => ControlFlow::Break(()),
         ControlFlow::Continue(_) => ControlFlow::Continue(()),
@@ -128,6 +143,16 @@ pub(super) fn run_program(
 pub(super) struct Alone {
     pub(super) options: SessionOptions,
     pub(super) naming: Naming,
+    pub(super) axes: Axes,
+}
+
+/// Which axes are listed where no machine is described.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Axes {
+    /// Those that a look over the program finds (R9.74).
+    Ahead,
+    /// Nobody lists them.
+    AsTheyOccur,
 }
 
 /// Runs one program in a session of its own, from the start of the control to the summary, and
@@ -140,6 +165,9 @@ pub(super) fn run_alone(
 ) -> Result<Session, Failure> {
     let surroundings = Surroundings::new(loaded, alone.naming);
     let mut session = Session::new(loaded.machine.clone(), alone.options);
+    if alone.axes == Axes::Ahead && loaded.machine.axis_set == AxisSet::AsTheyOccur {
+        session.expect_axes(AxesAhead::of([input], []).names());
+    }
     let mut flow = begin(&mut session, loaded, sink);
     if flow.is_continue() {
         flow = run_program(&mut session, input, &surroundings, sink)?;

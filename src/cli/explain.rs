@@ -5,6 +5,7 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
+use super::painted::{page as titles, painted};
 use crate::codes::Code;
 use crate::diagnostic::did_you_mean;
 
@@ -50,8 +51,8 @@ static PARAMETERS: [Parameter; 11] = parameters! {
 /// Runs the command.
 pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
     let page = find(args.code.trim()).ok_or_else(|| unknown(&args.code))?;
-    console.print(page.trim_end())?;
-    console.print("\n")?;
+    let text = format!("{}\n", page.trim_end());
+    console.print(&painted(&text, console.stdout().look, titles))?;
     Ok(exit::CLEAN)
 }
 

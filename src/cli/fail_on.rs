@@ -21,15 +21,24 @@ pub(super) enum FailOn {
 }
 
 impl FailOn {
+    /// Whether something of this severity gives the status 1.
+    pub(super) fn counts(self, severity: Severity) -> bool {
+        self.least().is_some_and(|least| severity >= least)
+    }
+
+    fn least(self) -> Option<Severity> {
+        match self {
+            Self::Error => Some(Severity::Error),
+            Self::Warning => Some(Severity::Warning),
+            Self::Info => Some(Severity::Info),
+            Self::Never => None,
+        }
+    }
+
     /// The exit status for how many diagnostics were said at each severity (R9.26).
     pub(super) fn status(self, counts: &BTreeMap<Severity, u64>) -> u8 {
-        let severity = match self {
-            Self::Error => Severity::Error,
-            Self::Warning => Severity::Warning,
-            Self::Info => Severity::Info,
-            Self::Never => return super::exit::CLEAN,
-        };
-        if counts.range(severity..).any(|(_, &count)| count > 0) {
+        let mut said = counts.iter().filter(|(_, count)| **count > 0);
+        if said.any(|(severity, _)| self.counts(*severity)) {
             super::exit::FOUND
         } else {
             super::exit::CLEAN

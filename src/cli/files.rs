@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use encoding_rs::WINDOWS_1252;
 
 use super::failure::Failure;
-use super::ledger::Ledger;
+use super::ledger::{Ledger, PROGRAM};
 use super::lines::{LineReader, MOST_KEPT, too_big};
 use super::steady::Steady;
 use crate::source::SourceFile;
@@ -106,9 +106,11 @@ impl Input {
 
     /// Notes the program among the files that are read.
     pub(super) fn note(&self, ledger: &Ledger) {
-        if let Self::File(path) = self {
-            ledger.reads("program", path);
-        }
+        let path = match self {
+            Self::File(path) => path,
+            Self::Stdin => Path::new(STDIN),
+        };
+        ledger.reads(PROGRAM, path);
     }
 
     /// Opens the program. Standard input or a pipe calls `before_waiting` whenever it may have to

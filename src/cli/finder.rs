@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::files::{Input, Naming, decode, read_bytes};
 use super::grounds::{Elsewhere, Grounds, normal};
-use super::ledger::Ledger;
+use super::ledger::{Ledger, PROGRAM};
 use crate::session::{Finder, NoProgram};
 use crate::source::SourceFile;
 
@@ -209,7 +209,7 @@ impl ProgramFinder {
 impl Finder for ProgramFinder {
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
         let path = self.locate(name, caller)?;
-        self.ledger.reads("program", &path);
+        self.ledger.reads(PROGRAM, &path);
         let bytes = read_bytes(&path).map_err(|error| unusable(&error))?;
         Ok(SourceFile::new(self.name(&path), decode(bytes)))
     }

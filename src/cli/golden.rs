@@ -8,11 +8,13 @@ use similar::TextDiff;
 
 use super::console::{Console, Printed};
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
-use super::dry_run::{Alone, ExecutionArgs, run_alone};
+use super::dry_run::{Alone, Axes, ExecutionArgs, run_alone};
 use super::failure::{Failure, Failures, shown};
 use super::files::{Input, Naming, read_bytes};
 use super::ledger::{Ledger, folder};
 use super::outputs::Outputs;
+use super::painted::{difference, painted};
+use super::severities::SeverityArgs;
 use super::{exit, walk};
 use crate::report::{Report, Text, TextOptions};
 use crate::session::StopPolicy;
@@ -29,6 +31,11 @@ pub(super) struct GoldenArgs {
     /// Write the timelines instead of comparing them
     #[arg(long)]
     update: bool,
+    /// Say nothing beside the differences
+    #[arg(long, short)]
+    quiet: bool,
+    #[command(flatten)]
+    severities: SeverityArgs,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
@@ -59,12 +66,16 @@ struct Bench<'a> {
     ledger: Ledger,
     /// The folders that the user named, in which timelines may lie.
     trees: Vec<PathBuf>,
+    /// What to say of files that are no programs.
+    passed_over: String,
 }
 
 /// Runs the command.
 pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
+    let console = if args.quiet { console.quiet() } else { console };
     let mut machines = Machines::new(&args.machine, &ledger);
+    machines.weigh(&args.severities)?;
     let found = walk::programs(&args.paths, |folder| machines.extensions(folder));
     let mut failures = Failures::from(found.failures);
     let mut pairs = Vec::new();
@@ -80,6 +91,8 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
             )),
         }
     }
+    let inputs: Vec<Input> = pairs.iter().map(|pair| pair.input.clone()).collect();
+    machines.look_ahead(&inputs);
     let tree = |path: &PathBuf| {
         let tree = if path.is_dir() { path } else { folder(path) };
         tree.canonicalize().ok()
@@ -89,6 +102,7 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
         machines,
         ledger,
         trees: args.paths.iter().filter_map(tree).collect(),
+        passed_over: walk::passed_over(found.passed_over),
     };
     let status = if args.update {
         bench.update(&pairs, console, &mut failures)?
@@ -122,7 +136,9 @@ impl Bench<'_> {
                 Err(failure) => failures.push(failure),
             }
         }
-        if let Printed::Unread = console.print(&output)? {
+        if let Printed::Unread =
+            console.print(&painted(&output, console.stdout().look, difference))?
+        {
             return Ok(exit::CLEAN);
         }
         let all = pairs.len();
@@ -138,7 +154,7 @@ impl Bench<'_> {
             return Ok(exit::FOUND);
         }
         if failures.is_empty() {
-            console.remark(&format!("{} as agreed", timelines(all)));
+            console.remark(&format!("{} as agreed{}", timelines(all), self.passed_over));
         }
         Ok(exit::CLEAN)
     }
@@ -176,7 +192,8 @@ impl Bench<'_> {
                 }
             }
         }
-        console.remark(&format!("{written} of {} written", timelines(pairs.len())));
+        let all = timelines(pairs.len());
+        console.remark(&format!("{written} of {all} written{}", self.passed_over));
         Ok(exit::CLEAN)
     }
 
@@ -258,6 +275,7 @@ fn timeline(
         Alone {
             options,
             naming: Naming::FileName,
+            axes: Axes::Ahead,
         },
         &mut report,
     )?;

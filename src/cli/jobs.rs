@@ -19,7 +19,7 @@ impl Jobs {
         Self {
             name,
             done: AtomicUsize::new(0),
-            progress: Mutex::new(Progress::of_silent_run()),
+            progress: Mutex::new(Progress::new()),
         }
     }
 
@@ -29,6 +29,7 @@ impl Jobs {
         pieces: &[T],
         work: impl Fn(&T) -> R + Sync,
     ) -> Vec<R> {
+        self.done.store(0, Ordering::Relaxed);
         let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
         let next = AtomicUsize::new(0);
         let worker = || {
@@ -38,7 +39,7 @@ impl Jobs {
                 pieces.get(at).map(|piece| (at, piece))
             } {
                 results.push((at, work(piece)));
-                self.tick();
+                self.tick(pieces.len());
             }
             results
         };
@@ -60,11 +61,11 @@ impl Jobs {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
-    fn tick(&self) {
+    fn tick(&self, all: usize) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         // Who comes while another core shows it need not wait.
         if let Ok(mut progress) = self.progress.try_lock() {
-            progress.show(|| format!("{}: {done} runs done", self.name));
+            progress.show(|| format!("{}: {done} of {all} runs", self.name));
         }
     }
 }

@@ -13,6 +13,9 @@ use super::failure::Failure;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Ledger(Arc<Mutex<BTreeMap<PathBuf, &'static str>>>);
 
+/// What a program is noted as.
+pub(super) const PROGRAM: &str = "program";
+
 /// A file that a command writes, and the option that names it.
 #[derive(Debug, Clone)]
 pub(super) struct Claim {
@@ -71,6 +74,19 @@ impl Ledger {
             }
         }
         Ok(())
+    }
+
+    /// The programs that were read.
+    pub(super) fn programs(&self) -> Vec<PathBuf> {
+        let inputs = self.inputs();
+        let programs = inputs.iter().filter(|(_, what)| **what == PROGRAM);
+        programs.map(|(path, _)| path.clone()).collect()
+    }
+
+    /// Whether a program came from where it cannot be read again.
+    pub(super) fn has_streams(&self) -> bool {
+        let inputs = self.inputs();
+        inputs.keys().any(|path| !path.is_file())
     }
 
     fn inputs(&self) -> MutexGuard<'_, BTreeMap<PathBuf, &'static str>> {

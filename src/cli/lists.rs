@@ -4,19 +4,19 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::check::{Format, ListingArgs, total};
-use super::console::Console;
+use super::console::{Console, Printed};
 use super::discovery::{CONFIG_NAME, nearest_config};
 use super::exit;
 use super::failure::{Failure, Failures};
 use super::grounds::{Elsewhere, Grounds};
 use super::ledger::Ledger;
 use super::list_files::{Lists, read_list};
+use super::listing::{Format, ListingArgs, total};
 use super::outputs::Outputs;
+use super::painted::{painted, parts};
 use crate::codes::Code;
 use crate::diagnostic::Severity;
 use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
-use crate::report::Listing;
 use crate::report::lists::render_parameters;
 use crate::report::pictures::value_curves;
 use crate::report::svg::Frame;
@@ -52,6 +52,16 @@ pub(super) struct ListsArgs {
 }
 
 impl ListsArgs {
+    /// Says which options have no effect with the others (R9.71).
+    fn check_options(&self) -> Result<(), Failure> {
+        let format = self.listing.format;
+        if self.show && !matches!(format, Format::Text | Format::Json | Format::Ndjson) {
+            return Err(Failure::new("`--show` has no effect with this `--format`")
+                .with_help("write `--format text`, `json` or `ndjson`"));
+        }
+        self.listing.severities.check()
+    }
+
     /// The folders whose lists are shown: the current one and those of the files that are named.
     fn grounds(&self) -> Grounds {
         let elsewhere = if self.allow_outside {
@@ -145,6 +155,8 @@ fn lacking(missing: usize) -> String {
 pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let grounds = args.grounds();
     let ledger = Ledger::default();
+    let console = args.listing.console(console);
+    args.check_options()?;
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     let mut reports = Vec::new();
@@ -159,6 +171,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
             }
         };
         grounds.conceal(&mut report.diagnostics);
+        args.listing.severities.sift(&mut report.diagnostics);
         for diagnostic in &mut report.diagnostics {
             if args.strict && diagnostic.code == Code::Fc132 {
                 diagnostic.severity = Severity::Error;
@@ -180,7 +193,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     if let Some(path) = &args.svg {
         outputs.file("--svg", path)?.text(&draw(&reports)?)?;
     }
-    let mut listing = Listing::new(target.writer, args.listing.format.into(), target.look);
+    let mut listing = args.listing.lister(target)?;
     for report in &reports {
         for _ in &report.files {
             listing.file();
@@ -190,17 +203,20 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
                 break;
             }
         }
+        if args.show {
+            listing.parameters(&report.reports);
+        }
     }
-    listing.finish().map_err(|error| Failure::output(&error))?;
-    if listing.is_closed() && failures.is_empty() {
+    let printed = listing.finish()?;
+    if printed == Printed::Unread && failures.is_empty() {
         return Ok(exit::CLEAN);
     }
-    console.print(&table)?;
+    console.print(&painted(&table, console.stdout().look, parts))?;
     outputs.finish()?;
     if args.listing.format == Format::Text {
         let missing = reports.iter().map(|report| report.missing).sum();
-        Console::talk(&(total(listing.tally()) + &lacking(missing)));
+        console.remark(&(total(listing.tally()) + &lacking(missing)));
+        listing.hint().iter().for_each(|hint| console.remark(hint));
     }
-    let status = args.listing.fail_on.status(&listing.tally().counts);
-    failures.status(console, status)
+    failures.status(console, listing.status())
 }

@@ -7,9 +7,11 @@ mod completions;
 mod config;
 mod console;
 mod current;
+mod cycle;
 mod diff;
 mod discovery;
 mod dry_run;
+mod examples;
 mod exit;
 mod explain;
 mod fail_on;
@@ -25,27 +27,34 @@ mod jobs;
 mod ledger;
 mod lines;
 mod list_files;
+mod listing;
 mod lists;
+mod lookahead;
 mod man;
 mod notes;
 mod outputs;
+mod painted;
 mod plants;
 mod progress;
+mod quiet;
 mod recorded;
 mod run;
 mod settings;
+mod severities;
 mod state;
 mod steady;
 mod tune;
 mod unfinished;
+mod unread;
 mod walk;
+mod watch;
 mod workers;
 
 use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use console::{Color, Console};
 use failure::Failure;
@@ -56,10 +65,6 @@ use crate::report::{visible, visible_line};
 /// compensation active.
 #[derive(Debug, Parser)]
 #[command(name = "frictcomp", version, max_term_width = 100)]
-#[command(
-    after_help = "Exit status: 0 nothing at or above --fail-on, 1 something was, \
-                        2 the tool could not do its work."
-)]
 struct Arguments {
     /// When output is coloured
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
@@ -87,15 +92,16 @@ enum Command {
     #[command(subcommand)]
     Config(config::ConfigCommand),
     Completions(completions::CompletionsArgs),
-    /// Prints the manual page
-    Man,
+    Man(man::ManArgs),
 }
 
 /// Runs the tool with its arguments, the name of the program first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let hidden = hidden(&arguments);
-    let arguments = match Arguments::try_parse_from(arguments) {
+    let parsed = description().try_get_matches_from(arguments);
+    let parsed = parsed.and_then(|matches| Arguments::from_arg_matches(&matches));
+    let arguments = match parsed {
         Ok(arguments) => arguments,
         Err(error) => return ExitCode::from(say_usage(&error, &hidden)),
     };
@@ -154,13 +160,13 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Init(args) => init::run(args),
         Command::Config(command) => config::run(command, console),
         Command::Completions(args) => completions::run(args, console),
-        Command::Man => man::run(console),
+        Command::Man(args) => man::run(args, console),
     }
 }
 
 /// The description of the command line, for completions and the manual page.
 fn description() -> clap::Command {
-    <Arguments as clap::CommandFactory>::command()
+    examples::with_examples(Arguments::command())
 }
 
 #[cfg(test)]

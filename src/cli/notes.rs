@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 
-use super::check::Format;
 use super::console::Target;
 use super::failure::Failure;
+use super::listing::{Format, records};
 use crate::report::{leading, shown_json};
 use crate::session::NoteKind;
 use crate::source::Position;
@@ -46,21 +46,10 @@ pub(super) fn list(
     (format, mut target): (Format, Target),
     take: impl FnOnce(&mut BTreeSet<Note>),
 ) -> Result<(), Failure> {
-    if matches!(format, Format::Github | Format::Sarif) {
-        return Err(Failure::new("this list has no such format")
-            .with_help("write `--format text`, `concise`, `json` or `ndjson`"));
-    }
     let mut notes = BTreeSet::new();
     take(&mut notes);
-    let records = notes.iter().map(|note| note.record(kind));
-    let text = match format {
-        Format::Ndjson => records.map(|record| format!("{record}\n")).collect(),
-        Format::Json => {
-            let records: Vec<Value> = records.collect();
-            format!("{:#}\n", json!({ "schema": 1, "records": records }))
-        }
-        _ => notes.iter().map(Note::text).collect(),
-    };
-    target.text(&shown_json(&text))?;
+    let text: String = notes.iter().map(Note::text).collect();
+    let values = notes.iter().map(|note| note.record(kind)).collect();
+    target.text(&shown_json(&records(format, &text, values)))?;
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::files::open_regular;
 use crate::circle::{RecordedCircle, RecordedError, Recording};
+use crate::diagnostic::Shown;
 
 /// Rows of a file at most; they are kept in memory until the circle is evaluated.
 const MAX_ROWS: usize = 4_000_000;
@@ -25,7 +26,10 @@ pub(super) fn read(paths: &[PathBuf], radius: Option<f64>) -> Result<Recording, 
     if let Some(radius) = radius
         && !(0.001..=1e6).contains(&radius)
     {
-        let message = format!("a radius of {radius} mm is not possible");
+        let message = format!(
+            "a radius of {} mm is not possible, it lies between 0.001 and 1000000 mm",
+            Shown(radius)
+        );
         return Err(Failure::new(message).with_help("write the commanded radius, `--radius 100`"));
     }
     let circle = |path: &PathBuf| {

@@ -14,12 +14,17 @@ use super::failure::Failure;
 use super::files::{Input, Naming};
 use super::html::HtmlFile;
 use super::ledger::Ledger;
+use super::listing::explain;
+use super::lookahead::AxesAhead;
 use super::outputs::Outputs;
-use super::progress::Progress;
+use super::quiet::Quiet;
 use super::settings;
+use super::severities::SeverityArgs;
 use super::state::StateFile;
-use crate::diagnostic::Diagnostic;
-use crate::machine::Setting;
+use super::unread::say_unread;
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::machine::{AxisSet, Setting};
 use crate::report::html::RunStory;
 use crate::report::{Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View};
 use crate::session::{Session, StopPolicy};
@@ -44,11 +49,14 @@ pub(super) struct RunArgs {
     #[arg(long)]
     keep_going: bool,
     /// Print only blocks with a change or a diagnostic
-    #[arg(long)]
+    #[arg(long, conflicts_with = "full")]
     changes: bool,
     /// Do not fold runs of blocks without a change
     #[arg(long)]
     full: bool,
+    /// Print only the diagnostics that count for the exit status
+    #[arg(long, short, conflicts_with_all = ["changes", "full", "format", "columns"])]
+    quiet: bool,
     /// The kinds of compensation whose changes are shown: `FRICT,LEAD` or `all`
     #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
     kinds: KindSet,
@@ -67,6 +75,8 @@ pub(super) struct RunArgs {
     /// The severity from which on the exit status is 1
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     fail_on: FailOn,
+    #[command(flatten)]
+    severities: SeverityArgs,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
@@ -104,6 +114,9 @@ impl RunArgs {
                 Blocks::All
             },
         };
+        if self.quiet {
+            return Box::new(Quiet::new(target, self.fail_on));
+        }
         let Target { writer, look } = target;
         match self.format {
             Format::Text => {
@@ -153,6 +166,18 @@ impl RunArgs {
         given
     }
 
+    /// Says which options have no effect with the others (R9.71).
+    fn check_options(&self) -> Result<(), Failure> {
+        if !self.columns.is_empty() && self.format != Format::Csv {
+            return Err(Failure::new("`--columns` belongs to `--format csv`"));
+        }
+        if self.full && self.format != Format::Text {
+            return Err(Failure::new("`--full` has no effect with this `--format`")
+                .with_help("only text folds blocks: leave `--full` out"));
+        }
+        Ok(())
+    }
+
     fn stop_policy(&self) -> StopPolicy {
         if self.keep_going {
             StopPolicy::KeepGoing
@@ -174,10 +199,8 @@ struct Start<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
-    if !args.columns.is_empty() && args.format != Format::Csv {
-        let failure = Failure::new("`--columns` belongs to `--format csv`");
-        return Err(failure);
-    }
+    args.check_options()?;
+    let console = if args.quiet { console.quiet() } else { console };
     let inputs: Vec<Input> = args.files.iter().map(|path| Input::new(path)).collect();
     for input in &inputs {
         input.probe()?;
@@ -190,9 +213,11 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let html = html.map(|path| outputs.file("--html", path)).transpose()?;
     let mut html = html.map(|file| HtmlFile::new(file, args.kinds));
     let mut machines = Machines::new(&args.machine, &ledger);
+    machines.weigh(&args.severities)?;
+    machines.look_ahead(&inputs);
     let loaded = machines.for_folder(inputs[0].folder())?;
     if let Some(remark) = loaded.remark() {
-        Console::talk(&remark);
+        console.remark(&remark);
     }
     if args.format == Format::Csv {
         // A row is a block: the lists have no row.
@@ -219,6 +244,10 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
             .map_err(|error| file.refused(&error))?,
         _ => (Session::new(loaded.machine.clone(), options), Vec::new()),
     };
+    let mut session = session;
+    if loaded.machine.axis_set == AxisSet::AsTheyOccur {
+        session.expect_axes(AxesAhead::of(&inputs, []).names());
+    }
     let mut start = Start {
         inputs,
         loaded: &loaded,
@@ -228,7 +257,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     };
     let report = args.report(target);
     let given = args.given(&loaded);
-    let played = play(&mut start, (report, html.as_mut()))?;
+    let (played, hint) = play(&mut start, (report, html.as_mut()))?;
     if let Played::Unread = played {
         // The reader has seen enough; a run that was cut short leaves nothing.
         return Ok(super::exit::CLEAN);
@@ -240,6 +269,10 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         file.save(&start.session.save(), &mut outputs)?;
     }
     outputs.finish()?;
+    say_unread(&args.machine, &ledger, console);
+    if args.format == Format::Text {
+        hint.iter().for_each(|code| console.remark(&explain(*code)));
+    }
     Ok(args.fail_on.status(start.session.counts()))
 }
 
@@ -257,30 +290,31 @@ enum Played {
 fn play(
     start: &mut Start<'_>,
     (report, html): (Box<dyn Report>, Option<&mut HtmlFile>),
-) -> Result<Played, Failure> {
+) -> Result<(Played, Option<Code>), Failure> {
     let shared = RefCell::new(report);
     let goes_on_alone = html.is_some();
     let mut sink = Listeners {
         report: &shared,
         html: html.map(HtmlFile::story),
-        blocks: 0,
-        progress: Progress::beside_output(),
+        weightiest: None,
     };
     // Between two reads of a program no record is on its way.
     let flow = start.programs(&mut sink, &|| {
         // A writer that takes no more says so at the next record.
         let _ = shared.borrow_mut().flush();
     });
+    let said = sink.weightiest.map(|(_, code)| code);
     drop(sink);
     let mut report = shared.into_inner();
     report.finish().map_err(|error| Failure::output(&error))?;
     if report.is_closed() && !goes_on_alone {
-        return Ok(Played::Unread);
+        return Ok((Played::Unread, None));
     }
-    Ok(match flow? {
+    let played = match flow? {
         ControlFlow::Continue(()) => Played::Whole,
         ControlFlow::Break(()) => Played::InPart,
-    })
+    };
+    Ok((played, said))
 }
 
 impl Start<'_> {
@@ -315,22 +349,23 @@ impl Start<'_> {
     }
 }
 
-/// Blocks between two looks at the clock.
-const STEP: u64 = 1 << 16;
-
 /// The timeline, shared with who flushes it, and the story of the HTML report.
 struct Listeners<'a> {
     report: &'a RefCell<Box<dyn Report>>,
     html: Option<&'a mut RunStory>,
-    blocks: u64,
-    progress: Progress,
+    /// The first of the weightiest diagnostics.
+    weightiest: Option<(Severity, Code)>,
 }
 
 impl Listeners<'_> {
-    fn step(&mut self) {
-        self.blocks += 1;
-        if self.blocks.is_multiple_of(STEP) {
-            self.progress.show(|| format!("{} blocks", self.blocks));
+    fn weigh<'d>(&mut self, said: impl IntoIterator<Item = &'d Diagnostic>) {
+        for diagnostic in said {
+            if self
+                .weightiest
+                .is_none_or(|(most, _)| diagnostic.severity > most)
+            {
+                self.weightiest = Some((diagnostic.severity, diagnostic.code));
+            }
         }
     }
 }
@@ -338,8 +373,12 @@ impl Listeners<'_> {
 impl Sink for Listeners<'_> {
     /// A reader of the timeline that has seen enough ends the run, unless there is a report.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        if let Record::Block(_) = record {
-            self.step();
+        match record {
+            Record::Block(row) => {
+                self.weigh(row.diagnostics);
+            }
+            Record::End(end) => self.weigh(end.notes.iter().map(|note| &note.diagnostic)),
+            _ => {}
         }
         let flow = self.report.borrow_mut().record(record);
         match &mut self.html {

@@ -25,8 +25,15 @@ pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
         return Err("write it as NAME=VALUE, for instance V.E.PART=3".to_owned());
     };
     let (name, value) = (name.trim(), value.trim());
-    if name.is_empty() {
-        return Err("there is no name before `=`".to_owned());
+    if !is_variable(name) {
+        return Err(format!(
+            "`{name}` is no variable; variables are `V.E.PART`, `P5` and `@P5`, for instance"
+        ));
+    }
+    if value.is_empty() {
+        return Err(format!(
+            "there is no value after `{name}=`; an empty text is `\"\"`"
+        ));
     }
     let number = value
         .parse::<f64>()
@@ -40,6 +47,16 @@ pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
         name: name.to_owned(),
         value: number.map_or_else(|| Setting::Text(unquoted.to_owned()), Setting::Number),
     })
+}
+
+/// Whether a name is that of a variable or a parameter (R2.33, R2.34).
+fn is_variable(name: &str) -> bool {
+    let number = name.strip_prefix('@').unwrap_or(name).strip_prefix('P');
+    if let Some(number) = number {
+        return number.starts_with(|it: char| it.is_ascii_digit());
+    }
+    name.strip_prefix("V.")
+        .is_some_and(|rest| rest.starts_with(|it: char| it.is_ascii_alphabetic()))
 }
 
 /// Parses a width in columns.
@@ -105,9 +122,14 @@ mod tests {
         assert_eq!(value("V.E.PART=3"), Setting::Number(3.0));
         assert_eq!(value("V.E.NAME = nan"), Setting::Text("nan".to_owned()));
         assert_eq!(value("V.E.NAME=\"3\""), Setting::Text("3".to_owned()));
-        assert_eq!(value("A=b=c"), Setting::Text("b=c".to_owned()));
+        assert_eq!(value("V.E.A=b=c"), Setting::Text("b=c".to_owned()));
         assert!(parse_setting("V.E.PART").is_err());
-        assert!(parse_setting("=3").is_err());
+        // R9.74
+        for wrong in ["=3", "V.E.PART=", "E.PART=3", "PART=3", "P=3", "@5=1"] {
+            assert!(parse_setting(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(value("@P4=1"), Setting::Number(1.0));
+        assert_eq!(value("V.E.NAME=\"\""), Setting::Text(String::new()));
     }
 
     #[test]

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::console::Console;
 use super::current::parse_reading;
+use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
 use super::jobs::Jobs;
@@ -45,21 +46,26 @@ pub(super) struct TuneArgs {
         long,
         value_name = "MM/MIN",
         value_delimiter = ',',
-        default_value = "500,1000,2000,5000"
+        default_value = "500,1000,2000,5000",
+        allow_negative_numbers = true
     )]
     feeds: Vec<f64>,
     /// A parameter that may leave its documented range
     #[arg(long, value_name = "PARAMETER", value_delimiter = ',')]
     free: Vec<Free>,
     /// Radius in mm
-    #[arg(long, value_name = "MM", default_value_t = 100.0)]
+    #[arg(
+        long,
+        value_name = "MM",
+        default_value_t = 100.0,
+        allow_negative_numbers = true
+    )]
     radius: f64,
     /// The friction model
     #[arg(long, default_value = "lugre")]
     model: Model,
-    /// The CNC cycle in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.001)]
-    cycle_time: f64,
+    #[command(flatten)]
+    cycle: CycleArgs,
     /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
     #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
     reading: Reading,
@@ -160,11 +166,12 @@ fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {
         let message = format!("{} feeds were given", args.feeds.len());
         return Err(Failure::new(message).with_help(format!("give at most {MAX_FEEDS}")));
     }
+    let cycle = args.cycle.seconds()?;
     let circle = |&feed: &f64| {
         let circle = Circle {
             radius: args.radius,
             feed,
-            cycle_time: args.cycle_time,
+            cycle_time: cycle.unwrap_or(Circle::default().cycle_time),
         };
         circle.check().map(|()| circle).map_err(Failure::from)
     };

@@ -84,6 +84,15 @@ impl Found {
     }
 }
 
+/// What to say of files that are no programs.
+pub(super) fn passed_over(files: u64) -> String {
+    match files {
+        0 => String::new(),
+        1 => "; 1 other file passed over".to_owned(),
+        several => format!("; {several} other files passed over"),
+    }
+}
+
 fn is_program(path: &Path, extensions: &[String]) -> bool {
     path.extension()
         .and_then(|extension| extension.to_str())

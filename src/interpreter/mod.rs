@@ -469,6 +469,12 @@ impl Interpreter {
         &self.state.occurred
     }
 
+    /// Takes an axis for one that occurred.
+    pub fn expect_axis(&mut self, axis: AxisIndex) {
+        self.state.occurred[axis.get()] = true;
+        self.version += 1;
+    }
+
     /// Rises whenever the compensation state or the axes that occurred change.
     pub fn version(&self) -> u64 {
         self.version

@@ -78,6 +78,7 @@ impl Configuration {
         }
         configuration.settings = settings(&root)?;
         configuration.levels = levels(&root)?;
+        configuration.extensions = extensions(&root)?;
 
         let mut loader = Loader::new(files);
         let startup = match &machine {
@@ -264,6 +265,29 @@ const LINT: Shape = Shape {
     name: "[lint]",
     keys: None,
 };
+
+const CHECK: Shape = Shape {
+    name: "[check]",
+    keys: Some(&["extensions"]),
+};
+
+/// The extensions of programs, in lower case and without a dot.
+fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
+    let Some(check) = root.table("check", &CHECK)? else {
+        return Ok(Vec::new());
+    };
+    let extension = |given: Given<String>| {
+        let text = given.value.trim_start_matches('.').to_ascii_lowercase();
+        let is_one = !text.is_empty() && !text.contains(['.', '/', '\\', '*', ' ']);
+        if is_one {
+            return Ok(text);
+        }
+        let message = format!("`{}` is no extension of files", given.value);
+        Err(ConfigError::at(&given, message).with_help("write `extensions = [\"nc\", \"spf\"]`"))
+    };
+    let given = check.strings("extensions")?;
+    given.into_iter().map(extension).collect()
+}
 
 fn settings(root: &Section<'_>) -> Result<Vec<(String, Setting)>, ConfigError> {
     let Some(variables) = root.table("variables", &VARIABLES)? else {

@@ -229,6 +229,8 @@ pub struct Configuration {
     pub settings: Vec<(String, Setting)>,
     /// The user's severities; those of `diagnostics` follow them already.
     pub levels: Levels,
+    /// The extensions of files that are programs, in lower case; empty for the usual ones.
+    pub extensions: Vec<String>,
     /// The folders in which called programs are looked for, as written.
     pub program_dirs: Vec<String>,
     /// What the lists give reason to say.

@@ -22,7 +22,7 @@ pub(crate) struct Shape {
 /// The whole file.
 pub(crate) const ROOT: Shape = Shape {
     name: "frictcomp.toml",
-    keys: Some(&["machine", "axis", "variables", "lint"]),
+    keys: Some(&["machine", "axis", "variables", "lint", "check"]),
 };
 
 /// One table whose keys are all known.

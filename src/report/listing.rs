@@ -112,6 +112,13 @@ impl<W: Write> Listing<W> {
         self.output.settle()
     }
 
+    /// Writes a record of another kind, in the formats that have records.
+    pub fn record(&mut self, record: &serde_json::Value) {
+        if matches!(self.format, ListingFormat::Json | ListingFormat::Ndjson) {
+            self.object(|out| out.extend_from_slice(record.to_string().as_bytes()));
+        }
+    }
+
     /// Writes the end of the list.
     ///
     /// # Errors

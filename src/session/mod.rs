@@ -218,6 +218,15 @@ impl Session {
         &self.interpreter
     }
 
+    /// Lists axes from the start that are known to occur, where no machine is described (R9.74).
+    pub fn expect_axes<'a>(&mut self, names: impl IntoIterator<Item = &'a str>) {
+        for name in names {
+            if let Some(axis) = self.machine.find(name) {
+                self.interpreter.expect_axis(axis);
+            }
+        }
+    }
+
     /// Says what the session starts with, and what the control says about its lists.
     pub fn begin(&mut self, lists: &[Diagnostic], sink: &mut dyn Sink) -> ControlFlow<()> {
         sink.record(&Record::Session {

@@ -162,7 +162,7 @@ fn what_cannot_be_done_is_said() {
         (
             vec!["a.nc", "--axis", "X", "--cycle-time", "0"],
             2,
-            "a CNC cycle of 0 s",
+            "a CNC cycle of 0 ms",
         ),
         (
             vec!["a.nc", "--axis", "X", "--isolated", "--enable", "X"],

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 
 use super::console::Console;
+use super::cycle::CycleArgs;
 use super::discovery::MachineArgs;
 use super::dry_run::ExecutionArgs;
 use super::failure::Failure;
@@ -49,14 +50,13 @@ pub(super) struct CurrentArgs {
     axes: Vec<String>,
     /// A commanded trace in place of a program
     #[arg(long, value_name = "FILE", requires = "value_list")]
+    #[arg(conflicts_with_all = OF_PROGRAMS)]
     trace: Option<PathBuf>,
     /// The compensation value list; for a program in place of what the configuration names
     #[arg(long, value_name = "LIST")]
     value_list: Option<PathBuf>,
-    /// The CNC cycle in seconds; without it that of the configuration or 1 ms, and of a trace the
-    /// distance of the first two times
-    #[arg(long, value_name = "SECONDS")]
-    cycle_time: Option<f64>,
+    #[command(flatten)]
+    cycle: CycleArgs,
     /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
     #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
     reading: Reading,
@@ -86,6 +86,24 @@ pub(super) struct CurrentArgs {
     #[command(flatten)]
     execution: ExecutionArgs,
 }
+
+/// Options that have no effect on a trace (R9.71).
+const OF_PROGRAMS: [&str; 14] = [
+    "max_cycles",
+    "config",
+    "isolated",
+    "startup",
+    "enable",
+    "settings",
+    "allow_outside",
+    "skip",
+    "max_blocks",
+    "max_calls",
+    "max_nesting",
+    "max_macros",
+    "max_work",
+    "max_values",
+];
 
 /// A format of the currents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -140,18 +158,6 @@ impl Plot {
     /// Writes the picture.
     fn finish(mut self) -> Result<(), Failure> {
         self.file.text(&self.traces.chart().render(Frame::Alone))
-    }
-}
-
-/// A CNC cycle that can be one, in seconds.
-fn check_cycle(cycle: f64) -> Result<f64, Failure> {
-    if cycle.is_finite() && cycle > 0.0 {
-        Ok(cycle)
-    } else {
-        Err(
-            Failure::new(format!("a CNC cycle of {cycle} s is not possible"))
-                .with_help("write the seconds of a cycle, `--cycle-time 0.001`"),
-        )
     }
 }
 

@@ -7,15 +7,17 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::super::console::Console;
+use super::super::cycle::checked;
 use super::super::discovery::{LoadedMachine, Machines};
-use super::super::dry_run::{Alone, run_alone};
+use super::super::dry_run::{Alone, Axes, run_alone};
 use super::super::exit;
 use super::super::failure::Failure;
 use super::super::files::{Input, Naming};
 use super::super::ledger::Ledger;
 use super::super::outputs::Outputs;
-use super::super::progress::Progress;
-use super::{Column, CurrentArgs, Plot, check_cycle, say_saturated, value_list};
+use super::super::unread::say_unread;
+use super::super::watch::Watch;
+use super::{Column, CurrentArgs, Plot, say_saturated, value_list};
 use crate::compensation::State;
 use crate::current::{AdditiveCurrent, Followers, Input as Commanded, Moment};
 use crate::diagnostic::{Diagnostic, Severity, did_you_mean};
@@ -42,6 +44,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     input.note(&ledger);
     let mut outputs = Outputs::new(&ledger, console);
     let mut machines = Machines::new(&args.machine, &ledger);
+    machines.look_ahead(std::slice::from_ref(&input));
     let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
     if let Some(remark) = loaded.remark() {
         Console::talk(&remark);
@@ -52,10 +55,11 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         (args.value_list.as_deref(), &ledger),
     )?;
     let cycle = args
-        .cycle_time
+        .cycle
+        .seconds()?
         .or(loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0));
     let tracing = TracerOptions {
-        cycle: check_cycle(cycle.unwrap_or(TracerOptions::default().cycle))?,
+        cycle: checked(cycle.unwrap_or(TracerOptions::default().cycle))?,
         max_cycles: args.max_cycles,
     };
     say_limits(&loaded);
@@ -75,7 +79,8 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
             writer: BufWriter::new(result.writer),
             written: Ok(()),
             cycles: 0,
-            progress: Progress::beside_output(),
+            watch: Arc::clone(&loaded.watch),
+            program: input.name(Naming::AsGiven),
             begins: Vec::new(),
             seen: vec![Vec::new(); followed.len()],
             plot,
@@ -94,6 +99,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
             ..args.execution.options(&loaded, StopPolicy::FirstError)
         },
         naming: Naming::AsGiven,
+        axes: Axes::AsTheyOccur,
     };
     run_alone(&input, &loaded, alone, &mut follow)?;
     let Follow {
@@ -128,6 +134,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         Console::talk(&told.nothing());
     }
     told.say_all(args);
+    say_unread(&args.machine, &ledger, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed { exit::FOUND } else { exit::CLEAN })
 }
@@ -260,7 +267,8 @@ struct Table {
     writer: BufWriter<Box<dyn Write>>,
     written: io::Result<()>,
     cycles: u64,
-    progress: Progress,
+    watch: Arc<Watch>,
+    program: String,
     /// When and at which line the trace begins, and begins anew.
     begins: Vec<(f64, u32)>,
     /// The states that each axis was in, other than active.
@@ -322,7 +330,8 @@ impl Cycles for Table {
     fn cycle(&mut self, cycle: &Cycle<'_>) -> ControlFlow<()> {
         self.cycles += 1;
         if self.cycles.is_multiple_of(STEP) {
-            self.progress.show(|| format!("{} cycles", self.cycles));
+            let done = format!("{} cycles", self.cycles);
+            self.watch.show(&done, (&self.program, cycle.cause.line));
         }
         for (seen, state) in self.seen.iter_mut().zip(cycle.cause.friction.iter()) {
             if *state != State::Active && !seen.contains(state) {

@@ -4,12 +4,13 @@ use std::io::Write;
 use std::path::Path;
 
 use super::super::console::Console;
+use super::super::cycle::checked;
 use super::super::exit;
 use super::super::failure::Failure;
 use super::super::files::read_text;
 use super::super::ledger::Ledger;
 use super::super::outputs::Outputs;
-use super::{CurrentArgs, Plot, check_cycle, say_saturated, value_list};
+use super::{CurrentArgs, Plot, say_saturated, value_list};
 use crate::compensation::State;
 use crate::current::{AdditiveCurrent, Cycle, Switched};
 use crate::report::pictures::AxisPlot;
@@ -35,7 +36,7 @@ pub(super) fn run(
     let mut writer = outputs.result(args.output.as_deref())?.writer;
     let mut plot = Plot::create(args, &mut outputs, vec![AxisPlot::new("", None)])?;
     outputs.check()?;
-    let trace = Trace::read(trace, args.cycle_time)?;
+    let trace = Trace::read(trace, args.cycle.seconds()?)?;
     let mut current = AdditiveCurrent::new(&list, args.reading);
     let written = write_csv(&mut writer, &trace, (&mut current, plot.as_mut()));
     if let Some(plot) = plot {
@@ -137,7 +138,7 @@ impl Trace {
             [first, second, ..] if second > first => second - first,
             _ => 0.001,
         });
-        check_cycle(cycle)
+        checked(cycle)
     }
 
     /// Computes the columns that are missing: 1 unit of position is 0.1 units of velocity times

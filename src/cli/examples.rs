@@ -1,0 +1,135 @@
+//! The examples at the end of every help text (R9.79). A test runs each of them.
+
+use clap::Command;
+
+/// What a command shows that it can do, by its name below the tool.
+struct Examples {
+    command: &'static [&'static str],
+    lines: [&'static str; 2],
+}
+
+const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) -> Examples {
+    Examples { command, lines }
+}
+
+static EXAMPLES: [Examples; 15] = [
+    examples(
+        &["run"],
+        [
+            "frictcomp run mill.nc",
+            "frictcomp run --changes --state shift.json mill.nc next.nc",
+        ],
+    ),
+    examples(
+        &["check"],
+        [
+            "frictcomp check programs",
+            "frictcomp check --format sarif -o findings.sarif programs",
+        ],
+    ),
+    examples(
+        &["golden"],
+        [
+            "frictcomp golden --update programs",
+            "frictcomp golden programs",
+        ],
+    ),
+    examples(
+        &["diff"],
+        [
+            "frictcomp diff mill-old.nc mill.nc",
+            "frictcomp diff --kinds all mill-old.nc mill.nc",
+        ],
+    ),
+    examples(
+        &["lists"],
+        [
+            "frictcomp lists hochlauf.lis",
+            "frictcomp lists --show --svg curves.svg hochlauf.lis",
+        ],
+    ),
+    examples(
+        &["current"],
+        [
+            "frictcomp current mill.nc --axis X --plot current.svg -o current.csv",
+            "frictcomp current --trace trace.csv --value-list comp_x.lis",
+        ],
+    ),
+    examples(
+        &["circle"],
+        [
+            "frictcomp circle --radius 50 --feed 5000 --svg circle.svg",
+            "frictcomp circle --trace ccw.csv --trace cw.csv --radius 50",
+        ],
+    ),
+    examples(
+        &["tune"],
+        [
+            "frictcomp tune --plant mid --feeds 5000 -o comp_x.lis",
+            "frictcomp tune --plant stiff --feeds 5000 --svg glitch.svg",
+        ],
+    ),
+    examples(
+        &["explain"],
+        [
+            "frictcomp explain FC401",
+            "frictcomp explain frict_comp.position_delay",
+        ],
+    ),
+    examples(
+        &["codes"],
+        ["frictcomp codes", "frictcomp codes --format json"],
+    ),
+    examples(
+        &["config"],
+        ["frictcomp config show", "frictcomp config show programs"],
+    ),
+    examples(
+        &["config", "show"],
+        [
+            "frictcomp config show",
+            "frictcomp config show --isolated --enable X,Y",
+        ],
+    ),
+    examples(
+        &["init"],
+        [
+            "frictcomp init programs",
+            "frictcomp init --startup hochlauf.lis machine",
+        ],
+    ),
+    examples(
+        &["completions"],
+        [
+            "frictcomp completions bash",
+            "frictcomp completions powershell",
+        ],
+    ),
+    examples(&["man"], ["frictcomp man", "frictcomp man --output pages"]),
+];
+
+/// What the tool itself shows.
+const FIRST: [&str; 2] = ["frictcomp run mill.nc", "frictcomp check programs"];
+
+/// What the exit status says, below the tool's own help.
+const STATUS: &str = "Exit status: 0 nothing at or above --fail-on, 1 something was, \
+                      2 the tool could not do its work.";
+
+/// The command line with its examples.
+pub(super) fn with_examples(tool: Command) -> Command {
+    let tool = tool.after_help(format!("{STATUS}\n\n{}", text(FIRST)));
+    EXAMPLES.iter().fold(tool, |tool, examples| {
+        below(tool, examples.command, &text(examples.lines))
+    })
+}
+
+fn below(command: Command, names: &[&'static str], help: &str) -> Command {
+    match names.split_first() {
+        None => command.after_help(help.to_owned()),
+        Some((first, rest)) => command.mut_subcommand(*first, |it| below(it, rest, help)),
+    }
+}
+
+fn text(lines: [&str; 2]) -> String {
+    format!("Examples:\n  {}\n  {}", lines[0], lines[1])
+}

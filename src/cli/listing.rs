@@ -1,0 +1,252 @@
+//! Diagnostics as `check` and `lists` list them: which of them, and in which form.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+
+use super::console::{Console, Printed, Target};
+use super::fail_on::FailOn;
+use super::failure::Failure;
+use super::severities::SeverityArgs;
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::lists::{Origin, Parameter};
+use crate::machine::AxisReport;
+use crate::report::{Listing, ListingFormat, Tally};
+
+/// How diagnostics are listed.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ListingArgs {
+    /// The format of the diagnostics
+    #[arg(long, default_value = "text")]
+    pub(super) format: Format,
+    /// Write the diagnostics into this file
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// The severity from which on the exit status is 1
+    #[arg(long, value_name = "SEVERITY", default_value = "error")]
+    pub(super) fail_on: FailOn,
+    /// Say only what counts for the exit status
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+    /// Count the diagnostics by code, in place of listing them
+    #[arg(long)]
+    statistics: bool,
+    #[command(flatten)]
+    pub(super) severities: SeverityArgs,
+}
+
+/// A format of diagnostics (R9.25).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Format {
+    /// Source lines with carets, for people.
+    #[default]
+    Text,
+    /// One line a diagnostic.
+    Concise,
+    /// One JSON document.
+    Json,
+    /// One JSON object a line.
+    Ndjson,
+    /// Workflow commands of GitHub.
+    Github,
+    /// SARIF 2.1.0.
+    Sarif,
+}
+
+impl From<Format> for ListingFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Text => Self::Text,
+            Format::Concise => Self::Concise,
+            Format::Json => Self::Json,
+            Format::Ndjson => Self::Ndjson,
+            Format::Github => Self::Github,
+            Format::Sarif => Self::Sarif,
+        }
+    }
+}
+
+impl Format {
+    /// Whether it is for people.
+    pub(super) fn is_text(self) -> bool {
+        self == Self::Text
+    }
+
+    /// Refuses the formats that are for diagnostics only.
+    pub(super) fn of_records(self, what: &str) -> Result<Self, Failure> {
+        match self {
+            Self::Github | Self::Sarif => Err(Failure::new(format!(
+                "`--format github` and `sarif` are for diagnostics, not for {what}"
+            ))
+            .with_help("write `--format text`, `concise`, `json` or `ndjson`")),
+            format => Ok(format),
+        }
+    }
+}
+
+/// Records as text lines, NDJSON or one document.
+pub(super) fn records(format: Format, text: &str, records: Vec<Value>) -> String {
+    match format {
+        Format::Json => format!("{:#}\n", json!({ "schema": 1, "records": records })),
+        Format::Ndjson => records.iter().map(|it| format!("{it}\n")).collect(),
+        _ => text.to_owned(),
+    }
+}
+
+impl ListingArgs {
+    /// A console that says as much as the user wants.
+    pub(super) fn console(&self, console: Console) -> Console {
+        if self.quiet { console.quiet() } else { console }
+    }
+
+    /// Begins the list.
+    pub(super) fn lister(&self, target: Target) -> Result<Lister<'_>, Failure> {
+        let (format, look) = (self.format.into(), target.look);
+        let (writer, counted): (Box<dyn Write>, _) = if self.statistics {
+            self.format.of_records("statistics")?;
+            (Box::new(io::sink()), Some(target))
+        } else {
+            (target.writer, None)
+        };
+        Ok(Lister {
+            args: self,
+            listing: Listing::new(writer, format, look),
+            counted,
+            counts: BTreeMap::new(),
+        })
+    }
+}
+
+/// A list on its way out.
+pub(super) struct Lister<'a> {
+    args: &'a ListingArgs,
+    listing: Listing<Box<dyn Write>>,
+    /// Where the counts go, in place of the list.
+    counted: Option<Target>,
+    counts: BTreeMap<(Code, Severity), u64>,
+}
+
+impl Lister<'_> {
+    /// Counts a file that was looked at.
+    pub(super) fn file(&mut self) {
+        self.listing.file();
+    }
+
+    /// Lists a diagnostic. `Break` when the writer takes no more.
+    pub(super) fn diagnostic(&mut self, said: &Diagnostic) -> ControlFlow<()> {
+        if self.args.quiet && !self.args.fail_on.counts(said.severity) {
+            return ControlFlow::Continue(());
+        }
+        *self.counts.entry((said.code, said.severity)).or_default() += 1;
+        self.listing.diagnostic(said)
+    }
+
+    /// Lists effective parameters, where the format has records.
+    pub(super) fn parameters(&mut self, reports: &[AxisReport]) {
+        for report in reports {
+            for row in &report.parameters {
+                self.listing.record(&parameter(report, row));
+            }
+        }
+    }
+
+    /// Writes the end of the list.
+    pub(super) fn finish(&mut self) -> Result<Printed, Failure> {
+        self.listing
+            .finish()
+            .map_err(|error| Failure::output(&error))?;
+        if let Some(target) = &mut self.counted {
+            let (format, counts) = (self.args.format, &self.counts);
+            let text: String = counts
+                .iter()
+                .map(|(key, count)| row(*key, *count))
+                .collect();
+            let values = counts.iter().map(|(key, count)| record(*key, *count));
+            return target.text(&records(format, &text, values.collect()));
+        }
+        Ok(if self.listing.is_closed() {
+            Printed::Unread
+        } else {
+            Printed::Read
+        })
+    }
+
+    /// What the list adds up to.
+    pub(super) fn tally(&self) -> &Tally {
+        self.listing.tally()
+    }
+
+    /// The exit status that the list gives.
+    pub(super) fn status(&self) -> u8 {
+        self.args.fail_on.status(&self.tally().counts)
+    }
+
+    /// How to read more about what was said, once (R9.79).
+    pub(super) fn hint(&self) -> Option<String> {
+        let codes = self.counts.keys();
+        let weightiest = codes.max_by_key(|(code, severity)| (*severity, std::cmp::Reverse(*code)));
+        weightiest.map(|(code, _)| explain(*code))
+    }
+}
+
+/// Where a code is explained (R9.79).
+pub(super) fn explain(code: Code) -> String {
+    format!("`frictcomp explain {code}` says more about {code}")
+}
+
+fn row((code, severity): (Code, Severity), count: u64) -> String {
+    let (word, title) = (severity.word(), code.title());
+    format!("{count:>7}  {word:<7}  {:<12}  {title}\n", code.text())
+}
+
+fn parameter(report: &AxisReport, row: &Parameter) -> Value {
+    let (file, line) = match &row.origin {
+        Origin::File { file, line } => (Some(&**file), Some(*line)),
+        Origin::Default | Origin::Assumed => (None, None),
+    };
+    json!({
+        "record": "parameter",
+        "axis": report.axis,
+        "number": row.number,
+        "key": row.key,
+        "value": row.value,
+        "unit": row.unit,
+        "origin": match &row.origin {
+            Origin::Default => "default",
+            Origin::Assumed => "assumed",
+            Origin::File { .. } => "file",
+        },
+        "file": file,
+        "line": line,
+    })
+}
+
+fn record((code, severity): (Code, Severity), count: u64) -> Value {
+    json!({
+        "record": "statistic",
+        "code": code.text(),
+        "severity": severity.word(),
+        "count": count,
+        "title": code.title(),
+    })
+}
+
+/// What was found, in one line.
+pub(super) fn total(tally: &Tally) -> String {
+    let count = |number: u64, noun: &str| {
+        let plural = if number == 1 { "" } else { "s" };
+        format!("{number} {noun}{plural}")
+    };
+    format!(
+        "{} checked: {}, {}, {}",
+        count(tally.files, "file"),
+        count(tally.of(Severity::Error), "error"),
+        count(tally.of(Severity::Warning), "warning"),
+        count(tally.of(Severity::Info), "note"),
+    )
+}

@@ -1,0 +1,210 @@
+//! Which axes programs name, before they run (R9.74).
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use super::files::Input;
+
+/// Bytes that are looked at together.
+const PIECE: usize = 256 * 1024;
+
+/// The letters that are axes where no machine is described (R2.20).
+const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
+
+/// The axes that a look over the text of programs found. The interpreter decides what is one: the
+/// look only says which to expect.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct AxesAhead {
+    found: Vec<&'static str>,
+    /// Names that were asked for, and whether they are there.
+    asked: Vec<(String, bool)>,
+    /// Whether there may be more: in what is called, or comes through a pipe.
+    is_open: bool,
+}
+
+impl AxesAhead {
+    /// Looks over programs for the usual axes and for further names.
+    pub(super) fn of<'a>(
+        inputs: impl IntoIterator<Item = &'a Input>,
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let asked = names.into_iter().map(|name| (name.to_owned(), false));
+        let mut ahead = Self {
+            asked: asked.collect(),
+            ..Self::default()
+        };
+        for input in inputs {
+            let Input::File(path) = input else {
+                ahead.is_open = true;
+                continue;
+            };
+            // What cannot be read is said when it is run.
+            if ahead.read(path).is_err() {
+                ahead.is_open = true;
+            }
+        }
+        ahead
+    }
+
+    /// The usual axes that occur, in the order of the machine.
+    pub(super) fn names(&self) -> impl Iterator<Item = &'static str> {
+        LETTERS.into_iter().filter(|name| self.found.contains(name))
+    }
+
+    /// Whether an axis may occur.
+    pub(super) fn may_hold(&self, name: &str) -> bool {
+        let asked = self
+            .asked
+            .iter()
+            .any(|(known, found)| known == name && *found);
+        self.is_open || asked || self.found.contains(&name)
+    }
+
+    /// Whether no more axes can occur than were found.
+    pub(super) fn is_complete(&self) -> bool {
+        !self.is_open
+    }
+
+    fn read(&mut self, path: &Path) -> io::Result<()> {
+        if !path.is_file() {
+            self.is_open = true;
+            return Ok(());
+        }
+        let mut file = File::open(path)?;
+        let mut piece = vec![0; PIECE];
+        let mut kept = 0;
+        loop {
+            let count = file.read(&mut piece[kept..])?;
+            let bytes = &piece[..kept + count];
+            // A line that is cut is looked at with the next piece, unless it fills this one.
+            let whole = match memchr::memrchr2(b'\n', b'\r', bytes) {
+                Some(at) if count > 0 => at + 1,
+                _ => bytes.len(),
+            };
+            self.look(&bytes[..whole]);
+            if count == 0 {
+                return Ok(());
+            }
+            let rest = whole..kept + count;
+            kept = rest.len();
+            piece.copy_within(rest, 0);
+        }
+    }
+
+    fn look(&mut self, text: &[u8]) {
+        for name in LETTERS {
+            if !self.found.contains(&name) && holds(text, name.as_bytes()) {
+                self.found.push(name);
+            }
+        }
+        for (name, found) in &mut self.asked {
+            *found = *found || holds(text, name.as_bytes());
+        }
+        self.is_open = self.is_open || calls(text);
+    }
+}
+
+/// Whether a text has an axis word of this name.
+fn holds(text: &[u8], name: &[u8]) -> bool {
+    memchr::memmem::find_iter(text, name).any(|at| is_axis_word(text, at, name))
+}
+
+fn is_axis_word(text: &[u8], at: usize, name: &[u8]) -> bool {
+    let before = at.checked_sub(1).map(|before| text[before]);
+    if before.is_some_and(|it| it.is_ascii_alphabetic() || b"_.@[#$'".contains(&it)) {
+        return false;
+    }
+    let mut rest = text[at + name.len()..].iter().copied();
+    let next = rest.find(|byte| !b" \t".contains(byte));
+    let then = rest.next();
+    let has_value = match next {
+        Some(b'.') => then.is_none_or(|it| !it.is_ascii_alphabetic()),
+        Some(b'=') => then != Some(b'='),
+        Some(b'P') => then.is_some_and(|it| it.is_ascii_digit() || it == b'P'),
+        Some(b'V') => then == Some(b'.'),
+        Some(b'@' | b'+' | b'-' | b'[' | b'(') => true,
+        Some(digit) => name.len() == 1 && digit.is_ascii_digit(),
+        None => false,
+    };
+    has_value && is_code(text, at)
+}
+
+/// Whether a place is neither in a comment nor in a string nor in the name of a program.
+fn is_code(text: &[u8], at: usize) -> bool {
+    let start = memchr::memrchr2(b'\n', b'\r', &text[..at]).map_or(0, |end| end + 1);
+    let line = &text[start..at];
+    if line.trim_ascii_start().first() == Some(&b'%') {
+        return false;
+    }
+    let (mut depth, mut quoted) = (0_u32, false);
+    for byte in line {
+        match byte {
+            b'"' => quoted = !quoted,
+            b';' if !quoted && depth == 0 => return false,
+            b'(' if !quoted => depth += 1,
+            b')' if !quoted => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    depth == 0 && !quoted
+}
+
+/// Whether a text calls another file: `L name`.
+fn calls(text: &[u8]) -> bool {
+    memchr::memchr_iter(b'L', text).any(|at| {
+        let before = at.checked_sub(1).map(|before| text[before]);
+        let alone = before.is_none_or(|it| !it.is_ascii_alphabetic() && it != b'%' && it != b'.');
+        let next = text.get(at + 1);
+        alone && next.is_some_and(|it| b" \t\"".contains(it)) && is_code(text, at)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ahead(text: &str) -> (Vec<&'static str>, bool) {
+        let mut ahead = AxesAhead::default();
+        ahead.look(text.as_bytes());
+        (ahead.names().collect(), ahead.is_complete())
+    }
+
+    #[test]
+    fn axes_are_words_with_a_value() {
+        // R9.74
+        let names = |text: &str| ahead(text).0;
+        assert_eq!(
+            names("N10 G1X1Y-2 Z=P1\nC[COMP ON FRICT]"),
+            ["X", "Y", "Z", "C"]
+        );
+        assert_eq!(
+            names("N10 X P5 B.5 W V.P.A\nU[1+2] A = 5"),
+            ["X", "A", "B", "U", "W"]
+        );
+        assert_eq!(
+            names("V.E.X = 1 (X5) ;Y5\n#MSG [\"Z5\"]\n%A1\nFRICT\nMAX5"),
+            [""; 0]
+        );
+        assert_eq!(names("$IF P1 == 1\nP1 = 'H1B5'\nV.5"), ["V"]);
+    }
+
+    #[test]
+    fn calls_may_bring_more_axes() {
+        assert!(ahead("G0 X1\nLL SUB\n%L SUB\nM17").1);
+        assert!(!ahead("G0 X1\nL SUB.nc\n").1);
+        assert!(!ahead("L \"SUB.nc\"").1);
+    }
+
+    #[test]
+    fn a_file_is_looked_at_piece_by_piece() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let text = "N10 X1 (no Y5)\n".repeat(40_000) + "N20 AX2=5\n";
+        std::fs::write(file.path(), text).unwrap();
+        let input = Input::File(file.path().to_owned());
+        let ahead = AxesAhead::of([&input], ["AX2", "AX3"]);
+        assert_eq!(ahead.names().collect::<Vec<_>>(), ["X"]);
+        assert!(ahead.may_hold("AX2") && !ahead.may_hold("AX3") && !ahead.may_hold("Y"));
+        assert!(AxesAhead::of([&Input::Stdin], []).may_hold("Q1"));
+    }
+}

@@ -1,0 +1,149 @@
+//! Which codes count, for one call (R9.72).
+
+use clap::Args;
+
+use super::failure::Failure;
+use crate::codes::Code;
+use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
+
+/// Which codes count, for this call; what the control itself reports always does.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Messages")]
+pub(super) struct SeverityArgs {
+    /// Leave these codes out
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = parse_ours)]
+    ignore: Vec<Code>,
+    /// Leave out all codes but these and those of the control
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = parse_code)]
+    #[arg(conflicts_with = "ignore")]
+    select: Vec<Code>,
+    /// Give a code another severity: `info`, `warning`, `error`
+    #[arg(long, value_name = "CODE=LEVEL", value_delimiter = ',', value_parser = parse_severity)]
+    severity: Vec<(Code, Severity)>,
+}
+
+impl SeverityArgs {
+    /// Says which option has no effect beside another one.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        let without_effect = self.severity.iter().find(|(code, _)| !self.keeps(*code));
+        match without_effect {
+            Some((code, _)) => Err(Failure::new(format!(
+                "`--severity {code}` has no effect: the code is left out"
+            ))
+            .with_help("take it out of `--ignore`, or add it to `--select`")),
+            None => Ok(()),
+        }
+    }
+
+    /// Changes the severities of a configuration.
+    pub(super) fn apply(&self, levels: &mut Levels) {
+        for &code in Code::ALL {
+            if !self.keeps(code) {
+                levels.set(code, None);
+            }
+        }
+        for &(code, severity) in &self.severity {
+            levels.set(code, Some(severity));
+        }
+    }
+
+    /// Changes what was said already, about lists.
+    pub(super) fn sift(&self, said: &mut Vec<Diagnostic>) {
+        said.retain(|diagnostic| self.keeps(diagnostic.code));
+        for diagnostic in said {
+            let given = self.severity.iter().rev();
+            let given = given.clone().find(|(code, _)| *code == diagnostic.code);
+            if let Some((_, severity)) = given {
+                diagnostic.severity = *severity;
+            }
+        }
+    }
+
+    fn keeps(&self, code: Code) -> bool {
+        let selected = self.select.is_empty() || self.select.contains(&code);
+        code.is_controller() || (selected && !self.ignore.contains(&code))
+    }
+}
+
+fn parse_code(text: &str) -> Result<Code, String> {
+    let text = text.trim();
+    Code::find(text).ok_or_else(|| {
+        let known = Code::ALL.iter().map(|code| code.text());
+        match did_you_mean(text, known) {
+            Some(near) => format!("there is no code `{text}`, did you mean `{near}`?"),
+            None => format!("there is no code `{text}`; `frictcomp codes` lists them"),
+        }
+    })
+}
+
+/// A code that may be changed (R9.24).
+fn parse_ours(text: &str) -> Result<Code, String> {
+    let code = parse_code(text)?;
+    if code.is_controller() {
+        return Err(format!(
+            "{code} is an error of the control, it is always said"
+        ));
+    }
+    Ok(code)
+}
+
+fn parse_severity(text: &str) -> Result<(Code, Severity), String> {
+    let Some((code, level)) = text.split_once('=') else {
+        return Err("write it as CODE=LEVEL, for instance FC402=warning".to_owned());
+    };
+    let code = parse_ours(code)?;
+    match level.trim() {
+        "info" => Ok((code, Severity::Info)),
+        "warning" => Ok((code, Severity::Warning)),
+        "error" => Ok((code, Severity::Error)),
+        "off" => Err(format!("write `--ignore {code}` to leave it out")),
+        other => Err(format!(
+            "`{other}` is no severity; write `info`, `warning` or `error`"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_left_out_and_weighed() {
+        // R9.72
+        let mut levels = Levels::default();
+        let args = SeverityArgs {
+            select: vec![Code::Fc401],
+            severity: vec![(Code::Fc401, Severity::Error)],
+            ..SeverityArgs::default()
+        };
+        args.check().unwrap();
+        args.apply(&mut levels);
+        assert_eq!(levels.severity(Code::Fc401), Some(Severity::Error));
+        assert_eq!(levels.severity(Code::Fc402), None);
+        assert_eq!(levels.severity(Code::PErr70495), Some(Severity::Error));
+        let args = SeverityArgs {
+            ignore: vec![Code::Fc401],
+            severity: vec![(Code::Fc401, Severity::Error)],
+            ..SeverityArgs::default()
+        };
+        assert!(args.check().is_err());
+    }
+
+    #[test]
+    fn codes_are_given_as_they_are_printed() {
+        assert_eq!(parse_code("fc402"), Ok(Code::Fc402));
+        assert!(parse_code("FC4O2").unwrap_err().contains("`FC402`"));
+        assert!(
+            parse_ours("P-ERR-70495")
+                .unwrap_err()
+                .contains("always said")
+        );
+        assert_eq!(
+            parse_severity("FC402=error"),
+            Ok((Code::Fc402, Severity::Error))
+        );
+        for wrong in ["FC402", "FC402=off", "FC402=fatal", "P-ERR-70495=info"] {
+            assert!(parse_severity(wrong).is_err(), "{wrong}");
+        }
+    }
+}

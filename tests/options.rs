@@ -1,0 +1,535 @@
+//! The options of the commands: what they do, and what is refused.
+
+#![cfg(feature = "cli")]
+
+mod folder;
+
+use std::fs;
+use std::process::Output;
+
+use folder::{Bench, json};
+use serde_json::Value;
+
+const LEAVE_OFF: &str = "N10 X[COMP OFF FRICT]\nN20 X1\nN30 X[COMP OFF FRICT]\nN40 M30\n";
+const NOT_CONFIGURED: &str = "N10 Z[COMP ON FRICT]\nN20 M30\n";
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("text")
+}
+
+fn refused(bench: &Bench, arguments: &[&str]) -> String {
+    let output = bench.call(arguments);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+    said
+}
+
+/// A folder without a configuration above it.
+fn bare(programs: &[(&str, &str)]) -> Bench {
+    let bench = Bench::new(programs);
+    fs::remove_file(bench.folder().join("frictcomp.toml")).expect("removed");
+    bench
+}
+
+#[test]
+fn only_what_counts_is_said_where_that_is_wanted() {
+    // R9.72
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.nc", NOT_CONFIGURED)]);
+    for command in ["check", "run"] {
+        let output = bench.call(&[command, "-q", "a.nc"]);
+        assert_eq!(output.status.code(), Some(0));
+        assert_eq!(
+            (output.stdout.len(), stderr(&output).len()),
+            (0, 0),
+            "{command}"
+        );
+        let output = bench.call(&[command, "--quiet", "b.nc"]);
+        assert_eq!(output.status.code(), Some(1));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(text.starts_with("error[P-ERR-70495]"), "{text}");
+        let output = bench.call(&[command, "-q", "--fail-on", "warning", "a.nc"]);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(
+            text.contains("[FC401]") && !text.contains("[FC402]"),
+            "{text}"
+        );
+    }
+    assert_eq!(
+        stderr(&bench.call(&["golden", "-q", "--update", "a.nc"])),
+        ""
+    );
+}
+
+#[test]
+fn codes_are_counted() {
+    // R9.72
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    let text = bench.stdout(&["check", "--statistics", "a.nc"]);
+    assert!(
+        text.lines()
+            .any(|line| line.starts_with("      1  warning  FC401")),
+        "{text}"
+    );
+    assert!(text.lines().all(|line| line.starts_with("  ")), "{text}");
+    let document = json(&bench.stdout(&["check", "--statistics", "--format", "json", "a.nc"]));
+    let records = document["records"].as_array().expect("records");
+    assert!(
+        records
+            .iter()
+            .any(|it| it["code"] == "FC401" && it["count"] == 1)
+    );
+    assert!(
+        refused(
+            &bench,
+            &["check", "--statistics", "--format", "sarif", "a.nc"]
+        )
+        .contains("sarif")
+    );
+}
+
+#[test]
+fn codes_are_left_out_and_weighed_for_one_call() {
+    // R9.72
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.nc", NOT_CONFIGURED)]);
+    let codes = |arguments: &[&str]| {
+        let all = [&["check", "--format", "ndjson"], arguments].concat();
+        let text = bench.stdout(&all);
+        let records: Vec<Value> = text.lines().map(json).collect();
+        let said = records.iter().filter(|it| it["record"] == "diagnostic");
+        let mut codes: Vec<String> = said
+            .map(|it| format!("{} {}", it["code"], it["severity"]).replace('"', ""))
+            .collect();
+        codes.sort();
+        codes.dedup();
+        codes
+    };
+    let all = codes(&["a.nc"]);
+    assert!(all.contains(&"FC401 warning".to_owned()), "{all:?}");
+    assert!(!codes(&["--ignore", "FC401", "a.nc"]).contains(&"FC401 warning".to_owned()));
+    assert_eq!(codes(&["--select", "FC401", "a.nc"]), ["FC401 warning"]);
+    // The control's own errors are always said (R9.24).
+    assert!(codes(&["--select", "FC401", "b.nc"]).contains(&"P-ERR-70495 error".to_owned()));
+    let weighed = codes(&["--severity", "FC401=error", "a.nc"]);
+    assert!(weighed.contains(&"FC401 error".to_owned()), "{weighed:?}");
+    assert_eq!(
+        bench.status(&["run", "--severity", "FC401=error", "a.nc"]),
+        Some(1)
+    );
+    assert_eq!(
+        bench.status(&["check", "--severity", "FC401=error", "a.nc"]),
+        Some(1)
+    );
+    for wrong in [
+        &["check", "--ignore", "FC4O1", "a.nc"][..],
+        &["check", "--ignore", "P-ERR-70495", "a.nc"],
+        &["check", "--severity", "FC401=fatal", "a.nc"],
+        &[
+            "check",
+            "--ignore",
+            "FC401",
+            "--severity",
+            "FC401=error",
+            "a.nc",
+        ],
+        &["check", "--ignore", "FC401", "--select", "FC402", "a.nc"],
+    ] {
+        refused(&bench, wrong);
+    }
+}
+
+#[test]
+fn lists_are_weighed_too() {
+    // R9.72
+    let bench = Bench::new(&[]);
+    let list = "frict_comp.mode 3\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
+                frict_comp.table[0].in 0\nfrict_comp.table[0].out 10\n";
+    bench.write("v.lis", list);
+    assert!(bench.stdout(&["lists", "v.lis"]).contains("FC121"));
+    assert!(
+        !bench
+            .stdout(&["lists", "--ignore", "FC121", "v.lis"])
+            .contains("FC121")
+    );
+    assert_eq!(
+        bench.status(&["lists", "--severity", "FC121=error", "v.lis"]),
+        Some(1)
+    );
+}
+
+#[test]
+fn commands_without_a_path_take_the_current_folder() {
+    // R9.72
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("notes.txt", "X")]);
+    let output = bench.call(&["check"]);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("a.nc"));
+    let said = stderr(&output);
+    assert!(
+        said.contains("1 file checked") && said.contains("2 other files passed over"),
+        "{said}"
+    );
+    assert_eq!(bench.status(&["golden"]), Some(1));
+    assert!(stderr(&bench.call(&["lists"])).contains("1 file checked"));
+    let bare = bare(&[]);
+    assert!(refused(&bare, &["lists"]).contains("no frictcomp.toml"));
+}
+
+#[test]
+fn the_configuration_names_the_extensions_of_programs() {
+    // R9.72
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.prg", LEAVE_OFF)]);
+    let configuration = bench.read("frictcomp.toml") + "[check]\nextensions = [\".PRG\"]\n";
+    bench.write("frictcomp.toml", &configuration);
+    let text = bench.stdout(&["check", "--format", "concise", "."]);
+    assert!(text.contains("b.prg:") && !text.contains("a.nc:"), "{text}");
+    bench.write("frictcomp.toml", "[check]\nextensions = [\"*.nc\"]\n");
+    let said = refused(&bench, &["check", "a.nc"]);
+    assert!(said.contains("is no extension of files"), "{said}");
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    // R9.71
+    let bench = Bench::new(&[
+        ("a.nc", LEAVE_OFF),
+        ("v.lis", "frict_comp.mode 0\n"),
+        ("t.csv", "t,x\n0,0\n"),
+    ]);
+    let trace = ["current", "--trace", "t.csv", "--value-list", "v.lis"];
+    for arguments in [
+        &["run", "--changes", "--full", "a.nc"][..],
+        &["run", "--full", "--format", "ndjson", "a.nc"],
+        &["run", "--columns", "position", "a.nc"],
+        &["run", "--quiet", "--changes", "a.nc"],
+        &["run", "--quiet", "--format", "csv", "a.nc"],
+        &["run", "--isolated", "--config", "frictcomp.toml", "a.nc"],
+        &["check", "--unknowns", "--format", "sarif", "a.nc"],
+        &["check", "--opaque", "--format", "github", "a.nc"],
+        &["check", "--unknowns", "--opaque", "a.nc"],
+        &["check", "--unknowns", "--fail-on", "info", "a.nc"],
+        &["check", "--opaque", "--statistics", "a.nc"],
+        &["check", "--unknowns", "--ignore", "FC401", "a.nc"],
+        &["lists", "--show", "--format", "concise", "v.lis"],
+        &["lists", "--show", "--format", "sarif", "v.lis"],
+        &[&trace[..], &["--enable", "X"]].concat(),
+        &[&trace[..], &["--skip", "1"]].concat(),
+        &[&trace[..], &["--max-cycles", "5"]].concat(),
+        &[&trace[..], &["--isolated"]].concat(),
+        &[&trace[..], &["--axis", "X"]].concat(),
+        &["circle", "--trace", "t.csv", "--feed", "100"],
+        &["circle", "--trace", "t.csv", "--cycle-time-ms", "1"],
+    ] {
+        let said = refused(&bench, arguments);
+        assert!(said.starts_with("error: "), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn every_format_holds_what_the_text_holds() {
+    // R9.71
+    let program = "N10 X=V.E.PART\nN20 #FLUSH\nN30 M30\n";
+    let bench = Bench::new(&[("a.nc", program)]);
+    for option in ["--unknowns", "--opaque"] {
+        let text = bench.stdout(&["check", option, "a.nc"]);
+        let lines = bench.stdout(&["check", option, "--format", "ndjson", "a.nc"]);
+        let document = json(&bench.stdout(&["check", option, "--format", "json", "a.nc"]));
+        let records = document["records"].as_array().expect("records");
+        assert_eq!(text.lines().count(), lines.lines().count());
+        assert_eq!(text.lines().count(), records.len());
+        for (line, record) in text.lines().zip(records) {
+            let place = format!("a.nc:{}:{}", record["line"], record["column"]);
+            assert!(line.starts_with(record["name"].as_str().expect("a name")));
+            assert!(line.ends_with(&place), "{line} {place}");
+        }
+    }
+    let table = bench.stdout(&["lists", "--show", "frictcomp.toml"]);
+    let lines = bench.stdout(&["lists", "--show", "--format", "ndjson", "frictcomp.toml"]);
+    let records: Vec<Value> = lines.lines().map(json).collect();
+    let parameters = records.iter().filter(|it| it["record"] == "parameter");
+    let rows = table
+        .lines()
+        .filter(|line| line.starts_with("  P-"))
+        .count();
+    assert!(rows > 0 && parameters.clone().count() == rows, "{table}");
+    for parameter in parameters {
+        let key = parameter["key"].as_str().expect("a key");
+        assert!(table.contains(key), "{key}");
+    }
+}
+
+#[test]
+fn axes_are_known_from_the_first_line() {
+    // R9.74
+    let bench = bare(&[(
+        "a.nc",
+        "N10 G90\nN20 X1 (Y5)\nN30 C[COMP OFF FRICT]\nN40 M30\n",
+    )]);
+    let text = bench.stdout(&["run", "a.nc"]);
+    let headers = text
+        .lines()
+        .filter(|line| line.contains("line  block"))
+        .count();
+    assert_eq!(headers, 1, "{text}");
+    let header = text
+        .lines()
+        .find(|line| line.contains("line  block"))
+        .expect("a header");
+    assert!(
+        header.contains("X") && header.contains("C") && !header.contains("Y"),
+        "{text}"
+    );
+    let records = bench.records(&["a.nc"]);
+    assert!(records[0].contains(r#""axes":["X","C"]"#), "{}", records[0]);
+    assert_eq!(bench.status(&["golden", "--update", "a.nc"]), Some(0));
+    let golden = bench.read("a.nc.timeline");
+    assert_eq!(golden.matches("line  block").count(), 1, "{golden}");
+}
+
+#[test]
+fn only_axes_that_occur_are_enabled() {
+    // R9.74
+    let bench = bare(&[
+        ("a.nc", "N10 X[COMP ON FRICT]\nN20 AX2=5 Y1\nN30 M30\n"),
+        ("call.nc", "N10 L a.nc\nN20 M30\n"),
+    ]);
+    let said = refused(&bench, &["run", "--enable", "x", "a.nc"]);
+    assert!(said.contains("no program names an axis `x`"), "{said}");
+    assert!(said.contains("did you mean `X`?"), "{said}");
+    assert!(refused(&bench, &["check", "--enable", "Z", "a.nc"]).contains("they name X, Y"));
+    for names in ["X", "X,Y", "all", "X,AX2"] {
+        assert_eq!(
+            bench.status(&["run", "--enable", names, "a.nc"]),
+            Some(0),
+            "{names}"
+        );
+    }
+    // What is called may have more axes.
+    assert_eq!(bench.status(&["run", "--enable", "X", "call.nc"]), Some(0));
+    let configured = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    assert!(refused(&configured, &["run", "--enable", "W", "a.nc"]).contains("no axis `W`"));
+    assert_eq!(
+        configured.status(&["run", "--enable", "all", "a.nc"]),
+        Some(0)
+    );
+}
+
+#[test]
+fn variables_are_set_whole_and_read() {
+    // R9.74
+    let bench = Bench::new(&[("a.nc", "N10 X=V.E.PART\nN20 M30\n")]);
+    for wrong in ["V.E.PART=", "PART=1", "=1", "V.E.PART"] {
+        refused(&bench, &["run", "--set", wrong, "a.nc"]);
+    }
+    let said = stderr(&bench.call(&["run", "--set", "V.E.PRT=1", "a.nc"]));
+    assert!(
+        said.contains("`--set V.E.PRT`: no program reads it, did you mean `V.E.PART`?"),
+        "{said}"
+    );
+    for command in ["run", "check"] {
+        let said = stderr(&bench.call(&[command, "--set", "V.E.PART=1", "a.nc"]));
+        assert!(!said.contains("no program reads it"), "{said}");
+    }
+}
+
+#[test]
+fn numbers_have_units_and_ranges() {
+    // R9.78
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    for (arguments, words) in [
+        (
+            &["circle", "--radius", "-5"][..],
+            "a radius of -5 mm is not possible, it lies between",
+        ),
+        (
+            &["circle", "--feed", "-5"],
+            "a feed of -5 mm/min is not possible",
+        ),
+        (&["circle", "--radius", "1e308"], "a radius of 1e308 mm"),
+        (
+            &["circle", "--cycle-time-ms", "-1"],
+            "a CNC cycle of -1 ms is not possible",
+        ),
+        (
+            &["circle", "--cycle-time-ms", "0.3"],
+            "whole multiple of 0.25 ms",
+        ),
+        (&["tune", "--feeds", "-5"], "a feed of -5 mm/min"),
+        (&["tune", "--feeds", "0"], "write feeds in mm/min"),
+        (&["tune", "--radius", "-1"], "a radius of -1 mm"),
+        (
+            &["current", "a.nc", "--axis", "X", "--cycle-time-ms", "0"],
+            "lies between 0.001 and 1000 ms",
+        ),
+    ] {
+        let said = refused(&bench, arguments);
+        assert!(said.contains(words), "{arguments:?}: {said}");
+    }
+    let fast = bench.stdout(&["current", "a.nc", "--axis", "X", "--cycle-time-ms", "2"]);
+    let slow = bench.stdout(&["current", "a.nc", "--axis", "X", "--cycle-time", "0.002"]);
+    assert_eq!(fast, slow);
+}
+
+#[test]
+fn colour_is_there_where_it_is_asked_for() {
+    // R9.27
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF), ("b.nc", NOT_CONFIGURED)]);
+    for arguments in [
+        &["run", "b.nc"][..],
+        &["check", "b.nc"],
+        &["golden", "a.nc"],
+        &["diff", "a.nc", "b.nc"],
+        &["lists", "--show", "frictcomp.toml"],
+        &["config", "show"],
+        &["codes"],
+        &["explain", "FC401"],
+    ] {
+        let plain = bench.stdout(arguments);
+        let styled = bench.stdout(&[&["--color", "always"], arguments].concat());
+        let is_golden = arguments[0] == "golden";
+        assert!(
+            is_golden || styled.contains('\u{1b}'),
+            "{arguments:?}: {styled}"
+        );
+        assert!(!plain.contains('\u{1b}'));
+    }
+}
+
+#[test]
+fn a_run_says_once_where_more_is_said() {
+    // R9.79
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    for command in ["run", "check"] {
+        let said = stderr(&bench.call(&[command, "a.nc"]));
+        assert_eq!(
+            said.matches("`frictcomp explain FC401`").count(),
+            1,
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn every_help_ends_with_two_examples_that_work() {
+    // R9.79
+    let commands = [
+        "run",
+        "check",
+        "golden",
+        "diff",
+        "lists",
+        "current",
+        "circle",
+        "tune",
+        "explain",
+        "codes",
+        "config",
+        "config show",
+        "init",
+        "completions",
+        "man",
+        "",
+    ];
+    let named: Vec<String> = bare(&[])
+        .stdout(&["--help"])
+        .lines()
+        .skip_while(|line| *line != "Commands:")
+        .skip(1)
+        .take_while(|line| !line.is_empty())
+        .filter_map(|line| {
+            line.strip_prefix("  ")?
+                .split_whitespace()
+                .next()
+                .map(str::to_owned)
+        })
+        .collect();
+    for name in named.iter().filter(|name| *name != "help") {
+        assert!(
+            commands.contains(&name.as_str()),
+            "`{name}` has no examples"
+        );
+    }
+    for command in commands {
+        let bench = example_folder();
+        let mut arguments: Vec<&str> = command.split_whitespace().collect();
+        arguments.push("--help");
+        let help = bench.stdout(&arguments);
+        let lines: Vec<&str> = help.lines().collect();
+        let [.., title, first, second] = lines[..] else {
+            panic!("{help}");
+        };
+        assert_eq!(title, "Examples:", "{command}");
+        for example in [first, second] {
+            let words: Vec<&str> = example.split_whitespace().collect();
+            assert_eq!(words[0], "frictcomp", "{command}");
+            let output = bench.call(&words[1..]);
+            assert!(
+                matches!(output.status.code(), Some(0 | 1)),
+                "{example}: {}",
+                stderr(&output)
+            );
+        }
+    }
+}
+
+/// The files that the examples name.
+fn example_folder() -> Bench {
+    let bench = bare(&[
+        (
+            "mill.nc",
+            "N10 X[COMP OFF FRICT]\nN20 G1 X0 Y0 F1000\nN30 X10\nN40 M30\n",
+        ),
+        ("mill-old.nc", "N10 G90\nN20 M30\n"),
+        ("next.nc", "N10 X[COMP ON FRICT]\nN20 M30\n"),
+        ("trace.csv", "t,x,v\n0,0,0\n0.001,1,100\n"),
+    ]);
+    let machine = std::path::Path::new("programs/machines/mill3");
+    for list in fs::read_dir(machine).expect("a machine") {
+        let list = list.expect("a list").path();
+        if list.extension().is_some_and(|it| it == "lis") {
+            let name = list.file_name().expect("a name");
+            fs::copy(&list, bench.folder().join(name)).expect("copied");
+        }
+    }
+    for folder in ["programs", "machine"] {
+        fs::create_dir(bench.folder().join(folder)).expect("a folder");
+    }
+    bench.write("programs/a.nc", LEAVE_OFF);
+    for (name, turn) in [("ccw.csv", 1.0), ("cw.csv", -1.0)] {
+        let mut text = "x,y\n".to_owned();
+        for step in 0..1440 {
+            let angle = turn * f64::from(step) * std::f64::consts::PI / 360.0;
+            text += &format!("{},{}\n", 50.0 * angle.cos(), 50.0 * angle.sin());
+        }
+        bench.write(name, &text);
+    }
+    bench
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    // R9.79
+    let bench = bare(&[]);
+    assert_eq!(bench.status(&["man", "--output", "pages"]), Some(0));
+    let entries = fs::read_dir(bench.folder().join("pages")).expect("pages");
+    let mut names: Vec<String> = entries
+        .map(|it| {
+            it.expect("a page")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.sort();
+    for name in [
+        "frictcomp.1",
+        "frictcomp-run.1",
+        "frictcomp-config-show.1",
+        "frictcomp-tune.1",
+    ] {
+        assert!(names.iter().any(|it| it == name), "{names:?}");
+    }
+    let page = bench.read("pages/frictcomp-run.1");
+    assert!(
+        page.contains("frictcomp run mill.nc") && page.contains("keep"),
+        "{page}"
+    );
+}

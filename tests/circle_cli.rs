@@ -76,7 +76,7 @@ fn what_cannot_be_driven_is_refused() {
         (["--cycle-time=1", "--feed=1000"], "a CNC cycle of 1000 ms"),
         (
             ["--cycle-time=1e-12", "--feed=1000"],
-            "a CNC cycle of 1e-9 ms",
+            "a CNC cycle of 0.000000001 ms",
         ),
         (["--feed=1", "--radius=100"], "at most 1500 s are simulated"),
         (["--plant=stif", "--feed=1000"], "did you mean `stiff`"),

@@ -435,11 +435,10 @@ fn every_help_ends_with_two_examples_that_work() {
         .skip(1)
         .take_while(|line| !line.is_empty())
         .filter_map(|line| {
-            line.strip_prefix("  ")?
-                .split_whitespace()
-                .next()
-                .map(str::to_owned)
+            line.strip_prefix("  ")
+                .filter(|rest| !rest.starts_with(' '))
         })
+        .filter_map(|rest| rest.split_whitespace().next().map(str::to_owned))
         .collect();
     for name in named.iter().filter(|name| *name != "help") {
         assert!(

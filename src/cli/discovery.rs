@@ -351,6 +351,7 @@ fn enable_all(
         names = all_axes(&loaded.machine, ahead);
     }
     for name in &names {
+        check_name(name)?;
         if loaded.machine.axis_set == AxisSet::AsTheyOccur {
             occurs(name, ahead)?;
         }
@@ -392,7 +393,7 @@ fn occurs(name: &str, ahead: Option<&AxesAhead>) -> Result<(), Failure> {
     })
 }
 
-fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {
+fn check_name(name: &str) -> Result<(), Failure> {
     let word = name.starts_with(|letter: char| letter.is_ascii_alphabetic())
         && name
             .chars()
@@ -401,6 +402,10 @@ fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {
         return Err(Failure::new(format!("`{name}` is no name of an axis"))
             .with_help("write `--enable X,Y`"));
     }
+    Ok(())
+}
+
+fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {
     if machine.enable(name) {
         return Ok(());
     }
@@ -485,6 +490,6 @@ mod tests {
         let failure = enable(&mut machine, "XX").unwrap_err();
         assert_eq!(failure.message, "the machine has no axis `XX`");
         assert_eq!(failure.help, ["did you mean `X`?"]);
-        assert!(enable(&mut machine, "X[").is_err());
+        assert!(check_name("X[").is_err());
     }
 }

@@ -140,7 +140,7 @@ fn is_code(text: &[u8], at: usize) -> bool {
     let (mut depth, mut quoted) = (0_u32, false);
     for byte in line {
         match byte {
-            b'"' => quoted = !quoted,
+            b'"' | b'\'' if depth == 0 => quoted = !quoted,
             b';' if !quoted && depth == 0 => return false,
             b'(' if !quoted => depth += 1,
             b')' if !quoted => depth = depth.saturating_sub(1),

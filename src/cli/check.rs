@@ -59,7 +59,9 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let found = walk::programs(&args.paths, |folder| machines.extensions(folder));
     let mut failures = Failures::from(found.failures);
     let inputs = found.inputs;
-    inputs.iter().for_each(|input| input.note(&ledger));
+    for input in &inputs {
+        input.note(&ledger);
+    }
     machines.look_ahead(&inputs);
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.listing.output.as_deref())?;

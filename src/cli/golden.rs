@@ -184,7 +184,9 @@ impl Bench<'_> {
             match self.update_folder(&pairs, console) {
                 Ok(count) => written += count,
                 Err(reasons) => {
-                    reasons.into_iter().for_each(|reason| failures.push(reason));
+                    for reason in reasons {
+                        failures.push(reason);
+                    }
                     let (shown, count) = (folder.display(), timelines(pairs.len()));
                     Console::talk(&format!(
                         "left out `{shown}`: nothing of its {count} was written"

@@ -161,7 +161,9 @@ mod tests {
 
     fn refused(inputs: &[&Path], outputs: &[&Path]) -> Option<String> {
         let ledger = Ledger::default();
-        inputs.iter().for_each(|path| ledger.reads("program", path));
+        for path in inputs {
+            ledger.reads(PROGRAM, path);
+        }
         let claim = |path: &&Path| Claim {
             option: "-o",
             path: path.to_path_buf(),

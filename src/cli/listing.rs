@@ -90,10 +90,12 @@ impl Format {
 }
 
 /// Records as text lines, NDJSON or one document.
-pub(super) fn records(format: Format, text: &str, records: Vec<Value>) -> String {
+pub(super) fn records(format: Format, text: &str, records: &[Value]) -> String {
     match format {
         Format::Json => format!("{:#}\n", json!({ "schema": 1, "records": records })),
-        Format::Ndjson => records.iter().map(|it| format!("{it}\n")).collect(),
+        Format::Ndjson => records
+            .iter()
+            .fold(String::new(), |lines, it| lines + &it.to_string() + "\n"),
         _ => text.to_owned(),
     }
 }
@@ -167,7 +169,8 @@ impl Lister<'_> {
                 .map(|(key, count)| row(*key, *count))
                 .collect();
             let values = counts.iter().map(|(key, count)| record(*key, *count));
-            return target.text(&records(format, &text, values.collect()));
+            let values: Vec<Value> = values.collect();
+            return target.text(&records(format, &text, &values));
         }
         Ok(if self.listing.is_closed() {
             Printed::Unread

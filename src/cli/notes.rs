@@ -49,7 +49,7 @@ pub(super) fn list(
     let mut notes = BTreeSet::new();
     take(&mut notes);
     let text: String = notes.iter().map(Note::text).collect();
-    let values = notes.iter().map(|note| note.record(kind)).collect();
-    target.text(&shown_json(&records(format, &text, values)))?;
+    let values: Vec<Value> = notes.iter().map(|note| note.record(kind)).collect();
+    target.text(&shown_json(&records(format, &text, &values)))?;
     Ok(())
 }

@@ -1,5 +1,7 @@
 //! Colour for text that is printed as a whole.
 
+use std::fmt::Write;
+
 use anstyle::{AnsiColor, Style};
 
 use crate::report::{Look, Paint};
@@ -9,16 +11,12 @@ pub(super) fn painted(text: &str, look: Look, style: fn(&str) -> Style) -> Strin
     if look.paint == Paint::Plain {
         return text.to_owned();
     }
-    text.split_inclusive('\n')
-        .map(|line| {
-            let (line, end) = match line.strip_suffix('\n') {
-                Some(line) => (line, "\n"),
-                None => (line, ""),
-            };
-            let style = style(line);
-            format!("{style}{line}{style:#}{end}")
-        })
-        .collect()
+    let mut painted = String::with_capacity(text.len() * 2);
+    for line in text.lines() {
+        let style = style(line);
+        let _ = writeln!(painted, "{style}{line}{style:#}");
+    }
+    painted
 }
 
 /// What came, what went and where, in a difference.

@@ -206,7 +206,9 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         input.probe()?;
     }
     let ledger = Ledger::default();
-    inputs.iter().for_each(|input| input.note(&ledger));
+    for input in &inputs {
+        input.note(&ledger);
+    }
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.output.as_deref())?;
     let html = args.html.as_deref();
@@ -270,8 +272,8 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     outputs.finish()?;
     say_unread(&args.machine, &ledger, console);
-    if args.format == Format::Text {
-        hint.iter().for_each(|code| console.remark(&explain(*code)));
+    if let (Format::Text, Some(code)) = (args.format, hint) {
+        console.remark(&explain(code));
     }
     Ok(args.fail_on.status(start.session.counts()))
 }
@@ -304,7 +306,6 @@ fn play(
         let _ = shared.borrow_mut().flush();
     });
     let said = sink.weightiest.map(|(_, code)| code);
-    drop(sink);
     let mut report = shared.into_inner();
     report.finish().map_err(|error| Failure::output(&error))?;
     if report.is_closed() && !goes_on_alone {

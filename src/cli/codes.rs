@@ -8,7 +8,7 @@ use serde_json::json;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
-use super::painted::{painted, severities};
+use super::painted::severities;
 use crate::codes::Code;
 
 /// Lists every code with its severity and title
@@ -59,6 +59,6 @@ pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
             let _ = writeln!(output, "{document:#}");
         }
     }
-    console.print(&painted(&output, console.stdout().look, severities))?;
+    console.print_painted(&output, severities)?;
     Ok(exit::CLEAN)
 }

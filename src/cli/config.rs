@@ -10,7 +10,7 @@ use super::discovery::{CONFIG_NAME, LoadedMachine, MachineArgs, Machines};
 use super::exit;
 use super::failure::{Failure, shown};
 use super::ledger::Ledger;
-use super::painted::{painted, parts};
+use super::painted::parts;
 use crate::compensation::Compensation;
 use crate::diagnostic::Diagnostic;
 use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
@@ -41,7 +41,7 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();
     append_machine(&mut output, &loaded);
-    console.print(&painted(&output, console.stdout().look, parts))?;
+    console.print_painted(&output, parts)?;
     let errors: Vec<Diagnostic> = loaded.errors().cloned().collect();
     console.show(&errors);
     if let Some(remark) = loaded.remark() {

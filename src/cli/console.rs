@@ -6,6 +6,7 @@ use anstream::{AutoStream, ColorChoice};
 use clap::ValueEnum;
 
 use super::failure::Failure;
+use super::painted::painted;
 use super::progress::{OverProgress, clear};
 use crate::diagnostic::Diagnostic;
 use crate::report::{Look, Paint, leading, render, visible, visible_line};
@@ -135,6 +136,16 @@ impl Console {
     /// failure.
     pub(super) fn print(self, text: &str) -> Result<Printed, Failure> {
         self.stdout().text(&visible(text))
+    }
+
+    /// Writes a text to stdout, with lines in the styles that `style` gives them.
+    pub(super) fn print_painted(
+        self,
+        text: &str,
+        style: fn(&str) -> anstyle::Style,
+    ) -> Result<Printed, Failure> {
+        let mut target = self.stdout();
+        target.text(&painted(&visible(text), target.look, style))
     }
 
     /// Says a line on stderr. When nobody listens, nothing is lost.

@@ -15,7 +15,7 @@ use super::exit;
 use super::failure::{Failure, shown};
 use super::files::{Input, Naming};
 use super::ledger::Ledger;
-use super::painted::{difference, painted};
+use super::painted::difference;
 use super::settings;
 use crate::diagnostic::Severity;
 use crate::report::visible_line;
@@ -138,7 +138,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         let names = format!("--- {}\n+++ {}\n", shown(&args.old), shown(&args.new));
         output.insert_str(0, &names);
     }
-    if let Printed::Unread = console.print(&painted(&output, console.stdout().look, difference))? {
+    if let Printed::Unread = console.print_painted(&output, difference)? {
         return Ok(exit::CLEAN);
     }
     Ok(if same { exit::CLEAN } else { exit::FOUND })

@@ -5,7 +5,7 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
-use super::painted::{page as titles, painted};
+use super::painted::page as titles;
 use crate::codes::Code;
 use crate::diagnostic::did_you_mean;
 
@@ -52,7 +52,7 @@ static PARAMETERS: [Parameter; 11] = parameters! {
 pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
     let page = find(args.code.trim()).ok_or_else(|| unknown(&args.code))?;
     let text = format!("{}\n", page.trim_end());
-    console.print(&painted(&text, console.stdout().look, titles))?;
+    console.print_painted(&text, titles)?;
     Ok(exit::CLEAN)
 }
 

@@ -13,7 +13,7 @@ use super::failure::{Failure, Failures, shown};
 use super::files::{Input, Naming, read_bytes};
 use super::ledger::{Ledger, folder};
 use super::outputs::Outputs;
-use super::painted::{difference, painted};
+use super::painted::difference;
 use super::severities::SeverityArgs;
 use super::{exit, walk};
 use crate::report::{Report, Text, TextOptions};
@@ -136,9 +136,7 @@ impl Bench<'_> {
                 Err(failure) => failures.push(failure),
             }
         }
-        if let Printed::Unread =
-            console.print(&painted(&output, console.stdout().look, difference))?
-        {
+        if let Printed::Unread = console.print_painted(&output, difference)? {
             return Ok(exit::CLEAN);
         }
         let all = pairs.len();

@@ -13,7 +13,7 @@ use super::ledger::Ledger;
 use super::list_files::{Lists, read_list};
 use super::listing::{Format, ListingArgs, total};
 use super::outputs::Outputs;
-use super::painted::{painted, parts};
+use super::painted::parts;
 use crate::codes::Code;
 use crate::diagnostic::Severity;
 use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
@@ -211,7 +211,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     if printed == Printed::Unread && failures.is_empty() {
         return Ok(exit::CLEAN);
     }
-    console.print(&painted(&table, console.stdout().look, parts))?;
+    console.print_painted(&table, parts)?;
     outputs.finish()?;
     if args.listing.format == Format::Text {
         let missing = reports.iter().map(|report| report.missing).sum();

@@ -134,13 +134,19 @@ impl Input {
 
 /// Standard input, where it is a file and no pipe.
 fn standard_input() -> Option<(File, Metadata)> {
-    #[cfg(unix)]
-    let file = std::os::fd::AsFd::as_fd(&io::stdin()).try_clone_to_owned();
-    #[cfg(windows)]
-    let file = std::os::windows::io::AsHandle::as_handle(&io::stdin()).try_clone_to_owned();
-    let file = File::from(file.ok()?);
+    let file = File::from(owned_input().ok()?);
     let metadata = file.metadata().ok()?;
     metadata.is_file().then_some((file, metadata))
+}
+
+#[cfg(unix)]
+fn owned_input() -> io::Result<std::os::fd::OwnedFd> {
+    std::os::fd::AsFd::as_fd(&io::stdin()).try_clone_to_owned()
+}
+
+#[cfg(windows)]
+fn owned_input() -> io::Result<std::os::windows::io::OwnedHandle> {
+    std::os::windows::io::AsHandle::as_handle(&io::stdin()).try_clone_to_owned()
 }
 
 fn open_file<'a>(

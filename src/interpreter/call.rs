@@ -341,12 +341,30 @@ impl Interpreter {
             self.found.insert(key, unit);
             unit
         };
-        let section = self.units[unit].index.main();
-        Ok(section.map(|section| Found { unit, section }))
+        let index = &self.units[unit].index;
+        match index.main() {
+            Some(section) => Ok(Some(Found { unit, section })),
+            None if index.local_names().next().is_some() => Err(Box::new(
+                Fault::new(
+                    Code::Fc320,
+                    wanted.span,
+                    format!(
+                        "the called program `{name}` holds local subprograms and nothing to call"
+                    ),
+                )
+                .with_help("a program to call begins with `%NAME`, or without any `%`"),
+            )),
+            // An empty file does nothing (R2.8).
+            None => Ok(None),
+        }
     }
 
     /// Calls the configured program that runs before every main program (R2.15).
-    pub(super) fn start_program(&mut self, finder: &mut dyn Finder) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn start_program(
+        &mut self,
+        main: &str,
+        finder: &mut dyn Finder,
+    ) -> Result<(), Box<Diagnostic>> {
         let Some(name) = self.machine.programs.start.clone() else {
             return Ok(());
         };
@@ -361,8 +379,14 @@ impl Interpreter {
             span: Span::default(),
         };
         let wanted = Wanted::program(CallScope::Global, name, Span::default());
-        match self.find(&wanted, (0, ""), finder) {
+        match self.find(&wanted, (0, main), finder) {
             Ok(Some(found)) => {
+                let refused = &self.units[found.unit].index.refused;
+                if let (Some(first), StopPolicy::FirstError) =
+                    (refused.said.first(), self.options.stop)
+                {
+                    return Err(Box::new(first.clone()));
+                }
                 self.push_call(Request {
                     found,
                     passage: None,
@@ -447,6 +471,9 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
         )
     };
     Box::new(match why {
+        NoProgram::Absent if name.is_empty() => {
+            Fault::new(Code::Fc320, wanted.span, "the name of the called program is empty")
+        }
         NoProgram::Absent => fault(Code::Fc320, "is not found")
             .with_help("it is looked for beside the calling file, then in `program_dirs` of the configuration")
             .with_help(on_machine_only(name)),

@@ -557,7 +557,8 @@ impl Interpreter {
         if let Some(section) = main {
             self.enter(0, section);
         }
-        if let Err(missing) = self.start_program(finder) {
+        let main = Arc::clone(self.units[0].index.source.name());
+        if let Err(missing) = self.start_program(&main, finder) {
             return self.ended(EndedBy::Error, one(*missing), observer);
         }
         let outlook = self.run(finder, observer);

@@ -69,7 +69,7 @@ impl Interpreter {
                 }
                 if let Stage::Announced = stage {
                     stage = Stage::Running;
-                    if let Some(outlook) = self.begin_lines(finder, observer) {
+                    if let Some(outlook) = self.begin_lines(&file, finder, observer) {
                         return outlook;
                     }
                 }
@@ -91,7 +91,7 @@ impl Interpreter {
                     return Outlook::Paused;
                 }
                 stage = Stage::Running;
-                if let Some(outlook) = self.begin_lines(finder, observer) {
+                if let Some(outlook) = self.begin_lines(&file, finder, observer) {
                     return outlook;
                 }
             }
@@ -140,7 +140,7 @@ impl Interpreter {
             return Outlook::Paused;
         }
         if let Stage::Before | Stage::Announced = stage
-            && let Some(outlook) = self.begin_lines(finder, observer)
+            && let Some(outlook) = self.begin_lines(&file, finder, observer)
         {
             return outlook;
         }
@@ -169,11 +169,12 @@ impl Interpreter {
     /// when that is the end.
     fn begin_lines(
         &mut self,
+        file: &str,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> Option<Outlook> {
         self.enter(0, 0);
-        match self.start_program(finder) {
+        match self.start_program(file, finder) {
             Ok(()) => self.run_called(finder, observer),
             Err(missing) => Some(self.ended(EndedBy::Error, one(*missing), observer)),
         }

@@ -247,10 +247,14 @@ impl Interpreter {
             }
             let caller = self.units.get(unit).map(|unit| unit.index.source.name());
             let caller = caller.cloned().unwrap_or_default();
-            let Ok(Some(found)) = self.find(&call, (unit, &caller), finder) else {
-                // What it would have done nobody knows.
-                self.forget_all();
-                continue;
+            let found = match self.find(&call, (unit, &caller), finder) {
+                Ok(Some(found)) => found,
+                Ok(None) => continue,
+                Err(_) => {
+                    // What it would have done nobody knows.
+                    self.forget_all();
+                    continue;
+                }
             };
             self.perhaps_repeat(&call, RepeatedCall::Perhaps(found));
             if !seen.insert((found.unit, found.section)) {

@@ -78,6 +78,8 @@ fn a_part_of_another_program() {
         ("L SEQUENCE [N99 N100]", "FC209"),
         ("L SEQUENCE [NAME=loop.cyc N1 N2]", "FC911"),
         ("L SEQUENCE []", "FC207"),
+        ("L SEQUENCE [N1 JUNK]", "FC207"),
+        ("L SEQUENCE [N1", "FC205"),
         ("L SEQUENCE [NAME=V.E.X N1]", "FC902"),
         ("L SEQUENCE [NAME=a.cyc N V.E.X]", "FC902"),
         ("L SEQUENCE [NAME=a.cyc N1 N2 REPEAT=V.E.X]", "FC902"),

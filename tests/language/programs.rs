@@ -403,3 +403,61 @@ fn faults_in_a_called_file_point_there() {
       end 1 error X:active Y:active Z:unconfigured B:ineffective
     ");
 }
+
+#[test]
+fn a_file_without_a_program_of_its_own() {
+    // R2.8 R2.16
+    let bench = Bench::new()
+        .file("lib.nc", "%L A\nX[COMP OFF FRICT]\nM17")
+        .file("empty.nc", "")
+        .file("notes.nc", "(only words)\n");
+    let said = bench.said("L lib.nc\nM30");
+    assert!(
+        said.contains("FC320 1:1") && said.contains("nothing to call"),
+        "{said}"
+    );
+    let said = bench.said("L empty.nc\nL notes.nc\nM30");
+    assert!(!said.contains("FC320"), "{said}");
+    let region = bench.run(&["$IF V.E.X\nL empty.nc\n$ENDIF\nM30"]);
+    assert!(region.contains("M30 X:active"), "{region}");
+    let region = bench.run(&["$IF V.E.X\nL lib.nc\n$ENDIF\nM30"]);
+    assert!(region.contains("M30 X:unknown"), "{region}");
+}
+
+#[test]
+fn a_start_program_is_looked_for_beside_the_main_program() {
+    // R2.15: and does not run when it is refused
+    let machine = format!("[machine]\nstart_program = \"start.nc\"\n{MACHINE}");
+    for handed in [Handed::Whole, Handed::LineByLine] {
+        let bench = Bench::on(&machine).handed(handed);
+        let refused = bench
+            .file("start.nc", "X[COMP OFF FRICT]\n$IF 1\nM17")
+            .run(&["M30"]);
+        assert!(
+            refused.contains("FC208") && refused.contains("end 0 error"),
+            "{refused}"
+        );
+        let mut asked = Vec::new();
+        let machine = frictcomp::machine::Machine::from_toml(&machine).expect("a machine");
+        let mut session = frictcomp::session::Session::new(machine, Default::default());
+        let mut find = |_: &str, caller: &str| {
+            asked.push(caller.to_owned());
+            Some(frictcomp::source::SourceFile::new("start.nc", "M17"))
+        };
+        let mut lines = frictcomp::source::TextLines::new("M30");
+        let program = match handed {
+            Handed::Whole => frictcomp::session::Program::Whole(
+                frictcomp::source::SourceFile::new("dir/main.nc", "M30"),
+            ),
+            Handed::LineByLine => frictcomp::session::Program::Lines(&mut lines),
+        };
+        struct Nothing;
+        impl frictcomp::timeline::Sink for Nothing {
+            fn record(&mut self, _: &frictcomp::timeline::Record<'_>) -> std::ops::ControlFlow<()> {
+                std::ops::ControlFlow::Continue(())
+            }
+        }
+        let _ = session.program("dir/main.nc", program, &mut find, &mut Nothing);
+        assert_eq!(asked, ["dir/main.nc"]);
+    }
+}

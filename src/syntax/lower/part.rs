@@ -2,11 +2,14 @@
 
 use pest::iterators::Pair;
 
-use super::{Lowering, not_understood, span_of};
+use super::{Lowering, not_closed, not_understood, span_of};
 use crate::source::Span;
 use crate::syntax::ast::{Item, JumpTarget, Levels, Operand, Return, Sequence};
 use crate::syntax::expression;
 use crate::syntax::grammar::Rule;
+
+/// How a part of a program is called.
+const HOW: &str = "name the first and the last block: `L SEQUENCE [N10 N20]`";
 
 impl Lowering<'_> {
     pub(super) fn sequence_call(&mut self, pair: Pair<'_, Rule>, span: Span) {
@@ -15,6 +18,14 @@ impl Lowering<'_> {
         let mut end_tag = false;
         let mut passes = None;
         for part in pair.into_inner() {
+            if part.as_rule() == Rule::sequence_rest {
+                let fault = match self.unclosed.take() {
+                    Some(at) => not_closed(at),
+                    None => not_understood(span, self.code).with_help(HOW),
+                };
+                self.refuse(fault, span);
+                return;
+            }
             let Some(argument) = part.into_inner().next() else {
                 continue;
             };
@@ -41,11 +52,7 @@ impl Lowering<'_> {
                 passes,
                 span,
             })),
-            _ => self.refuse(
-                not_understood(span, self.code)
-                    .with_help("name the first and the last block: `L SEQUENCE [N10 N20]`"),
-                span,
-            ),
+            _ => self.refuse(not_understood(span, self.code).with_help(HOW), span),
         }
     }
 

@@ -9,8 +9,9 @@ use std::hint::black_box;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use frictcomp::circle::{Circle, CircularTest, FrictionModel, Job, Preset, plant_list};
+use frictcomp::circle::{Circle, CircularTest, Job};
 use frictcomp::current::Reading;
+use frictcomp::simulation::{FrictionModel, Preset, plant_list};
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
 
@@ -50,7 +51,7 @@ fn main() {
     let plant = Preset::Stiff.plant();
     let test = CircularTest {
         circle: Circle {
-            feed: 2000.0,
+            feed_mm_per_min: 2000.0,
             ..Circle::default()
         },
         lists: [plant_list(&plant.x), plant_list(&plant.y)],

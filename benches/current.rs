@@ -11,10 +11,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use frictcomp::compensation::State;
-use frictcomp::current::{AdditiveCurrent, Followers, Input, Reading};
+use frictcomp::current::{AdditiveCurrent, Commanded, Followers, Reading};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::machine::{AxisIndex, Machine};
-use frictcomp::motion::{Cause, Cycle, Cycles, Tracer, TracerOptions};
+use frictcomp::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
 use frictcomp::source::SourceFile;
 use frictcomp::timeline::{Record, Sink};
@@ -117,12 +117,12 @@ impl Bench {
             let current = AdditiveCurrent::new(&list(), Reading::default());
             let mut followers = Followers::new(vec![current]);
             for (position, velocity) in positions.iter().zip(velocities) {
-                let input = Input {
+                let commanded = Commanded {
                     position: *position,
                     velocity: *velocity,
                     friction: State::Active,
                 };
-                black_box(followers.push([input]));
+                black_box(followers.push([commanded]));
             }
             u64::from(CYCLES)
         };
@@ -179,19 +179,19 @@ fn polyline(blocks: u32) -> String {
 
 /// Counts cycles.
 struct Counter {
-    tracer: Tracer,
+    planner: TrajectoryPlanner,
     cycles: Count,
 }
 
 struct Count(u64);
 
-impl Cycles for Count {
+impl TraceSink for Count {
     fn begin(&mut self, _: f64, _: &Arc<Cause>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    fn cycle(&mut self, cycle: &Cycle<'_>) -> ControlFlow<()> {
-        black_box(cycle.velocities);
+    fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        black_box(sample.velocities);
         self.0 += 1;
         ControlFlow::Continue(())
     }
@@ -200,7 +200,7 @@ impl Cycles for Count {
 impl Sink for Counter {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
-            Record::Block(row) => self.tracer.block(row, &mut self.cycles),
+            Record::Block(row) => self.planner.block(row, &mut self.cycles),
             _ => ControlFlow::Continue(()),
         }
     }
@@ -210,7 +210,7 @@ fn cycles_of(program: &str) -> u64 {
     let machine = Machine::unconfigured();
     let axes: Vec<AxisIndex> = (0..2).map(AxisIndex::new).collect();
     let mut counter = Counter {
-        tracer: Tracer::new(&machine, &axes, TracerOptions::default()),
+        planner: TrajectoryPlanner::new(&machine, &axes, PlannerOptions::default()),
         cycles: Count(0),
     };
     let options = SessionOptions {
@@ -225,6 +225,6 @@ fn cycles_of(program: &str) -> u64 {
         &mut NoFiles,
         &mut counter,
     );
-    let _ = counter.tracer.finish(&mut counter.cycles);
+    let _ = counter.planner.finish(&mut counter.cycles);
     counter.cycles.0
 }

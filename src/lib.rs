@@ -23,7 +23,7 @@
 //!
 //! [`interpreter::Interpreter`] runs a program block by block and can be saved and resumed;
 //! [`session::Session`] runs programs one after the other, with lints, and gives the records of
-//! [`timeline`], of which a [`motion::Tracer`] makes commanded traces and a
+//! [`timeline`], of which a [`motion::TrajectoryPlanner`] makes commanded traces and a
 //! [`current::AdditiveCurrent`] currents. A [`machine::Machine`] comes from the control's lists or
 //! from `frictcomp.toml`.
 //!
@@ -45,6 +45,7 @@ pub mod motion;
 #[cfg(feature = "cli")]
 pub mod report;
 pub mod session;
+pub mod simulation;
 pub mod source;
 pub mod syntax;
 pub mod timeline;

@@ -122,16 +122,16 @@ fn glitches() -> LineChart {
         [5000.0, 23.3, 1.0, 4.4, 4.9],
     ];
     let feeds = feeds.map(|[feed, off, on, minus20, plus20]| FeedResult {
-        feed,
-        glitch_off: off,
-        glitch_on: on,
-        glitch_friction_minus20: minus20,
-        glitch_friction_plus20: plus20,
+        feed_mm_per_min: feed,
+        glitch_off_um: off,
+        glitch_on_um: on,
+        glitch_friction_minus20_um: minus20,
+        glitch_friction_plus20_um: plus20,
     });
     tuning(&[TuneReport {
         plant: "stiff".to_owned(),
         model: "lugre",
-        diameter: 200.0,
+        diameter_mm: 200.0,
         reading: Reading::default().words(),
         tuned: Tuned {
             candidate: Candidate {

@@ -5,13 +5,15 @@
 use std::f64::consts::{PI, TAU};
 
 use frictcomp::circle::{
-    Circle, CircleError, CircularTest, Compensation, Crossing, Direction, Drive, DriveParameters,
-    Figures, Finding, FrictionModel, Job, Lap, POSITION_LOOP, Place, Plant, Preset, Ranges,
-    RecordedCircle, RecordedError, Recording, Setpoint, Task, Tuned, advise, advise_on, plant_list,
+    Circle, CircleError, CircularTest, Comparison, Crossing, Direction, Figures, Finding, FoundAt,
+    Job, Lap, Ranges, RecordedCircle, RecordedError, Recording, Task, Tuned, advise, advise_on,
     tune,
 };
-use frictcomp::current::Reading;
+use frictcomp::current::{Reading, Switched};
 use frictcomp::lists::Field;
+use frictcomp::simulation::{
+    Drive, DriveParameters, FrictionModel, POSITION_LOOP_S, Plant, Preset, Setpoint, plant_list,
+};
 use frictcomp::source::SourceFile;
 use proptest::prelude::{ProptestConfig, Strategy, proptest};
 
@@ -19,7 +21,7 @@ fn circular_test(feed: f64) -> CircularTest {
     let plant = Preset::Stiff.plant();
     CircularTest {
         circle: Circle {
-            feed,
+            feed_mm_per_min: feed,
             ..Circle::default()
         },
         lists: [plant_list(&plant.x), plant_list(&plant.y)],
@@ -29,7 +31,7 @@ fn circular_test(feed: f64) -> CircularTest {
     }
 }
 
-fn lap(test: &CircularTest, compensation: Compensation, direction: Direction) -> Lap {
+fn lap(test: &CircularTest, compensation: Switched, direction: Direction) -> Lap {
     test.run(Job {
         compensation,
         direction,
@@ -38,11 +40,11 @@ fn lap(test: &CircularTest, compensation: Compensation, direction: Direction) ->
 }
 
 /// The figures of the counter-clockwise path alone.
-fn figures(test: &CircularTest, compensation: Compensation) -> Figures {
-    let outcome = frictcomp::circle::Outcome::of([lap(test, compensation, Direction::Ccw)]);
+fn figures(test: &CircularTest, compensation: Switched) -> Figures {
+    let comparison = Comparison::of([lap(test, compensation, Direction::Ccw)]);
     match compensation {
-        Compensation::Off => outcome.off.figures,
-        Compensation::On => outcome.on.figures,
+        Switched::Off => comparison.off.figures,
+        Switched::On => comparison.on.figures,
     }
 }
 
@@ -67,19 +69,19 @@ fn follow(drive: &mut Drive, setpoints: impl IntoIterator<Item = Setpoint>) -> V
 
 fn constant_speed(speed: f64, ticks: u32) -> impl Iterator<Item = Setpoint> {
     (0..ticks).map(move |tick| Setpoint {
-        position: f64::from(tick) * POSITION_LOOP * speed,
-        velocity: speed,
+        position_m: f64::from(tick) * POSITION_LOOP_S * speed,
+        velocity_m_per_s: speed,
         ..Setpoint::default()
     })
 }
 
 fn without_friction(drive: &DriveParameters) -> DriveParameters {
     let mut drive = drive.clone();
-    drive.friction.coulomb = 0.0;
-    drive.friction.breakaway = 0.0;
-    drive.friction.viscous = 0.0;
-    drive.friction.stiffness = 1e3;
-    drive.friction.damping = 0.0;
+    drive.friction.coulomb_n = 0.0;
+    drive.friction.breakaway_n = 0.0;
+    drive.friction.viscous_n_s_per_m = 0.0;
+    drive.friction.stiffness_n_per_m = 1e3;
+    drive.friction.damping_n_s_per_m = 0.0;
     drive
 }
 
@@ -89,15 +91,15 @@ fn the_static_curve_is_that_of_the_equation() {
     let mut friction = DriveParameters::of(Preset::Stiff).friction;
     // At vs the exponential is 1/e: 500 + 120/e + 4000·0.003.
     within(
-        friction.steady(0.003),
+        friction.steady_n(0.003),
         500.0 + 120.0 / 1f64.exp() + 12.0,
         1e-12,
     );
-    assert_eq!(friction.steady(-0.003), -friction.steady(0.003));
-    assert_eq!(friction.steady(0.0), 0.0);
+    assert_eq!(friction.steady_n(-0.003), -friction.steady_n(0.003));
+    assert_eq!(friction.steady_n(0.0), 0.0);
     friction.shape = 2.0;
     within(
-        friction.steady(0.006),
+        friction.steady_n(0.006),
         500.0 + 120.0 * (-4f64).exp() + 24.0,
         1e-12,
     );
@@ -115,13 +117,13 @@ fn a_sliding_contact_of_any_model_has_the_static_friction() {
         for speed in [0.001, -0.01, 0.08] {
             let parameters = DriveParameters::of(Preset::Mid);
             let start = Setpoint {
-                velocity: speed,
+                velocity_m_per_s: speed,
                 ..Setpoint::default()
             };
             let mut drive = Drive::settled(&parameters, model, start);
             follow(&mut drive, constant_speed(speed, 1200));
-            let force = drive.force();
-            within(force, parameters.friction.steady(speed), 1e-3);
+            let force = drive.force_n();
+            within(force, parameters.friction.steady_n(speed), 1e-3);
         }
     }
 }
@@ -138,11 +140,11 @@ fn standstill_holds() {
     ] {
         let mut parameters = DriveParameters::of(Preset::Stiff);
         // An open loop: only the additive current acts.
-        parameters.position_gain = 0.0;
-        parameters.speed_gain = 0.0;
+        parameters.position_gain_per_s = 0.0;
+        parameters.speed_gain_n_s_per_m = 0.0;
         let mut drive = Drive::settled(&parameters, model, Setpoint::default());
         let pushed = Setpoint {
-            added: 60.0,
+            added_units: 60.0,
             ..Setpoint::default()
         };
         let positions = follow(&mut drive, std::iter::repeat_n(pushed, 2000));
@@ -150,7 +152,7 @@ fn standstill_holds() {
         assert!(farthest <= bend, "{model:?}: {farthest}");
         // And more than the breakaway friction moves it.
         let torn = Setpoint {
-            added: 200.0,
+            added_units: 200.0,
             ..Setpoint::default()
         };
         let positions = follow(&mut drive, std::iter::repeat_n(torn, 400));
@@ -162,24 +164,24 @@ fn standstill_holds() {
 fn pure_coulomb_friction_brakes_evenly() {
     // R5.10: from 10 mm/s with 500 N on 1300 kg the axis stops after v²·m/(2·Fc) = 130 µm.
     let mut parameters = DriveParameters::of(Preset::Stiff);
-    parameters.position_gain = 0.0;
-    parameters.speed_gain = 0.0;
-    parameters.friction.breakaway = 500.0;
-    parameters.friction.viscous = 0.0;
+    parameters.position_gain_per_s = 0.0;
+    parameters.speed_gain_n_s_per_m = 0.0;
+    parameters.friction.breakaway_n = 500.0;
+    parameters.friction.viscous_n_s_per_m = 0.0;
     let start = Setpoint {
-        velocity: 0.01,
+        velocity_m_per_s: 0.01,
         ..Setpoint::default()
     };
     let mut drive = Drive::settled(&parameters, FrictionModel::Stribeck, start);
     // The motor lets go: what the integral part holds against friction is taken back.
     let released = Setpoint {
-        added: -100.0,
+        added_units: -100.0,
         ..Setpoint::default()
     };
     let positions = follow(&mut drive, std::iter::repeat_n(released, 400));
     // In the dead time and the current loop's 0.6 ms the motor still pushes.
     within(positions[positions.len() - 1], 130e-6 + 0.01 * 0.0007, 0.02);
-    assert_eq!(drive.velocity(), 0.0);
+    assert_eq!(drive.velocity_m_per_s(), 0.0);
 }
 
 #[test]
@@ -194,19 +196,17 @@ fn without_friction_the_circle_shrinks_as_the_linear_loop_says() {
     }
     let omega: f64 = 3000.0 / 60.0 / 100.0;
     let shrink = 100_000.0 * (1.0 / (1.0 + (omega / 33.3).powi(2)).sqrt() - 1.0);
-    let figures = figures(&test, Compensation::Off);
+    let figures = figures(&test, Switched::Off);
     let path = figures.ccw.expect("a path");
-    within(path.d.expect("D"), shrink, 0.15);
+    within(path.d_um.expect("D"), shrink, 0.15);
     // No friction, no glitch: the ellipse of a linear loop with equal axes is a circle.
-    assert!(path.g_mz < 0.02, "{path:?}");
+    assert!(path.g_mz_um < 0.02, "{path:?}");
     // With full feed forward nothing of first order is left.
     for drive in [&mut test.plant.x, &mut test.plant.y] {
         drive.velocity_forward = 1.0;
     }
-    let path = crate::figures(&test, Compensation::Off)
-        .ccw
-        .expect("a path");
-    assert!(path.d.expect("D").abs() < 0.1 * shrink.abs(), "{path:?}");
+    let path = crate::figures(&test, Switched::Off).ccw.expect("a path");
+    assert!(path.d_um.expect("D").abs() < 0.1 * shrink.abs(), "{path:?}");
 }
 
 #[test]
@@ -220,35 +220,35 @@ fn the_reference_figures_are_met() {
     ];
     for (feed, off, on) in reference {
         let test = circular_test(feed);
-        within(figures(&test, Compensation::Off).glitch_max(), off, 0.05);
-        within(figures(&test, Compensation::On).glitch_max(), on, 0.05);
+        within(figures(&test, Switched::Off).glitch_max_um(), off, 0.05);
+        within(figures(&test, Switched::On).glitch_max_um(), on, 0.05);
     }
 }
 
 #[test]
 fn both_directions_meet_the_reference() {
     // R5.20 R5.21
-    let outcome = circular_test(2000.0).outcome().expect("a circle");
-    let (off, on) = (&outcome.off.figures, &outcome.on.figures);
-    within(off.ccw.as_ref().expect("ccw").g_mz, 19.16, 0.05);
-    within(on.ccw.as_ref().expect("ccw").g_mz, 0.78, 0.05);
-    within(off.h.expect("H"), 18.99, 0.05);
-    within(on.h.expect("H"), 0.57, 0.05);
+    let comparison = circular_test(2000.0).compare().expect("a circle");
+    let (off, on) = (&comparison.off.figures, &comparison.on.figures);
+    within(off.ccw.as_ref().expect("ccw").g_mz_um, 19.16, 0.05);
+    within(on.ccw.as_ref().expect("ccw").g_mz_um, 0.78, 0.05);
+    within(off.h_um.expect("H"), 18.99, 0.05);
+    within(on.h_um.expect("H"), 0.57, 0.05);
     // The clockwise circle is the mirror image.
     let mirrored = |figures: &Figures, crossing: usize| {
-        figures.cw.as_ref().expect("cw").glitch[crossing].height
+        figures.cw.as_ref().expect("cw").glitch[crossing].height_um
     };
     let straight = |figures: &Figures, crossing: usize| {
-        figures.ccw.as_ref().expect("ccw").glitch[crossing].height
+        figures.ccw.as_ref().expect("ccw").glitch[crossing].height_um
     };
     for (ccw, cw) in [(0, 0), (1, 3), (2, 2), (3, 1)] {
         within(mirrored(on, cw), straight(on, ccw), 1e-6);
     }
     // R5.24
-    let advice = advise(&outcome.off.paths, Some(Compensation::Off));
+    let advice = advise(&comparison.off.paths, Some(Switched::Off));
     assert_eq!(advice.len(), 8, "{advice:?}");
     assert!(advice.iter().all(|it| it.finding == Finding::Friction));
-    assert!(advise(&outcome.on.paths, Some(Compensation::On)).is_empty());
+    assert!(advise(&comparison.on.paths, Some(Switched::On)).is_empty());
 }
 
 #[test]
@@ -258,11 +258,11 @@ fn the_wrong_sign_makes_it_worse() {
     for list in &mut test.lists {
         list.scaling_factor = -1000;
     }
-    within(figures(&test, Compensation::On).glitch_max(), 24.8, 0.05);
+    within(figures(&test, Switched::On).glitch_max_um(), 24.8, 0.05);
     // R5.24: it is told from a compensation that is too weak.
-    let laps = [Compensation::Off, Compensation::On];
+    let laps = [Switched::Off, Switched::On];
     let laps = laps.map(|compensation| lap(&test, compensation, Direction::Ccw));
-    let advice = advise_on(&frictcomp::circle::Outcome::of(laps));
+    let advice = advise_on(&Comparison::of(laps));
     assert!(
         advice.iter().all(|it| it.finding == Finding::WrongSign),
         "{advice:?}"
@@ -290,9 +290,9 @@ fn shapes_tell_what_is_wrong() {
     for (change, finding) in cases {
         let mut test = circular_test(3000.0);
         test.lists.iter_mut().for_each(change);
-        let lap = lap(&test, Compensation::On, Direction::Ccw);
-        let outcome = frictcomp::circle::Outcome::of([lap]);
-        let advice = advise(&outcome.on.paths, Some(Compensation::On));
+        let lap = lap(&test, Switched::On, Direction::Ccw);
+        let comparison = Comparison::of([lap]);
+        let advice = advise(&comparison.on.paths, Some(Switched::On));
         assert_eq!(advice.len(), 4, "{finding:?}: {advice:?}");
         assert!(advice.iter().all(|it| it.finding == finding), "{advice:?}");
     }
@@ -330,20 +330,20 @@ fn figures_of_known_circles_are_exact() {
     let close = |found: f64, expected: f64| {
         assert!((found - expected).abs() < 2e-3, "{found} is not {expected}");
     };
-    close(ccw.g_mz, 8.0);
-    close(ccw.g_lsc, 8.0);
-    close(ccw.f_max.expect("Fmax"), 10.0);
-    close(ccw.f_min.expect("Fmin"), 2.0);
-    close(ccw.d.expect("D"), 6.0);
+    close(ccw.g_mz_um, 8.0);
+    close(ccw.g_lsc_um, 8.0);
+    close(ccw.f_max_um.expect("Fmax"), 10.0);
+    close(ccw.f_min_um.expect("Fmin"), 2.0);
+    close(ccw.d_um.expect("D"), 6.0);
     let cw = figures.cw.as_ref().expect("cw");
-    close(cw.g_mz, 4.0);
-    close(figures.g_b.expect("G(b)"), 8.0);
+    close(cw.g_mz_um, 4.0);
+    close(figures.g_b_um.expect("G(b)"), 8.0);
     // 4 cos - 2 cos: 2 µm apart.
-    close(figures.h.expect("H"), 2.0);
-    close(figures.d.expect("D"), 6.0);
+    close(figures.h_um.expect("H"), 2.0);
+    close(figures.d_um.expect("D"), 6.0);
     for circle in &recording.circles {
-        close(1000.0 * (circle.centre[0] - 3.0), 0.0);
-        close(1000.0 * (circle.centre[1] + 7.0), 0.0);
+        close(1000.0 * (circle.centre_mm[0] - 3.0), 0.0);
+        close(1000.0 * (circle.centre_mm[1] + 7.0), 0.0);
     }
 }
 
@@ -356,8 +356,8 @@ fn the_minimum_zone_is_smaller_than_that_about_least_squares() {
         9.0 * (1.0 - way / (10.0 * PI / 180.0)).max(0.0)
     };
     let path = recording(bump, bump, None).side.figures.ccw.expect("ccw");
-    assert!(path.g_mz <= path.g_lsc + 1e-9, "{path:?}");
-    assert!((4.5..=9.0).contains(&path.g_mz), "{path:?}");
+    assert!(path.g_mz_um <= path.g_lsc_um + 1e-9, "{path:?}");
+    assert!((4.5..=9.0).contains(&path.g_mz_um), "{path:?}");
     // Against every centre of a fine grid the minimum zone is the narrowest.
     let points = synthetic(Direction::Ccw, bump);
     for (i, j) in (-20..=20).flat_map(|i| (-20..=20).map(move |j| (i, j))) {
@@ -365,10 +365,10 @@ fn the_minimum_zone_is_smaller_than_that_about_least_squares() {
         let radius = |point: &[f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
         let most = points.iter().map(radius).fold(f64::MIN, f64::max);
         let least = points.iter().map(radius).fold(f64::MAX, f64::min);
-        assert!(1000.0 * (most - least) >= path.g_mz - 1e-3, "{centre:?}");
+        assert!(1000.0 * (most - least) >= path.g_mz_um - 1e-3, "{centre:?}");
     }
     // F and D need the commanded radius.
-    assert_eq!((path.f_max, path.d), (None, None));
+    assert_eq!((path.f_max_um, path.d_um), (None, None));
 }
 
 #[test]
@@ -382,10 +382,10 @@ fn the_glitch_is_that_of_its_window() {
     let glitch = &figures.ccw.expect("ccw").glitch;
     let close = |found: f64, expected: f64| assert!((found - expected).abs() < 0.1, "{glitch:?}");
     assert_eq!(glitch[1].crossing, Crossing::YPlus);
-    close(glitch[1].height, 5.0);
-    close(glitch[1].outward, 5.0);
-    close(glitch[0].height, 0.0);
-    close(glitch[2].height, 0.0);
+    close(glitch[1].height_um, 5.0);
+    close(glitch[1].outward_um, 5.0);
+    close(glitch[0].height_um, 0.0);
+    close(glitch[2].height_um, 0.0);
 }
 
 #[test]
@@ -402,7 +402,7 @@ fn backlash_and_ellipses_are_told_apart() {
     let at = |crossing: Crossing| {
         let here = advice
             .iter()
-            .filter(|it| it.place == Place::Crossing(crossing));
+            .filter(|it| it.place == FoundAt::Crossing(crossing));
         here.map(|it| it.finding).collect::<Vec<_>>()
     };
     assert_eq!(at(Crossing::XPlus), [Finding::Backlash; 2], "{advice:?}");
@@ -416,7 +416,7 @@ fn backlash_and_ellipses_are_told_apart() {
             None,
         );
         let advice = advise(&side.side.paths, None);
-        let whole = advice.iter().filter(|it| it.place == Place::Whole);
+        let whole = advice.iter().filter(|it| it.place == FoundAt::Whole);
         whole.map(|it| it.finding).collect::<Vec<_>>()
     };
     assert_eq!(found(5.0, -5.0), [Finding::GainMismatch]);
@@ -429,14 +429,14 @@ fn axes_with_different_gains_make_an_ellipse_at_45_degrees() {
     let mut test = circular_test(4000.0);
     for (drive, gain) in [(&mut test.plant.x, 33.3), (&mut test.plant.y, 32.0)] {
         drive.velocity_forward = 0.0;
-        drive.position_gain = gain;
+        drive.position_gain_per_s = gain;
     }
-    let laps = Direction::ALL.map(|direction| lap(&test, Compensation::Off, direction));
-    let outcome = frictcomp::circle::Outcome::of(laps);
-    let advice = advise(&outcome.off.paths, Some(Compensation::Off));
+    let laps = Direction::ALL.map(|direction| lap(&test, Switched::Off, direction));
+    let comparison = Comparison::of(laps);
+    let advice = advise(&comparison.off.paths, Some(Switched::Off));
     let whole: Vec<_> = advice
         .iter()
-        .filter(|it| it.place == Place::Whole)
+        .filter(|it| it.place == FoundAt::Whole)
         .collect();
     assert!(
         whole.iter().any(|it| it.finding == Finding::GainMismatch),
@@ -477,9 +477,9 @@ fn circles_beyond_all_bounds_are_refused() {
     // R5.20
     let check = |radius: f64, feed: f64, cycle_time: f64| {
         let circle = Circle {
-            radius,
-            feed,
-            cycle_time,
+            radius_mm: radius,
+            feed_mm_per_min: feed,
+            cycle_time_s: cycle_time,
         };
         circle.check()
     };
@@ -515,10 +515,10 @@ fn circles_beyond_all_bounds_are_refused() {
     ));
     // A loop that does not settle is said so.
     let mut test = circular_test(5000.0);
-    test.plant.x.position_gain = 1900.0;
+    test.plant.x.position_gain_per_s = 1900.0;
     let limited = test.run(Job::ALL[0]).expect("held by the largest force");
-    assert!(limited.saturated > 1000, "{limited:?}");
-    test.plant.x.max_force = 1e12;
+    assert!(limited.saturated_cycles > 1000, "{limited:?}");
+    test.plant.x.max_force_n = 1e12;
     let unstable = test.run(Job::ALL[0]).expect_err("an unstable loop");
     assert!(
         matches!(unstable, CircleError::Unstable { axis: "X", .. }),
@@ -532,17 +532,21 @@ fn a_plant_file_overrides_what_it_names() {
     let plant = |text: &str| Plant::from_toml(SourceFile::new("p.toml", text));
     let read = plant("base = \"soft\"\nm = 800\n[y]\nKv = 20.0\nFc = 300\n").expect("a plant");
     assert_eq!(
-        (read.x.mass, read.x.position_gain, read.y.position_gain),
+        (
+            read.x.mass_kg,
+            read.x.position_gain_per_s,
+            read.y.position_gain_per_s
+        ),
         (800.0, 33.3, 20.0)
     );
     assert_eq!(
-        (read.x.friction.coulomb, read.y.friction.coulomb),
+        (read.x.friction.coulomb_n, read.y.friction.coulomb_n),
         (500.0, 300.0)
     );
     // What follows from the mass follows from the new one.
-    within(read.x.speed_gain, 800.0 * TAU * 45.0, 1e-12);
+    within(read.x.speed_gain_n_s_per_m, 800.0 * TAU * 45.0, 1e-12);
     within(
-        read.x.friction.damping,
+        read.x.friction.damping_n_s_per_m,
         0.6 * (8e7_f64 * 800.0).sqrt(),
         1e-12,
     );
@@ -574,7 +578,7 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
         plant: Preset::Stiff.plant(),
         model: FrictionModel::Lugre,
         circles: vec![Circle {
-            feed: 4000.0,
+            feed_mm_per_min: 4000.0,
             ..Circle::default()
         }],
         ranges: Ranges::default(),
@@ -588,16 +592,16 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
         "{best:?}"
     );
     let row = tuned.feeds[0];
-    within(row.glitch_off, 22.7, 0.05);
-    assert!(row.glitch_on <= 1.5, "{row:?}");
-    assert!(row.glitch_friction_minus20 > row.glitch_on, "{row:?}");
-    assert!(row.glitch_friction_plus20 > row.glitch_on, "{row:?}");
+    within(row.glitch_off_um, 22.7, 0.05);
+    assert!(row.glitch_on_um <= 1.5, "{row:?}");
+    assert!(row.glitch_friction_minus20_um > row.glitch_on_um, "{row:?}");
+    assert!(row.glitch_friction_plus20_um > row.glitch_on_um, "{row:?}");
     assert_eq!(tune(&task).expect("a circle"), tuned, "the same again");
     let free = Ranges::default().free(Field::PositionDelay);
     assert_eq!(free.position_delay, 0..=2000);
     // A reversal by itself says what the whole circle says.
-    let alone = task.worst(best, f64::INFINITY).expect("a circle");
-    within(alone, row.glitch_on, 0.2);
+    let alone = task.worst_um(best, f64::INFINITY).expect("a circle");
+    within(alone, row.glitch_on_um, 0.2);
 }
 
 fn any_plant() -> impl Strategy<Value = Plant> {
@@ -630,7 +634,7 @@ proptest! {
     fn every_plant_gives_numbers_or_a_reason(plant in any_plant(), model in 0_usize..3) {
         let models = [FrictionModel::Stribeck, FrictionModel::Lugre, FrictionModel::Gms];
         let test = CircularTest {
-            circle: Circle { radius: 10.0, feed: 3000.0, cycle_time: 0.002 },
+            circle: Circle { radius_mm: 10.0, feed_mm_per_min: 3000.0, cycle_time_s: 0.002 },
             model: models[model],
             lists: [plant_list(&plant.x), plant_list(&plant.y)],
             plant,
@@ -638,11 +642,11 @@ proptest! {
         };
         match test.run(Job::ALL[2]) {
             Ok(lap) => {
-                let outcome = frictcomp::circle::Outcome::of([lap]);
-                let path = outcome.on.figures.ccw.expect("a path");
-                assert!(path.g_mz.is_finite() && path.g_mz >= 0.0, "{path:?}");
-                assert!(path.g_mz <= path.g_lsc + 1e-6, "{path:?}");
-                assert!(path.g_lsc < 20_000.0, "inside twice the radius: {path:?}");
+                let comparison = Comparison::of([lap]);
+                let path = comparison.on.figures.ccw.expect("a path");
+                assert!(path.g_mz_um.is_finite() && path.g_mz_um >= 0.0, "{path:?}");
+                assert!(path.g_mz_um <= path.g_lsc_um + 1e-6, "{path:?}");
+                assert!(path.g_lsc_um < 20_000.0, "inside twice the radius: {path:?}");
             }
             Err(error) => assert!(matches!(error, CircleError::Unstable { .. }), "{error}"),
         }

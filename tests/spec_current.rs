@@ -2,7 +2,7 @@
 
 use frictcomp::compensation::State;
 use frictcomp::current::{
-    AdditiveCurrent, Below, Delay, Followers, Input, Reading, Standstill, Switched,
+    AdditiveCurrent, Below, Commanded, Delay, Followers, Reading, Standstill, Switched,
 };
 use frictcomp::lists::{FrictionList, TablePoint};
 
@@ -41,7 +41,7 @@ fn positions(velocities: &[f64]) -> Vec<f64> {
 
 fn currents(list: &FrictionList, reading: Reading, velocities: &[f64]) -> Vec<f64> {
     let cycles = AdditiveCurrent::new(list, reading).trace(&positions(velocities), velocities);
-    cycles.iter().map(|cycle| cycle.current).collect()
+    cycles.iter().map(|added| added.current).collect()
 }
 
 fn close(found: &[f64], expected: &[f64]) {
@@ -358,15 +358,15 @@ fn a_trace_cycle_by_cycle_is_the_trace_as_a_whole() {
     for (at, whole) in whole.iter().enumerate() {
         let later = &velocities[at + 1..velocities.len().min(at + 4)];
         assert_eq!(single.step(positions[at], velocities[at], later), *whole);
-        let input = Input {
+        let commanded = Commanded {
             position: positions[at],
             velocity: velocities[at],
             friction: State::Active,
         };
-        followed.extend(followers.push([input]).map(|moments| moments[0].cycle));
+        followed.extend(followers.push([commanded]).map(|samples| samples[0].added));
     }
-    while let Some(moments) = followers.pop() {
-        followed.push(moments[0].cycle);
+    while let Some(samples) = followers.pop() {
+        followed.push(samples[0].added);
     }
     assert_eq!(followed, whole);
 }

@@ -1,21 +1,22 @@
 //! What the shape of a path suggests (R5.24).
 //!
 //! At a crossing an axis turns round. Friction holds it a moment at its outermost place: the path
-//! bulges outwards behind the crossing and comes back. Compensation that is too strong or too
+//! bulges outwards after the crossing and comes back. Compensation that is too strong or too
 //! early throws the axis back: the path is cut inwards.
 
 use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::figures::{MICROMETRES, Paths};
+use super::compare::{Comparison, Side};
+use super::direction::Direction;
+use super::figures::Paths;
 use super::glitch::{Crossing, Glitch, glitches};
-use super::profile::{ANGLES, PER_DEGREE, Profile};
-use super::reference::Direction;
-use super::test::{Compensation, Outcome, Side};
+use super::profile::{ANGLES, PER_DEGREE, RadialProfile, UM_PER_M};
+use crate::current::Switched;
 
-/// Below this many µm there is nothing to say.
-pub const NOTICEABLE: f64 = 1.0;
+/// Below this there is nothing to say.
+pub const NOTICEABLE_UM: f64 = 1.0;
 
 /// One of two bulges counts as alone if the other is less than this part of it.
 const ALONE: f64 = 0.25;
@@ -52,7 +53,7 @@ pub enum Finding {
 /// Where a finding was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(untagged)]
-pub enum Place {
+pub enum FoundAt {
     /// At a crossing.
     Crossing(Crossing),
     /// In the path as a whole.
@@ -63,31 +64,32 @@ pub enum Place {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Advice {
     /// Where.
-    pub place: Place,
+    pub place: FoundAt,
     /// The direction of travel; `None` for what concerns both.
     pub direction: Option<Direction>,
     /// What the shape suggests.
     pub finding: Finding,
-    /// How large it is, in µm.
-    pub size: f64,
+    /// How large it is.
+    #[serde(rename = "size")]
+    pub size_um: f64,
 }
 
 /// What the paths suggest, the crossings of each direction first. `compensation` says whether
 /// friction compensation was on when they were made; of recorded paths it may be unknown.
-pub fn advise(paths: &Paths, compensation: Option<Compensation>) -> Vec<Advice> {
+pub fn advise(paths: &Paths, compensation: Option<Switched>) -> Vec<Advice> {
     let mut advice = Vec::new();
     for (direction, profile) in paths.iter() {
         for glitch in glitches(profile, direction) {
             if let Some(finding) = at_crossing(profile, direction, &glitch, compensation) {
-                let size = match finding {
-                    Finding::Backlash => glitch.step.abs(),
-                    _ => glitch.height,
+                let size_um = match finding {
+                    Finding::Backlash => glitch.step_um.abs(),
+                    _ => glitch.height_um,
                 };
                 advice.push(Advice {
-                    place: Place::Crossing(glitch.crossing),
+                    place: FoundAt::Crossing(glitch.crossing),
                     direction: Some(direction),
                     finding,
-                    size,
+                    size_um,
                 });
             }
         }
@@ -96,16 +98,18 @@ pub fn advise(paths: &Paths, compensation: Option<Compensation>) -> Vec<Advice> 
     advice
 }
 
-/// What the paths of a test with compensation suggest, knowing those without.
-pub fn advise_on(outcome: &Outcome) -> Vec<Advice> {
-    let mut advice = advise(&outcome.on.paths, Some(Compensation::On));
+/// What the paths of a test with compensation suggest, given those without.
+pub fn advise_on(comparison: &Comparison) -> Vec<Advice> {
+    let mut advice = advise(&comparison.on.paths, Some(Switched::On));
     let height = |side: &Side, it: &Advice| {
         let path = side.figures.get(it.direction?)?;
-        let here = |glitch: &&Glitch| it.place == Place::Crossing(glitch.crossing);
-        path.glitch.iter().find(here).map(|glitch| glitch.height)
+        let here = |glitch: &&Glitch| it.place == FoundAt::Crossing(glitch.crossing);
+        path.glitch.iter().find(here).map(|glitch| glitch.height_um)
     };
     for it in &mut advice {
-        if it.finding == Finding::TooWeak && height(&outcome.on, it) > height(&outcome.off, it) {
+        if it.finding == Finding::TooWeak
+            && height(&comparison.on, it) > height(&comparison.off, it)
+        {
             it.finding = Finding::WrongSign;
         }
     }
@@ -113,19 +117,20 @@ pub fn advise_on(outcome: &Outcome) -> Vec<Advice> {
 }
 
 fn at_crossing(
-    profile: &Profile,
+    profile: &RadialProfile,
     direction: Direction,
     glitch: &Glitch,
-    compensation: Option<Compensation>,
+    compensation: Option<Switched>,
 ) -> Option<Finding> {
-    if glitch.step.abs() >= NOTICEABLE && glitch.step.abs() >= STEP_PART * glitch.height {
+    if glitch.step_um.abs() >= NOTICEABLE_UM && glitch.step_um.abs() >= STEP_PART * glitch.height_um
+    {
         return Some(Finding::Backlash);
     }
-    let (outward, inward) = (glitch.outward.max(0.0), (-glitch.inward).max(0.0));
-    if outward.max(inward) < NOTICEABLE {
+    let (outward, inward) = (glitch.outward_um.max(0.0), (-glitch.inward_um).max(0.0));
+    if outward.max(inward) < NOTICEABLE_UM {
         return None;
     }
-    if compensation == Some(Compensation::Off) {
+    if compensation == Some(Switched::Off) {
         return (inward < ALONE * outward).then_some(Finding::Friction);
     }
     if inward < ALONE * outward {
@@ -148,15 +153,15 @@ fn at_crossing(
 
 /// Where within 8° of a crossing the path lies farthest out and farthest in, as fixed angles in
 /// the direction of travel.
-fn places(profile: &Profile, direction: Direction, crossing: Crossing) -> [usize; 2] {
+fn places(profile: &RadialProfile, direction: Direction, crossing: Crossing) -> [usize; 2] {
     let width = 8 * PER_DEGREE;
-    let at = usize::from(crossing.degrees()) * PER_DEGREE;
+    let at = usize::from(crossing.angle_deg()) * PER_DEGREE;
     let deviation = |way: usize| {
         let way = match direction {
             Direction::Ccw => way,
             Direction::Cw => 2 * width - way,
         };
-        profile.deviations()[(at + ANGLES + way - width) % ANGLES]
+        profile.deviations_m()[(at + ANGLES + way - width) % ANGLES]
     };
     let compare = |a: &usize, b: &usize| deviation(*a).total_cmp(&deviation(*b));
     let most = (0..=2 * width).max_by(compare).unwrap_or_default();
@@ -165,8 +170,8 @@ fn places(profile: &Profile, direction: Direction, crossing: Crossing) -> [usize
 }
 
 /// The second harmonic of a path in µm: along the axes and at 45°.
-fn second_harmonic(profile: &Profile) -> [f64; 2] {
-    let deviations = profile.deviations();
+fn second_harmonic(profile: &RadialProfile) -> [f64; 2] {
+    let deviations = profile.deviations_m();
     #[allow(clippy::cast_precision_loss)] // 36000
     let count = deviations.len() as f64;
     let mut sums = [0.0; 2];
@@ -176,7 +181,7 @@ fn second_harmonic(profile: &Profile) -> [f64; 2] {
         sums[0] += deviation * cos;
         sums[1] += deviation * sin;
     }
-    sums.map(|sum| 2.0 * sum / count * MICROMETRES)
+    sums.map(|sum| 2.0 * sum / count * UM_PER_M)
 }
 
 /// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the
@@ -193,14 +198,14 @@ fn ellipses(paths: &Paths) -> Vec<Advice> {
     ];
     let noticeable = found
         .into_iter()
-        .filter(|(_, size)| size.abs() >= NOTICEABLE);
+        .filter(|(_, size)| size.abs() >= NOTICEABLE_UM);
     noticeable
         .map(|(finding, amplitude)| Advice {
-            place: Place::Whole,
+            place: FoundAt::Whole,
             direction: None,
             finding,
             // From the short to the long axis.
-            size: 2.0 * amplitude.abs(),
+            size_um: 2.0 * amplitude.abs(),
         })
         .collect()
 }

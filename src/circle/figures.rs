@@ -2,37 +2,34 @@
 
 use serde::Serialize;
 
-use super::Direction;
+use super::direction::Direction;
 use super::glitch::{Glitch, glitches};
-use super::profile::Profile;
+use super::profile::{RadialProfile, UM_PER_M};
 use super::zone::{least_squares, minimum_zone, zone_about};
 
-/// µm in a metre.
-pub(super) const MICROMETRES: f64 = 1e6;
-
-/// The figures of one path in µm (R5.21).
+/// The figures of one path (R5.21), named by the symbols of ISO 230-4.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PathFigures {
     /// Circular deviation G about the centre of the minimum zone.
     #[serde(rename = "G_mz")]
-    pub g_mz: f64,
+    pub g_mz_um: f64,
     /// Circular deviation G about the centre of the least-squares circle.
     #[serde(rename = "G_lsc")]
-    pub g_lsc: f64,
+    pub g_lsc_um: f64,
     /// Largest radial deviation, Fmax; only against a commanded radius.
     #[serde(rename = "F_max")]
-    pub f_max: Option<f64>,
+    pub f_max_um: Option<f64>,
     /// Smallest radial deviation, Fmin; only against a commanded radius.
     #[serde(rename = "F_min")]
-    pub f_min: Option<f64>,
+    pub f_min_um: Option<f64>,
     /// Mean radial deviation of this path: its least-squares radius less the commanded one.
     #[serde(rename = "D")]
-    pub d: Option<f64>,
+    pub d_um: Option<f64>,
     /// The glitch at each quadrant.
     pub glitch: Vec<Glitch>,
 }
 
-/// The figures of the paths in both directions, in µm (R5.21).
+/// The figures of the paths in both directions (R5.21).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figures {
     /// Of the counter-clockwise path.
@@ -40,25 +37,28 @@ pub struct Figures {
     /// Of the clockwise path.
     pub cw: Option<PathFigures>,
     /// Bidirectional circular deviation G(b): the minimum zone of both paths together.
-    pub g_b: Option<f64>,
+    #[serde(rename = "g_b")]
+    pub g_b_um: Option<f64>,
     /// Circular hysteresis H: the largest radial distance of the two paths at one angle.
-    pub h: Option<f64>,
+    #[serde(rename = "h")]
+    pub h_um: Option<f64>,
     /// Mean bidirectional radial deviation D.
-    pub d: Option<f64>,
+    #[serde(rename = "d")]
+    pub d_um: Option<f64>,
 }
 
 /// The profiles of the paths in both directions.
 #[derive(Debug, Clone, Default)]
 pub struct Paths {
     /// The counter-clockwise path.
-    pub ccw: Option<Profile>,
+    pub ccw: Option<RadialProfile>,
     /// The clockwise path.
-    pub cw: Option<Profile>,
+    pub cw: Option<RadialProfile>,
 }
 
 impl Paths {
     /// The profile of one direction.
-    pub fn get(&self, direction: Direction) -> Option<&Profile> {
+    pub fn get(&self, direction: Direction) -> Option<&RadialProfile> {
         match direction {
             Direction::Ccw => self.ccw.as_ref(),
             Direction::Cw => self.cw.as_ref(),
@@ -66,7 +66,7 @@ impl Paths {
     }
 
     /// Keeps the profile of one direction.
-    pub(super) fn set(&mut self, direction: Direction, profile: Profile) {
+    pub(super) fn set(&mut self, direction: Direction, profile: RadialProfile) {
         match direction {
             Direction::Ccw => self.ccw = Some(profile),
             Direction::Cw => self.cw = Some(profile),
@@ -74,7 +74,7 @@ impl Paths {
     }
 
     /// The directions whose paths are there.
-    pub fn iter(&self) -> impl Iterator<Item = (Direction, &Profile)> {
+    pub fn iter(&self) -> impl Iterator<Item = (Direction, &RadialProfile)> {
         Direction::ALL
             .into_iter()
             .filter_map(|direction| Some((direction, self.get(direction)?)))
@@ -103,12 +103,12 @@ impl Figures {
         let mean = |a: f64, b: f64| f64::midpoint(a, b);
         let ds = ccw
             .as_ref()
-            .and_then(|it| it.d)
-            .zip(cw.as_ref().and_then(|it| it.d));
+            .and_then(|it| it.d_um)
+            .zip(cw.as_ref().and_then(|it| it.d_um));
         Self {
-            g_b: both.map(|(ccw, cw)| minimum_zone(&[ccw, cw]).width * MICROMETRES),
-            h: both.map(|(ccw, cw)| hysteresis(ccw, cw) * MICROMETRES),
-            d: ds.map(|(ccw, cw)| mean(ccw, cw)),
+            g_b_um: both.map(|(ccw, cw)| minimum_zone(&[ccw, cw]).width * UM_PER_M),
+            h_um: both.map(|(ccw, cw)| hysteresis(ccw, cw) * UM_PER_M),
+            d_um: ds.map(|(ccw, cw)| mean(ccw, cw)),
             ccw,
             cw,
         }
@@ -122,36 +122,36 @@ impl Figures {
         }
     }
 
-    /// The largest glitch of all quadrants and directions, in µm.
-    pub fn glitch_max(&self) -> f64 {
+    /// The largest glitch of all quadrants and directions.
+    pub fn glitch_max_um(&self) -> f64 {
         let paths = [&self.ccw, &self.cw].into_iter().flatten();
-        let glitches = paths.flat_map(|path| path.glitch.iter().map(|glitch| glitch.height));
+        let glitches = paths.flat_map(|path| path.glitch.iter().map(|glitch| glitch.height_um));
         glitches.fold(0.0, f64::max)
     }
 }
 
 impl PathFigures {
-    fn of(profile: &Profile, direction: Direction, nominal: Nominal) -> Self {
+    fn of(profile: &RadialProfile, direction: Direction, nominal: Nominal) -> Self {
         let (centre, radius) = least_squares(profile);
         let outer = profile.outer().map(|point| point.deviation);
         let inner = profile.inner().map(|point| point.deviation);
         let against = |value: f64| match nominal {
-            Nominal::Commanded => Some(value * MICROMETRES),
+            Nominal::Commanded => Some(value * UM_PER_M),
             Nominal::Fitted => None,
         };
         Self {
-            g_mz: minimum_zone(&[profile]).width * MICROMETRES,
-            g_lsc: zone_about(&[profile], centre) * MICROMETRES,
-            f_max: against(outer.fold(f64::MIN, f64::max)),
-            f_min: against(inner.fold(f64::MAX, f64::min)),
-            d: against(radius),
+            g_mz_um: minimum_zone(&[profile]).width * UM_PER_M,
+            g_lsc_um: zone_about(&[profile], centre) * UM_PER_M,
+            f_max_um: against(outer.fold(f64::MIN, f64::max)),
+            f_min_um: against(inner.fold(f64::MAX, f64::min)),
+            d_um: against(radius),
             glitch: glitches(profile, direction),
         }
     }
 }
 
 /// The largest difference of two paths at the fixed angles, in m.
-fn hysteresis(ccw: &Profile, cw: &Profile) -> f64 {
-    let pairs = ccw.deviations().iter().zip(cw.deviations());
+fn hysteresis(ccw: &RadialProfile, cw: &RadialProfile) -> f64 {
+    let pairs = ccw.deviations_m().iter().zip(cw.deviations_m());
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

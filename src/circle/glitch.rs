@@ -1,10 +1,11 @@
 //! The glitches of a path where it crosses from one quadrant into the next (R5.22).
 
+use std::fmt;
+
 use serde::Serialize;
 
-use super::Direction;
-use super::figures::MICROMETRES;
-use super::profile::{ANGLES, PER_DEGREE, Profile};
+use super::direction::Direction;
+use super::profile::{ANGLES, PER_DEGREE, RadialProfile, UM_PER_M};
 
 /// Half the width of the window in which a glitch is looked for, in degrees.
 const WINDOW: usize = 8;
@@ -34,7 +35,7 @@ impl Crossing {
     pub const ALL: [Self; 4] = [Self::XPlus, Self::YPlus, Self::XMinus, Self::YMinus];
 
     /// `X+`, `Y+`, `X-` or `Y-`.
-    pub fn name(self) -> &'static str {
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::XPlus => "X+",
             Self::YPlus => "Y+",
@@ -43,8 +44,8 @@ impl Crossing {
         }
     }
 
-    /// The angle in degrees from X+ counter-clockwise.
-    pub fn degrees(self) -> u16 {
+    /// The angle from X+ counter-clockwise.
+    pub fn angle_deg(self) -> u16 {
         match self {
             Self::XPlus => 0,
             Self::YPlus => 90,
@@ -54,36 +55,46 @@ impl Crossing {
     }
 }
 
-/// The glitch at one crossing, in µm.
+impl fmt::Display for Crossing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+/// The glitch at one crossing (R5.22).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Glitch {
     /// Where it is.
     pub crossing: Crossing,
     /// Peak to peak within ±8°.
-    pub height: f64,
+    #[serde(rename = "height")]
+    pub height_um: f64,
     /// The largest deviation from the undisturbed path, outwards.
-    pub outward: f64,
+    #[serde(rename = "outward")]
+    pub outward_um: f64,
     /// The smallest deviation from the undisturbed path; negative is inwards.
-    pub inward: f64,
-    /// How much farther out the path runs behind the crossing than before it: the difference of
+    #[serde(rename = "inward")]
+    pub inward_um: f64,
+    /// How much farther out the path runs after the crossing than before it: the difference of
     /// straight lines through what lies 8° to 20° away on each side, at the crossing.
-    pub step: f64,
+    #[serde(rename = "step")]
+    pub step_um: f64,
 }
 
 /// The glitches of a path, counter-clockwise from X+.
 ///
 /// The deviations are those less the median of what the path has 8° to 20° from the crossing on
 /// both sides; peak to peak that makes no difference, outwards and inwards it does.
-pub(super) fn glitches(profile: &Profile, direction: Direction) -> Vec<Glitch> {
+pub(super) fn glitches(profile: &RadialProfile, direction: Direction) -> Vec<Glitch> {
     Crossing::ALL
         .into_iter()
         .map(|crossing| glitch(profile, direction, crossing))
         .collect()
 }
 
-fn glitch(profile: &Profile, direction: Direction, crossing: Crossing) -> Glitch {
-    let at = usize::from(crossing.degrees()) * PER_DEGREE;
-    let deviations = profile.deviations();
+fn glitch(profile: &RadialProfile, direction: Direction, crossing: Crossing) -> Glitch {
+    let at = usize::from(crossing.angle_deg()) * PER_DEGREE;
+    let deviations = profile.deviations_m();
     let clockwise = |way: usize| deviations[(at + ANGLES - way) % ANGLES];
     let counter = |way: usize| deviations[(at + way) % ANGLES];
     let beside = BESIDE.start * PER_DEGREE..BESIDE.end * PER_DEGREE;
@@ -94,17 +105,17 @@ fn glitch(profile: &Profile, direction: Direction, crossing: Crossing) -> Glitch
     if direction == Direction::Cw {
         sides.swap(0, 1);
     }
-    let [mut before, mut behind] = sides;
-    let step = at_crossing(&behind) - at_crossing(&before);
-    before.append(&mut behind);
+    let [mut before, mut after] = sides;
+    let step = at_crossing(&after) - at_crossing(&before);
+    before.append(&mut after);
     let undisturbed = median(&mut before);
     let [outward, inward] = profile.within(at, WINDOW * PER_DEGREE);
     Glitch {
         crossing,
-        height: (outward - inward) * MICROMETRES,
-        outward: (outward - undisturbed) * MICROMETRES,
-        inward: (inward - undisturbed) * MICROMETRES,
-        step: step * MICROMETRES,
+        height_um: (outward - inward) * UM_PER_M,
+        outward_um: (outward - undisturbed) * UM_PER_M,
+        inward_um: (inward - undisturbed) * UM_PER_M,
+        step_um: step * UM_PER_M,
     }
 }
 

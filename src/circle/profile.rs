@@ -8,6 +8,9 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+/// Micrometres in a metre.
+pub const UM_PER_M: f64 = 1e6;
+
 /// Fixed angles of a turn, every 0.01°.
 pub const ANGLES: usize = 36_000;
 
@@ -44,7 +47,7 @@ struct Place {
 
 /// The radial deviations of one turn.
 #[derive(Clone)]
-pub struct Profile {
+pub struct RadialProfile {
     radius: f64,
     at: Vec<f64>,
     outer: Vec<Option<Point>>,
@@ -140,7 +143,7 @@ impl Gatherer {
     }
 
     /// The turn, if it has no gap; small ones, where its ends meet, are bridged.
-    pub(super) fn finish(mut self) -> Result<Profile, Gap> {
+    pub(super) fn finish(mut self) -> Result<RadialProfile, Gap> {
         let missing = |from: usize| {
             let rest = (1..=ANGLES).map(|step| (from + step) % ANGLES);
             rest.take_while(|&at| self.at[at].is_nan()).count()
@@ -173,7 +176,7 @@ impl Gatherer {
                 self.at[(from + step) % ANGLES] = first + part * (last - first);
             }
         }
-        Ok(Profile {
+        Ok(RadialProfile {
             radius: self.radius,
             at: self.at,
             outer: self.outer,
@@ -189,23 +192,24 @@ fn index(angle: f64) -> usize {
     index.min(ANGLES - 1)
 }
 
-impl fmt::Debug for Profile {
+impl fmt::Debug for RadialProfile {
     /// The radius; 36 000 deviations are of no use to anybody.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Profile")
+        f.debug_struct("RadialProfile")
             .field("radius", &self.radius)
             .finish_non_exhaustive()
     }
 }
 
-impl Profile {
-    /// The radius in m from which the deviations are counted.
-    pub fn radius(&self) -> f64 {
+impl RadialProfile {
+    /// The radius from which the deviations are counted.
+    pub fn radius_m(&self) -> f64 {
         self.radius
     }
 
-    /// The deviation in m at each of the [`ANGLES`] fixed angles, from X+ counter-clockwise.
-    pub fn deviations(&self) -> &[f64] {
+    /// The deviation at each of the [`ANGLES`] fixed angles, from X+ counter-clockwise; positive is
+    /// outwards.
+    pub fn deviations_m(&self) -> &[f64] {
         &self.at
     }
 
@@ -227,7 +231,7 @@ impl Profile {
             let index = (at + ANGLES + way - width) % ANGLES;
             most = most.max(self.at[index]);
             least = least.min(self.at[index]);
-            // The sector behind the last angle is outside.
+            // The sector after the last angle is outside.
             if way < 2 * width {
                 most = self.outer[index].map_or(most, |point| most.max(point.deviation));
                 least = self.inner[index].map_or(least, |point| least.min(point.deviation));

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use thiserror::Error;
 
+use super::compare::Side;
+use super::direction::Direction;
 use super::figures::{Nominal, Paths};
-use super::profile::{Gap, Gatherer};
-use super::reference::Direction;
-use super::test::Side;
+use super::profile::{Gap, Gatherer, RadialProfile};
 
 /// Points of a turn at least.
 pub const MIN_POINTS: usize = 72;
@@ -23,13 +23,13 @@ const FIT_STEPS: usize = 12;
 pub struct RecordedCircle {
     /// The direction of travel, found from the points.
     pub direction: Direction,
-    /// The centre of the least-squares circle in mm.
-    pub centre: [f64; 2],
-    /// Its radius in mm.
-    pub radius: f64,
+    /// The centre of the least-squares circle.
+    pub centre_mm: [f64; 2],
+    /// Its radius.
+    pub radius_mm: f64,
     /// How many points the evaluated turn has.
     pub points: usize,
-    profile: super::profile::Profile,
+    profile: RadialProfile,
 }
 
 /// One or two recorded circles with their figures.
@@ -37,8 +37,8 @@ pub struct RecordedCircle {
 pub struct Recording {
     /// The circles.
     pub circles: Vec<RecordedCircle>,
-    /// The commanded radius in mm, where it is known.
-    pub radius: Option<f64>,
+    /// The commanded radius, where it is known.
+    pub radius_mm: Option<f64>,
     /// The figures.
     pub side: Side,
 }
@@ -62,15 +62,15 @@ pub enum RecordedError {
     )]
     Gaps(f64),
     /// Two counter-clockwise circles.
-    #[error("both recordings run {}", .0.name())]
+    #[error("both recordings run {}", .0.as_str())]
     SameDirection(Direction),
     /// `--radius 50` for a circle of 100 mm.
-    #[error("the recorded circle has a radius of {found:.3} mm, not {commanded} mm")]
+    #[error("the recorded circle has a radius of {found_mm:.3} mm, not {commanded_mm} mm")]
     Radius {
-        /// The radius that was given, in mm.
-        commanded: f64,
-        /// The radius of the points, in mm.
-        found: f64,
+        /// The radius that was given.
+        commanded_mm: f64,
+        /// The radius of the points.
+        found_mm: f64,
     },
 }
 
@@ -96,28 +96,30 @@ struct Fit {
 }
 
 impl RecordedCircle {
-    /// A circle from actual positions in mm, in the order of time. If there is more than a full
+    /// A circle from the actual positions of both axes, in the order of time. If there is more than a full
     /// turn, the turn in the middle counts, so that run-in and run-out fall away.
     ///
-    /// F and D are against `commanded`, the commanded radius in mm; G, H and the glitches do not
+    /// F and D are against the commanded radius `commanded_mm`; G, H and the glitches do not
     /// depend on it.
     ///
     /// # Errors
     /// Points that make no full circle.
-    pub fn new(points: &[[f64; 2]], commanded: Option<f64>) -> Result<Self, RecordedError> {
-        if points.len() < MIN_POINTS {
-            return Err(RecordedError::TooFew(points.len()));
+    pub fn new(points_mm: &[[f64; 2]], commanded_mm: Option<f64>) -> Result<Self, RecordedError> {
+        if points_mm.len() < MIN_POINTS {
+            return Err(RecordedError::TooFew(points_mm.len()));
         }
-        let rough = Fit::of(points)?;
-        let (direction, turn) = rough.turn(points)?;
+        let rough = Fit::of(points_mm)?;
+        let (direction, turn) = rough.turn(points_mm)?;
         let fit = Fit::of(turn)?;
-        if let Some(commanded) = commanded
-            && !(0.9..1.1).contains(&(fit.radius / commanded))
+        if let Some(commanded_mm) = commanded_mm
+            && !(0.9..1.1).contains(&(fit.radius / commanded_mm))
         {
-            let found = fit.radius;
-            return Err(RecordedError::Radius { commanded, found });
+            return Err(RecordedError::Radius {
+                commanded_mm,
+                found_mm: fit.radius,
+            });
         }
-        let mut gatherer = Gatherer::new(commanded.unwrap_or(fit.radius) / 1000.0, WIDEST_GAP);
+        let mut gatherer = Gatherer::new(commanded_mm.unwrap_or(fit.radius) / 1000.0, WIDEST_GAP);
         let [cx, cy] = fit.centre;
         for [x, y] in turn {
             gatherer.take((x - cx) / 1000.0, (y - cy) / 1000.0);
@@ -125,8 +127,8 @@ impl RecordedCircle {
         let gaps = |gap: Gap| RecordedError::Gaps(gap.missing);
         Ok(Self {
             direction,
-            centre: fit.centre,
-            radius: fit.radius,
+            centre_mm: fit.centre,
+            radius_mm: fit.radius,
             points: turn.len(),
             profile: gatherer.finish().map_err(gaps)?,
         })
@@ -135,13 +137,13 @@ impl RecordedCircle {
 
 impl Recording {
     /// The figures of one circle, or of one in each direction; each about its own least-squares
-    /// centre. `commanded` is the commanded radius in mm that the circles were made with.
+    /// centre. `commanded_mm` is the radius that the circles were commanded with.
     ///
     /// # Errors
     /// Two circles in the same direction.
     pub fn new(
         circles: Vec<RecordedCircle>,
-        commanded: Option<f64>,
+        commanded_mm: Option<f64>,
     ) -> Result<Self, RecordedError> {
         if let [first, second] = &circles[..]
             && first.direction == second.direction
@@ -152,13 +154,13 @@ impl Recording {
         for circle in &circles {
             paths.set(circle.direction, circle.profile.clone());
         }
-        let nominal = match commanded {
+        let nominal = match commanded_mm {
             Some(_) => Nominal::Commanded,
             None => Nominal::Fitted,
         };
         Ok(Self {
             side: Side::of(paths, nominal),
-            radius: commanded,
+            radius_mm: commanded_mm,
             circles,
         })
     }

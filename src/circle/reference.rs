@@ -6,8 +6,8 @@ use crate::diagnostic::Shown;
 use serde::Serialize;
 use thiserror::Error;
 
-use super::drive::POSITION_LOOP;
-use super::friction::STEP;
+use super::direction::Direction;
+use crate::simulation::{POSITION_LOOP_S, STEP_S};
 
 /// Simulation steps of one run at most.
 pub const MAX_STEPS: f64 = 24e6;
@@ -18,54 +18,23 @@ pub const MIN_CYCLES: f64 = 90.0;
 /// Turns of a whole run: half a turn of run-in and the one that is evaluated (R5.20).
 pub const TURNS: f64 = 1.5;
 
-/// The direction of travel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Direction {
-    /// Counter-clockwise, G03.
-    Ccw,
-    /// Clockwise, G02.
-    Cw,
-}
-
-impl Direction {
-    /// Both directions, counter-clockwise first.
-    pub const ALL: [Self; 2] = [Self::Ccw, Self::Cw];
-
-    /// `ccw` or `cw`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ccw => "ccw",
-            Self::Cw => "cw",
-        }
-    }
-
-    /// 1 for counter-clockwise, -1 for clockwise.
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Ccw => 1.0,
-            Self::Cw => -1.0,
-        }
-    }
-}
-
 /// A circle around the origin at a constant feed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Circle {
-    /// Radius in mm.
-    pub radius: f64,
-    /// Feed in mm/min.
-    pub feed: f64,
-    /// The CNC cycle in s.
-    pub cycle_time: f64,
+    /// Radius.
+    pub radius_mm: f64,
+    /// Feed.
+    pub feed_mm_per_min: f64,
+    /// The CNC cycle.
+    pub cycle_time_s: f64,
 }
 
 impl Default for Circle {
     fn default() -> Self {
         Self {
-            radius: 100.0,
-            feed: 1000.0,
-            cycle_time: 0.001,
+            radius_mm: 100.0,
+            feed_mm_per_min: 1000.0,
+            cycle_time_s: 0.001,
         }
     }
 }
@@ -89,46 +58,45 @@ pub enum CircleError {
     CycleTime(f64),
     /// `--feed 1`: the circle takes hours.
     #[error(
-        "a circle of {radius} mm at {feed} mm/min takes {seconds:.0} s with its run-in, at most \
-         {} s are simulated", MAX_STEPS * STEP
+        "a circle of {radius_mm} mm at {feed_mm_per_min} mm/min takes {duration_s:.0} s with its run-in, at most \
+         {} s are simulated", MAX_STEPS * STEP_S
     )]
     TooLong {
-        /// Radius in mm.
-        radius: f64,
-        /// Feed in mm/min.
-        feed: f64,
-        /// Duration in s.
-        seconds: f64,
+        /// Radius.
+        radius_mm: f64,
+        /// Feed.
+        feed_mm_per_min: f64,
+        /// Duration.
+        duration_s: f64,
     },
     /// `--radius 1 --feed 10000`: the circle has hardly a cycle.
     #[error(
-        "a circle of {radius} mm at {feed} mm/min has only {cycles:.0} CNC cycles of {} \
-         ms, {MIN_CYCLES} are needed",
-        Shown(.cycle_time * 1000.0)
+        "a circle of {radius_mm} mm at {feed_mm_per_min} mm/min has only {cycles:.0} CNC cycles of \
+         {} ms, {MIN_CYCLES} are needed",
+        Shown(.cycle_time_s * 1000.0)
     )]
     TooFast {
-        /// Radius in mm.
-        radius: f64,
-        /// Feed in mm/min.
-        feed: f64,
-        /// The CNC cycle in s.
-        cycle_time: f64,
+        /// Radius.
+        radius_mm: f64,
+        /// Feed.
+        feed_mm_per_min: f64,
+        /// The CNC cycle.
+        cycle_time_s: f64,
         /// Cycles in a turn.
         cycles: f64,
     },
     /// A plant whose loops do not settle.
     #[error(
-        "the drive of {axis} is unstable: it left the circle {angle:.0}\u{b0} behind the start"
+        "the drive of {axis} is unstable: it left the circle {angle_deg:.0}\u{b0} behind the start"
     )]
     Unstable {
         /// `X` or `Y`.
         axis: &'static str,
-        /// The commanded angle since the start, in degrees.
-        angle: f64,
+        /// The commanded angle since the start.
+        angle_deg: f64,
     },
 }
 
-/// What to do about it.
 impl CircleError {
     /// Advice for the user.
     pub fn help(&self) -> &'static str {
@@ -164,33 +132,33 @@ impl Circle {
     /// # Errors
     /// What is out of range.
     pub fn check(&self) -> Result<(), CircleError> {
-        if !(0.1..=100_000.0).contains(&self.radius) {
-            return Err(CircleError::Radius(self.radius));
+        if !(0.1..=100_000.0).contains(&self.radius_mm) {
+            return Err(CircleError::Radius(self.radius_mm));
         }
-        if !(0.1..=1e6).contains(&self.feed) {
-            return Err(CircleError::Feed(self.feed));
+        if !(0.1..=1e6).contains(&self.feed_mm_per_min) {
+            return Err(CircleError::Feed(self.feed_mm_per_min));
         }
-        let ticks = self.cycle_time / POSITION_LOOP;
+        let ticks = self.cycle_time_s / POSITION_LOOP_S;
         let is_whole = (ticks - ticks.round()).abs() < 1e-6;
         if !is_whole || !(0.5..=400.5).contains(&ticks) {
-            return Err(CircleError::CycleTime(self.cycle_time));
+            return Err(CircleError::CycleTime(self.cycle_time_s));
         }
-        let (radius, feed) = (self.radius, self.feed);
+        let (radius_mm, feed_mm_per_min) = (self.radius_mm, self.feed_mm_per_min);
         let turn = TAU / self.angular_velocity();
-        let seconds = TURNS * turn;
-        if seconds > MAX_STEPS * STEP {
+        let duration_s = TURNS * turn;
+        if duration_s > MAX_STEPS * STEP_S {
             return Err(CircleError::TooLong {
-                radius,
-                feed,
-                seconds,
+                radius_mm,
+                feed_mm_per_min,
+                duration_s,
             });
         }
-        let cycles = turn / self.cycle_time;
+        let cycles = turn / self.cycle_time_s;
         if cycles < MIN_CYCLES {
             return Err(CircleError::TooFast {
-                radius,
-                feed,
-                cycle_time: self.cycle_time,
+                radius_mm,
+                feed_mm_per_min,
+                cycle_time_s: self.cycle_time_s,
                 cycles,
             });
         }
@@ -199,25 +167,17 @@ impl Circle {
 
     /// Radius in m.
     pub(super) fn radius_m(&self) -> f64 {
-        self.radius / 1000.0
+        self.radius_mm / 1000.0
     }
 
     /// Angular velocity in rad/s.
     pub(super) fn angular_velocity(&self) -> f64 {
-        self.feed / 60.0 / self.radius
-    }
-
-    /// Cycles of the position loop in a CNC cycle.
-    pub(super) fn ticks(&self) -> u32 {
-        let ticks = (self.cycle_time / POSITION_LOOP).round();
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked: 1 to 400
-        let ticks = ticks as u32;
-        ticks.max(1)
+        self.feed_mm_per_min / 60.0 / self.radius_mm
     }
 
     /// CNC cycles of a stretch, one more than it takes.
     pub(super) fn cycles(&self, length: f64) -> usize {
-        let cycles = (length / (self.angular_velocity() * self.cycle_time)).ceil();
+        let cycles = (length / (self.angular_velocity() * self.cycle_time_s)).ceil();
         let most = MAX_STEPS / 4.0;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // bounded just here
         let cycles = cycles.clamp(0.0, most) as usize;
@@ -227,7 +187,7 @@ impl Circle {
     /// Position in m and velocity in m/s of both axes at CNC cycle `k` of a stretch.
     pub(super) fn at(&self, stretch: Stretch, k: usize) -> [(f64, f64); 2] {
         #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
-        let time = k as f64 * self.cycle_time;
+        let time = k as f64 * self.cycle_time_s;
         let turning = stretch.direction.sign() * self.angular_velocity();
         let (sin, cos) = (stretch.start + turning * time).sin_cos();
         let radius = self.radius_m();
@@ -237,6 +197,6 @@ impl Circle {
 
     /// Simulation steps of a whole run.
     pub fn steps(&self) -> f64 {
-        TURNS * TAU / self.angular_velocity() / STEP
+        TURNS * TAU / self.angular_velocity() / STEP_S
     }
 }

@@ -1,6 +1,6 @@
 //! Centres: of the least-squares circle and of the minimum zone.
 
-use super::profile::{Point, Profile};
+use super::profile::{Point, RadialProfile};
 
 /// Rounds of the exchange at most; a handful is needed.
 const ROUNDS: usize = 60;
@@ -24,11 +24,11 @@ pub(super) struct Zone {
 /// deviation from the radius of the profile, all in m. As the centre is moved by micrometres in a
 /// circle of millimetres, r = R + a·cos φ + b·sin φ is exact to far below a nanometre, and over
 /// whole turns of even angles the sums are the Fourier coefficients.
-pub(super) fn least_squares(profile: &Profile) -> ([f64; 2], f64) {
+pub(super) fn least_squares(profile: &RadialProfile) -> ([f64; 2], f64) {
     #[allow(clippy::cast_precision_loss)] // 36000
-    let count = profile.deviations().len() as f64;
+    let count = profile.deviations_m().len() as f64;
     let (mut a, mut b, mut mean) = (0.0, 0.0, 0.0);
-    for (at, deviation) in profile.deviations().iter().enumerate() {
+    for (at, deviation) in profile.deviations_m().iter().enumerate() {
         #[allow(clippy::cast_precision_loss)] // 36000
         let (sin, cos) = (at as f64 / count * std::f64::consts::TAU).sin_cos();
         a += deviation * cos;
@@ -39,7 +39,7 @@ pub(super) fn least_squares(profile: &Profile) -> ([f64; 2], f64) {
 }
 
 /// The width in m of the zone about a centre that holds every point of the profiles.
-pub(super) fn zone_about(profiles: &[&Profile], centre: [f64; 2]) -> f64 {
+pub(super) fn zone_about(profiles: &[&RadialProfile], centre: [f64; 2]) -> f64 {
     let [outer, inner] = extremes(profiles, centre);
     outer.map_or(0.0, |it| it.1) - inner.map_or(0.0, |it| it.1)
 }
@@ -51,7 +51,7 @@ pub(super) fn zone_about(profiles: &[&Profile], centre: [f64; 2]) -> f64 {
 /// search is an exchange: the best centre for a few points, then the two points that stick out
 /// farthest there join them. The width for the few is never more than that for all, so the
 /// difference of both bounds the error.
-pub(super) fn minimum_zone(profiles: &[&Profile]) -> Zone {
+pub(super) fn minimum_zone(profiles: &[&RadialProfile]) -> Zone {
     let mut centre = [0.0; 2];
     let mut best = Zone {
         centre,
@@ -61,7 +61,7 @@ pub(super) fn minimum_zone(profiles: &[&Profile]) -> Zone {
         return Zone { centre, width: 0.0 };
     };
     let mut few = Few {
-        radius: first.radius(),
+        radius: first.radius_m(),
         outer: Vec::new(),
         inner: Vec::new(),
     };
@@ -86,17 +86,17 @@ pub(super) fn minimum_zone(profiles: &[&Profile]) -> Zone {
 }
 
 /// The points that stick out farthest and least as seen from a centre, with their deviations.
-fn extremes(profiles: &[&Profile], centre: [f64; 2]) -> [Option<(Point, f64)>; 2] {
+fn extremes(profiles: &[&RadialProfile], centre: [f64; 2]) -> [Option<(Point, f64)>; 2] {
     let mut found = [None::<(Point, f64)>; 2];
     for profile in profiles {
         for &point in profile.outer() {
-            let deviation = seen_from(centre, profile.radius(), point);
+            let deviation = seen_from(centre, profile.radius_m(), point);
             if found[0].is_none_or(|(_, most)| deviation > most) {
                 found[0] = Some((point, deviation));
             }
         }
         for &point in profile.inner() {
-            let deviation = seen_from(centre, profile.radius(), point);
+            let deviation = seen_from(centre, profile.radius_m(), point);
             if found[1].is_none_or(|(_, least)| deviation < least) {
                 found[1] = Some((point, deviation));
             }

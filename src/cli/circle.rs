@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::console::Console;
-use super::current::{parse_reading, value_list};
+use super::current::value_list;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
@@ -14,12 +14,13 @@ use super::ledger::Ledger;
 use super::outputs::Outputs;
 use super::plants::{Model, plant};
 use super::recorded;
-use crate::circle::{Circle, CircularTest, Job, Outcome, plant_list};
+use crate::circle::{Circle, CircularTest, Comparison, Job};
 use crate::current::Reading;
 use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
 use crate::report::html::render_circle;
 use crate::report::pictures::circle;
 use crate::report::svg::Frame;
+use crate::simulation::plant_list;
 
 /// Drives a circle with two simulated axes, with friction compensation off and on
 ///
@@ -51,7 +52,7 @@ pub(super) struct CircleArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
-    #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
+    #[arg(long, value_name = "READING", default_value = "")]
     reading: Reading,
     /// A recorded circle in place of a simulated one; twice for both directions
     #[arg(long, value_name = "FILE", conflicts_with_all = ["feed", "plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
@@ -136,12 +137,12 @@ fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListO
     };
     let test = CircularTest {
         circle: Circle {
-            radius: args.radius.unwrap_or(Circle::default().radius),
-            feed: args.feed,
-            cycle_time: args
+            radius_mm: args.radius.unwrap_or(Circle::default().radius_mm),
+            feed_mm_per_min: args.feed,
+            cycle_time_s: args
                 .cycle
                 .seconds()?
-                .unwrap_or(Circle::default().cycle_time),
+                .unwrap_or(Circle::default().cycle_time_s),
         },
         plant,
         model: args.model.into(),
@@ -154,6 +155,6 @@ fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListO
 fn simulated(test: CircularTest, origin: ListOrigin) -> Result<CircleReport, Failure> {
     let laps = Jobs::new("circle").map(&Job::ALL, |&job| test.run(job));
     let laps = laps.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let outcome = Outcome::of(laps);
-    Ok(CircleReport::simulated(test, outcome, origin))
+    let comparison = Comparison::of(laps);
+    Ok(CircleReport::simulated(test, comparison, origin))
 }

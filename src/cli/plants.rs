@@ -5,7 +5,8 @@ use std::path::Path;
 use super::failure::Failure;
 use super::files::read_text;
 use super::ledger::Ledger;
-use crate::circle::{CircleError, FrictionModel, Plant, Preset};
+use crate::circle::CircleError;
+use crate::simulation::{FrictionModel, Plant, Preset};
 use crate::source::SourceFile;
 use clap::ValueEnum;
 
@@ -33,22 +34,21 @@ impl From<Model> for FrictionModel {
 
 /// The plant that the user names: a preset, or a TOML file.
 pub(super) fn plant(word: &str, ledger: &Ledger) -> Result<Plant, Failure> {
-    if let Some(preset) = Preset::from_name(word) {
-        return Ok(preset.plant());
-    }
+    let unknown = match word.parse::<Preset>() {
+        Ok(preset) => return Ok(preset.plant()),
+        Err(unknown) => unknown,
+    };
     let path = Path::new(word);
     let is_file = path.extension().is_some() || path.exists();
     if !is_file {
-        let names = Preset::ALL.map(Preset::name).join(", ");
-        let failure = Failure::new(format!("there is no plant `{word}`"));
-        return Err(
-            match crate::diagnostic::did_you_mean(word, Preset::ALL.map(Preset::name)) {
-                Some(meant) => failure.with_help(format!("did you mean `{meant}`?")),
-                None => {
-                    failure.with_help(format!("there are {names}, and files: `--plant FILE.toml`"))
-                }
-            },
-        );
+        let help = match unknown.near() {
+            Some(meant) => format!("did you mean `{meant}`?"),
+            None => format!(
+                "there are {}, and files: `--plant FILE.toml`",
+                Preset::names()
+            ),
+        };
+        return Err(Failure::new(unknown.to_string()).with_help(help));
     }
     ledger.reads("plant", path);
     let source = SourceFile::new(word.to_owned(), read_text(path)?);

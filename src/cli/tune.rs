@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::console::Console;
-use super::current::parse_reading;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
@@ -13,12 +12,13 @@ use super::jobs::Jobs;
 use super::ledger::Ledger;
 use super::outputs::Outputs;
 use super::plants::{Model, plant};
-use crate::circle::{Circle, FrictionModel, Plant, Ranges, Search, Task, Tuned};
+use crate::circle::{Circle, Ranges, Search, Task, Tuned};
 use crate::current::Reading;
 use crate::lists::{CncBuild, Field};
 use crate::report::pictures::tuning;
 use crate::report::svg::Frame;
 use crate::report::tune::{TuneReport, render_json, render_list, render_text};
+use crate::simulation::{FrictionModel, Plant};
 
 /// Feeds that are tuned at once, at most.
 const MAX_FEEDS: usize = 16;
@@ -67,7 +67,7 @@ pub(super) struct TuneArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
-    #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
+    #[arg(long, value_name = "READING", default_value = "")]
     reading: Reading,
     /// The format of the result
     #[arg(long, default_value = "text")]
@@ -141,9 +141,9 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         };
         reports.push(TuneReport {
             plant: name,
-            model: model.name(),
-            diameter: 2.0 * args.radius,
-            reading: args.reading.words(),
+            model: model.as_str(),
+            diameter_mm: 2.0 * args.radius,
+            reading: args.reading.to_string(),
             tuned: tune(&task)?,
         });
     }
@@ -169,9 +169,9 @@ fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {
     let cycle = args.cycle.seconds()?;
     let circle = |&feed: &f64| {
         let circle = Circle {
-            radius: args.radius,
-            feed,
-            cycle_time: cycle.unwrap_or(Circle::default().cycle_time),
+            radius_mm: args.radius,
+            feed_mm_per_min: feed,
+            cycle_time_s: cycle.unwrap_or(Circle::default().cycle_time_s),
         };
         circle.check().map(|()| circle).map_err(Failure::from)
     };
@@ -193,7 +193,7 @@ fn tune(task: &Task) -> Result<Tuned, Failure> {
     let mut search = Search::new(&task.ranges);
     while let Some(trials) = search.next_trials() {
         let bound = search.bound();
-        let heights = jobs.map(&trials, |&candidate| task.worst(candidate, bound));
+        let heights = jobs.map(&trials, |&candidate| task.worst_um(candidate, bound));
         search.take(
             &trials,
             &heights.into_iter().collect::<Result<Vec<_>, _>>()?,
@@ -201,7 +201,7 @@ fn tune(task: &Task) -> Result<Tuned, Failure> {
     }
     let best = search.best();
     let glitches = jobs.map(&task.wholes(), |&(circle, variant)| {
-        task.whole(circle, best, variant)
+        task.whole_um(circle, best, variant)
     });
     let glitches = glitches.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(Tuned::new(task, &search, &glitches))

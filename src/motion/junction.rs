@@ -1,42 +1,14 @@
 //! Block transitions: how fast one piece of the path may turn into the next (R5.2).
 
-use super::leg::Leg;
 use super::limits::AxisLimits;
-use super::profile::Bounds;
+use super::segment::Segment;
+use super::share::{KINK_SHARE, Share};
 use crate::interpreter::BlockEnd;
 
-/// How much of the limits a piece of the path may use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Share {
-    /// All of them.
-    Whole,
-    /// What a kink at one of its ends leaves.
-    BesideKink,
-}
-
-/// A kink may take a quarter of an axis' acceleration, and of its jerk twice a quarter: two
-/// kinks of opposite sign in neighbouring cycles add up.
-const KINK_SHARE: f64 = 0.25;
-
-impl Share {
-    /// The limits of an axis under this share.
-    pub(super) fn of(self, limits: &AxisLimits) -> Bounds {
-        let (acceleration, jerk) = match self {
-            Self::Whole => (1.0, 1.0),
-            Self::BesideKink => (1.0 - KINK_SHARE, 1.0 - 2.0 * KINK_SHARE),
-        };
-        Bounds {
-            velocity: limits.velocity,
-            acceleration: limits.acceleration * acceleration,
-            jerk: limits.jerk * jerk,
-        }
-    }
-}
-
-/// A change of slope that is none: decimals of the program.
+/// Below this a change of slope is only the decimals of the program.
 const STRAIGHT: f64 = 1e-7;
 
-/// A change of the slope of an axis from which on the path stops: 5.7° between two lines.
+/// From this change of the slope of an axis on the path stops: 5.7° between two lines.
 const SHARP: f64 = 0.1;
 
 /// The transition from one piece of the path to the next.
@@ -63,12 +35,17 @@ impl Junction {
     /// one slope to another, the velocity of an axis jumps by `v·Δx'` and its acceleration by
     /// `v²·Δx'' + a·Δx'`; the jumps stay within a share of the acceleration and the jerk of the
     /// axis in that cycle.
-    pub(super) fn between(before: &Leg, after: &Leg, limits: &[AxisLimits], cycle: f64) -> Self {
+    pub(super) fn between(
+        before: &Segment,
+        after: &Segment,
+        limits: &[AxisLimits],
+        cycle: f64,
+    ) -> Self {
         if before.end == BlockEnd::ExactStop {
             return Self::Stop;
         }
         let mut junction = Self::Smooth;
-        let bounds = [before, after].map(|leg| leg.bounds(limits, Share::BesideKink));
+        let bounds = [before, after].map(|segment| segment.bounds(limits, Share::BesideKink));
         let pull = bounds[0].acceleration.min(bounds[1].acceleration);
         for (axis, limits) in limits.iter().enumerate().take(before.axes()) {
             let turn = (after.slope(axis, 0.0) - before.slope(axis, before.length)).abs();

@@ -1,16 +1,17 @@
-//! Full look-ahead over a queue of legs: which velocity at each transition.
+//! Full look-ahead over a queue of segments: which velocity at each transition.
 //!
-//! First without the jerk, forth and back over all legs: the highest velocity that the
+//! First without the jerk, forth and back over all segments: the highest velocity that the
 //! accelerations allow at each transition. Where it meets the bound of a transition, the path has
 //! no acceleration; those transitions are the knots. Between two knots the path speeds up and
-//! slows down at most once, in one profile over all legs between them. Then back and forth over
-//! the knots with the jerk, and knots that the path does not touch any more are given up. A profile between knots stays below the velocities of the first step,
-//! so that it keeps the bounds of all legs under it.
+//! slows down at most once, in one profile over all segments between them. Then back and
+//! forth over the knots with the jerk, and knots that the path no longer touches are given up. A
+//! profile between knots stays below the velocities of the first step, so that it keeps the bounds
+//! of all segments that it spans.
 
 use super::junction::Junction;
-use super::profile::{Bounds, Profile, fits, reach};
+use super::profile::{Bounds, VelocityProfile, fits, reach};
 
-/// What the plan needs to know of a leg.
+/// What the plan needs to know of a segment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stage {
     pub(super) length: f64,
@@ -19,12 +20,12 @@ pub(super) struct Stage {
     pub(super) entry: Junction,
 }
 
-/// One profile over one or several legs.
+/// One profile over one or several segments.
 #[derive(Debug, Clone)]
 pub(super) struct Stretch {
-    /// How many legs it spans.
-    pub(super) legs: usize,
-    pub(super) profile: Profile,
+    /// How many segments it spans.
+    pub(super) segments: usize,
+    pub(super) profile: VelocityProfile,
     /// The path velocities at its ends.
     pub(super) start_velocity: f64,
     pub(super) end_velocity: f64,
@@ -32,35 +33,35 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    fn new((start, end): (f64, f64), span: &Span, bounds: Bounds) -> Self {
+    fn new((start, end): (f64, f64), span: &Interval, bounds: Bounds) -> Self {
         Self {
-            legs: span.legs,
-            profile: Profile::between(start, end, span.length, &bounds),
+            segments: span.segments,
+            profile: VelocityProfile::between(start, end, span.length, &bounds),
             start_velocity: start,
             end_velocity: end,
             bounds,
         }
     }
 
-    /// Cuts the stretch in two behind one of its legs, given by their lengths: the last one where
+    /// Cuts the stretch in two after one of its segments, given by their lengths: the last one where
     /// the path has neither acceleration nor jerk. The motion stays as it is.
     pub(super) fn cut(&self, lengths: impl Iterator<Item = f64>) -> Option<(Self, Self)> {
         let (steady, velocity) = self.profile.steady();
         let mut way = 0.0;
-        let behind = (1..self.legs).zip(lengths).map(|(legs, length)| {
+        let ends = (1..self.segments).zip(lengths).map(|(segments, length)| {
             way += length;
-            (legs, way)
+            (segments, way)
         });
-        let (legs, way) = behind.filter(|(_, way)| steady.contains(way)).last()?;
-        let part = |legs, length, ends| {
+        let (segments, way) = ends.filter(|(_, way)| steady.contains(way)).last()?;
+        let part = |segments, length, ends| {
             let bounds = Bounds {
                 velocity,
                 ..self.bounds
             };
             Self::new(
                 ends,
-                &Span {
-                    legs,
+                &Interval {
+                    segments,
                     length,
                     bounds,
                     start: 0.0,
@@ -70,9 +71,9 @@ impl Stretch {
             )
         };
         Some((
-            part(legs, way, (self.start_velocity, velocity)),
+            part(segments, way, (self.start_velocity, velocity)),
             part(
-                self.legs - legs,
+                self.segments - segments,
                 self.profile.length() - way,
                 (velocity, self.end_velocity),
             ),
@@ -89,10 +90,10 @@ const ROUNDS: usize = 12;
 /// Plans a motion over all stages that begins with a velocity and ends at rest. `None` where the
 /// stages cannot be followed from that velocity.
 pub(super) fn plan(stages: &[Stage], start: f64) -> Option<Vec<Stretch>> {
-    let velocities = envelope(stages, start);
-    let course = Envelope { stages, velocities };
-    let knots = course.knots();
-    let mut slack = course.slack(&knots, start);
+    let velocities = highest(stages, start);
+    let envelope = Envelope { stages, velocities };
+    let knots = envelope.knots();
+    let mut slack = envelope.slack(&knots, start);
     for _ in 0..ROUNDS {
         if slack.is_empty() {
             break;
@@ -102,16 +103,16 @@ pub(super) fn plan(stages: &[Stage], start: f64) -> Option<Vec<Stretch>> {
             .copied()
             .filter(|at| slack.binary_search(at).is_err())
             .collect();
-        let Some(stretches) = course.stretches(&fewer, start) else {
+        let Some(stretches) = envelope.stretches(&fewer, start) else {
             break;
         };
-        let binding = course.broken(&slack, &fewer, &stretches);
+        let binding = envelope.broken(&slack, &fewer, &stretches);
         if binding.is_empty() {
             return Some(stretches);
         }
         slack.retain(|at| binding.binary_search(at).is_err());
     }
-    course.stretches(&knots, start)
+    envelope.stretches(&knots, start)
 }
 
 /// The stages with the highest velocities at their transitions.
@@ -151,11 +152,11 @@ impl Envelope<'_> {
         slack
     }
 
-    /// The legs between the knots, with the velocities that the way to the end allows.
-    fn spans(&self, knots: &[usize]) -> Vec<Span> {
-        let mut spans: Vec<Span> = knots
+    /// The segments between the knots, with the velocities that the way to the end allows.
+    fn spans(&self, knots: &[usize]) -> Vec<Interval> {
+        let mut spans: Vec<Interval> = knots
             .windows(2)
-            .map(|pair| Span::new(self.stages, &self.velocities, (pair[0], pair[1])))
+            .map(|pair| Interval::new(self.stages, &self.velocities, (pair[0], pair[1])))
             .collect();
         let mut end = 0.0;
         for span in spans.iter_mut().rev() {
@@ -191,13 +192,13 @@ impl Envelope<'_> {
         let mut broken = Vec::new();
         let mut passed = passed.iter().copied().peekable();
         for (pair, stretch) in knots.windows(2).zip(stretches) {
-            let (mut way, mut leg) = (0.0, pair[0]);
+            let (mut way, mut passed_to) = (0.0, pair[0]);
             while let Some(at) = passed.next_if(|&at| at < pair[1]) {
-                way += self.stages[leg..at]
+                way += self.stages[passed_to..at]
                     .iter()
                     .map(|stage| stage.length)
                     .sum::<f64>();
-                leg = at;
+                passed_to = at;
                 let bound = self.bound(at) * (1.0 + TOUCH);
                 let profile = &stretch.profile;
                 if profile.top_velocity() > bound && profile.velocity_after(way) > bound {
@@ -211,7 +212,7 @@ impl Envelope<'_> {
 
 /// The highest velocities at the transitions, from the start to the rest at the end, that the
 /// accelerations allow.
-fn envelope(stages: &[Stage], start: f64) -> Vec<f64> {
+fn highest(stages: &[Stage], start: f64) -> Vec<f64> {
     let mut velocities = vec![0.0; stages.len() + 1];
     for (at, stage) in stages.iter().enumerate().rev() {
         let ahead = velocities[at + 1];
@@ -240,9 +241,9 @@ fn gained(velocity: f64, stage: &Stage) -> f64 {
     (velocity * velocity + 2.0 * stage.bounds.acceleration * stage.length).sqrt()
 }
 
-/// The legs between two knots.
-struct Span {
-    legs: usize,
+/// The segments between two knots.
+struct Interval {
+    segments: usize,
     length: f64,
     bounds: Bounds,
     /// The highest velocities at its ends.
@@ -250,10 +251,10 @@ struct Span {
     end: f64,
 }
 
-impl Span {
+impl Interval {
     fn new(stages: &[Stage], velocities: &[f64], (from, to): (usize, usize)) -> Self {
         let mut span = Self {
-            legs: to - from,
+            segments: to - from,
             length: 0.0,
             bounds: Bounds {
                 velocity: 0.0,

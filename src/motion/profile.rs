@@ -8,7 +8,7 @@
 
 use std::ops::RangeInclusive;
 
-/// Bounds along the path, per second: mm or degrees by the path's unit.
+/// Bounds along the path, whose length is in mm or degrees: per s, s² and s³.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// The highest velocity.
@@ -22,8 +22,8 @@ pub struct Bounds {
 /// The state along the path at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathState {
-    /// The way behind.
-    pub way: f64,
+    /// The distance since the start.
+    pub distance: f64,
     /// The path velocity.
     pub velocity: f64,
 }
@@ -103,14 +103,14 @@ struct Phase {
 
 /// The motion along a length of the path.
 #[derive(Debug, Clone)]
-pub struct Profile {
+pub struct VelocityProfile {
     phases: [Phase; 7],
     duration: f64,
     length: f64,
     end_velocity: f64,
 }
 
-impl Profile {
+impl VelocityProfile {
     /// The fastest motion over `length` that begins and ends with the given velocities, without
     /// acceleration at both ends. Lengths are in mm or degrees, times in seconds.
     pub fn between(start: f64, end: f64, length: f64, bounds: &Bounds) -> Self {
@@ -154,13 +154,13 @@ impl Profile {
                 (down.jerking, -fall * jerk),
             ],
         );
-        // Neither ramp leaves an acceleration behind, whatever rounding says.
+        // Neither ramp leaves an acceleration over, whatever rounding says.
         profile.phases[3].acceleration = 0.0;
         profile.phases[3].velocity = peak;
         profile
     }
 
-    /// Lays the phases one behind the other: their seconds and jerks.
+    /// Lays the phases one after the other: their seconds and jerks.
     fn lay(&mut self, start: f64, phases: [(f64, f64); 7]) {
         let mut state = Phase {
             velocity: start,
@@ -186,12 +186,12 @@ impl Profile {
         self.duration = state.start;
     }
 
-    /// How long it takes, in seconds.
-    pub fn duration(&self) -> f64 {
+    /// How long it takes.
+    pub fn duration_s(&self) -> f64 {
         self.duration
     }
 
-    /// The length of the way.
+    /// The length of the path.
     pub(super) fn length(&self) -> f64 {
         self.length
     }
@@ -213,7 +213,7 @@ impl Profile {
         let (mut early, mut late) = (0.0, self.duration);
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(early, late);
-            if self.at(middle).way <= way {
+            if self.at(middle).distance <= way {
                 early = middle;
             } else {
                 late = middle;
@@ -222,22 +222,22 @@ impl Profile {
         self.at(early).velocity
     }
 
-    /// The state at a time behind the start.
-    pub fn at(&self, time: f64) -> PathState {
-        if time >= self.duration {
+    /// The state at a time after the start.
+    pub fn at(&self, time_s: f64) -> PathState {
+        if time_s >= self.duration {
             return PathState {
-                way: self.length,
+                distance: self.length,
                 velocity: self.end_velocity,
             };
         }
         let later = self.phases.iter().skip(1);
         let phase = later
-            .take_while(|phase| phase.start <= time)
+            .take_while(|phase| phase.start <= time_s)
             .last()
             .unwrap_or(&self.phases[0]);
-        let (way, velocity, _) = phase.after(time - phase.start);
+        let (way, velocity, _) = phase.after(time_s - phase.start);
         PathState {
-            way: way.clamp(0.0, self.length),
+            distance: way.clamp(0.0, self.length),
             velocity: velocity.max(0.0),
         }
     }

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::leg::Leg;
-use super::profile::Profile;
-use super::{Cause, Cycle, Cycles};
+use super::profile::VelocityProfile;
+use super::segment::Segment;
+use super::trace::{Cause, Sample, TraceSink};
 use crate::machine::AxisIndex;
 
 /// Goes along profiles in steps of a CNC cycle.
@@ -49,7 +49,7 @@ impl Sampler {
     }
 
     /// The time of the next cycle, in seconds.
-    pub(super) fn time(&self) -> f64 {
+    pub(super) fn time_s(&self) -> f64 {
         #[allow(clippy::cast_precision_loss)] // a trace is shorter than 2^53 cycles
         let next = self.next as f64;
         match self.rate {
@@ -58,39 +58,39 @@ impl Sampler {
         }
     }
 
-    /// Follows legs with a profile that spans them.
+    /// Follows segments with a profile that spans them.
     pub(super) fn follow(
         &mut self,
-        legs: impl Iterator<Item = Leg>,
-        profile: &Profile,
-        cycles: &mut dyn Cycles,
+        segments: impl Iterator<Item = Segment>,
+        profile: &VelocityProfile,
+        sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
         let start = self.end;
-        self.end = start + profile.duration();
-        let mut legs = legs.peekable();
-        // The way at which the leg begins.
-        let mut behind = 0.0;
-        while let Some(leg) = legs.next() {
-            let is_last = legs.peek().is_none();
-            while self.time() <= self.end {
-                let state = profile.at(self.time() - start);
-                let way = state.way - behind;
-                if way > leg.length && !is_last {
+        self.end = start + profile.duration_s();
+        let mut segments = segments.peekable();
+        // The distance along the profile at which the segment begins.
+        let mut passed = 0.0;
+        while let Some(segment) = segments.next() {
+            let is_last = segments.peek().is_none();
+            while self.time_s() <= self.end {
+                let state = profile.at(self.time_s() - start);
+                let way = state.distance - passed;
+                if way > segment.length && !is_last {
                     break;
                 }
                 for (place, &axis) in self.followed.iter().enumerate() {
-                    self.positions[place] = leg.position(axis, way);
+                    self.positions[place] = segment.position(axis, way);
                     // No negative zero.
-                    self.velocities[place] = leg.slope(axis, way) * state.velocity + 0.0;
+                    self.velocities[place] = segment.slope(axis, way) * state.velocity + 0.0;
                 }
-                self.emit(&leg.cause, cycles)?;
+                self.emit(&segment.cause, sink)?;
             }
-            behind += leg.length;
+            passed += segment.length;
             if is_last {
                 for (place, &axis) in self.followed.iter().enumerate() {
-                    self.positions[place] = leg.position(axis, leg.length);
+                    self.positions[place] = segment.position(axis, segment.length);
                 }
-                self.last = Some(leg.cause);
+                self.last = Some(segment.cause);
             }
         }
         ControlFlow::Continue(())
@@ -101,23 +101,23 @@ impl Sampler {
         &mut self,
         seconds: f64,
         cause: &Arc<Cause>,
-        cycles: &mut dyn Cycles,
+        sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
         self.end += seconds;
         self.velocities.fill(0.0);
         self.last = Some(Arc::clone(cause));
-        while self.time() <= self.end {
-            self.emit(cause, cycles)?;
+        while self.time_s() <= self.end {
+            self.emit(cause, sink)?;
         }
         ControlFlow::Continue(())
     }
 
     /// One more cycle, so that the axes are seen at rest at the end of the path.
-    pub(super) fn settle(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    pub(super) fn settle(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.velocities.fill(0.0);
         if let Some(cause) = self.last.take() {
-            self.emit(&cause, cycles)?;
-            self.end = self.time();
+            self.emit(&cause, sink)?;
+            self.end = self.time_s();
         }
         ControlFlow::Continue(())
     }
@@ -127,15 +127,15 @@ impl Sampler {
         self.over
     }
 
-    fn emit(&mut self, cause: &Arc<Cause>, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    fn emit(&mut self, cause: &Arc<Cause>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.over = self.next >= self.budget;
         if self.over {
             return ControlFlow::Break(());
         }
-        let time = self.time();
+        let time_s = self.time_s();
         self.next += 1;
-        cycles.cycle(&Cycle {
-            time,
+        sink.sample(&Sample {
+            time_s,
             positions: &self.positions,
             velocities: &self.velocities,
             cause,

@@ -16,8 +16,8 @@ pub struct TuneReport {
     pub plant: String,
     /// The name of the friction model.
     pub model: &'static str,
-    /// The diameter of the circles in mm.
-    pub diameter: f64,
+    /// The diameter of the circles.
+    pub diameter_mm: f64,
     /// The reading of the documents, in words.
     pub reading: String,
     /// What was found.
@@ -42,7 +42,7 @@ pub fn render_text(reports: &[TuneReport]) -> String {
             "plant {}, friction {}, diameter {} mm, {} sets of parameters tried\nreading: {}",
             visible_line(&report.plant),
             report.model,
-            report.diameter,
+            report.diameter_mm,
             report.tuned.trials,
             report.reading
         );
@@ -59,11 +59,11 @@ pub fn render_text(reports: &[TuneReport]) -> String {
             let _ = writeln!(
                 out,
                 "{:>11}{:>16.3}{:>8.3}{:>17.3}{:>17.3}",
-                row.feed,
-                row.glitch_off,
-                row.glitch_on,
-                row.glitch_friction_minus20,
-                row.glitch_friction_plus20
+                row.feed_mm_per_min,
+                row.glitch_off_um,
+                row.glitch_on_um,
+                row.glitch_friction_minus20_um,
+                row.glitch_friction_plus20_um
             );
         }
     }
@@ -95,21 +95,21 @@ impl<'a> PlantRecord<'a> {
     fn of(report: &'a TuneReport) -> Self {
         let round = |value: f64| (value * 1e6).round() / 1e6;
         let feeds = report.tuned.feeds.iter().map(|row| FeedResult {
-            feed: row.feed,
-            glitch_off: round(row.glitch_off),
-            glitch_on: round(row.glitch_on),
-            glitch_friction_minus20: round(row.glitch_friction_minus20),
-            glitch_friction_plus20: round(row.glitch_friction_plus20),
+            feed_mm_per_min: row.feed_mm_per_min,
+            glitch_off_um: round(row.glitch_off_um),
+            glitch_on_um: round(row.glitch_on_um),
+            glitch_friction_minus20_um: round(row.glitch_friction_minus20_um),
+            glitch_friction_plus20_um: round(row.glitch_friction_plus20_um),
         });
         let feeds: Vec<_> = feeds.collect();
         Self {
             plant: &report.plant,
             model: report.model,
-            diameter_mm: report.diameter,
+            diameter_mm: report.diameter_mm,
             reading: &report.reading,
             trials: report.tuned.trials,
             parameters: report.tuned.candidate,
-            glitch_max: feeds.iter().map(|row| row.glitch_on).fold(0.0, f64::max),
+            glitch_max: feeds.iter().map(|row| row.glitch_on_um).fold(0.0, f64::max),
             feeds,
         }
     }

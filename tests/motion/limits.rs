@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use frictcomp::motion::{Bounds, Profile};
+use frictcomp::motion::{Bounds, VelocityProfile};
 
 use super::{CYCLE, MACHINE, assert_limits, trace};
 
@@ -228,9 +228,9 @@ proptest! {
         // More than the change of velocity needs, at the lowest acceleration that it can have.
         let change = velocity / acceleration + acceleration / jerk + (velocity / jerk).sqrt();
         let length = 2.0 * velocity * change + room;
-        let profile = Profile::between(start, end, length, &bounds);
+        let profile = VelocityProfile::between(start, end, length, &bounds);
         let expected = reference(start, end, length, &bounds);
-        let found = profile.duration();
+        let found = profile.duration_s();
         prop_assert!((found - expected).abs() <= 1e-6 * expected, "{found} s, not {expected} s");
     }
 }

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use frictcomp::machine::{AxisIndex, Machine};
-use frictcomp::motion::{AxisLimits, Cause, Cycle, Cycles, Tracer, TracerOptions};
+use frictcomp::motion::{AxisLimits, Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
 use frictcomp::source::SourceFile;
 use frictcomp::timeline::{Record, Sink};
@@ -75,29 +75,29 @@ impl Trace {
     }
 }
 
-impl Cycles for Trace {
+impl TraceSink for Trace {
     fn begin(&mut self, _: f64, _: &Arc<Cause>) -> ControlFlow<()> {
         self.begins.push(self.positions.len());
         ControlFlow::Continue(())
     }
 
-    fn cycle(&mut self, cycle: &Cycle<'_>) -> ControlFlow<()> {
-        self.positions.push(cycle.positions.to_vec());
-        self.velocities.push(cycle.velocities.to_vec());
-        self.lines.push(cycle.cause.line);
+    fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        self.positions.push(sample.positions.to_vec());
+        self.velocities.push(sample.velocities.to_vec());
+        self.lines.push(sample.cause.line);
         ControlFlow::Continue(())
     }
 }
 
 struct Bench {
-    tracer: Tracer,
+    planner: TrajectoryPlanner,
     trace: Trace,
 }
 
 impl Sink for Bench {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
-            Record::Block(row) => self.tracer.block(row, &mut self.trace),
+            Record::Block(row) => self.planner.block(row, &mut self.trace),
             _ => ControlFlow::Continue(()),
         }
     }
@@ -108,7 +108,7 @@ pub(crate) fn trace_of(
     machine: &str,
     program: &str,
     axes: &[&str],
-    options: TracerOptions,
+    options: PlannerOptions,
 ) -> Trace {
     let machine = Machine::from_toml(machine).expect("a machine");
     let followed: Vec<AxisIndex> = axes
@@ -116,7 +116,7 @@ pub(crate) fn trace_of(
         .map(|name| machine.find(name).expect("an axis"))
         .collect();
     let mut bench = Bench {
-        tracer: Tracer::new(&machine, &followed, options),
+        planner: TrajectoryPlanner::new(&machine, &followed, options),
         trace: Trace::default(),
     };
     let mut session = Session::new(
@@ -129,9 +129,9 @@ pub(crate) fn trace_of(
     let source = SourceFile::new("a.nc", program);
     let flow = session.program("a.nc", Program::Whole(source), &mut NoFiles, &mut bench);
     if flow.is_continue() {
-        let _ = bench.tracer.finish(&mut bench.trace);
+        let _ = bench.planner.finish(&mut bench.trace);
     }
-    let said = bench.tracer.diagnostics().iter();
+    let said = bench.planner.diagnostics().iter();
     bench.trace.said = said
         .map(|diagnostic| (diagnostic.code.to_string(), diagnostic.place.first_line))
         .collect();
@@ -140,7 +140,7 @@ pub(crate) fn trace_of(
 
 /// The trace of the named axes on the machine of these tests.
 pub(crate) fn trace(program: &str, axes: &[&str]) -> Trace {
-    trace_of(MACHINE, program, axes, TracerOptions::default())
+    trace_of(MACHINE, program, axes, PlannerOptions::default())
 }
 
 /// Asserts that every cycle keeps velocity, acceleration and jerk of each axis.

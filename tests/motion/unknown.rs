@@ -1,6 +1,6 @@
 //! R5.1 and R5.4: what is not known is left out and said.
 
-use frictcomp::motion::TracerOptions;
+use frictcomp::motion::PlannerOptions;
 
 use super::{MACHINE, trace, trace_of};
 
@@ -73,9 +73,9 @@ fn transformed_positions_are_said_to_be_the_programs() {
 #[test]
 fn a_trace_is_bounded() {
     // R5.1: without an end, and with numbers that nobody drives.
-    let options = TracerOptions {
+    let options = PlannerOptions {
         max_cycles: 1000,
-        ..TracerOptions::default()
+        ..PlannerOptions::default()
     };
     for program in [
         "G01 X0 F1000\n$WHILE 1\nX10\nX0\n$ENDWHILE\nM30",

@@ -2,10 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::super::figures::MICROMETRES;
-use super::super::reference::{Circle, CircleError, Direction, Stretch};
+use super::super::direction::Direction;
+use super::super::profile::UM_PER_M;
+use super::super::reference::{Circle, CircleError, Stretch};
 use super::super::simulate::simulate;
-use super::super::test::{CircularTest, Compensation};
+use super::super::test::CircularTest;
+use crate::current::Switched;
 
 /// The axis that reverses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +20,7 @@ impl Axis {
     pub(super) const ALL: [Self; 2] = [Self::X, Self::Y];
 
     /// The commanded angle of one of its reversals in the turn that a whole run evaluates, which
-    /// begins half a turn behind X+.
+    /// begins half a turn after X+.
     fn reversal(self) -> f64 {
         match self {
             Self::X => 2.0 * PI,
@@ -37,8 +39,8 @@ const SETTLING: f64 = 0.15;
 /// settled.
 const BEFORE: f64 = 0.05;
 
-/// The same behind the reversal, where the peak decays.
-const BEHIND: f64 = 0.5;
+/// The same after the reversal, where the peak decays.
+const AFTER: f64 = 0.5;
 
 /// The glitch in µm at one reversal of an axis, peak to peak within ±8°. The cycles are those of a
 /// whole run, so that the reversal falls at the same place within its cycle.
@@ -50,7 +52,7 @@ pub(super) fn height(test: &CircularTest, axis: Axis) -> Result<f64, CircleError
     // A quarter of a turn earlier the axis was in the middle of its way: the additive current has
     // long built up when the drives begin.
     let first = window.begin.saturating_sub(quarter);
-    let turning = circle.angular_velocity() * circle.cycle_time;
+    let turning = circle.angular_velocity() * circle.cycle_time_s;
     let stretch = Stretch {
         start: count(first) * turning,
         length: count(window.end - first) * turning,
@@ -58,14 +60,14 @@ pub(super) fn height(test: &CircularTest, axis: Axis) -> Result<f64, CircleError
         direction: Direction::Ccw,
     };
     let [mut most, mut least] = [f64::MIN, f64::MAX];
-    simulate(test, Compensation::On, stretch, |cycle, sample| {
+    simulate(test, Switched::On, stretch, |cycle, x, y| {
         if (window.from..window.end).contains(&(first + cycle)) {
-            let radius = sample.x.hypot(sample.y);
+            let radius = x.hypot(y);
             most = most.max(radius);
             least = least.min(radius);
         }
     })?;
-    Ok((most - least) * MICROMETRES)
+    Ok((most - least) * UM_PER_M)
 }
 
 /// CNC cycles of a whole run around a reversal.
@@ -83,7 +85,7 @@ impl Window {
         let turning = circle.angular_velocity();
         let cycle = |time: f64| {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // in a checked run
-            let cycle = (time / circle.cycle_time).floor() as usize;
+            let cycle = (time / circle.cycle_time_s).floor() as usize;
             cycle
         };
         let reversal = axis.reversal() / turning;
@@ -92,7 +94,7 @@ impl Window {
         Self {
             begin: cycle((reversal - before - SETTLING).max(0.0)),
             from: cycle(reversal - before),
-            end: cycle(reversal + window.min(BEHIND)),
+            end: cycle(reversal + window.min(AFTER)),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Candidate, Ranges};
+use super::candidate::{Candidate, Ranges};
 
 /// Steps of the neighbours, the largest first: `position_delay` as a part of its value, at
 /// least one unit, and the scaling factor.

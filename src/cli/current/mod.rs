@@ -17,10 +17,10 @@ use super::failure::Failure;
 use super::files::read_text;
 use super::ledger::Ledger;
 use super::outputs::{OutputFile, Outputs};
-use crate::current::{Below, Delay, Reading, Standstill};
-use crate::diagnostic::{Severity, did_you_mean};
+use crate::current::Reading;
+use crate::diagnostic::Severity;
 use crate::lists::{Conditions, Entries, FrictionDraft, FrictionList, Verdict};
-use crate::motion::TracerOptions;
+use crate::motion::PlannerOptions;
 use crate::report::pictures::{AxisPlot, CurrentPlot};
 use crate::report::svg::Frame;
 use crate::source::SourceFile;
@@ -58,7 +58,7 @@ pub(super) struct CurrentArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
-    #[arg(long, value_name = "READING", default_value = "", value_parser = parse_reading)]
+    #[arg(long, value_name = "READING", default_value = "")]
     reading: Reading,
     /// The format of the result
     #[arg(long, default_value = "csv")]
@@ -72,7 +72,7 @@ pub(super) struct CurrentArgs {
     )]
     columns: Vec<Column>,
     /// End the trace of a program after so many CNC cycles
-    #[arg(long, value_name = "N", default_value_t = TracerOptions::default().max_cycles)]
+    #[arg(long, value_name = "N", default_value_t = PlannerOptions::default().max_cycles)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_cycles: u64,
     /// Draw currents, velocities, weights and states of compensation over time into this file
@@ -206,38 +206,4 @@ pub(super) fn value_list(path: &Path, ledger: &Ledger) -> Result<FrictionList, F
         help: Vec::new(),
         diagnostics,
     })
-}
-
-/// `standstill=zero,below=origin,delay=reversal`, each of them optional.
-pub(super) fn parse_reading(text: &str) -> Result<Reading, String> {
-    const OPTIONS: [&str; 6] = [
-        "standstill=hold",
-        "standstill=zero",
-        "below=hold",
-        "below=origin",
-        "delay=all",
-        "delay=reversal",
-    ];
-    let mut reading = Reading::default();
-    for option in text
-        .split(',')
-        .map(str::trim)
-        .filter(|option| !option.is_empty())
-    {
-        match option {
-            "standstill=hold" => reading.standstill = Standstill::Hold,
-            "standstill=zero" => reading.standstill = Standstill::Zero,
-            "below=hold" => reading.below = Below::Hold,
-            "below=origin" => reading.below = Below::Origin,
-            "delay=all" => reading.delay = Delay::All,
-            "delay=reversal" => reading.delay = Delay::Reversal,
-            _ => {
-                return Err(match did_you_mean(option, OPTIONS) {
-                    Some(near) => format!("`{option}` is no reading, did you mean `{near}`?"),
-                    None => format!("`{option}` is no reading; there are {}", OPTIONS.join(", ")),
-                });
-            }
-        }
-    }
-    Ok(reading)
 }

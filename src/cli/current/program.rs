@@ -19,19 +19,17 @@ use super::super::unread::say_unread;
 use super::super::watch::Watch;
 use super::{Column, CurrentArgs, Plot, say_saturated, value_list};
 use crate::compensation::State;
-use crate::current::{AdditiveCurrent, Followers, Input as Commanded, Moment};
+use crate::current::{
+    AdditiveCurrent, Commanded, CurrentSample, Followers, POSITION_UNITS_PER_MM,
+    VELOCITY_UNITS_PER_MM_PER_S,
+};
 use crate::diagnostic::{Diagnostic, Severity, did_you_mean};
 use crate::lists::FrictionList;
 use crate::machine::{AxisIndex, AxisType, Parameterisation};
-use crate::motion::{AxisLimits, Cause, Cycle, Cycles, Tracer, TracerOptions};
+use crate::motion::{AxisLimits, Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use crate::report::pictures::AxisPlot;
 use crate::session::{Motions, SessionOptions, StopPolicy};
 use crate::timeline::{Record, Sink};
-
-/// Units of position of the lists, 0.1 µm or 0.0001°, in a millimetre or degree.
-const POSITION: f64 = 10_000.0;
-/// Units of velocity of the lists, µm/s or 0.001°/s, in a millimetre or degree per second.
-const VELOCITY: f64 = 1000.0;
 
 /// Cycles between two looks at the clock.
 const STEP: u64 = 1 << 16;
@@ -58,8 +56,8 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         .cycle
         .seconds()?
         .or(loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0));
-    let tracing = TracerOptions {
-        cycle: checked(cycle.unwrap_or(TracerOptions::default().cycle))?,
+    let options = PlannerOptions {
+        cycle_s: checked(cycle.unwrap_or(PlannerOptions::default().cycle_s))?,
         max_cycles: args.max_cycles,
     };
     say_limits(&loaded);
@@ -71,7 +69,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         AdditiveCurrent::new(&list, args.reading)
     });
     let mut follow = Follow {
-        tracer: Tracer::new(&loaded.machine, &followed, tracing),
+        planner: TrajectoryPlanner::new(&loaded.machine, &followed, options),
         table: Table {
             followers: Followers::new(currents.collect()),
             waiting: VecDeque::new(),
@@ -103,12 +101,12 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     };
     run_alone(&input, &loaded, alone, &mut follow)?;
     let Follow {
-        mut tracer,
+        mut planner,
         mut table,
         errors,
         over,
     } = follow;
-    if over.is_continue() && tracer.finish(&mut table).is_continue() {
+    if over.is_continue() && planner.finish(&mut table).is_continue() {
         table.drain();
     }
     let cycles = table.cycles;
@@ -128,7 +126,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         loaded: &loaded,
     };
     let mut said = errors;
-    said.extend(told.levelled(tracer.diagnostics()));
+    said.extend(told.levelled(planner.diagnostics()));
     console.show(&said);
     if cycles == 0 {
         Console::talk(&told.nothing());
@@ -231,7 +229,7 @@ fn say_limits(loaded: &LoadedMachine) {
 
 /// Follows a session.
 struct Follow {
-    tracer: Tracer,
+    planner: TrajectoryPlanner,
     table: Table,
     /// What stopped the program.
     errors: Vec<Diagnostic>,
@@ -246,7 +244,7 @@ impl Sink for Follow {
             Record::Block(ref row) => {
                 self.errors
                     .extend(row.diagnostics.iter().filter(error).cloned());
-                self.over = self.tracer.block(row, &mut self.table);
+                self.over = self.planner.block(row, &mut self.table);
             }
             Record::End(ref end) => {
                 let notes = end.notes.iter().map(|note| &note.diagnostic);
@@ -299,13 +297,13 @@ impl Table {
 
     /// Writes the cycles that wait for others.
     fn drain(&mut self) {
-        while let Some(moments) = self.followers.pop() {
+        while let Some(samples) = self.followers.pop() {
             let Some(head) = self.waiting.pop_front() else {
                 return;
             };
             if self.written.is_ok() {
-                self.written = write_row(&mut self.writer, &self.columns, head, moments);
-                draw(&mut self.plot, head.0, moments);
+                self.written = write_row(&mut self.writer, &self.columns, head, samples);
+                draw(&mut self.plot, head.0, samples);
             }
         }
     }
@@ -316,42 +314,42 @@ impl Table {
     }
 }
 
-impl Cycles for Table {
-    fn begin(&mut self, time: f64, cause: &Arc<Cause>) -> ControlFlow<()> {
+impl TraceSink for Table {
+    fn begin(&mut self, time_s: f64, cause: &Arc<Cause>) -> ControlFlow<()> {
         self.drain();
         self.followers.restart();
         if let Some(plot) = &mut self.plot {
             plot.traces.interrupt();
         }
-        self.begins.push((time, cause.line));
+        self.begins.push((time_s, cause.line));
         ControlFlow::Continue(())
     }
 
-    fn cycle(&mut self, cycle: &Cycle<'_>) -> ControlFlow<()> {
+    fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
         self.cycles += 1;
         if self.cycles.is_multiple_of(STEP) {
             let done = format!("{} cycles", self.cycles);
-            self.watch.show(&done, (&self.program, cycle.cause.line));
+            self.watch.show(&done, (&self.program, sample.cause.line));
         }
-        for (seen, state) in self.seen.iter_mut().zip(cycle.cause.friction.iter()) {
+        for (seen, state) in self.seen.iter_mut().zip(sample.cause.friction.iter()) {
             if *state != State::Active && !seen.contains(state) {
                 seen.push(*state);
             }
         }
-        self.waiting.push_back((cycle.time, cycle.cause.line));
-        let axes = cycle.positions.iter().zip(cycle.velocities);
+        self.waiting.push_back((sample.time_s, sample.cause.line));
+        let axes = sample.positions.iter().zip(sample.velocities);
         let inputs = axes
-            .zip(cycle.cause.friction.iter())
+            .zip(sample.cause.friction.iter())
             .map(|((x, v), state)| Commanded {
-                position: x * POSITION,
-                velocity: v * VELOCITY,
+                position: x * POSITION_UNITS_PER_MM,
+                velocity: v * VELOCITY_UNITS_PER_MM_PER_S,
                 friction: *state,
             });
-        if let Some(moments) = self.followers.push(inputs)
+        if let Some(samples) = self.followers.push(inputs)
             && let Some(head) = self.waiting.pop_front()
         {
-            self.written = write_row(&mut self.writer, &self.columns, head, moments);
-            draw(&mut self.plot, head.0, moments);
+            self.written = write_row(&mut self.writer, &self.columns, head, samples);
+            draw(&mut self.plot, head.0, samples);
         }
         match self.written {
             Ok(()) => ControlFlow::Continue(()),
@@ -367,12 +365,12 @@ fn plotted(loaded: &LoadedMachine, followed: &[AxisIndex]) -> Vec<AxisPlot> {
         .collect()
 }
 
-fn draw(plot: &mut Option<Plot>, time: f64, moments: &[Moment]) {
+fn draw(plot: &mut Option<Plot>, time: f64, samples: &[CurrentSample]) {
     if let Some(plot) = plot {
-        let moments = moments.iter();
+        let samples = samples.iter();
         plot.traces.push(
             time,
-            moments.map(|it| (it.input.velocity, it.input.friction, &it.cycle)),
+            samples.map(|it| (it.commanded.velocity, it.commanded.friction, &it.added)),
         );
     }
 }
@@ -381,19 +379,19 @@ fn write_row(
     writer: &mut impl Write,
     columns: &[Column],
     (time, line): (f64, u32),
-    moments: &[Moment],
+    samples: &[CurrentSample],
 ) -> io::Result<()> {
     write!(writer, "{time}")?;
-    for Moment { input, cycle } in moments {
-        let (x, v) = (input.position, input.velocity);
-        write!(writer, ",{x},{v},{},{}", cycle.w_before, cycle.w_after)?;
-        match input.friction {
+    for CurrentSample { commanded, added } in samples {
+        let (x, v) = (commanded.position, commanded.velocity);
+        write!(writer, ",{x},{v},{},{}", added.w_before, added.w_after)?;
+        match commanded.friction {
             // Nobody knows it.
             State::Unknown => write!(writer, ",,")?,
-            _ => write!(writer, ",{},{}", cycle.current, cycle.output)?,
+            _ => write!(writer, ",{},{}", added.current, added.output)?,
         }
         if columns.contains(&Column::Comp) {
-            write!(writer, ",{}", input.friction.word())?;
+            write!(writer, ",{}", commanded.friction.word())?;
         }
     }
     if columns.contains(&Column::Line) {
@@ -446,7 +444,7 @@ impl Told<'_> {
                 Console::talk(&format!("{name}: while its state is `{word}`, {what}"));
             }
         }
-        Console::talk(&format!("reading: {}", args.reading.words()));
+        Console::talk(&format!("reading: {}", args.reading));
         for (name, cycles) in self.names.iter().zip(self.table.followers.saturated()) {
             say_saturated(&format!(" of axis {name}"), cycles);
         }

@@ -12,8 +12,16 @@ use super::super::ledger::Ledger;
 use super::super::outputs::Outputs;
 use super::{CurrentArgs, Plot, say_saturated, value_list};
 use crate::compensation::State;
-use crate::current::{AdditiveCurrent, Cycle, Switched};
+use crate::current::{
+    Added, AdditiveCurrent, POSITION_UNITS_PER_MM, Switched, VELOCITY_UNITS_PER_MM_PER_S,
+};
 use crate::report::pictures::AxisPlot;
+
+/// Units of position that one unit of velocity covers in a second.
+const POSITION_PER_VELOCITY: f64 = POSITION_UNITS_PER_MM / VELOCITY_UNITS_PER_MM_PER_S;
+
+/// Units of velocity that cover one unit of position in a second.
+const VELOCITY_PER_POSITION: f64 = VELOCITY_UNITS_PER_MM_PER_S / POSITION_UNITS_PER_MM;
 
 /// A commanded trace: positions and velocities of each cycle.
 struct Trace {
@@ -47,7 +55,7 @@ pub(super) fn run(
         written => written.map_err(|error| Failure::output(&error))?,
     }
     outputs.finish()?;
-    Console::talk(&format!("reading: {}", args.reading.words()));
+    Console::talk(&format!("reading: {}", args.reading));
     say_saturated("", current.saturated());
     Ok(exit::CLEAN)
 }
@@ -63,18 +71,18 @@ fn write_csv(
     for (at, (&x, &v)) in trace.positions.iter().zip(&trace.velocities).enumerate() {
         current.switch(trace.switched[at]);
         let end = trace.velocities.len().min(at + 1 + lookahead);
-        let cycle = current.step(x, v, &trace.velocities[at + 1..end]);
+        let added = current.step(x, v, &trace.velocities[at + 1..end]);
         let t = trace.times[at];
         if let Some(plot) = &mut plot {
             plot.traces
-                .push(t, [(v, state(trace.switched[at]), &cycle)]);
+                .push(t, [(v, state(trace.switched[at]), &added)]);
         }
-        let Cycle {
+        let Added {
             w_before,
             w_after,
             current,
             output,
-        } = cycle;
+        } = added;
         writeln!(
             writer,
             "{t},{x},{v},{w_before},{w_after},{current},{output}"
@@ -141,8 +149,7 @@ impl Trace {
         checked(cycle)
     }
 
-    /// Computes the columns that are missing: 1 unit of position is 0.1 units of velocity times
-    /// a second (4.1 of the rules).
+    /// Computes the columns that are missing (4.1 of the rules).
     fn complete(&mut self, cycle: f64, columns: (Option<usize>, Option<usize>, Option<usize>)) {
         let (times, positions, velocities) = columns;
         if times.is_none() {
@@ -153,13 +160,14 @@ impl Trace {
         if positions.is_none() {
             let mut position = 0.0;
             for (place, velocity) in self.positions.iter_mut().zip(&self.velocities) {
-                position += velocity * cycle * 10.0;
+                position += velocity * cycle * POSITION_PER_VELOCITY;
                 *place = position;
             }
         }
         if velocities.is_none() {
             let steps = self.positions.windows(2).map(|pair| pair[1] - pair[0]);
-            let velocities = std::iter::once(0.0).chain(steps.map(|step| 0.1 * step / cycle));
+            let velocities =
+                std::iter::once(0.0).chain(steps.map(|step| VELOCITY_PER_POSITION * step / cycle));
             self.velocities = velocities.take(self.positions.len()).collect();
         }
     }

@@ -111,16 +111,16 @@ impl<T> ByCrossing<T> {
 impl PathRecord {
     fn of(figures: &PathFigures) -> Self {
         Self {
-            g_mz: round(figures.g_mz),
-            g_lsc: round(figures.g_lsc),
-            f_max: figures.f_max.map(round),
-            f_min: figures.f_min.map(round),
-            d: figures.d.map(round),
-            glitch: ByCrossing::of(&figures.glitch, |glitch| round(glitch.height)),
+            g_mz: round(figures.g_mz_um),
+            g_lsc: round(figures.g_lsc_um),
+            f_max: figures.f_max_um.map(round),
+            f_min: figures.f_min_um.map(round),
+            d: figures.d_um.map(round),
+            glitch: ByCrossing::of(&figures.glitch, |glitch| round(glitch.height_um)),
             shape: ByCrossing::of(&figures.glitch, |glitch| Shape {
-                outward: round(glitch.outward),
-                inward: round(glitch.inward),
-                step: round(glitch.step),
+                outward: round(glitch.outward_um),
+                inward: round(glitch.inward_um),
+                step: round(glitch.step_um),
             }),
         }
     }
@@ -130,16 +130,16 @@ impl SideRecord {
     fn of(side: &NamedSide) -> Self {
         let figures = &side.side.figures;
         let rounded = |advice: &Advice| Advice {
-            size: round(advice.size),
+            size_um: round(advice.size_um),
             ..*advice
         };
         Self {
             ccw: figures.ccw.as_ref().map(PathRecord::of),
             cw: figures.cw.as_ref().map(PathRecord::of),
-            g_b: figures.g_b.map(round),
-            h: figures.h.map(round),
-            d: figures.d.map(round),
-            glitch_max: round(figures.glitch_max()),
+            g_b: figures.g_b_um.map(round),
+            h: figures.h_um.map(round),
+            d: figures.d_um.map(round),
+            glitch_max: round(figures.glitch_max_um()),
             advice: side.advice.iter().map(rounded).collect(),
         }
     }
@@ -155,26 +155,26 @@ pub fn render_json(report: &CircleReport) -> String {
         Subject::Simulated {
             test,
             origin,
-            saturated,
+            saturated_cycles,
         } => Conditions {
             source: "simulated",
-            diameter_mm: Some(2.0 * test.circle.radius),
-            feed_mm_min: Some(test.circle.feed),
-            cycle_time_s: Some(test.circle.cycle_time),
+            diameter_mm: Some(2.0 * test.circle.radius_mm),
+            feed_mm_min: Some(test.circle.feed_mm_per_min),
+            cycle_time_s: Some(test.circle.cycle_time_s),
             plant: Some(&test.plant.name),
-            model: Some(test.model.name()),
+            model: Some(test.model.as_str()),
             value_list: Some(match origin {
                 ListOrigin::Plant => "plant",
                 ListOrigin::File(name) => name,
             }),
-            reading: Some(test.reading.words()),
+            reading: Some(test.reading.to_string()),
             centre: "commanded",
             data: TREATMENT,
-            saturated_cycles: Some(*saturated),
+            saturated_cycles: Some(*saturated_cycles),
         },
         Subject::Recorded(recording) => Conditions {
             source: "recorded",
-            diameter_mm: recording.radius.map(|radius| 2.0 * radius),
+            diameter_mm: recording.radius_mm.map(|radius| 2.0 * radius),
             feed_mm_min: None,
             cycle_time_s: None,
             plant: None,

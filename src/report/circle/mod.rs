@@ -10,8 +10,9 @@ pub(super) use text::{advice_lines, conditions, table};
 pub use text::{render_text, words};
 
 use crate::circle::{
-    Advice, CircularTest, Compensation, Outcome, Recording, Side, advise, advise_on,
+    Advice, CircularTest, Comparison, Recording, Side, UM_PER_M, advise, advise_on,
 };
+use crate::current::Switched;
 
 /// Rows of the CSV a turn: one every 0.1°.
 const ROWS: usize = 3600;
@@ -41,14 +42,14 @@ pub struct CircleReport {
 /// What was driven.
 #[derive(Debug, Clone)]
 pub enum Subject {
-    /// A simulated test, with the origin of its value list and the cycles in which a force was cut.
+    /// A simulated test, with the origin of its value list and the cycles in which a force was limited.
     Simulated {
         /// The test.
         test: Box<CircularTest>,
         /// Where its list came from.
         origin: ListOrigin,
-        /// Cycles of the speed loop in which a force was cut.
-        saturated: u64,
+        /// Cycles of the speed loop in which a force was limited.
+        saturated_cycles: u64,
     },
     /// Recorded circles.
     Recorded(Box<Recording>),
@@ -67,19 +68,19 @@ pub struct NamedSide {
 
 impl CircleReport {
     /// The report of a simulated test.
-    pub fn simulated(test: CircularTest, outcome: Outcome, origin: ListOrigin) -> Self {
+    pub fn simulated(test: CircularTest, comparison: Comparison, origin: ListOrigin) -> Self {
         let side = |name, advice, side| NamedSide { name, side, advice };
-        let without = advise(&outcome.off.paths, Some(Compensation::Off));
-        let with = advise_on(&outcome);
+        let without = advise(&comparison.off.paths, Some(Switched::Off));
+        let with = advise_on(&comparison);
         Self {
             subject: Subject::Simulated {
                 test: Box::new(test),
                 origin,
-                saturated: outcome.saturated,
+                saturated_cycles: comparison.saturated_cycles,
             },
             sides: vec![
-                side("off", without, outcome.off),
-                side("on", with, outcome.on),
+                side("off", without, comparison.off),
+                side("on", with, comparison.on),
             ],
         }
     }
@@ -103,7 +104,7 @@ pub fn render_csv(report: &CircleReport) -> String {
     let mut out = String::from("compensation,direction,angle_deg,deviation_um\n");
     for side in &report.sides {
         for (direction, profile) in side.side.paths.iter() {
-            let deviations = profile.deviations();
+            let deviations = profile.deviations_m();
             for (row, deviation) in deviations
                 .iter()
                 .step_by(deviations.len() / ROWS)
@@ -111,9 +112,8 @@ pub fn render_csv(report: &CircleReport) -> String {
             {
                 #[allow(clippy::cast_precision_loss)] // at most 3600
                 let angle = row as f64 / 10.0;
-                let deviation = round(deviation * 1e6);
-                let name = direction.name();
-                let _ = writeln!(out, "{},{name},{angle},{deviation}", side.name);
+                let deviation = round(deviation * UM_PER_M);
+                let _ = writeln!(out, "{},{direction},{angle},{deviation}", side.name);
             }
         }
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{
-    Advice, CircularTest, Crossing, Direction, Figures, Finding, PathFigures, Place, Recording,
+    Advice, CircularTest, Crossing, Direction, Figures, Finding, FoundAt, PathFigures, Recording,
 };
 
 /// The report for people.
@@ -70,7 +70,7 @@ struct Column<'a> {
 
 impl Column<'_> {
     fn name(&self) -> String {
-        format!("{} {}", self.side.name, self.direction.name())
+        format!("{} {}", self.side.name, self.direction)
     }
 }
 
@@ -96,8 +96,8 @@ pub(in crate::report) fn conditions(report: &CircleReport) -> Vec<String> {
         Subject::Simulated {
             test,
             origin,
-            saturated,
-        } => simulated_conditions(test, origin, *saturated),
+            saturated_cycles,
+        } => simulated_conditions(test, origin, *saturated_cycles),
         Subject::Recorded(recording) => recorded_conditions(recording),
     }
 }
@@ -107,14 +107,14 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
     let mut lines = vec![
         format!(
             "circular test, simulated: diameter {} mm, feed {} mm/min, ccw and cw",
-            2.0 * circle.radius,
-            circle.feed
+            2.0 * circle.radius_mm,
+            circle.feed_mm_per_min
         ),
         format!(
             "plant {}, friction {}, CNC cycle {} ms, {}",
             test.plant.name,
-            test.model.name(),
-            round(1000.0 * circle.cycle_time),
+            test.model,
+            round(1000.0 * circle.cycle_time_s),
             unit_force(test)
         ),
     ];
@@ -135,7 +135,7 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
             list.position_delay, list.reversal_lookahead, list.delay_cycles, list.scaling_factor
         ));
     }
-    lines.push(format!("reading: {}", test.reading.words()));
+    lines.push(format!("reading: {}", test.reading));
     lines.push(format!("centre: the commanded one; {TREATMENT}"));
     if saturated > 0 {
         lines.push(format!(
@@ -146,7 +146,7 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
 }
 
 fn unit_force(test: &CircularTest) -> String {
-    let [x, y] = [&test.plant.x, &test.plant.y].map(|drive| round(drive.force_per_unit));
+    let [x, y] = [&test.plant.x, &test.plant.y].map(|drive| round(drive.force_per_unit_n));
     #[allow(clippy::float_cmp)] // the same text
     if x == y {
         format!("{x} N a drive unit")
@@ -156,18 +156,18 @@ fn unit_force(test: &CircularTest) -> String {
 }
 
 fn recorded_conditions(recording: &Recording) -> Vec<String> {
-    let commanded = match recording.radius {
+    let commanded = match recording.radius_mm {
         Some(radius) => format!("commanded diameter {} mm", 2.0 * radius),
         None => "commanded diameter unknown (`--radius` for F and D)".to_owned(),
     };
     let mut lines = vec![format!("circular test, recorded: {commanded}")];
     for circle in &recording.circles {
-        let [x, y] = circle.centre;
+        let [x, y] = circle.centre_mm;
         lines.push(format!(
             "{}: {} points of a turn, least-squares centre ({x:.4}, {y:.4}) mm, diameter {:.4} mm",
-            circle.direction.name(),
+            circle.direction,
             circle.points,
-            2.0 * circle.radius
+            2.0 * circle.radius_mm
         ));
     }
     lines.push(format!("centre: least squares, for each path; {TREATMENT}"));
@@ -190,11 +190,11 @@ type SharedFigure = (&'static str, fn(&Figures) -> Option<f64>);
 
 fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
     let own: [Figure; 5] = [
-        ("G     minimum zone", |it| Some(it.g_mz)),
-        ("G     least-squares circle", |it| Some(it.g_lsc)),
-        ("Fmax  largest radial deviation", |it| it.f_max),
-        ("Fmin  smallest radial deviation", |it| it.f_min),
-        ("D     mean radial deviation", |it| it.d),
+        ("G     minimum zone", |it| Some(it.g_mz_um)),
+        ("G     least-squares circle", |it| Some(it.g_lsc_um)),
+        ("Fmax  largest radial deviation", |it| it.f_max_um),
+        ("Fmin  smallest radial deviation", |it| it.f_min_um),
+        ("D     mean radial deviation", |it| it.d_um),
     ];
     let own = own.into_iter().map(|(name, figure)| Row {
         name: name.to_owned(),
@@ -204,9 +204,9 @@ fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
             .collect(),
     });
     let shared: [SharedFigure; 3] = [
-        ("G(b)  bidirectional", |it| it.g_b),
-        ("H     circular hysteresis", |it| it.h),
-        ("D     bidirectional", |it| it.d),
+        ("G(b)  bidirectional", |it| it.g_b_um),
+        ("H     circular hysteresis", |it| it.h_um),
+        ("D     bidirectional", |it| it.d_um),
     ];
     let shared = shared.into_iter().map(|(name, figure)| {
         let mut last = "";
@@ -227,10 +227,10 @@ fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
 fn glitch_rows(columns: &[Column<'_>]) -> Vec<Row> {
     let rows = Crossing::ALL.into_iter().enumerate();
     let rows = rows.map(|(at, crossing)| Row {
-        name: format!("glitch at {}", crossing.name()),
+        name: format!("glitch at {}", crossing.as_str()),
         values: columns
             .iter()
-            .map(|column| column.figures.glitch.get(at).map(|it| it.height))
+            .map(|column| column.figures.glitch.get(at).map(|it| it.height_um))
             .collect(),
     });
     rows.filter(Row::says_something).collect()
@@ -267,13 +267,13 @@ pub(in crate::report) fn advice_lines(side: &NamedSide) -> Vec<String> {
     for (finding, same) in said {
         let mut places = Vec::new();
         for advice in &same {
-            if let Place::Crossing(crossing) = advice.place
-                && !places.contains(&crossing.name())
+            if let FoundAt::Crossing(crossing) = advice.place
+                && !places.contains(&crossing.as_str())
             {
-                places.push(crossing.name());
+                places.push(crossing.as_str());
             }
         }
-        let largest = same.iter().map(|it| it.size).fold(0.0, f64::max);
+        let largest = same.iter().map(|it| it.size_um).fold(0.0, f64::max);
         let at = if places.is_empty() {
             String::new()
         } else {

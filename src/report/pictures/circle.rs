@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::circle::Profile;
+use crate::circle::{RadialProfile, UM_PER_M};
 use crate::report::circle::{CircleReport, Subject};
 use crate::report::svg::{PolarChart, PolarSeries};
 
@@ -17,27 +17,27 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         for (direction, profile) in side.side.paths.iter() {
             series.push(PolarSeries {
                 name: match side.name {
-                    "off" | "on" => format!("compensation {}, {}", side.name, direction.name()),
-                    name => format!("{name}, {}", direction.name()),
+                    "off" | "on" => format!("compensation {}, {}", side.name, direction),
+                    name => format!("{name}, {direction}"),
                 },
                 points: outline(profile),
             });
         }
-        let glitch = side.side.figures.glitch_max();
+        let glitch = side.side.figures.glitch_max_um();
         told.push(format!("{}: largest glitch {glitch:.1} µm", side.name));
     }
     let (title, radius) = match &report.subject {
         Subject::Simulated { test, .. } => (
             format!(
                 "Circular test, diameter {} mm, {} mm/min",
-                2.0 * test.circle.radius,
-                test.circle.feed
+                2.0 * test.circle.radius_mm,
+                test.circle.feed_mm_per_min
             ),
-            test.circle.radius,
+            test.circle.radius_mm,
         ),
         Subject::Recorded(recording) => {
-            let fitted = recording.circles.first().map(|circle| circle.radius);
-            let radius = recording.radius.or(fitted).unwrap_or_default();
+            let fitted = recording.circles.first().map(|circle| circle.radius_mm);
+            let radius = recording.radius_mm.or(fitted).unwrap_or_default();
             (
                 format!("Recorded circle, diameter {:.3} mm", 2.0 * radius),
                 radius,
@@ -57,10 +57,10 @@ pub fn circle(report: &CircleReport) -> PolarChart {
 }
 
 /// Angles in rad and deviations in µm of a closed path.
-fn outline(profile: &Profile) -> Vec<[f64; 2]> {
+fn outline(profile: &RadialProfile) -> Vec<[f64; 2]> {
     let points = profile.outline(POINTS).into_iter();
     let mut points: Vec<[f64; 2]> = points
-        .map(|(angle, deviation)| [angle, deviation * 1e6])
+        .map(|(angle, deviation)| [angle, deviation * UM_PER_M])
         .collect();
     if let Some(&[angle, deviation]) = points.first() {
         points.push([angle + TAU, deviation]);

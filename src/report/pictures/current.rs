@@ -1,7 +1,7 @@
 //! The additive current over time.
 
 use crate::compensation::State;
-use crate::current::Cycle;
+use crate::current::Added;
 use crate::lists::AxisType;
 use crate::report::svg::{Axis, Band, BandRow, BandState, Curve, Drawn, LineChart, Panel, Series};
 
@@ -48,16 +48,16 @@ impl AxisPlot {
 
     /// Takes a CNC cycle: seconds, commanded velocity in µm/s or 0.001°/s, state, and what is
     /// added. In the state `unknown` nobody knows the current, and it is not drawn.
-    fn push(&mut self, time: f64, velocity: f64, (state, cycle): (State, &Cycle)) {
+    fn push(&mut self, time: f64, velocity: f64, (state, added): (State, &Added)) {
         self.velocity.push([time, velocity]);
         if state == State::Unknown {
             self.current.interrupt();
         } else {
-            self.largest = self.largest.max(cycle.current.abs());
-            self.current.push([time, cycle.current]);
+            self.largest = self.largest.max(added.current.abs());
+            self.current.push([time, added.current]);
         }
-        self.before.push([time, cycle.w_before]);
-        self.after.push([time, cycle.w_after]);
+        self.before.push([time, added.w_before]);
+        self.after.push([time, added.w_after]);
         self.extend_bands(time, state);
     }
 
@@ -133,12 +133,12 @@ impl CurrentPlot {
     pub fn push<'a>(
         &mut self,
         time: f64,
-        moments: impl IntoIterator<Item = (f64, State, &'a Cycle)>,
+        samples: impl IntoIterator<Item = (f64, State, &'a Added)>,
     ) {
         self.cycles += 1;
         self.length = time;
-        for (axis, (velocity, state, cycle)) in self.axes.iter_mut().zip(moments) {
-            axis.push(time, velocity, (state, cycle));
+        for (axis, (velocity, state, added)) in self.axes.iter_mut().zip(samples) {
+            axis.push(time, velocity, (state, added));
         }
     }
 

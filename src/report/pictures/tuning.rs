@@ -32,7 +32,7 @@ fn describe(report: &TuneReport) -> String {
         .map(|it| {
             format!(
                 "{:.1} and {:.1} at {}",
-                it.glitch_off, it.glitch_on, it.feed
+                it.glitch_off_um, it.glitch_on_um, it.feed_mm_per_min
             )
         })
         .collect();
@@ -41,10 +41,13 @@ fn describe(report: &TuneReport) -> String {
 
 fn panel(report: &TuneReport, panels: usize) -> Panel {
     let mut feeds: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
-    feeds.sort_by(|one, other| one.feed.total_cmp(&other.feed));
+    feeds.sort_by(|one, other| one.feed_mm_per_min.total_cmp(&other.feed_mm_per_min));
     let series = |name: &str, value: fn(&FeedResult) -> f64| Series {
         name: name.to_owned(),
-        points: feeds.iter().map(|it| [it.feed, value(it)]).collect(),
+        points: feeds
+            .iter()
+            .map(|it| [it.feed_mm_per_min, value(it)])
+            .collect(),
         drawn: Drawn::Marked,
     };
     let quantity = "largest glitch in µm, peak to peak";
@@ -54,12 +57,12 @@ fn panel(report: &TuneReport, panels: usize) -> Panel {
             _ => format!("plant {}: {quantity}", report.plant),
         }),
         series: vec![
-            series("without compensation", |it| it.glitch_off),
-            series("tuned", |it| it.glitch_on),
+            series("without compensation", |it| it.glitch_off_um),
+            series("tuned", |it| it.glitch_on_um),
             series("tuned, friction \u{2212}20 %", |it| {
-                it.glitch_friction_minus20
+                it.glitch_friction_minus20_um
             }),
-            series("tuned, friction +20 %", |it| it.glitch_friction_plus20),
+            series("tuned, friction +20 %", |it| it.glitch_friction_plus20_um),
         ],
     }
 }

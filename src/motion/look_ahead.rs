@@ -1,39 +1,40 @@
-//! The queue of legs between look-ahead and sampling.
+//! The queue of segments between planning and sampling.
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::junction::{Junction, Share};
-use super::leg::Leg;
+use super::junction::Junction;
 use super::limits::AxisLimits;
 use super::plan::{Stage, Stretch, plan};
 use super::sampler::Sampler;
-use super::{Cause, Cycles};
+use super::segment::Segment;
+use super::share::Share;
+use super::trace::{Cause, TraceSink};
 
-/// How many legs the look-ahead sees at once. The path is planned to a stop behind the last one;
-/// half of the plan is kept, the rest is planned anew when more legs are known.
-const LOOK_AHEAD: usize = 4096;
+/// How many segments are looked at together. The path is planned to a stop after the last one;
+/// half of the plan is kept, the rest is planned anew when more segments are known.
+const CAPACITY: usize = 4096;
 
 /// What is known of the path and not sampled yet.
-pub(super) struct Course {
+pub(super) struct LookAhead {
     limits: Vec<AxisLimits>,
     queue: VecDeque<Queued>,
-    /// The path velocity at the start of the first leg in the queue.
+    /// The path velocity at the start of the first segment in the queue.
     velocity: f64,
     /// What is left of the last plan.
     left: Vec<Stretch>,
     sampler: Sampler,
 }
 
-/// A leg and the transition into it.
+/// A segment and the transition into it.
 struct Queued {
-    leg: Leg,
+    segment: Segment,
     entry: Junction,
     share: Share,
 }
 
-impl Course {
+impl LookAhead {
     pub(super) fn new(limits: Vec<AxisLimits>, sampler: Sampler) -> Self {
         Self {
             limits,
@@ -45,19 +46,19 @@ impl Course {
     }
 
     /// The sampled seconds.
-    pub(super) fn time(&self) -> f64 {
-        self.sampler.time()
+    pub(super) fn time_s(&self) -> f64 {
+        self.sampler.time_s()
     }
 
-    /// Adds the next leg, which begins where the last one ends.
-    pub(super) fn add(&mut self, leg: Leg, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    /// Adds the next segment, which begins where the last one ends.
+    pub(super) fn add(&mut self, segment: Segment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let cycle = self.sampler.cycle();
         let entry = match self.queue.back() {
-            Some(last) => Junction::between(&last.leg, &leg, &self.limits, cycle),
+            Some(last) => Junction::between(&last.segment, &segment, &self.limits, cycle),
             None => Junction::Stop,
         };
         if entry == Junction::Stop {
-            self.drain(cycles)?;
+            self.drain(sink)?;
         }
         let mut share = Share::Whole;
         if entry.is_kink() {
@@ -66,9 +67,13 @@ impl Course {
                 last.share = share;
             }
         }
-        self.queue.push_back(Queued { leg, entry, share });
-        if self.queue.len() >= LOOK_AHEAD {
-            self.advance(cycles)?;
+        self.queue.push_back(Queued {
+            segment,
+            entry,
+            share,
+        });
+        if self.queue.len() >= CAPACITY {
+            self.advance(sink)?;
         }
         ControlFlow::Continue(())
     }
@@ -83,43 +88,43 @@ impl Course {
         &mut self,
         seconds: f64,
         cause: &Arc<Cause>,
-        cycles: &mut dyn Cycles,
+        sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
-        self.drain(cycles)?;
-        self.sampler.rest(seconds, cause, cycles)
+        self.drain(sink)?;
+        self.sampler.rest(seconds, cause, sink)
     }
 
     /// Follows the path to its end and stops there.
-    pub(super) fn stop(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
-        self.drain(cycles)?;
-        self.sampler.settle(cycles)
+    pub(super) fn stop(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        self.drain(sink)?;
+        self.sampler.settle(sink)
     }
 
-    /// Follows all legs of the queue to a stop.
-    fn drain(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    /// Follows all segments of the queue to a stop.
+    fn drain(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         if self.queue.is_empty() {
             return ControlFlow::Continue(());
         }
         let stretches = self.plan();
         self.left.clear();
-        self.follow(&stretches, cycles)?;
+        self.follow(&stretches, sink)?;
         self.velocity = 0.0;
         ControlFlow::Continue(())
     }
 
-    /// Follows the first half of the legs.
-    fn advance(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    /// Follows the first half of the segments.
+    fn advance(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let mut stretches = self.plan();
         let mut kept = self.cut(&mut stretches);
         if kept == 0 {
             // The path speeds up or slows down over half of the queue: it has to be cut there.
-            let middle = &mut self.queue[LOOK_AHEAD / 2].entry;
+            let middle = &mut self.queue[CAPACITY / 2].entry;
             *middle = middle.fixed();
             stretches = self.plan();
             kept = self.cut(&mut stretches).max(1);
         }
         self.left = stretches.split_off(kept);
-        self.follow(&stretches, cycles)?;
+        self.follow(&stretches, sink)?;
         self.velocity = stretches.last().map_or(0.0, |last| last.end_velocity);
         ControlFlow::Continue(())
     }
@@ -127,15 +132,15 @@ impl Course {
     /// How many stretches lie in the first half of the queue; the next one is cut in two where
     /// that changes nothing.
     fn cut(&self, stretches: &mut Vec<Stretch>) -> usize {
-        let (mut kept, mut legs) = (0, 0);
+        let (mut kept, mut segments) = (0, 0);
         while let Some(stretch) = stretches.get(kept)
-            && legs + stretch.legs <= LOOK_AHEAD / 2
+            && segments + stretch.segments <= CAPACITY / 2
         {
-            legs += stretch.legs;
+            segments += stretch.segments;
             kept += 1;
         }
-        let half = self.queue.range(legs..LOOK_AHEAD / 2);
-        let lengths = half.map(|queued| queued.leg.length);
+        let half = self.queue.range(segments..CAPACITY / 2);
+        let lengths = half.map(|queued| queued.segment.length);
         if let Some((first, second)) = stretches.get(kept).and_then(|next| next.cut(lengths)) {
             stretches.splice(kept..=kept, [first, second]);
             kept += 1;
@@ -149,26 +154,29 @@ impl Course {
         if let Some(stretches) = plan(&stages, self.velocity) {
             return stretches;
         }
-        // The transitions of the new legs leave no way from the velocity of the moment: the old
-        // plan is followed to its stop, the new legs begin there.
+        // The transitions of the new segments leave no way from the present velocity: the old plan
+        // is followed to its stop, the new segments begin there.
         let mut stretches = std::mem::take(&mut self.left);
-        let planned = stretches.iter().map(|stretch| stretch.legs).sum();
+        let planned = stretches.iter().map(|stretch| stretch.segments).sum();
         stretches.extend(plan(&stages[planned..], 0.0).unwrap_or_default());
         stretches
     }
 
     fn stage(&self, queued: &Queued) -> Stage {
         Stage {
-            length: queued.leg.length,
-            bounds: queued.leg.bounds(&self.limits, queued.share),
+            length: queued.segment.length,
+            bounds: queued.segment.bounds(&self.limits, queued.share),
             entry: queued.entry,
         }
     }
 
-    fn follow(&mut self, stretches: &[Stretch], cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    fn follow(&mut self, stretches: &[Stretch], sink: &mut dyn TraceSink) -> ControlFlow<()> {
         for stretch in stretches {
-            let legs = self.queue.drain(..stretch.legs).map(|queued| queued.leg);
-            self.sampler.follow(legs, &stretch.profile, cycles)?;
+            let segments = self
+                .queue
+                .drain(..stretch.segments)
+                .map(|queued| queued.segment);
+            self.sampler.follow(segments, &stretch.profile, sink)?;
         }
         ControlFlow::Continue(())
     }

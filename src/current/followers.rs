@@ -2,12 +2,12 @@
 
 use std::collections::VecDeque;
 
-use super::{AdditiveCurrent, Cycle, Switched};
+use super::additive::{Added, AdditiveCurrent, Switched};
 use crate::compensation::State;
 
 /// What is commanded to one axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Input {
+pub struct Commanded {
     /// In 0.1 µm or 0.0001°.
     pub position: f64,
     /// In µm/s or 0.001°/s.
@@ -18,12 +18,12 @@ pub struct Input {
 
 /// One axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment {
+pub struct CurrentSample {
     /// What was commanded.
-    pub input: Input,
-    /// What is added. Only in the state `active` it is not 0; in the state `unknown` nobody knows
-    /// it, and this is what an axis without compensation gets.
-    pub cycle: Cycle,
+    pub commanded: Commanded,
+    /// What is added. It is 0 in every state but `active`; in the state `unknown` nobody knows it,
+    /// and this is what an axis without compensation gets.
+    pub added: Added,
 }
 
 /// Follows several axes at once, in constant memory: the decay before a reversal has to be known
@@ -32,14 +32,14 @@ pub struct Followers {
     axes: Vec<Follower>,
     /// How many cycles the currents lag behind.
     lag: usize,
-    moments: Vec<Moment>,
+    samples: Vec<CurrentSample>,
 }
 
 struct Follower {
     current: AdditiveCurrent,
     /// As it was before the first cycle.
     fresh: AdditiveCurrent,
-    waiting: VecDeque<Input>,
+    waiting: VecDeque<Commanded>,
     /// How many cycles went out.
     out: u64,
     /// The cycles in which the commanded direction changes, as far as they are ahead.
@@ -54,14 +54,17 @@ impl Followers {
         Self {
             axes: currents.into_iter().map(Follower::new).collect(),
             lag: lag.unwrap_or_default(),
-            moments: Vec::new(),
+            samples: Vec::new(),
         }
     }
 
-    /// Takes the next cycle, one input an axis, and gives back the cycle that is ready now.
-    pub fn push(&mut self, inputs: impl IntoIterator<Item = Input>) -> Option<&[Moment]> {
-        for (axis, input) in self.axes.iter_mut().zip(inputs) {
-            axis.push(input);
+    /// Takes the next cycle, what is commanded to each axis, and gives back the cycle that is ready now.
+    pub fn push(
+        &mut self,
+        commanded: impl IntoIterator<Item = Commanded>,
+    ) -> Option<&[CurrentSample]> {
+        for (axis, commanded) in self.axes.iter_mut().zip(commanded) {
+            axis.push(commanded);
         }
         if self.axes.first()?.waiting.len() > self.lag {
             return self.pop();
@@ -70,11 +73,11 @@ impl Followers {
     }
 
     /// The next of the cycles that are left when no more come.
-    pub fn pop(&mut self) -> Option<&[Moment]> {
-        let moments = self.axes.iter_mut().map_while(Follower::pop);
-        self.moments.clear();
-        self.moments.extend(moments);
-        (!self.moments.is_empty()).then_some(&*self.moments)
+    pub fn pop(&mut self) -> Option<&[CurrentSample]> {
+        let samples = self.axes.iter_mut().map_while(Follower::pop);
+        self.samples.clear();
+        self.samples.extend(samples);
+        (!self.samples.is_empty()).then_some(&*self.samples)
     }
 
     /// Begins anew: whatever moves next is a first start. The cycles that are left are forgotten.
@@ -84,9 +87,7 @@ impl Followers {
             axis.turns.clear();
             axis.direction = 0.0;
             axis.out = 0;
-            let saturated = axis.current.saturated;
-            axis.current.clone_from(&axis.fresh);
-            axis.current.saturated = saturated;
+            axis.current.restart_as(&axis.fresh);
         }
     }
 
@@ -108,19 +109,19 @@ impl Follower {
         }
     }
 
-    fn push(&mut self, input: Input) {
-        if input.velocity * self.direction < 0.0 {
+    fn push(&mut self, commanded: Commanded) {
+        if commanded.velocity * self.direction < 0.0 {
             let ahead = u64::try_from(self.waiting.len()).unwrap_or(u64::MAX);
             self.turns.push_back(self.out.saturating_add(ahead));
         }
-        if input.velocity != 0.0 {
-            self.direction = input.velocity.signum();
+        if commanded.velocity != 0.0 {
+            self.direction = commanded.velocity.signum();
         }
-        self.waiting.push_back(input);
+        self.waiting.push_back(commanded);
     }
 
-    fn pop(&mut self) -> Option<Moment> {
-        let input = self.waiting.pop_front()?;
+    fn pop(&mut self) -> Option<CurrentSample> {
+        let commanded = self.waiting.pop_front()?;
         let at = self.out;
         self.out += 1;
         if self.turns.front().is_some_and(|turn| *turn <= at) {
@@ -131,13 +132,13 @@ impl Follower {
         let reversal = cycles
             .and_then(|cycles| usize::try_from(cycles).ok())
             .filter(|cycles| *cycles < lookahead);
-        self.current.switch(match input.friction {
+        self.current.switch(match commanded.friction {
             State::Active => Switched::On,
             _ => Switched::Off,
         });
-        let cycle = self
+        let added = self
             .current
-            .advance(input.position, input.velocity, reversal);
-        Some(Moment { input, cycle })
+            .advance(commanded.position, commanded.velocity, reversal);
+        Some(CurrentSample { commanded, added })
     }
 }

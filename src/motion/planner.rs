@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::course::Course;
-use super::leg::{Ends, Leg, SAME_PLACE};
 use super::limits::AxisLimits;
+use super::look_ahead::LookAhead;
 use super::sampler::Sampler;
-use super::{Cause, Cycles};
+use super::segment::{Ends, SAME_PLACE, Segment};
+use super::trace::{Cause, TraceSink};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::diagnostic::{Diagnostic, Place};
@@ -20,18 +20,18 @@ use crate::timeline::Row;
 
 /// How a trace is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TracerOptions {
-    /// The CNC cycle in seconds.
-    pub cycle: f64,
+pub struct PlannerOptions {
+    /// The CNC cycle.
+    pub cycle_s: f64,
     /// How many cycles the trace may have.
     pub max_cycles: u64,
 }
 
-impl Default for TracerOptions {
+impl Default for PlannerOptions {
     /// Cycles of 1 ms (R5.1), and 100 million of them: more than a day.
     fn default() -> Self {
         Self {
-            cycle: 0.001,
+            cycle_s: 0.001,
             max_cycles: 100_000_000,
         }
     }
@@ -41,14 +41,14 @@ impl Default for TracerOptions {
 const MAX_NAMED: usize = 100;
 
 /// Turns the rows of a session into the commanded trace of some axes.
-pub struct Tracer {
-    course: Course,
+pub struct TrajectoryPlanner {
+    look_ahead: LookAhead,
     followed: Vec<AxisIndex>,
     /// Whether each axis is X, Y or Z.
     main: Vec<bool>,
     /// Where the path ends, by axis; empty before it begins.
     stand: Vec<Option<f64>>,
-    /// The same, to the last bit of the last leg.
+    /// The same, to the last bit of the last segment.
     end: Vec<f64>,
     running: Running,
     friction: Arc<[State]>,
@@ -105,13 +105,13 @@ impl<'a> At<'a> {
     }
 }
 
-impl Tracer {
-    /// A tracer for some axes of a machine, before the first block.
-    pub fn new(machine: &Machine, followed: &[AxisIndex], options: TracerOptions) -> Self {
+impl TrajectoryPlanner {
+    /// A planner for some axes of a machine, before the first block.
+    pub fn new(machine: &Machine, followed: &[AxisIndex], options: PlannerOptions) -> Self {
         let limits = machine.axes.iter().map(AxisLimits::of).collect();
-        let sampler = Sampler::new(followed, options.cycle, options.max_cycles);
+        let sampler = Sampler::new(followed, options.cycle_s, options.max_cycles);
         Self {
-            course: Course::new(limits, sampler),
+            look_ahead: LookAhead::new(limits, sampler),
             followed: followed.to_vec(),
             main: machine
                 .axes
@@ -132,13 +132,13 @@ impl Tracer {
     }
 
     /// Takes the next row of the session. `Break` when the trace is over.
-    pub fn block(&mut self, row: &Row<'_>, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    pub fn block(&mut self, row: &Row<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let Some(motion) = row.motion else {
             return ControlFlow::Continue(());
         };
         let flow = match motion {
-            Motion::Travel(travel) => self.travel(row, travel, cycles),
-            Motion::Dwell(seconds) => self.dwell(row, *seconds, cycles),
+            Motion::Travel(travel) => self.travel(row, travel, sink),
+            Motion::Dwell(seconds) => self.dwell(row, *seconds, sink),
         };
         self.text.clear();
         self.text.push_str(row.text);
@@ -149,7 +149,7 @@ impl Tracer {
 
     /// FC915 at the last block that moved something.
     fn check_budget(&mut self) {
-        if self.course.is_over() {
+        if self.look_ahead.is_over() {
             let at = At {
                 file: &Arc::clone(&self.file),
                 text: &std::mem::take(&mut self.text),
@@ -166,9 +166,9 @@ impl Tracer {
     }
 
     /// Follows the path to its end.
-    pub fn finish(&mut self, cycles: &mut dyn Cycles) -> ControlFlow<()> {
+    pub fn finish(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.running = Running::No;
-        let flow = self.course.stop(cycles);
+        let flow = self.look_ahead.stop(sink);
         self.check_budget();
         flow
     }
@@ -182,23 +182,23 @@ impl Tracer {
         &mut self,
         row: &Row<'_>,
         travel: &Travel,
-        cycles: &mut dyn Cycles,
+        sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
-        let leg = self.leg(row, travel);
-        let leg = match leg {
-            Ok(leg) => leg,
+        let segment = self.segment(row, travel);
+        let segment = match segment {
+            Ok(segment) => segment,
             // Where the path has not begun, nobody expects to know where it comes from.
             Err(Obstacle::Start) if self.running == Running::No => return ControlFlow::Continue(()),
             Err(Obstacle::Start) => {
                 return self.lose(
                     row,
                     "where the axes stand before this motion is not known",
-                    cycles,
+                    sink,
                 );
             }
-            Err(Obstacle::Reason(reason)) => return self.lose(row, reason, cycles),
+            Err(Obstacle::Reason(reason)) => return self.lose(row, reason, sink),
         };
-        let Some(leg) = leg else {
+        let Some(segment) = segment else {
             if self.running == Running::Yes {
                 self.stand.clone_from(&travel.to);
             }
@@ -219,24 +219,24 @@ impl Tracer {
                 .into_iter()
                 .any(|(is, was)| was.is_some() && is != was)
         {
-            self.course.stop(cycles)?;
+            self.look_ahead.stop(sink)?;
             self.running = Running::No;
         }
         if self.running == Running::No {
-            cycles.begin(self.course.time(), &leg.cause)?;
+            sink.begin(self.look_ahead.time_s(), &segment.cause)?;
             self.running = Running::Yes;
         }
         self.stand.clone_from(&travel.to);
         self.end.clear();
-        self.end.extend_from_slice(leg.ends());
-        self.course.add(leg, cycles)
+        self.end.extend_from_slice(segment.ends());
+        self.look_ahead.add(segment, sink)
     }
 
     fn dwell(
         &mut self,
         row: &Row<'_>,
         seconds: Option<f64>,
-        cycles: &mut dyn Cycles,
+        sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
         if self.running == Running::No {
             return ControlFlow::Continue(());
@@ -244,30 +244,30 @@ impl Tracer {
         match seconds {
             Some(seconds) if seconds >= 0.0 && seconds.is_finite() => {
                 let cause = self.cause(row);
-                self.course.rest(seconds, &cause, cycles)
+                self.look_ahead.rest(seconds, &cause, sink)
             }
-            Some(_) => self.lose(row, "a dwell time below 0 is none", cycles),
-            None => self.lose(row, "how long the axes dwell is not known", cycles),
+            Some(_) => self.lose(row, "a dwell time below 0 is none", sink),
+            None => self.lose(row, "how long the axes dwell is not known", sink),
         }
     }
 
-    /// The path breaks off: it goes on behind the next motion whose start is known.
+    /// The path breaks off: it goes on after the next motion whose start is known.
     fn lose(
         &mut self,
         row: &Row<'_>,
         reason: &'static str,
-        cycles: &mut dyn Cycles,
+        sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
         let message = format!("the trace leaves this motion out: {reason}");
         let help = "write what is missing into the program (`F`, absolute positions), or give \
                     values with `--set`; the trace begins anew behind it";
         self.say(&At::of(row), (Code::Fc903, &message), help);
         self.running = Running::No;
-        self.course.stop(cycles)
+        self.look_ahead.stop(sink)
     }
 
-    /// The leg of a motion; `None` where nothing moves.
-    fn leg(&mut self, row: &Row<'_>, travel: &Travel) -> Result<Option<Leg>, Obstacle> {
+    /// The segment of a motion; `None` where nothing moves.
+    fn segment(&mut self, row: &Row<'_>, travel: &Travel) -> Result<Option<Segment>, Obstacle> {
         let moves = travel.from.iter().zip(&travel.to).enumerate();
         let mut unknown = moves.filter(|(_, (from, _))| from.is_none());
         if unknown.any(|(axis, (_, to))| to.is_some() || self.follows(axis)) {
@@ -314,21 +314,23 @@ impl Tracer {
             to: to.into(),
             main: &self.main,
         };
-        let leg = match &travel.form {
-            Form::Arc(arc) => Some(Leg::arc(ends, arc, cause).map_err(Obstacle::Reason)?),
-            _ => Leg::line(ends, cause),
+        let segment = match &travel.form {
+            Form::Arc(arc) => Some(Segment::arc(ends, arc, cause).map_err(Obstacle::Reason)?),
+            _ => Segment::line(ends, cause),
         };
-        let Some(mut leg) = leg else { return Ok(None) };
-        if !leg.length.is_finite() {
+        let Some(mut segment) = segment else {
+            return Ok(None);
+        };
+        if !segment.length.is_finite() {
             return Err(Obstacle::Reason("it is longer than numbers can say"));
         }
-        leg.feed = match feed {
+        segment.feed = match feed {
             PathFeed::PerMinute(feed) => feed / 60.0,
-            PathFeed::Seconds(seconds) => leg.length / seconds,
+            PathFeed::Seconds(seconds) => segment.length / seconds,
             PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
         };
-        leg.end = travel.end;
-        Ok(Some(leg))
+        segment.end = travel.end;
+        Ok(Some(segment))
     }
 
     fn cause(&mut self, row: &Row<'_>) -> Arc<Cause> {

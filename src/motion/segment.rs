@@ -1,12 +1,12 @@
-//! One piece of the path: where the axes are after a way, which way they head, how they turn.
+//! One piece of the path: where the axes are after a distance, where they head, how they turn.
 
 use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
-use super::Cause;
-use super::junction::Share;
 use super::limits::AxisLimits;
 use super::profile::Bounds;
+use super::share::Share;
+use super::trace::Cause;
 use crate::interpreter::{BlockEnd, Centre, CircularArc, Turn};
 
 /// Places closer than this, in mm or degrees, are one: the ends of a full circle, and the end of a
@@ -24,16 +24,16 @@ const CIRCLE_JERK: f64 = 0.7;
 /// How much of the jerk the change of path velocity on a circle may take across the path.
 const CROSS_JERK: f64 = 0.5;
 
-/// A slope smaller than this is none: the rounding of a sine.
+/// A slope smaller than this is the rounding of a sine.
 const NO_SLOPE: f64 = 1e-12;
 
 /// A piece of the path.
 #[derive(Debug, Clone)]
-pub(super) struct Leg {
+pub(super) struct Segment {
     from: Box<[f64]>,
     to: Box<[f64]>,
     circle: Option<Circle>,
-    /// The way along the path that the feed refers to, in mm or degrees.
+    /// The distance along the path that the feed refers to, in mm or degrees.
     pub(super) length: f64,
     /// The highest path velocity that the program asks for.
     pub(super) feed: f64,
@@ -53,7 +53,7 @@ struct Circle {
     sweep: f64,
 }
 
-/// Where a leg leads, by axis, and which axes the feed refers to.
+/// Where a segment leads, by axis, and which axes the feed refers to.
 pub(super) struct Ends<'a> {
     pub(super) from: Box<[f64]>,
     pub(super) to: Box<[f64]>,
@@ -61,8 +61,8 @@ pub(super) struct Ends<'a> {
     pub(super) main: &'a [bool],
 }
 
-impl Leg {
-    /// A straight leg; `None` where nothing moves.
+impl Segment {
+    /// A straight segment; `None` where nothing moves.
     pub(super) fn line(ends: Ends<'_>, cause: Shared<Cause>) -> Option<Self> {
         let way = |main: bool| {
             let axes = ends.from.iter().zip(&ends.to).zip(ends.main);
@@ -124,15 +124,15 @@ impl Leg {
         self.from.len()
     }
 
-    /// Where an axis is after a way; exact at both ends.
-    pub(super) fn position(&self, axis: usize, way: f64) -> f64 {
-        if way <= 0.0 {
+    /// Where an axis is after a distance along the segment; exact at both ends.
+    pub(super) fn position(&self, axis: usize, distance: f64) -> f64 {
+        if distance <= 0.0 {
             return self.from[axis];
         }
-        if way >= self.length {
+        if distance >= self.length {
             return self.to[axis];
         }
-        let part = way / self.length;
+        let part = distance / self.length;
         match self.circle {
             Some(circle) if circle.axes.contains(&axis) => {
                 let (along, across) = circle.direction(part);
@@ -147,11 +147,11 @@ impl Leg {
         }
     }
 
-    /// The change of an axis with the way, after a way.
-    pub(super) fn slope(&self, axis: usize, way: f64) -> f64 {
+    /// The change of the position of an axis with the distance, `dx/ds`, after a distance.
+    pub(super) fn slope(&self, axis: usize, distance: f64) -> f64 {
         let slope = match self.circle {
             Some(circle) if circle.axes.contains(&axis) => {
-                let (along, across) = circle.direction(way / self.length);
+                let (along, across) = circle.direction(distance / self.length);
                 let turn = circle.radius * circle.sweep / self.length;
                 if axis == circle.axes[0] {
                     -across * turn
@@ -164,11 +164,11 @@ impl Leg {
         if slope.abs() < NO_SLOPE { 0.0 } else { slope }
     }
 
-    /// The change of the slope of an axis with the way.
-    pub(super) fn bend(&self, axis: usize, way: f64) -> f64 {
+    /// The change of the slope of an axis with the distance, `d²x/ds²`.
+    pub(super) fn bend(&self, axis: usize, distance: f64) -> f64 {
         match self.circle {
             Some(circle) if circle.axes.contains(&axis) => {
-                let (along, across) = circle.direction(way / self.length);
+                let (along, across) = circle.direction(distance / self.length);
                 let turn = circle.sweep / self.length;
                 let share = if axis == circle.axes[0] {
                     along
@@ -181,7 +181,7 @@ impl Leg {
         }
     }
 
-    /// What the limits of the axes leave along this leg (R5.2, R5.3). Along a circle position,
+    /// What the limits of the axes leave along this segment (R5.2, R5.3). Along a circle position,
     /// acceleration and jerk of the plane's axes are those of `r(φ)`: `v²/r` and `3va/r` across the
     /// path, `a` and `j - v³/r²` along it.
     pub(super) fn bounds(&self, limits: &[AxisLimits], share: Share) -> Bounds {

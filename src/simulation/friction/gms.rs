@@ -2,14 +2,15 @@
 //!
 //! Al-Bender, Lampaert and Swevers, *The generalized Maxwell-slip model: a novel model for
 //! friction simulation and compensation*, IEEE Transactions on Automatic Control 50 (2005):
-//! F = Σ (kᵢ zᵢ + σᵢ żᵢ) + fv·v. The damping is shared among the elements that stick, each by its
-//! part of the stiffness.
+//! `F = Σ (kᵢ·zᵢ + σᵢ·dzᵢ/dt) + fv·v`. The elements that stick share the damping, each by its part
+//! of the stiffness.
 
-use super::{Friction, GmsElement, LEAST, STEP};
+use super::super::clock::STEP_S;
+use super::curve::{Friction, GmsElement, LEAST_N};
 
 /// A contact with its elements.
 #[derive(Debug, Clone)]
-pub(in crate::circle) struct Gms {
+pub(in crate::simulation) struct Gms {
     friction: Friction,
     elements: Vec<Element>,
     /// Σ kᵢ in N/m.
@@ -19,7 +20,7 @@ pub(in crate::circle) struct Gms {
 #[derive(Debug, Clone)]
 struct Element {
     is: GmsElement,
-    /// The force kᵢ zᵢ in N.
+    /// The force kᵢ·zᵢ in N.
     force: f64,
     slips: bool,
 }
@@ -29,7 +30,7 @@ impl Gms {
         let level = if velocity == 0.0 {
             0.0
         } else {
-            friction.level(velocity.abs()).copysign(velocity)
+            friction.level_n(velocity.abs()).copysign(velocity)
         };
         let settle = |&is: &GmsElement| Element {
             is,
@@ -38,22 +39,26 @@ impl Gms {
         };
         Self {
             elements: friction.elements.iter().map(settle).collect(),
-            stiffness: friction.elements.iter().map(|it| it.stiffness).sum(),
+            stiffness: friction
+                .elements
+                .iter()
+                .map(|it| it.stiffness_n_per_m)
+                .sum(),
             friction: friction.clone(),
         }
     }
 
-    /// The friction in N over a step at this velocity.
+    /// The friction in N over a step at this velocity in m/s.
     pub(super) fn friction(&mut self, velocity: f64) -> f64 {
-        let level = self.friction.level(velocity.abs()).max(LEAST);
+        let level = self.friction.level_n(velocity.abs()).max(LEAST_N);
         let damping = self.friction.micro_damping(velocity) * velocity / self.stiffness;
-        let approach = (-self.friction.attraction / level * STEP).exp();
-        let mut force = self.friction.viscous * velocity;
+        let approach = (-self.friction.attraction_n_per_s / level * STEP_S).exp();
+        let mut force = self.friction.viscous_n_s_per_m * velocity;
         for element in &mut self.elements {
             element.step(velocity, level, approach);
             force += element.force;
             if !element.slips {
-                force += damping * element.is.stiffness;
+                force += damping * element.is.stiffness_n_per_m;
             }
         }
         force
@@ -71,10 +76,10 @@ impl Element {
             self.force = steady + (self.force - steady) * approach;
             return;
         }
-        let stuck = self.force + self.is.stiffness * velocity * STEP;
+        let stuck = self.force + self.is.stiffness_n_per_m * velocity * STEP_S;
         self.slips = stuck.abs() >= limit && velocity * stuck > 0.0;
         self.force = if self.slips {
-            // What the element held before it broke loose it does not lose at once.
+            // An element that breaks loose keeps for a moment what it held.
             limit.max(self.force.abs()).copysign(stuck)
         } else {
             stuck

@@ -1,0 +1,85 @@
+//! One run of a circular test.
+
+use std::f64::consts::{PI, TAU};
+
+use super::direction::Direction;
+use super::profile::{Gatherer, RadialProfile};
+use super::reference::{CircleError, Stretch, TURNS};
+use super::simulate::simulate;
+use super::test::CircularTest;
+use crate::current::Switched;
+
+/// A gap between two points that is bridged, in degrees: less than a CNC cycle makes.
+const WIDEST_GAP: f64 = 5.0;
+
+/// One run of a test: half a turn of run-in, and a turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Job {
+    /// Whether friction compensation is on.
+    pub compensation: Switched,
+    /// The direction of travel.
+    pub direction: Direction,
+}
+
+/// What a run gave.
+#[derive(Debug, Clone)]
+pub struct Lap {
+    /// Which run it was.
+    pub job: Job,
+    /// The turn.
+    pub profile: RadialProfile,
+    /// Cycles of the speed loop in which a force was limited.
+    pub saturated_cycles: u64,
+}
+
+impl Job {
+    /// The four runs of a test.
+    pub const ALL: [Self; 4] = {
+        const fn job(compensation: Switched, direction: Direction) -> Job {
+            Job {
+                compensation,
+                direction,
+            }
+        }
+        [
+            job(Switched::Off, Direction::Ccw),
+            job(Switched::Off, Direction::Cw),
+            job(Switched::On, Direction::Ccw),
+            job(Switched::On, Direction::Cw),
+        ]
+    };
+}
+
+impl CircularTest {
+    /// Makes one run (R5.20). It begins at X+ with half a turn of run-in, as machines do: the turn
+    /// that is evaluated begins and ends at X-. Where a reversal falls within a CNC cycle follows
+    /// from that, and at high feeds it shows in what the compensation leaves.
+    ///
+    /// # Errors
+    /// A circle that cannot be simulated, or a drive that is unstable.
+    pub fn run(&self, job: Job) -> Result<Lap, CircleError> {
+        self.circle.check()?;
+        let stretch = Stretch {
+            start: 0.0,
+            length: TURNS * TAU,
+            lead: 0,
+            direction: job.direction,
+        };
+        let run_in = self.circle.cycles(PI) - 1;
+        let mut turn = Gatherer::new(self.circle.radius_m(), WIDEST_GAP);
+        let remarks = simulate(self, job.compensation, stretch, |cycle, x, y| {
+            if cycle >= run_in {
+                turn.take(x, y);
+            }
+        })?;
+        let profile = turn.finish().map_err(|_| CircleError::Unstable {
+            axis: "X or Y",
+            angle_deg: 360.0,
+        })?;
+        Ok(Lap {
+            job,
+            profile,
+            saturated_cycles: remarks.saturated_cycles,
+        })
+    }
+}

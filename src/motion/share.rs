@@ -1,0 +1,32 @@
+//! How much of what an axis can do a piece of the path may use.
+
+use super::limits::AxisLimits;
+use super::profile::Bounds;
+
+/// How much of the limits a piece of the path may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Share {
+    /// All of them.
+    Whole,
+    /// What a kink at one of its ends leaves.
+    BesideKink,
+}
+
+/// A kink may take a quarter of an axis' acceleration, and of its jerk twice a quarter: two
+/// kinks of opposite sign in neighbouring cycles add up.
+pub(super) const KINK_SHARE: f64 = 0.25;
+
+impl Share {
+    /// The limits of an axis under this share.
+    pub(super) fn of(self, limits: &AxisLimits) -> Bounds {
+        let (acceleration, jerk) = match self {
+            Self::Whole => (1.0, 1.0),
+            Self::BesideKink => (1.0 - KINK_SHARE, 1.0 - 2.0 * KINK_SHARE),
+        };
+        Bounds {
+            velocity: limits.velocity,
+            acceleration: limits.acceleration * acceleration,
+            jerk: limits.jerk * jerk,
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The friction models by name.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::Serialize;
+use thiserror::Error;
+
+/// How friction is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FrictionModel {
+    /// Coulomb, viscous and Stribeck friction without memory (R5.10).
+    Stribeck,
+    /// One bristle (R5.11).
+    #[default]
+    Lugre,
+    /// Generalized Maxwell slip: elements that stick and slip (R5.12).
+    Gms,
+}
+
+/// A word that names no friction model.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("there is no friction model `{0}`")]
+pub struct UnknownFrictionModel(pub String);
+
+impl FrictionModel {
+    /// Every model, the simplest first.
+    pub const ALL: [Self; 3] = [Self::Stribeck, Self::Lugre, Self::Gms];
+
+    /// The name on the command line and in reports.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Stribeck => "stribeck",
+            Self::Lugre => "lugre",
+            Self::Gms => "gms",
+        }
+    }
+}
+
+impl fmt::Display for FrictionModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+impl FromStr for FrictionModel {
+    type Err = UnknownFrictionModel;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        let mut models = Self::ALL.into_iter();
+        let found = models.find(|model| model.as_str() == name);
+        found.ok_or_else(|| UnknownFrictionModel(name.to_owned()))
+    }
+}

@@ -1,0 +1,27 @@
+//! Simulated feed drives with friction (chapter 5.2 of the rules).
+//!
+//! A [`Plant`] has two [`DriveParameters`]. A [`Drive`] is one of them in motion: position loop,
+//! speed loop, current loop, moved mass and a contact with [`Friction`]; a [`DrivePair`] takes both
+//! through a CNC cycle. Nothing here knows which path is driven or what it is judged by.
+//!
+//! All quantities are in SI units, and the names of public numbers end in theirs.
+
+mod clock;
+mod drive;
+mod drive_pair;
+mod friction;
+mod parameters;
+mod plant;
+#[cfg(feature = "toml")]
+mod plant_file;
+#[cfg(feature = "toml")]
+mod plant_keys;
+mod plant_list;
+
+pub use clock::{POSITION_LOOP_S, SPEED_LOOP_S, STEP_S};
+pub use drive::{Drive, Setpoint};
+pub use drive_pair::DrivePair;
+pub use friction::{Friction, FrictionModel, GmsElement, UnknownFrictionModel};
+pub use parameters::{DriveParameters, PEAK_FORCE, RATED_FORCE_N};
+pub use plant::{Plant, Preset, UnknownPreset};
+pub use plant_list::plant_list;

@@ -1,0 +1,240 @@
+//! No circle of imports inside a room: a type that two files need lives in a third.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{File, code, sources};
+
+/// Rooms whose files still import each other in circles. A room that has become clean leaves the
+/// list; a test sees to that.
+const NOT_YET_CLEAN: [&str; 6] = ["cli", "interpreter", "lists", "machine", "report", "syntax"];
+
+/// The files of a room by their module path, `friction::gms`; the room itself is the empty one.
+type Modules<'a> = BTreeMap<Vec<&'a str>, &'a File>;
+
+/// Which modules each module imports.
+type Imports<'a> = BTreeMap<Vec<&'a str>, BTreeSet<Vec<&'a str>>>;
+
+/// The module path of a file inside its room.
+fn module_path(file: &File) -> Vec<&str> {
+    let below = file.path.strip_suffix(".rs").expect("a Rust file");
+    let mut path: Vec<&str> = below.split('/').skip(1).collect();
+    if path.last() == Some(&"mod") {
+        path.pop();
+    }
+    path
+}
+
+/// The code of a file as one text, without what only gives a visibility.
+fn text_of(file: &File) -> String {
+    let lines: Vec<&str> = code(file).map(|(_, line)| line).collect();
+    let mut text = lines.join("\n");
+    while let Some(start) = text.find("pub(in ") {
+        let end = text[start..].find(')').expect("a bracket that closes");
+        text.replace_range(start..=start + end, "pub");
+    }
+    text
+}
+
+/// The name at the beginning of a text, and what follows it.
+fn split_name(text: &str) -> (&str, &str) {
+    let end = text.find(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
+    text.split_at(end.unwrap_or(text.len()))
+}
+
+/// The modules of the room that a path leads to, whose beginning has led to `module`. A group in
+/// braces leads to several.
+fn targets<'a>(modules: &Modules<'a>, module: &[&'a str], path: &str) -> BTreeSet<Vec<&'a str>> {
+    let path = path.trim_start();
+    if let Some(group) = path.strip_prefix('{') {
+        return parts(group)
+            .into_iter()
+            .flat_map(|part| targets(modules, module, part))
+            .collect();
+    }
+    let (name, rest) = split_name(path);
+    if name == "super" && !module.is_empty() {
+        let rest = rest.strip_prefix("::").unwrap_or_default();
+        return targets(modules, &module[..module.len() - 1], rest);
+    }
+    let child = modules.keys().find(|candidate| {
+        let split = candidate.split_last();
+        split.is_some_and(|(last, parent)| parent == module && *last == name)
+    });
+    match child {
+        Some(child) => targets(modules, child, rest.strip_prefix("::").unwrap_or_default()),
+        None => BTreeSet::from([module.to_vec()]),
+    }
+}
+
+/// The parts of a group, of which the text follows the opening brace.
+fn parts(group: &str) -> Vec<&str> {
+    let (mut depth, mut begin) = (0, 0);
+    let mut parts = Vec::new();
+    for (at, letter) in group.char_indices() {
+        match letter {
+            '{' => depth += 1,
+            ',' if depth == 0 => {
+                parts.push(&group[begin..at]);
+                begin = at + 1;
+            }
+            '}' if depth == 0 => {
+                parts.push(&group[begin..at]);
+                break;
+            }
+            '}' => depth -= 1,
+            _ => {}
+        }
+    }
+    parts.retain(|part| !part.trim().is_empty());
+    parts
+}
+
+/// The modules of its room that a file imports, by whatever path.
+fn imported<'a>(modules: &Modules<'a>, own: &[&'a str], file: &File) -> BTreeSet<Vec<&'a str>> {
+    let text = text_of(file);
+    let children: Vec<&str> = modules
+        .keys()
+        .filter(|path| path.len() == own.len() + 1 && path.starts_with(own))
+        .filter_map(|path| path.last().copied())
+        .collect();
+    let mut found = BTreeSet::new();
+    for (at, _) in text.match_indices("::") {
+        // The first name of the path, which nothing precedes.
+        let head = &text[..at];
+        let begin = head.rfind(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
+        let begin = begin.map_or(0, |begin| begin + 1);
+        if head[..begin].ends_with("::") {
+            continue;
+        }
+        let (name, path) = (&head[begin..], &text[at + 2..]);
+        match name {
+            "crate" => {
+                let (room, rest) = split_name(path);
+                if room == file.room {
+                    let rest = rest.strip_prefix("::").unwrap_or_default();
+                    found.extend(targets(modules, &[], rest));
+                }
+            }
+            "self" => found.extend(targets(modules, own, path)),
+            "super" if !own.is_empty() => {
+                found.extend(targets(modules, &own[..own.len() - 1], path));
+            }
+            child if children.contains(&child) => {
+                found.extend(targets(modules, own, &text[begin..]));
+            }
+            _ => {}
+        }
+    }
+    found.remove(own);
+    found
+}
+
+/// The imports inside a room that are part of a circle: what is left when files that import none
+/// of the rest, or that none of the rest imports, are taken away again and again.
+fn circles<'a>(modules: &Modules<'a>) -> Imports<'a> {
+    let mut left: Imports<'a> = modules
+        .iter()
+        .map(|(path, file)| (path.clone(), imported(modules, path, file)))
+        .collect();
+    loop {
+        let before = left.len();
+        let importers: BTreeSet<_> = left.keys().cloned().collect();
+        let used: BTreeSet<_> = left.values().flatten().cloned().collect();
+        left.retain(|path, imports| {
+            imports.retain(|import| importers.contains(import));
+            !imports.is_empty() && used.contains(path)
+        });
+        if left.len() == before {
+            return left;
+        }
+    }
+}
+
+/// The circles of each room, as lines.
+fn circles_of_rooms() -> BTreeMap<String, Vec<String>> {
+    let files = sources();
+    let mut rooms: BTreeMap<&str, Modules> = BTreeMap::new();
+    for file in &files {
+        let room = rooms.entry(&file.room).or_default();
+        room.insert(module_path(file), file);
+    }
+    let lines = |modules: &Modules| {
+        let left = circles(modules);
+        let name = |path: &Vec<&str>| format!("src/{}", modules[path].path);
+        let line = |(path, imports): (&Vec<&str>, &BTreeSet<Vec<&str>>)| {
+            let names: Vec<String> = imports.iter().map(name).collect();
+            format!("{} imports {}", name(path), names.join(", "))
+        };
+        left.iter().map(line).collect()
+    };
+    rooms
+        .iter()
+        .map(|(room, modules)| ((*room).to_owned(), lines(modules)))
+        .collect()
+}
+
+#[test]
+fn no_room_has_a_circle_inside() {
+    let wrong: Vec<String> = circles_of_rooms()
+        .into_iter()
+        .filter(|(room, _)| !NOT_YET_CLEAN.contains(&room.as_str()))
+        .flat_map(|(_, lines)| lines)
+        .collect();
+    assert!(
+        wrong.is_empty(),
+        "files import each other in a circle; what both need belongs into a third:\n{}",
+        wrong.join("\n")
+    );
+}
+
+#[test]
+fn a_room_that_has_become_clean_is_kept_clean() {
+    let rooms = circles_of_rooms();
+    let clean: Vec<&str> = NOT_YET_CLEAN
+        .into_iter()
+        .filter(|room| rooms.get(*room).is_none_or(Vec::is_empty))
+        .collect();
+    assert!(clean.is_empty(), "take out of NOT_YET_CLEAN: {clean:?}");
+}
+
+#[test]
+fn every_way_to_write_an_import_is_seen() {
+    let file = |path: &str, text: &str| File {
+        path: path.to_owned(),
+        room: "room".to_owned(),
+        text: text.to_owned(),
+    };
+    let files = [
+        file("room/mod.rs", "mod a;\npub use a::A;"),
+        file("room/a.rs", "use super::{b::{B, C}, d};"),
+        file(
+            "room/b.rs",
+            "use crate::room::d::inner;\nuse crate::other::a;",
+        ),
+        file("room/d/mod.rs", "fn f() { inner::g(); }"),
+        file(
+            "room/d/inner.rs",
+            "// use super::super::a;\nlet a = super::super::b::B;",
+        ),
+        file(
+            "room/e.rs",
+            "pub(in crate::room) use super::A;\n#[cfg(test)]\nuse super::d;",
+        ),
+    ];
+    let modules: Modules = files.iter().map(|file| (module_path(file), file)).collect();
+    let imports = |path: &[&str]| -> Vec<String> {
+        let found = imported(&modules, path, modules[path]);
+        found.iter().map(|import| import.join("::")).collect()
+    };
+    assert_eq!(imports(&[]), ["a"]);
+    assert_eq!(imports(&["a"]), ["b", "d"]);
+    assert_eq!(imports(&["b"]), ["d::inner"]);
+    assert_eq!(imports(&["d"]), ["d::inner"]);
+    assert_eq!(imports(&["d", "inner"]), ["b"]);
+    assert_eq!(imports(&["e"]), [""]);
+    let left: Vec<String> = circles(&modules)
+        .keys()
+        .map(|path| path.join("::"))
+        .collect();
+    assert_eq!(left, ["b", "d::inner"]);
+}

@@ -132,7 +132,7 @@ fn glitches() -> LineChart {
         plant: "stiff".to_owned(),
         model: "lugre",
         diameter_mm: 200.0,
-        reading: Reading::default().words(),
+        reading: Reading::default().to_string(),
         tuned: Tuned {
             candidate: Candidate {
                 position_delay: 9,

@@ -11,4 +11,5 @@ mod lists {
     mod lines;
     mod programs;
     mod robust;
+    mod written;
 }

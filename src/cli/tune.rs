@@ -14,10 +14,11 @@ use super::outputs::Outputs;
 use super::plants::{Model, plant};
 use crate::circle::{Circle, Ranges, Search, Task, Tuned};
 use crate::current::Reading;
-use crate::lists::{CncBuild, Field};
+use crate::lists::{CncBuild, Field, Points, write_value_list};
 use crate::report::pictures::tuning;
 use crate::report::svg::Frame;
-use crate::report::tune::{TuneReport, render_json, render_list, render_text};
+use crate::report::tune::{TuneReport, render_json, render_text};
+use crate::report::visible_line;
 use crate::simulation::{FrictionModel, Plant};
 
 /// Feeds that are tuned at once, at most.
@@ -148,7 +149,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         });
     }
     if let (Some(mut list), Some(first)) = (list, reports.first()) {
-        list.text(&render_list(first, args.cnc_build))?;
+        list.text(&value_list(first, args.cnc_build))?;
     }
     if let Some(mut svg) = svg {
         svg.text(&tuning(&reports).render(Frame::Alone))?;
@@ -159,6 +160,24 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     })?;
     outputs.finish()?;
     Ok(exit::CLEAN)
+}
+
+/// The tuned value list of a plant, written for a build.
+fn value_list(report: &TuneReport, build: Option<CncBuild>) -> String {
+    let points = Points::of_build(build);
+    let made = format!(
+        "Friction compensation for the plant {}, tuned with the model {}",
+        visible_line(&report.plant),
+        report.model
+    );
+    let mut remarks = vec![
+        made.as_str(),
+        "The table is the friction curve of its X axis",
+    ];
+    if points == Points::Real {
+        remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
+    }
+    write_value_list(&report.tuned.list, points, &remarks)
 }
 
 fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {

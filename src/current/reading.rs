@@ -60,8 +60,11 @@ pub enum Delay {
     Reversal,
 }
 
-/// What can be chosen, each with its effect; of what excludes each other one is always in force.
-const OPTIONS: [(&str, fn(&mut Reading)); 6] = [
+/// Makes a choice.
+type Choose = fn(&mut Reading);
+
+/// What can be chosen; of options that exclude each other one is always in force.
+const OPTIONS: [(&str, Choose); 6] = [
     ("standstill=hold", |it| it.standstill = Standstill::Hold),
     ("standstill=zero", |it| it.standstill = Standstill::Zero),
     ("below=hold", |it| it.below = Below::Hold),

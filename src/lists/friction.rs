@@ -266,7 +266,7 @@ impl FrictionDraft {
             .into_iter()
             .map(|field| Parameter {
                 number: field.number(),
-                key: format!("frict_comp.{}", field.name()),
+                key: format!("{STRUCTURE}{}", field.name()),
                 value: match self.get(field) {
                     _ if field == Field::MaxPoints => self.max_points().to_string(),
                     Some(given) if floored(field, &given.value) => "0".to_owned(),
@@ -306,7 +306,8 @@ fn floored(field: Field, written: &Written) -> bool {
     matches!(written.number, Some(Number::Integer(value)) if field.floors(value))
 }
 
-const STRUCTURE: &str = "frict_comp.";
+/// What the keys of friction compensation begin with.
+pub(super) const STRUCTURE: &str = "frict_comp.";
 
 /// What stands behind `frict_comp` in a key of that structure, in whatever case it is written.
 fn behind_structure(pattern: &str) -> Option<&str> {

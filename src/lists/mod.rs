@@ -10,6 +10,7 @@ mod parameter;
 mod program;
 mod startup;
 mod value;
+mod write;
 
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,7 @@ pub use parameter::{AxisType, Origin, Parameter};
 pub use program::{ChannelPrograms, Role};
 pub use startup::{ChannelAxis, ChannelList, ListKind, NamedList, StartupList};
 pub use value::{Given, Number, Written};
+pub use write::{Points, write_value_list};
 
 /// The table size that P-COMP-00062 has when no list, or the value 0, is given.
 pub const DEFAULT_MAX_POINTS: u32 = 20;

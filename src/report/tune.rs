@@ -1,4 +1,4 @@
-//! The result of a tuning as text, JSON and value list.
+//! The result of a tuning as text and JSON.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,6 @@ use serde::Serialize;
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::circle::{Candidate, FeedResult, Tuned};
-use crate::lists::{CncBuild, Field, FrictionList, TablePoint};
 
 /// A tuned plant.
 #[derive(Debug, Clone)]
@@ -129,67 +128,4 @@ pub fn render_json(reports: &[TuneReport]) -> String {
     let mut text = to_pretty(&document);
     text.push('\n');
     text
-}
-
-/// The value list as the control reads it. Points are whole numbers (SGN32), which every build
-/// takes, unless the build is known to read real ones (P-COMP-00046, P-COMP-00047).
-pub fn render_list(report: &TuneReport, build: Option<CncBuild>) -> String {
-    let list: &FrictionList = &report.tuned.list;
-    let mut out = format!(
-        "# Friction compensation for the plant {}, tuned with the model {}\n\
-         # The table is the friction curve of its X axis\n",
-        visible_line(&report.plant),
-        report.model
-    );
-    let reals = build.is_some_and(CncBuild::reads_real_points);
-    let table = if reals {
-        out.push_str("# Outputs with decimals need the build V3.1.3132.0 or V4.29.0\n");
-        list.table.clone()
-    } else {
-        whole_points(&list.table)
-    };
-    let entries = table.len();
-    let values = [
-        (Field::Mode, "3".to_owned()),
-        (Field::MaxPoints, list.max_points.to_string()),
-        (Field::TableEntries, entries.to_string()),
-        (Field::PositionDelay, list.position_delay.to_string()),
-        (
-            Field::ReversalLookahead,
-            list.reversal_lookahead.to_string(),
-        ),
-        (Field::ScalingFactor, list.scaling_factor.to_string()),
-        (Field::DelayCycles, list.delay_cycles.to_string()),
-    ];
-    for (field, value) in values {
-        let key = format!("frict_comp.{}", field.name());
-        let _ = writeln!(out, "{key:<31} {value}");
-    }
-    for (at, point) in table.iter().enumerate() {
-        let (input, output) = (
-            format!("frict_comp.table[{at}].in"),
-            format!("frict_comp.table[{at}].out"),
-        );
-        let _ = writeln!(out, "{input:<31} {}", point.input);
-        let decimals = if reals { 3 } else { 0 };
-        let _ = writeln!(out, "{output:<31} {:.decimals$}", point.output);
-    }
-    out.push_str("Ende\n");
-    out
-}
-
-/// The points with whole numbers. Velocities that fall together are one point (R3.20).
-fn whole_points(points: &[TablePoint]) -> Vec<TablePoint> {
-    let mut whole: Vec<TablePoint> = Vec::with_capacity(points.len());
-    for point in points {
-        let input = point.input.round();
-        if whole.last().is_none_or(|before| input > before.input) {
-            whole.push(TablePoint {
-                input,
-                // Never `-0`.
-                output: point.output.round() + 0.0,
-            });
-        }
-    }
-    whole
 }

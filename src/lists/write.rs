@@ -1,0 +1,100 @@
+//! Value lists as text.
+
+use std::fmt::{Display, Write as _};
+
+use super::build::CncBuild;
+use super::friction::{Field, STRUCTURE};
+use super::{FrictionList, TablePoint};
+
+/// How the points of the table are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Points {
+    /// As whole numbers (SGN32), which every build of the control reads.
+    Whole,
+    /// As real numbers, outputs with three decimals, which newer builds read.
+    Real,
+}
+
+impl Points {
+    /// What a build reads (P-COMP-00046, P-COMP-00047): whole numbers unless it is known to read
+    /// real ones.
+    pub fn of_build(build: Option<CncBuild>) -> Self {
+        match build {
+            Some(build) if build.reads_real_points() => Self::Real,
+            _ => Self::Whole,
+        }
+    }
+
+    /// The points as they are written. Velocities that fall together are one point (R3.20).
+    fn rounded(self, table: &[TablePoint]) -> Vec<TablePoint> {
+        if self == Self::Real {
+            return table.to_vec();
+        }
+        let mut whole: Vec<TablePoint> = Vec::with_capacity(table.len());
+        for point in table {
+            let input = point.input.round();
+            if whole.last().is_none_or(|before| input > before.input) {
+                let output = point.output.round();
+                whole.push(TablePoint { input, output });
+            }
+        }
+        whole
+    }
+
+    /// An output in drive units; never a negative zero.
+    fn output(self, output: f64) -> String {
+        match self {
+            Self::Whole => format!("{:.0}", output + 0.0),
+            Self::Real if output.abs() < 0.5e-3 => "0.000".to_owned(),
+            Self::Real => format!("{output:.3}"),
+        }
+    }
+}
+
+/// A value list as the control reads it, switched on, with remarks of a line each above it.
+/// Reading it back gives the same list, but for the decimals of its points.
+///
+/// ```
+/// use frictcomp::lists::{FrictionList, Points, TablePoint, write_value_list};
+///
+/// let list = FrictionList {
+///     position_delay: 9,
+///     reversal_lookahead: 2,
+///     scaling_factor: 1000,
+///     delay_cycles: 1,
+///     max_points: 20,
+///     table: vec![TablePoint { input: 0.0, output: 103.3 }],
+/// };
+/// let text = write_value_list(&list, Points::Whole, &["X, measured in May"]);
+/// assert!(text.starts_with("# X, measured in May\n"));
+/// assert!(text.contains("frict_comp.table[0].out        103\n"));
+/// ```
+pub fn write_value_list(list: &FrictionList, points: Points, remarks: &[&str]) -> String {
+    let mut out = String::new();
+    for remark in remarks {
+        let _ = writeln!(out, "# {}", remark.replace(char::is_control, " "));
+    }
+    let mut line = |key: &str, value: &dyn Display| {
+        let key = format!("{STRUCTURE}{key}");
+        let _ = writeln!(out, "{key:<31} {value}");
+    };
+    let table = points.rounded(&list.table);
+    for field in Field::ALL {
+        let value: &dyn Display = match field {
+            Field::Mode => &3,
+            Field::MaxPoints => &list.max_points,
+            Field::TableEntries => &table.len(),
+            Field::PositionDelay => &list.position_delay,
+            Field::ReversalLookahead => &list.reversal_lookahead,
+            Field::ScalingFactor => &list.scaling_factor,
+            Field::DelayCycles => &list.delay_cycles,
+        };
+        line(field.name(), value);
+    }
+    for (at, point) in table.iter().enumerate() {
+        line(&format!("table[{at}].in"), &point.input);
+        line(&format!("table[{at}].out"), &points.output(point.output));
+    }
+    out.push_str("Ende\n");
+    out
+}

@@ -1,0 +1,116 @@
+//! Value lists that are written read back as they were.
+
+use std::sync::Arc;
+
+use frictcomp::lists::{
+    CncBuild, Conditions, Entries, FrictionDraft, FrictionList, Points, TablePoint, Verdict,
+    write_value_list,
+};
+use frictcomp::source::SourceFile;
+use proptest::prelude::*;
+
+/// What the control would take from a text, on a build that reads real points.
+fn read(text: &str) -> FrictionList {
+    let source = Arc::new(SourceFile::new("x.lis", text));
+    let entries = Entries::parse(&source);
+    let mut said = entries.diagnostics.clone();
+    let draft = FrictionDraft::from_entries(&entries, &mut said);
+    let conditions = Conditions {
+        build: Some(CncBuild::new([4, 29, 0, 0])),
+        ..Conditions::default()
+    };
+    match draft.check(&conditions).verdict {
+        Verdict::Accepted(list) if said.is_empty() => list,
+        verdict => panic!("{verdict:?} {said:?}\n{text}"),
+    }
+}
+
+/// Tables of 1 to 40 points with rising velocities, some of them less than one unit apart.
+fn tables() -> impl Strategy<Value = Vec<TablePoint>> {
+    let steps = prop_oneof![0.001..0.9, 1.0..50_000.0];
+    let points = prop::collection::vec((steps, -32_000.0..32_000.0), 1..40);
+    points.prop_map(|points| {
+        let mut input = 0.0;
+        let table = points.into_iter().map(|(step, output)| {
+            let point = TablePoint { input, output };
+            input += step;
+            point
+        });
+        table.collect()
+    })
+}
+
+fn lists() -> impl Strategy<Value = FrictionList> {
+    let scalars = (0..=10, 0_u16..=4, 0_i16..=248, -32_766_i16..=32_766);
+    (tables(), scalars, 0_u32..100).prop_map(|(table, scalars, spare)| {
+        let (position_delay, reversal_lookahead, delay_cycles, scaling_factor) = scalars;
+        let count = u32::try_from(table.len()).expect("a short table");
+        FrictionList {
+            position_delay,
+            reversal_lookahead,
+            scaling_factor,
+            delay_cycles,
+            max_points: count + spare,
+            table,
+        }
+    })
+}
+
+proptest! {
+    /// R3.5 R3.20: whatever the list, its text is one that the control takes, and says the same.
+    #[test]
+    fn a_written_list_reads_back(list in lists(), real in any::<bool>(), remark in ".{0,40}") {
+        let points = if real { Points::Real } else { Points::Whole };
+        let text = write_value_list(&list, points, &[&remark, "second\nline"]);
+        let found = read(&text);
+        prop_assert_eq!(write_value_list(&found, points, &[&remark, "second\nline"]), text);
+        let without_table = |list: &FrictionList| FrictionList { table: Vec::new(), ..list.clone() };
+        prop_assert_eq!(without_table(&found), without_table(&list));
+        if points == Points::Real {
+            prop_assert_eq!(found.table.len(), list.table.len());
+        }
+        // Each point is one of the list, as near as its decimals allow.
+        let (of_input, of_output) = if real { (0.0, 0.000_51) } else { (0.5, 0.5) };
+        for point in &found.table {
+            let near = |of: &&TablePoint| {
+                (of.input - point.input).abs() <= of_input
+                    && (of.output - point.output).abs() <= of_output
+            };
+            prop_assert!(list.table.iter().any(|of| near(&of)), "{:?}", point);
+            prop_assert!(real || point.input.fract() == 0.0 && point.output.fract() == 0.0);
+        }
+    }
+}
+
+#[test]
+fn points_are_written_as_the_build_reads_them() {
+    // P-COMP-00046, P-COMP-00047
+    let build = |numbers| Points::of_build(Some(CncBuild::new(numbers)));
+    assert_eq!(Points::of_build(None), Points::Whole);
+    assert_eq!(build([3, 1, 3131, 0]), Points::Whole);
+    assert_eq!(build([3, 1, 3132, 0]), Points::Real);
+    assert_eq!(build([4, 28, 9, 0]), Points::Whole);
+    assert_eq!(build([4, 29, 0, 0]), Points::Real);
+}
+
+#[test]
+fn a_written_zero_has_no_sign_and_near_velocities_are_one_point() {
+    let point = |input, output| TablePoint { input, output };
+    let list = FrictionList {
+        position_delay: 0,
+        reversal_lookahead: 0,
+        scaling_factor: 1000,
+        delay_cycles: 0,
+        max_points: 20,
+        table: vec![point(0.0, -0.0001), point(0.4, 3.0), point(1.2, -0.3)],
+    };
+    let outputs = |points: Points| -> Vec<String> {
+        let text = write_value_list(&list, points, &[]);
+        let lines = text.lines().filter(|line| line.contains("].out"));
+        lines
+            .map(|line| line.split_whitespace().nth(1).expect("a value").to_owned())
+            .collect()
+    };
+    assert_eq!(outputs(Points::Whole), ["0", "0"]);
+    assert_eq!(outputs(Points::Real), ["0.000", "3.000", "-0.300"]);
+}

@@ -90,7 +90,7 @@ const ROOMS: [(&str, &[&str]); 17] = [
     ),
     ("current", &["diagnostic", "lists", "compensation"]),
     ("simulation", &["source", "diagnostic", "lists", "machine"]),
-    ("circle", &["lists", "current", "simulation"]),
+    ("circle", &["diagnostic", "lists", "current", "simulation"]),
     (
         "report",
         &[

@@ -82,6 +82,7 @@ codes! {
     Fc207 "FC207" Error "text not understood";
     Fc208 "FC208" Error "control block not balanced";
     Fc209 "FC209" Error "jump label missing or given twice";
+    Fc210 "FC210" Warning "text not known here";
     Fc301 "FC301" Warning "opposite COMP commands in one block";
     Fc302 "FC302" Error "COMP on a spindle";
     Fc303 "FC303" Warning "selected without an accepted value list";
@@ -89,7 +90,7 @@ codes! {
     Fc310 "FC310" Warning "program without M30";
     Fc311 "FC311" Error "parameter read before it was written";
     Fc312 "FC312" Error "expression cannot be computed";
-    Fc313 "FC313" Error "two words of one G group";
+    Fc313 "FC313" Error "two words of one G group or axis";
     Fc314 "FC314" Warning "machine data written by the program";
     Fc315 "FC315" Warning "program end inside a subprogram";
     Fc316 "FC316" Warning "circle by radius without an end point of its own";

@@ -323,7 +323,7 @@ impl LineSource for TextLines<'_> {
 }
 
 /// Looks through the bytes of a program, piece by piece, for anything that needs the whole text at
-/// once: a `$` statement, a local subprogram (`%L name`), a part of the program (`L SEQUENCE`).
+/// once: a `$` statement, `#IF`, a local subprogram (`%L name`), a part of the program (`L SEQUENCE`).
 #[derive(Debug, Clone, Default)]
 pub struct FlowScan {
     found: bool,
@@ -345,6 +345,9 @@ impl FlowScan {
             };
             from = at + 1;
         }
+        // Three bytes are found at once, a fourth is not.
+        let mut commands = memchr::memchr_iter(b'#', piece);
+        self.found |= commands.any(|at| Self::opens_branch(&piece[at + 1..]));
     }
 
     /// Whether the whole text is needed.
@@ -360,6 +363,14 @@ impl FlowScan {
         before
             .chain(after)
             .all(|(found, wanted)| found.eq_ignore_ascii_case(wanted))
+    }
+
+    /// `#IF`; a piece that ends before that is taken as one.
+    fn opens_branch(behind: &[u8]) -> bool {
+        let letters = behind.iter().zip(b"IF");
+        letters
+            .into_iter()
+            .all(|(found, letter)| found.eq_ignore_ascii_case(letter))
     }
 
     /// `%L` with a separator behind it; a piece that ends before that is taken as one.

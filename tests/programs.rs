@@ -138,6 +138,23 @@ fn program_codes(path: &Path) -> BTreeMap<String, String> {
 }
 
 #[test]
+fn forms_of_the_manual_raise_nothing() {
+    // R2.70: forms of the manual, one a line, whatever their meaning. No message, and no state changes.
+    for path in files("programs/ok/forms", &["nc"]) {
+        let name = shown(&path);
+        let found = program_codes(&path);
+        assert!(found.is_empty(), "{name}: {found:?}");
+        let output = frictcomp(&["run", "--format", "ndjson", &name]);
+        let text = String::from_utf8(output.stdout).expect("text");
+        let last = text.lines().last().expect("a summary");
+        assert!(
+            last.contains(r#""friction":{"X":"active","Y":"active""#),
+            "{name}: {last}"
+        );
+    }
+}
+
+#[test]
 fn timelines_are_as_reviewed() {
     let mut settings = insta::Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);

@@ -12,7 +12,7 @@ use super::{
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::ast::{Block, CallScope, Item, Operand};
+use crate::syntax::ast::{Block, CallScope, Flow, Item, Operand};
 use crate::syntax::{FastPath, Fault};
 
 /// Messages about one block that are said one by one (R2.85).
@@ -66,6 +66,9 @@ impl Interpreter {
         let mut intent = Intent::default();
         let limit = self.first_refusal(block);
         self.items(block, at, &mut intent, limit);
+        if self.work.again != 0 {
+            self.refuse_repeated_axes(intent.axis_words, at);
+        }
         let goes_on = !self.work.diagnostics.iter().any(stops);
         if (goes_on || self.options.stop != StopPolicy::FirstError)
             && self.state.described.is_none()
@@ -216,7 +219,10 @@ impl Interpreter {
                 return;
             }
             let done = self.item(item, block, at, intent);
-            if self.say(done, at).is_break() {
+            // Behind a statement that goes elsewhere, `$CASE 2 X10`, nothing is executed.
+            let leaves = matches!(item, Item::Flow(flow, _) if !matches!(flow, Flow::Goto(_)))
+                && intent.step.is_some();
+            if self.say(done, at).is_break() || leaves {
                 return;
             }
         }
@@ -342,6 +348,10 @@ impl Interpreter {
                 Ok(())
             }
             Item::MacroUse(span) => self.expand(*span, at, intent),
+            Item::Unread(effect, span) => {
+                self.forget_unread(*effect, &span.of(at.text).into());
+                Ok(())
+            }
             Item::Label(_) | Item::BadCommand(_) => Ok(()),
         }
     }

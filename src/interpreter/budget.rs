@@ -108,8 +108,7 @@ impl Interpreter {
     pub(super) fn used_up(&mut self, at: &At<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.work.wrote);
         if self.state.level.get() > self.options.limits.work && self.is_worn_out() {
-            self.forget_all();
-            self.state.memory.forget_shared(&"--max-work".into());
+            self.forget_all(&"--max-work".into());
             return Some(self.too_much_work(at));
         }
         let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);

@@ -77,6 +77,9 @@ impl Interpreter {
         for (index, operand) in &call.arguments {
             own.insert(*index, self.value(*operand, block, at)?);
         }
+        for (_, operand) in &call.words {
+            self.value(*operand, block, at)?;
+        }
         match name {
             Value::Text(name) => Ok(Some(Wanted {
                 scope: call.scope,
@@ -88,11 +91,14 @@ impl Interpreter {
                 part: None,
             })),
             Value::Unknown(cause) => {
-                self.forget_all();
+                self.forget_all(&cause);
+                if self.work.unread.get() {
+                    return Ok(None);
+                }
                 let fault = Fault::new(
                     Code::Fc902,
                     call.span,
-                    format!("which program is called hangs on `{cause}`, which only the machine knows; the call is passed over, every axis becomes unknown"),
+                    format!("which program is called depends on {}; the call is passed over, everything that a program could change becomes unknown", super::flow::unknown_value(&cause)),
                 )
                 .with_help(super::flow::how_to_set(&cause));
                 self.work.diagnostics.push(at.diagnostic(fault));

@@ -1,7 +1,9 @@
 //! Values of operands, system variables, and what assignments write.
 
+use std::collections::BTreeMap;
+
 use super::event::{Note, NoteKind, Notes};
-use super::expression::{Evaluator, Macros, Place, Scope};
+use super::expression::{Evaluator, Given, Macros, Place, Scope};
 use super::{At, Interpreter, PositionFrame, Value};
 use crate::compensation::State;
 use crate::machine::AxisIndex;
@@ -39,11 +41,12 @@ impl Interpreter {
         at: &At<'_>,
         work: impl FnOnce(&Evaluator<'_>) -> T,
     ) -> T {
-        // A main program may write some, too.
+        static NONE: BTreeMap<u32, Value> = BTreeMap::new();
         let frame = self.state.frames.last();
-        let own = frame
-            .filter(|frame| frame.level > 0 || !frame.own.is_empty())
-            .map(|frame| &frame.own);
+        let given = match frame {
+            Some(frame) if frame.level > 0 => Given::ByCall,
+            _ => Given::FromOutside,
+        };
         let taken = self.options.notes == Notes::Taken;
         work(&Evaluator {
             block,
@@ -59,7 +62,9 @@ impl Interpreter {
             scope: Scope {
                 memory: &self.state.memory,
                 reads: self.state.watching.then_some(&self.state.reads),
-                own,
+                own: frame.map_or(&NONE, |frame| &frame.own),
+                given,
+                unread: &self.work.unread,
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {
@@ -96,6 +101,9 @@ impl Interpreter {
 
     /// What the dry run knows of the machine's own variables (R1.35, R2.36).
     fn system_variable(&self, name: &str) -> Option<Value> {
+        if let Some(index) = given_parameter(name) {
+            return self.is_given(index);
+        }
         let rest = name.strip_prefix("V.A.")?;
         let (variable, axis) = if let Some((variable, index)) = rest.split_once('[') {
             let position = index.trim_end_matches(']').parse().ok()?;
@@ -135,6 +143,14 @@ impl Interpreter {
             "PROG" => self.state.modal.programmed(axis).map(Value::Number),
             _ => None,
         }
+    }
+
+    /// Whether the call gave an own parameter (R2.79).
+    fn is_given(&self, index: u32) -> Option<Value> {
+        let frame = self.state.frames.last()?;
+        let name = format!("@P{index}");
+        let given = frame.own.contains_key(&index) || self.state.memory.variable(&name).is_some();
+        (given || frame.level > 0).then(|| given.into())
     }
 
     pub(super) fn assign(
@@ -187,6 +203,13 @@ impl Interpreter {
             Place::Nowhere => {}
         }
     }
+}
+
+/// The number in `V.G.@P[1].VALID`.
+fn given_parameter(name: &str) -> Option<u32> {
+    let rest = name.strip_prefix("V.G.@P")?;
+    let index = rest.strip_suffix(".VALID")?;
+    index.trim_matches(['[', ']']).parse().ok()
 }
 
 fn compensation_kind(name: &str) -> Option<Kind> {

@@ -28,12 +28,25 @@ pub(super) struct Scope<'a> {
     pub(super) memory: &'a Memory,
     /// Where what is read is noted, while that matters (R2.84).
     pub(super) reads: Option<&'a RefCell<Reads>>,
-    /// Own parameters of the call; `None` in the main program.
-    pub(super) own: Option<&'a BTreeMap<u32, Value>>,
+    /// Own parameters of the call.
+    pub(super) own: &'a BTreeMap<u32, Value>,
+    /// Where those come from that it does not hold.
+    pub(super) given: Given,
     /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
     pub(super) system: &'a dyn Fn(&str) -> Option<Value>,
     /// Hears of every value that only the machine knows.
     pub(super) unknown: &'a dyn Fn(&str, Span),
+    /// Set where a text had no meaning that is known here, which the block's faults say.
+    pub(super) unread: &'a Cell<bool>,
+}
+
+/// Where the own parameters of a program come from, `@P1` ….
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Given {
+    /// A call gave some, and no others.
+    ByCall,
+    /// The program is a cycle that runs without a call: whoever calls it gives them.
+    FromOutside,
 }
 
 /// How far macros have been expanded.
@@ -133,6 +146,13 @@ impl Evaluator<'_> {
                 Node::Variable { subscripts } => self
                     .variable_key(at, usize::from(subscripts), stack)
                     .and_then(|key| self.keyed_variable(key, span)),
+                Node::Unread => {
+                    self.scope.unread.set(true);
+                    let text = span.of(self.text).trim();
+                    Ok(Value::Unknown(
+                        text.chars().take(40).collect::<String>().into(),
+                    ))
+                }
                 Node::Negate => pop(stack).and_then(|value| match value {
                     Value::Number(number) => Ok(Value::Number(-number)),
                     Value::Text(_) => Err(wrong_type(span, "a text has no sign")),
@@ -187,17 +207,20 @@ impl Evaluator<'_> {
         }
         let found = match owner {
             Owner::Program => self.scope.memory.parameter(index),
-            Owner::Call => {
-                let Some(own) = self.scope.own else {
-                    // A cycle that runs without a call: only a call gives it values.
-                    let name = format!("@P{index}");
-                    (self.scope.unknown)(&name, self.shown.unwrap_or(span));
-                    return Ok(Value::Unknown(name.into()));
-                };
-                own.get(&index).cloned()
-            }
+            Owner::Call => match (self.scope.own.get(&index), self.scope.given) {
+                (None, Given::FromOutside) => return Ok(self.outside(&format!("@P{index}"), span)),
+                (found, _) => found.cloned(),
+            },
         };
         found.ok_or_else(|| never_written(span, self.text))
+    }
+
+    /// What only a call or the machine gives, unless the user says what it is.
+    fn outside(&self, name: &str, span: Span) -> Value {
+        self.scope.memory.variable(name).unwrap_or_else(|| {
+            (self.scope.unknown)(name, self.shown.unwrap_or(span));
+            Value::Unknown(name.into())
+        })
     }
 
     fn keyed_parameter(&self, key: &ParameterKey, span: Span) -> Slot {
@@ -378,6 +401,11 @@ impl Evaluator<'_> {
         let span = self.block.spans[root];
         let found = match self.block.nodes[root] {
             Node::Parameter { owner, index } => Ok(Place::Parameter(owner, index)),
+            Node::Unread => {
+                self.scope.unread.set(true);
+                let text: Arc<str> = span.of(self.text).trim().into();
+                Ok(Place::Parameters(text))
+            }
             Node::IndexedParameter { owner, subscripts } => {
                 Self::parameter_key(owner, usize::from(subscripts), stack).map(|key| match key {
                     ParameterKey::Plain(owner, index) => Place::Parameter(owner, index),

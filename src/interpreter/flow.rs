@@ -212,11 +212,19 @@ impl Interpreter {
             return;
         };
         let file = unit.index.source.name().clone();
+        let mut unread_up_to = 0;
         for place in 0..unit.index.entries.len() {
+            let entry = Span::new(place, place).start;
             if unit.executed[place] {
+                // Branches that `#IF` left out are not read at all (R2.73).
+                let decided = !unit.undecided.contains(&entry);
+                let end = unit.index.interpreted_to(entry).filter(|_| decided);
+                unread_up_to = unread_up_to.max(end.unwrap_or_default());
                 continue;
             }
-            let entry = Span::new(place, place).start;
+            if entry < unread_up_to {
+                continue;
+            }
             let mut block = Block::default();
             let Some(mut reader) = unit.index.reader(entry) else {
                 continue;
@@ -242,13 +250,7 @@ impl Interpreter {
         }
         let value = self.value(*condition, block, at)?;
         if let Value::Unknown(cause) = &value {
-            let fault = Fault::new(
-                Code::Fc902,
-                flow_span(block),
-                format!("whether this jump is taken hangs on `{cause}`, which only the machine knows; the rest assumes that it is not"),
-            )
-            .with_help(how_to_set(cause));
-            self.work.diagnostics.push(at.diagnostic(fault));
+            self.assume_no_jump("whether this jump is taken", (cause, flow_span(block)), at);
             return Ok(Some(false));
         }
         let truth = value.truth();
@@ -518,13 +520,7 @@ impl Interpreter {
             Value::Number(number) => LabelName::Number(rounded(*number).unwrap_or_default()),
             Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
             Value::Unknown(cause) => {
-                let fault = Fault::new(
-                    Code::Fc902,
-                    span,
-                    format!("where this jump goes hangs on `{cause}`, which only the machine knows; the rest assumes that it is not taken"),
-                )
-                .with_help(how_to_set(cause));
-                self.work.diagnostics.push(at.diagnostic(fault));
+                self.assume_no_jump("where this jump goes", (cause, span), at);
                 return Ok(None);
             }
         };
@@ -552,6 +548,17 @@ impl Interpreter {
             ))),
         }
     }
+
+    /// FC902: a jump that is not known offline is not taken (R2.52).
+    fn assume_no_jump(&mut self, what: &str, (cause, span): (&str, Span), at: &At<'_>) {
+        if self.work.unread.get() {
+            return;
+        }
+        let value = unknown_value(cause);
+        let message = format!("{what} depends on {value}; the rest assumes that it is not taken");
+        let fault = Fault::new(Code::Fc902, span, message).with_help(how_to_set(cause));
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
 }
 
 /// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
@@ -577,7 +584,29 @@ fn flow_span(block: &Block) -> Span {
         .unwrap_or_default()
 }
 
+/// A value that is not known offline, and why.
+pub(super) fn unknown_value(name: &str) -> String {
+    if is_settable(name) {
+        format!("`{name}`, which only the machine knows")
+    } else {
+        format!("`{name}`, which is not known here")
+    }
+}
+
+/// Whether a name is one of a parameter or variable.
+fn is_settable(name: &str) -> bool {
+    let name = name.strip_prefix('@').unwrap_or(name);
+    name.starts_with("V.")
+        || name
+            .strip_prefix('P')
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+        || matches!(name.as_bytes(), [b'A'..=b'Z'])
+}
+
 /// How a user makes a value known.
 pub(super) fn how_to_set(name: &str) -> String {
+    if !is_settable(name) {
+        return format!("FC210 or FC207 says where `{name}` stands first");
+    }
     format!("make it known with `--set {name}=VALUE` or in `[variables]` of frictcomp.toml")
 }

@@ -104,12 +104,27 @@ fn bitwise(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Slot 
     Ok(Value::Number(bits as f64))
 }
 
+/// `IS_STRING[v]`, `IS_NUMBER[v]` (R2.79).
+fn type_test(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
+    let [slot]: [Slot; 1] = slots
+        .try_into()
+        .map_err(|_| wrong_type(span, "this function takes one argument"))?;
+    Ok(match slot? {
+        Value::Text(_) => (function == Function::IsString).into(),
+        Value::Number(_) => (function == Function::IsNumber).into(),
+        unknown @ Value::Unknown(_) => unknown,
+    })
+}
+
 pub(super) fn call(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
     if function == Function::Exist {
         return match slots.into_iter().next() {
             Some(Ok(unknown @ Value::Unknown(_))) => Ok(unknown),
             first => Ok(first.is_some_and(|slot| slot.is_ok()).into()),
         };
+    }
+    if let Function::IsString | Function::IsNumber = function {
+        return type_test(function, slots, span);
     }
     let mut values = Vec::with_capacity(slots.len());
     for slot in slots {
@@ -143,8 +158,12 @@ pub(super) fn call(function: Function, slots: Vec<Slot>, span: Span) -> Slot {
                     Ok(Value::Text(x.to_string().into()))
                 }
                 Some([x]) => number_function(function, *x, span),
-                Some([x, y]) if function == Function::Min => Ok(Value::Number(x.min(*y))),
-                Some([x, y]) if function == Function::Max => Ok(Value::Number(x.max(*y))),
+                Some([first, rest @ ..]) if function == Function::Min && !rest.is_empty() => {
+                    Ok(Value::Number(rest.iter().fold(*first, |a, b| a.min(*b))))
+                }
+                Some([first, rest @ ..]) if function == Function::Max && !rest.is_empty() => {
+                    Ok(Value::Number(rest.iter().fold(*first, |a, b| a.max(*b))))
+                }
                 Some([y, x]) if function == Function::Atan2 => {
                     finite(y.atan2(*x).to_degrees(), span)
                 }

@@ -28,7 +28,7 @@ impl Interpreter {
             "#TIME" => {
                 intent.axis_words = AxisWords::Other;
                 self.work.dwells = true;
-                if let Some(time) = hash.argument {
+                if let Some(&time) = hash.arguments.first() {
                     let seconds = self.value(time, block, at)?.number();
                     self.geometry().dwell = Some(seconds);
                 }
@@ -70,6 +70,10 @@ impl Interpreter {
             "#RT ENDWHILE" => {}
             name => {
                 self.state.modal.hash(name);
+                for target in &hash.written {
+                    let place = self.target_place(target.place, block, at)?;
+                    self.write(place, Value::Unknown(name.into()));
+                }
                 let word = match chain::command(name) {
                     Some((words, ..)) => words,
                     None => name.trim_end_matches(" OFF").trim_end_matches(" ON"),
@@ -196,13 +200,18 @@ impl Interpreter {
     }
 
     fn delete(&mut self, hash: &Hash, block: &Block, at: &At<'_>) -> Result<(), Box<Fault>> {
-        let Some(Operand::Expression(place)) = hash.argument else {
-            return Ok(());
-        };
-        match self.target_place(place, block, at)? {
-            Place::Parameter(_, index) => self.state.memory.delete_parameter(index),
-            Place::Variable(name) => self.state.memory.delete(&name),
-            Place::Elements(..) | Place::Parameters(_) | Place::Nowhere => {}
+        for argument in &hash.arguments {
+            let Operand::Expression(place) = *argument else {
+                continue;
+            };
+            match self.target_place(place, block, at)? {
+                Place::Parameter(_, index) => self.state.memory.delete_parameter(index),
+                Place::Variable(name) => self.state.memory.delete(&name),
+                unknown @ (Place::Elements(_, _) | Place::Parameters(_)) => {
+                    self.write(unknown, Value::Number(0.0));
+                }
+                Place::Nowhere => {}
+            }
         }
         Ok(())
     }

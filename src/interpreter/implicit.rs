@@ -1,6 +1,7 @@
 //! Words that call a program: G80 to G89, G800 and on, M, T and D words (R2.14, R2.75).
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::block::Intent;
 use super::call::Wanted;
@@ -18,7 +19,7 @@ enum Configured {
     /// A program.
     Program(String),
     /// A program, or none; the name hangs on a value that only the machine knows.
-    Unknown(std::sync::Arc<str>),
+    Unknown(Arc<str>),
 }
 
 impl Interpreter {
@@ -96,24 +97,27 @@ impl Interpreter {
 
     /// A word whose number is not known: it may call any program.
     pub(super) fn unknown_word(&mut self, letter: &str, (span, at): (Span, &At<'_>)) {
-        self.forget_all();
+        self.forget_all(&letter.into());
         self.state.modal.note_transformed(letter);
+        if self.work.unread.get() {
+            return;
+        }
         let fault = Fault::new(
             Code::Fc902,
             at.in_block(span),
             format!(
-                "which {letter} function this is only the machine knows; it is passed over, every axis becomes unknown"
+                "which {letter} function this is only the machine knows; it is passed over, everything that a program could change becomes unknown"
             ),
         );
         self.work.diagnostics.push(at.diagnostic(fault));
     }
 
     pub(super) fn unknown_program(&mut self, cause: &str, (span, at): (Span, &At<'_>)) {
-        self.forget_all();
+        self.forget_all(&cause.into());
         let fault = Fault::new(
             Code::Fc902,
             at.in_block(span),
-            format!("which program is called hangs on `{cause}`, which only the machine knows; the call is passed over, every axis becomes unknown"),
+            format!("which program is called depends on {}; the call is passed over, everything that a program could change becomes unknown", super::flow::unknown_value(cause)),
         )
         .with_help(super::flow::how_to_set(cause));
         self.work.diagnostics.push(at.diagnostic(fault));
@@ -206,7 +210,7 @@ impl Interpreter {
         &mut self,
         (letter, number): (u8, Option<i64>),
         unit: usize,
-        cause: &std::sync::Arc<str>,
+        cause: &Arc<str>,
     ) {
         let letter = char::from(letter);
         let mut configured = vec![self.configured(letter, number)];
@@ -216,7 +220,7 @@ impl Interpreter {
         for configured in configured {
             match configured {
                 Configured::None => {}
-                Configured::Unknown(_) => self.forget_all(),
+                Configured::Unknown(_) => self.forget_all(cause),
                 Configured::Program(name) => self.pending.push(Scan {
                     call: Wanted::program(CallScope::Global, name, Span::default()),
                     cause: cause.clone(),
@@ -243,8 +247,8 @@ impl Interpreter {
                     self.state.modal.note_transformed(&word);
                 }
             }
-            ('M', None) => self.forget_all(),
-            ('G', None) if self.calls_by_words() => self.forget_all(),
+            ('M', None) => self.forget_all(cause),
+            ('G', None) if self.calls_by_words() => self.forget_all(cause),
             (_, None) => {}
         }
     }

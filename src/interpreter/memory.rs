@@ -41,6 +41,8 @@ pub(super) struct Memory {
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     variables: Names,
+    /// Set when any of those that programs write may have been: the text that made it so.
+    unknown_names: Option<Arc<str>>,
     /// `V.L.` of each call level.
     locals: Vec<Names>,
     macros: HashMap<String, String>,
@@ -126,6 +128,19 @@ impl Variable {
             let element = format!("{name}{subscripts}");
             carried.variables.insert(element, value.clone());
         }
+    }
+
+    /// Nobody knows its value any more, nor that of any element.
+    fn forget(&mut self, cause: &Arc<str>) {
+        if let Some(scalar) = &mut self.scalar {
+            *scalar = Value::Unknown(cause.clone());
+        }
+        self.elements.clear();
+        self.lost = self
+            .array
+            .as_ref()
+            .map(|_| cause.clone())
+            .or(self.lost.take());
     }
 
     fn elements_weight(&self) -> usize {
@@ -324,6 +339,7 @@ impl Memory {
             self.parameters.clear();
             self.lost = None;
         }
+        self.unknown_names = None;
         self.locals.clear();
         self.variables.names.retain(|name, _| kept(name));
         self.variables.weight = Weight(self.variables.weigh());
@@ -372,7 +388,9 @@ impl Memory {
         if name.starts_with("V.L.") {
             return self.locals.iter().rev().find_map(|level| level.value(name));
         }
-        self.variables.value(name)
+        let unknown = self.unknown_names.as_ref().filter(|_| is_written(name));
+        let written = self.variables.value(name);
+        written.or_else(|| unknown.map(|cause| Value::Unknown(cause.clone())))
     }
 
     pub(super) fn set_variable(&mut self, name: &str, value: Value) {
@@ -452,23 +470,26 @@ impl Memory {
         }
     }
 
-    /// No `V.S.` variable is known any more.
-    pub(super) fn forget_shared(&mut self, cause: &Arc<str>) {
-        let shared = self.variables.names.iter_mut();
-        for (_, variable) in shared.filter(|(name, _)| name.starts_with("V.S.")) {
-            let values = variable.elements.values_mut().chain(&mut variable.scalar);
-            for value in values {
-                *value = Value::Unknown(cause.clone());
-            }
-        }
-        self.variables.weight = Weight(self.variables.weigh());
-    }
-
     /// Some P parameter was written and nobody knows which: none is known any more.
     pub(super) fn forget_parameters(&mut self, cause: &Arc<str>) {
         self.direct.clear();
         self.parameters.clear();
         self.lost = Some(cause.clone());
+    }
+
+    /// Everything that a program can write may have been written: nothing is known any more.
+    /// What only the machine holds is not the program's.
+    pub(super) fn forget_all(&mut self, cause: &Arc<str>) {
+        self.forget_parameters(cause);
+        self.unknown_names = Some(cause.clone());
+        let levels = self.locals.iter_mut().chain([&mut self.variables]);
+        for names in levels {
+            let written = names.names.iter_mut();
+            for (_, variable) in written.filter(|(name, _)| is_written(name)) {
+                variable.forget(cause);
+            }
+            names.weight = Weight(names.weigh());
+        }
     }
 
     pub(super) fn delete_parameter(&mut self, index: u32) {
@@ -484,6 +505,7 @@ impl Memory {
     /// than a few.
     pub(super) fn differing_numbers(&self, other: &Self) -> Option<Vec<Target>> {
         let same = self.lost == other.lost
+            && self.unknown_names == other.unknown_names
             && self.direct.len() == other.direct.len()
             && self.parameters.len() == other.parameters.len()
             && self.locals.len() == other.locals.len()
@@ -617,6 +639,11 @@ impl Memory {
 /// Whether a program start leaves a variable or array.
 fn is_kept(name: &str, parameters: Parameters) -> bool {
     !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
+}
+
+/// Whether programs write what goes by a name.
+fn is_written(name: &str) -> bool {
+    is_of_run(name) || name.starts_with("V.S.") || name.starts_with("V.L.")
 }
 
 fn is_of_run(name: &str) -> bool {

@@ -223,6 +223,8 @@ struct Unit {
     high: EntryIndex,
     /// Which blocks were executed, where that is asked for.
     executed: Vec<bool>,
+    /// Control blocks of which nobody knows offline which branch is taken.
+    undecided: BTreeSet<EntryIndex>,
 }
 
 /// A parsed block with its text and its place.
@@ -300,6 +302,9 @@ struct Work {
     changes: Vec<Change>,
     /// Its axis words.
     moved: Vec<AxisWord>,
+    /// The axes that have a word, and those that may have another, a bit each.
+    seen: u64,
+    again: u64,
     diagnostics: Vec<Diagnostic>,
     /// How many messages about the block are not said, and where the first of them belongs.
     unsaid: Option<(Span, u64)>,
@@ -311,6 +316,9 @@ struct Work {
     /// What the block moves, where motions are taken.
     motion: Option<Motion>,
     notes: RefCell<Vec<Note>>,
+    /// Whether a text of the block had no meaning that is known here; what hangs on it is not said
+    /// again (R2.71).
+    unread: Cell<bool>,
     /// Macros that the block has expanded.
     expansions: Cell<u32>,
     /// The budget that ended the run.
@@ -326,11 +334,14 @@ impl Work {
         self.outcomes.clear();
         self.changes.clear();
         self.moved.clear();
+        self.seen = 0;
+        self.again = 0;
         self.diagnostics.clear();
         self.geometry = None;
         self.dwells = false;
         self.motion = None;
         self.notes.get_mut().clear();
+        self.unread.set(false);
         self.expansions.set(0);
         self.new_axes = false;
     }
@@ -751,6 +762,7 @@ impl Unit {
             kept: Vec::new(),
             high: 0,
             executed: vec![false; index.entries.len()],
+            undecided: BTreeSet::new(),
             index,
         }
     }

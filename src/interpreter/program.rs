@@ -10,7 +10,7 @@ use crate::codes::Code;
 use crate::diagnostic::{Collected, Diagnostic};
 use crate::source::{SourceFile, Span, TextLines};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
-use crate::syntax::{BlockReader, FastPath, Fault, Remark, Stretch};
+use crate::syntax::{BlockReader, FastPath, Fault, Remark, Stretch, is_statement};
 
 /// The position of a block in [`Index::entries`].
 pub(super) type EntryIndex = u32;
@@ -71,6 +71,8 @@ pub(super) struct Index {
     /// The local subprograms by name, the first of each.
     locals: HashMap<String, usize>,
     remarks: HashMap<EntryIndex, Remark>,
+    /// Where the branches of each `#IF` end.
+    interpreted: BTreeMap<EntryIndex, EntryIndex>,
     /// What keeps the program from running at all.
     pub(super) refused: Collected,
 }
@@ -124,6 +126,8 @@ struct Open {
     /// All statements of the control block so far.
     parts: Vec<EntryIndex>,
     span: Span,
+    /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
+    sign: Option<char>,
 }
 
 /// A jump whose label is looked up when the section is known.
@@ -146,6 +150,7 @@ impl Index {
                 labels: HashMap::new(),
                 locals: HashMap::new(),
                 remarks: HashMap::new(),
+                interpreted: BTreeMap::new(),
                 refused: Collected::default(),
             },
             nesting: nesting as usize,
@@ -255,6 +260,11 @@ impl Index {
         self.loops.iter().filter(around).max().copied()
     }
 
+    /// Where the branches of an `#IF` end.
+    pub(super) fn interpreted_to(&self, entry: EntryIndex) -> Option<EntryIndex> {
+        self.interpreted.get(&entry).copied()
+    }
+
     /// The comment line above a block that speaks to this tool.
     pub(super) fn remark(&self, entry: EntryIndex) -> Option<Remark> {
         self.remarks.get(&entry).cloned()
@@ -346,8 +356,7 @@ impl Builder {
             section.end = end;
         }
         for open in std::mem::take(&mut self.open) {
-            let fault = not_closed(&open);
-            self.refuse(open.opener, fault);
+            self.refuse_open(&open);
         }
     }
 
@@ -356,6 +365,19 @@ impl Builder {
         let mut diagnostic = Diagnostic::new(fault.code, place, fault.message);
         diagnostic.help = fault.help;
         self.index.refused.push(diagnostic);
+    }
+
+    /// What is not closed, unless it is misspelt, which the block says itself.
+    fn refuse_open(&mut self, open: &Open) {
+        if let Some(fault) = not_closed(open) {
+            self.refuse(open.opener, fault);
+        }
+    }
+
+    fn refuse_stray(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
+        if is_spelt(kind, span.of(text)) {
+            self.refuse(entry, stray(span, text, kind));
+        }
     }
 
     fn block(&mut self, entry: EntryIndex, block: &Block, text: &str) {
@@ -376,7 +398,7 @@ impl Builder {
                 Item::Flow(Flow::If(_), _) if jumps => {}
                 Item::Flow(flow, span) => self.flow(entry, flow, (*span, text)),
                 Item::Hash(hash) if hash.name == REAL_TIME_LOOP => {
-                    self.opens(Kind::RealTime, entry, hash.span);
+                    self.opens(Kind::RealTime, entry, (hash.span, text));
                 }
                 Item::Hash(hash) if hash.name == REAL_TIME_END => {
                     self.closes(Kind::RealTime, entry, (hash.span, text));
@@ -404,12 +426,12 @@ impl Builder {
 
     fn flow(&mut self, entry: EntryIndex, flow: &Flow, (span, text): (Span, &str)) {
         match flow {
-            Flow::If(_) => self.opens(Kind::If, entry, span),
-            Flow::Switch(..) => self.opens(Kind::Switch, entry, span),
-            Flow::For { .. } => self.opens(Kind::For, entry, span),
-            Flow::While(_) => self.opens(Kind::While, entry, span),
-            Flow::Do(_) => self.opens(Kind::Do, entry, span),
-            Flow::Repeat => self.opens(Kind::Repeat, entry, span),
+            Flow::If(_) => self.opens(Kind::If, entry, (span, text)),
+            Flow::Switch(..) => self.opens(Kind::Switch, entry, (span, text)),
+            Flow::For { .. } => self.opens(Kind::For, entry, (span, text)),
+            Flow::While(_) => self.opens(Kind::While, entry, (span, text)),
+            Flow::Do(_) => self.opens(Kind::Do, entry, (span, text)),
+            Flow::Repeat => self.opens(Kind::Repeat, entry, (span, text)),
             Flow::ElseIf(_) | Flow::Else => self.branches(Kind::If, entry, (span, text)),
             Flow::Case(_) | Flow::Default => self.branches(Kind::Switch, entry, (span, text)),
             Flow::EndIf => self.closes(Kind::If, entry, (span, text)),
@@ -430,7 +452,7 @@ impl Builder {
         }
     }
 
-    fn opens(&mut self, kind: Kind, entry: EntryIndex, span: Span) {
+    fn opens(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
         if self.open.len() >= self.nesting {
             let fault = Fault::new(
                 Code::Fc912,
@@ -448,28 +470,31 @@ impl Builder {
             opener: entry,
             parts: vec![entry],
             span,
+            sign: is_spelt(kind, span.of(text)).then(|| sign(span, text)),
         });
     }
 
     fn branches(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
         match self.open.last_mut() {
             Some(open) if open.kind == kind => open.parts.push(entry),
-            _ => self.refuse(entry, stray(span, text, kind)),
+            _ => self.refuse_stray(kind, entry, (span, text)),
         }
     }
 
     fn closes(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
         let Some(depth) = self.open.iter().rposition(|open| open.kind == kind) else {
-            self.refuse(entry, stray(span, text, kind));
+            self.refuse_stray(kind, entry, (span, text));
             return;
         };
         for open in self.open.split_off(depth + 1) {
-            let fault = not_closed(&open);
-            self.refuse(open.opener, fault);
+            self.refuse_open(&open);
         }
         let Some(mut open) = self.open.pop() else {
             return;
         };
+        if open.kind == Kind::If && open.sign == Some('#') {
+            self.index.interpreted.insert(open.opener, entry);
+        }
         open.parts.push(entry);
         for pair in open.parts.windows(2) {
             let links = Links {
@@ -540,19 +565,34 @@ impl Builder {
     }
 }
 
-fn not_closed(open: &Open) -> Fault {
+fn not_closed(open: &Open) -> Option<Fault> {
+    let sign = open.sign?;
     let (opener, closer) = (open.kind.opener(), open.kind.closer());
-    Fault::new(
+    let shown = |word: &str| word.replace('$', sign.encode_utf8(&mut [0; 4]));
+    let (opener, closer) = (shown(opener), shown(closer));
+    let fault = Fault::new(
         Code::Fc208,
         open.span,
         format!("`{opener}` has no `{closer}`"),
-    )
-    .with_help(format!("write `{closer}` in a block of its own"))
+    );
+    Some(fault.with_help(format!("write `{closer}` in a block of its own")))
+}
+
+/// Whether a statement is one of the language, and not a misspelt one.
+fn is_spelt(kind: Kind, text: &str) -> bool {
+    kind == Kind::RealTime || is_statement(text)
+}
+
+/// What a statement begins with.
+fn sign(span: Span, text: &str) -> char {
+    span.of(text).chars().next().unwrap_or('$')
 }
 
 fn stray(span: Span, text: &str, kind: Kind) -> Fault {
     let word = span.of(text).split_whitespace().next().unwrap_or_default();
-    let opener = kind.opener();
+    let opener = kind
+        .opener()
+        .replace('$', sign(span, text).encode_utf8(&mut [0; 4]));
     Fault::new(
         Code::Fc208,
         span,

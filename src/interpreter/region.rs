@@ -26,10 +26,10 @@ use super::{Group, Interpreter, after_motion_only};
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::{
-    Address, Block, Call, CallName, CallScope, Expression, Flow, Hash as HashCommand, Item, Node,
-    Operand, Owner, Word,
+    Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
+    Hash as HashCommand, Item, Node, Operand, Owner, Word,
 };
-use crate::syntax::{Comments, KindSet, Stretch};
+use crate::syntax::{Comments, KindSet, Stretch, is_letter};
 
 /// Something that a region could change.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -297,14 +297,22 @@ impl Gathering<'_> {
                 let number = Some(i64::from(call.number));
                 self.effect(Effect::Function(b'G', number));
             }
-            Item::Hash(hash) => self.hash(hash, at),
+            Item::Hash(hash) => {
+                for target in &hash.written {
+                    self.target(target.place, block, at);
+                }
+                self.hash(hash, at);
+            }
             Item::MacroUse(span) => {
                 let name = unquoted(span.of(at.text)).trim();
                 if self.expanded.insert(name.to_owned()) {
                     self.macros.push((name.to_owned(), at.in_block(*span)));
                 }
             }
-            Item::MacroDefinition(..)
+            Item::Unread(Unread::Everything, _) => self.effect(Effect::All),
+            Item::Unread(Unread::Parameters, _) => self.writes(Target::Parameters),
+            Item::Unread(Unread::Spindle, _)
+            | Item::MacroDefinition(..)
             | Item::BadCommand(_)
             | Item::Bracket { .. }
             | Item::BareNumber(..)
@@ -403,6 +411,7 @@ impl Gathering<'_> {
                     (None, _) => self.writes(Target::Parameters),
                 }
             }
+            Node::Unread => self.writes(Target::Parameters),
             _ => {}
         }
     }
@@ -416,6 +425,15 @@ impl Gathering<'_> {
             Address::Letter(b'G') => self.g(number),
             Address::Letter(b'F') => self.effect(Effect::Feeds),
             Address::Letter(b'R') => self.effect(Effect::Radius),
+            Address::Letter(letter @ b'A'..=b'Z') if !is_letter(letter) => {
+                self.effect(Effect::All);
+            }
+            Address::Lower(letter) => {
+                let upper = letter.to_ascii_uppercase();
+                if let Some(axis) = self.run.letters[usize::from(upper - b'A')] {
+                    self.axis(axis, block);
+                }
+            }
             Address::Letter(letter @ (b'M' | b'T' | b'D')) => {
                 self.effect(Effect::Function(letter, number));
             }

@@ -269,7 +269,7 @@ impl Interpreter {
         let source = &self.units[unit].index.source;
         let is_cut = unit == 0 && (source.name().is_empty() || source.lines().first() > 1);
         let fault = if is_cut {
-            self.forget_all();
+            self.forget_all(&"L SEQUENCE".into());
             Fault::new(
                 Code::Fc902,
                 span,

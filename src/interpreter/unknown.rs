@@ -16,6 +16,7 @@ use super::{Finder, Interpreter, Repeated, RepeatedCall, Step, Value};
 use crate::codes::Code;
 use crate::machine::AxisIndex;
 use crate::source::Span;
+use crate::syntax::ast::Effect as Unread;
 use crate::syntax::{Fault, KindSet};
 
 /// A call found in a region that may or may not be executed.
@@ -94,14 +95,17 @@ impl Interpreter {
         span: Span,
         at: &At<'_>,
     ) -> Option<Step> {
-        let fault = Fault::new(
-            Code::Fc901,
-            span,
-            format!("this control block depends on `{cause}`, which only the machine knows; what it could change is unknown from here"),
-        )
-        .with_help(super::flow::how_to_set(cause));
-        self.work.diagnostics.push(at.diagnostic(fault));
+        if !self.work.unread.get() {
+            let what = super::flow::unknown_value(cause);
+            let message = format!(
+                "this control block depends on {what}; what it could change is unknown from here"
+            );
+            let fault = Fault::new(Code::Fc901, span, message);
+            let fault = fault.with_help(super::flow::how_to_set(cause));
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
         let unit = self.state.frames.last()?.unit;
+        self.units[unit].undecided.insert(from);
         self.forget_region(unit, from..to, cause);
         Some(Step::Jump(to + 1))
     }
@@ -187,7 +191,7 @@ impl Interpreter {
                 self.state.memory.forget_elements(name, cause);
                 self.work.wrote = true;
             }
-            Effect::All => self.forget_all(),
+            Effect::All => self.forget_all(cause),
         }
     }
 
@@ -206,10 +210,30 @@ impl Interpreter {
         }
     }
 
-    /// Every kind of every axis becomes unknown, and all positions (R2.52).
-    pub(super) fn forget_all(&mut self) {
+    /// What text could change that is not known here (R2.70).
+    pub(super) fn forget_unread(&mut self, effect: Unread, cause: &Arc<str>) {
+        match effect {
+            Unread::Everything => self.forget_all(cause),
+            Unread::Parameters => {
+                self.write(
+                    Place::Parameters(cause.clone()),
+                    Value::Unknown(cause.clone()),
+                );
+            }
+            Unread::Spindle => {}
+        }
+    }
+
+    /// Everything that a program could change becomes unknown: every kind of every axis, positions and
+    /// modal words, parameters and variables (R2.52).
+    pub(super) fn forget_all(&mut self, cause: &Arc<str>) {
+        self.journal.begin_anew();
+        self.work.wrote = true;
+        self.state.memory.forget_all(cause);
+        self.state.modal.forget_g(None);
+        self.state.modal.feeds = [None; 3];
+        self.state.modal.radius = None;
         self.forget_compensation();
-        self.state.modal.forget_positions();
     }
 
     /// Every kind of every axis becomes unknown.
@@ -252,7 +276,7 @@ impl Interpreter {
                 Ok(None) => continue,
                 Err(_) => {
                     // What it would have done nobody knows.
-                    self.forget_all();
+                    self.forget_all(&cause);
                     continue;
                 }
             };

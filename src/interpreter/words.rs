@@ -1,5 +1,8 @@
 //! Words of a block: axes, G, M, T and the other letters (R2.20 to R2.25, R2.45, R2.46).
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
 use super::block::{Feed, Intent};
 use super::motion::{BlockEnd, foreign};
 use super::value::rounded;
@@ -8,8 +11,8 @@ use crate::codes::Code;
 use crate::compensation::State;
 use crate::machine::AxisIndex;
 use crate::source::Span;
-use crate::syntax::Fault;
 use crate::syntax::ast::{Address, Block, Operand, Word};
+use crate::syntax::{Fault, is_letter, not_known};
 
 /// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
 /// ramp time and jerk, feedforward (TF5200 channel parameters, P-CHAN-00210, names examples).
@@ -78,9 +81,31 @@ impl Interpreter {
                 None if letter >= b'X' => format!("@{}", char::from(letter)),
                 None => return,
             },
-            Address::Lower(letter) | Address::Letter(letter) => char::from(letter).to_string(),
+            Address::Lower(letter) => return self.lower_axis(letter, word.span, at),
+            Address::Letter(letter) => char::from(letter).to_string(),
         };
         self.pass_over(&name, word.span, at);
+    }
+
+    /// `x10`: axis names are case-sensitive (R2.20), so nobody knows what it means.
+    fn lower_axis(&mut self, letter: u8, span: Span, at: &At<'_>) {
+        let upper = letter.to_ascii_uppercase();
+        let axis = self.letters[usize::from(upper - b'A')];
+        let mut fault = not_known(span.of(at.text), span);
+        if let Some(axis) = axis {
+            self.state.modal.forget_position(axis);
+            fault = fault.with_help(format!("did you mean `{}`?", char::from(upper)));
+        }
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// FC210: a word that is not known here may do anything (R2.70).
+    fn unread_word(&mut self, span: Span, at: &At<'_>) {
+        let text = span.of(at.text);
+        self.forget_all(&text.into());
+        self.work
+            .diagnostics
+            .push(at.diagnostic(not_known(text, span)));
     }
 
     /// The axis that `@X` means in the plane in force.
@@ -110,7 +135,41 @@ impl Interpreter {
     #[inline]
     pub(super) fn axis_word(&mut self, axis: AxisIndex, span: Span, value: Option<f64>) {
         self.see(axis);
+        let bit = 1 << (axis.get() % 64);
+        self.work.again |= self.work.seen & bit;
+        self.work.seen |= bit;
         self.work.moved.push(AxisWord { axis, span, value });
+    }
+
+    /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
+    pub(super) fn refuse_repeated_axes(&mut self, words: AxisWords, at: &At<'_>) {
+        let modal = &self.state.modal;
+        let absolute = modal.absolute && modal.is_known(Group::Distance);
+        if !absolute || words == AxisWords::Other {
+            return;
+        }
+        let (mut first, mut said) = (BTreeMap::new(), BTreeSet::new());
+        let machine = Arc::clone(&self.machine);
+        let diagnostics = &mut self.work.diagnostics;
+        self.work.moved.retain(|word| {
+            let Some(&earlier) = first.get(&word.axis) else {
+                first.insert(word.axis, word.span);
+                return true;
+            };
+            if !said.insert(word.axis) {
+                return false;
+            }
+            let name = &machine.axis(word.axis).name;
+            let fault = Fault::new(
+                Code::Fc313,
+                word.span,
+                format!("axis `{name}` has a second coordinate in this block"),
+            )
+            .with_help("give an axis one coordinate a block; only those of G91 add up");
+            let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+            diagnostics.push(diagnostic.with_label(at.place(earlier), "the first stands here"));
+            false
+        });
     }
 
     /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
@@ -156,6 +215,13 @@ impl Interpreter {
             b'G' | b'M' | b'T' | b'D' => number.and_then(rounded),
             _ => None,
         };
+        if let (Some(whole), Some(number)) = (whole, number)
+            && i32::try_from(whole).is_ok_and(|whole| f64::from(whole) != number)
+        {
+            // `G54.1` is a function of its own, not G54.
+            self.unread_word(word.span, at);
+            return Ok(());
+        }
         match (letter, whole) {
             (b'G', Some(number)) => return self.g_word(number, word.span, at, intent),
             (b'G', None) => {
@@ -176,6 +242,7 @@ impl Interpreter {
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number),
             (b'P', _) if self.work.dwells => self.dwell_parameter(number),
             (b'H' | b'E' | b'S' | b'N', _) => {}
+            _ if !is_letter(letter) => self.unread_word(word.span, at),
             _ => self.pass_over(&char::from(letter).to_string(), word.span, at),
         }
         Ok(())

@@ -152,6 +152,19 @@ pub enum Item {
     MacroDefinition(Span, Span),
     /// `"NAME"`, with its quotes.
     MacroUse(Span),
+    /// Text that has the form of the language and a meaning that is not known here (FC210, R2.70).
+    Unread(Effect, Span),
+}
+
+/// What text that is not known here could change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effect {
+    /// Whatever a program could: it may be a call.
+    Everything,
+    /// Some parameter: it assigns to a place that is not known.
+    Parameters,
+    /// Nothing that is followed here: it is a word of a spindle.
+    Spindle,
 }
 
 impl Item {
@@ -165,7 +178,8 @@ impl Item {
             | Self::BareNumber(_, span)
             | Self::Label(span)
             | Self::Flow(_, span)
-            | Self::MacroUse(span) => *span,
+            | Self::MacroUse(span)
+            | Self::Unread(_, span) => *span,
             Self::GCall(call) => call.span,
             Self::Assign(assignment) => assignment.span,
             Self::Hash(hash) => hash.span,
@@ -278,10 +292,12 @@ pub struct Hash {
     pub name: String,
     /// What follows the words.
     pub rest: Span,
-    /// The value of `#TIME`, the target of `#DELETE`.
-    pub argument: Option<Operand>,
+    /// The value of `#TIME`, the targets of `#DELETE`.
+    pub arguments: Vec<Operand>,
     /// The declarations of `#VAR`.
     pub declarations: Vec<Declaration>,
+    /// The places that the command writes with values that only the machine knows.
+    pub written: Vec<Target>,
     /// The whole.
     pub span: Span,
 }
@@ -389,6 +405,8 @@ pub struct Call {
     pub form: CallForm,
     /// Own parameters of the call, `@P1` …: number and value.
     pub arguments: Vec<(u32, Operand)>,
+    /// Words of the call, `@X`, `@S` …: the letter in upper case and its value.
+    pub words: Vec<(u8, Operand)>,
     /// Whether it is repeated.
     pub repetition: Repetition,
     /// The whole.
@@ -416,11 +434,14 @@ pub enum Node {
         /// How many subscripts lie above the number.
         subscripts: u8,
     },
-    /// `V.P.NAME`; the node's span is its text, subscripts are popped.
+    /// `V.P.NAME`, `@X`; the node's span is its text, subscripts are popped.
     Variable {
         /// How many subscripts it has.
         subscripts: u8,
     },
+    /// A value, or a place to write, whose text is not known here; what is said about it is a fault
+    /// of the block.
+    Unread,
     /// The sign is turned.
     Negate,
     /// Two values become one.
@@ -529,9 +550,9 @@ pub enum Function {
     Floor,
     /// Nearest integer.
     Round,
-    /// The smaller of two.
+    /// The smallest of its arguments.
     Min,
-    /// The greater of two.
+    /// The greatest of its arguments.
     Max,
     /// -1, 0 or 1.
     Sign,
@@ -543,6 +564,10 @@ pub enum Function {
     Exist,
     /// The number of elements of an array.
     Sizeof,
+    /// Whether a value is a text.
+    IsString,
+    /// Whether a value is a number.
+    IsNumber,
     /// The first characters of a text.
     Left,
     /// Characters from the middle of a text: text, count, first position.

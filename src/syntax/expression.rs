@@ -65,6 +65,31 @@ pub(super) fn lower_text(text: &str, block: &mut Block) -> Option<Operand> {
     Some(lower(pair, 0, block))
 }
 
+/// An operand whose text could not be read; who calls says what is wrong with it.
+pub(super) fn unread(span: Span, block: &mut Block) -> Expression {
+    let from = block.nodes.len();
+    Lowering { base: 0, block }.push(Node::Unread, span);
+    range(from, block)
+}
+
+/// Lowers `target += value` and the like to the sum that is assigned; `operator` stands between.
+pub(super) fn compound(
+    (target, value): (Pair<'_, Rule>, Pair<'_, Rule>),
+    operator: BinaryOperator,
+    block: &mut Block,
+) -> Operand {
+    let from = block.nodes.len();
+    let place = target.as_span();
+    let span = Span::new(place.start(), value.as_span().end());
+    let mut lowering = Lowering { base: 0, block };
+    target
+        .into_inner()
+        .for_each(|place| lowering.primary(place));
+    lowering.expression(value);
+    lowering.push(Node::Binary(operator), span);
+    operand(from, block)
+}
+
 /// Lowers a single value.
 pub(super) fn lower_primary(pair: Pair<'_, Rule>, base: u32, block: &mut Block) -> Operand {
     let from = block.nodes.len();
@@ -221,8 +246,16 @@ impl Lowering<'_> {
             Rule::call => self.call(pair, span),
             Rule::parameter => self.parameter(pair, span),
             Rule::variable => self.variable(pair, span),
+            Rule::own_word => self.push(Node::Variable { subscripts: 0 }, span),
+            Rule::unread_call => self.unread(pair.as_str(), span),
             _ => {}
         }
+    }
+
+    /// Text that has the form of a value, but none that is known here.
+    fn unread(&mut self, text: &str, span: Span) {
+        self.block.faults.push(super::unread::not_known(text, span));
+        self.push(Node::Unread, span);
     }
 
     fn call(&mut self, pair: Pair<'_, Rule>, span: Span) {
@@ -253,6 +286,7 @@ impl Lowering<'_> {
                 Rule::own => owner = Owner::Call,
                 Rule::index => direct = Some(part.as_str().parse().unwrap_or(u32::MAX)),
                 Rule::parameter_index => self.inner_parameter(part),
+                Rule::computed_index => part.into_inner().for_each(|index| self.expression(index)),
                 _ => {
                     if let Some(index) = direct.take() {
                         self.push(Node::Number(f64::from(index)), span);
@@ -299,6 +333,12 @@ impl Lowering<'_> {
     }
 
     fn variable(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let parts = pair.clone().into_inner();
+        let names = parts.filter(|part| part.as_rule() == Rule::variable_part);
+        if !super::unread::is_variable(names.map(|part| part.as_str())) {
+            self.unread(pair.as_str(), span);
+            return;
+        }
         let mut subscripts = 0_u8;
         for part in pair.into_inner() {
             if part.as_rule() == Rule::variable_subscript {
@@ -342,7 +382,7 @@ fn constant(text: &str) -> f64 {
     }
 }
 
-fn operator(text: &str) -> Option<BinaryOperator> {
+pub(super) fn operator(text: &str) -> Option<BinaryOperator> {
     use BinaryOperator::{
         Add, And, BitAnd, BitOr, BitXor, Divide, Equal, Greater, GreaterOrEqual, Less, LessOrEqual,
         Modulo, Multiply, NotEqual, Or, Power, Subtract, Xor,
@@ -373,8 +413,9 @@ fn operator(text: &str) -> Option<BinaryOperator> {
 fn function(name: &str) -> Option<Function> {
     use Function::{
         Abs, Acos, Acot, Asin, Atan, Atan2, Ceil, Cos, Cot, Delete, Dexp, Exist, Exp, Find, Floor,
-        Fract, Insert, Int, IntToStr, Inv, Left, Len, Ln, Log, Max, Mid, Min, Not, Ord, RealToStr,
-        Replace, Right, Round, Sign, Sin, Sizeof, Sqr, Sqrt, StrToInt, StrToReal, Tan,
+        Fract, Insert, Int, IntToStr, Inv, IsNumber, IsString, Left, Len, Ln, Log, Max, Mid, Min,
+        Not, Ord, RealToStr, Replace, Right, Round, Sign, Sin, Sizeof, Sqr, Sqrt, StrToInt,
+        StrToReal, Tan,
     };
     Some(match name.to_ascii_uppercase().as_str() {
         "ABS" => Abs,
@@ -402,6 +443,8 @@ fn function(name: &str) -> Option<Function> {
         "NOT" => Not,
         "EXIST" => Exist,
         "SIZEOF" => Sizeof,
+        "IS_STRING" => IsString,
+        "IS_NUMBER" => IsNumber,
         "LEFT" => Left,
         "MID" => Mid,
         "RIGHT" => Right,

@@ -10,12 +10,17 @@ mod comp;
 mod expression;
 mod fast;
 mod grammar;
+mod known;
 mod lines;
 mod lower;
+mod unread;
 
 pub use axes::{AxisUse, axis_uses};
 pub use comp::{CompCommand, Kind, KindSet, Membership, Selection};
+pub(crate) use known::is_letter;
 pub use lines::{BlockReader, Comments, FastPath, MAX_LINE, RawBlock, Remark, Stretch};
+pub(crate) use lower::is_statement;
+pub(crate) use unread::not_known;
 
 use crate::codes::Code;
 use crate::source::{Span, TextLines};
@@ -112,7 +117,11 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
             .unwrap_or(trimmed.len());
         let (word, behind) = trimmed.split_at(length);
         let is_word = word.starts_with(|c: char| c.is_ascii_alphabetic());
-        if !is_word || behind.starts_with('.') || behind.trim_start().starts_with('=') {
+        let is_parameter = word.len() > 1
+            && word.starts_with(['P', 'p'])
+            && word[1..].bytes().all(|byte| byte.is_ascii_digit());
+        let is_value = is_parameter || behind.starts_with('.');
+        if !is_word || is_value || behind.trim_start().starts_with('=') {
             return (name, end);
         }
         if name.len() > 1 {

@@ -136,7 +136,7 @@ fn parameters() {
     PP10 -> 2
     PPP10*2 -> 4
     P99 -> FC311 2:9-12
-    P[5] -> FC311 2:1-6
+    P[5] -> FC311 2:9-13
     PP99 -> FC311 2:10-13
     ");
     let bench = Bench::new();

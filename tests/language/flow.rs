@@ -190,9 +190,8 @@ fn unbalanced_blocks() {
     assert_snapshot!(Bench::new().run(&["$FOO 1\n$IFF 1\n$FOR P1\n$GOTO 5\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-      1 line 1 -
-        FC207 1:1-7
-      end 1 error X:active Y:active Z:unconfigured B:ineffective
+        FC208 3:1-8
+      end 0 error X:active Y:active Z:unconfigured B:ineffective
     ");
 }
 

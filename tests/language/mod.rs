@@ -2,6 +2,7 @@ mod budgets;
 mod expressions;
 mod flow;
 mod implicit;
+mod not_understood;
 mod parts;
 mod places;
 mod programs;

@@ -30,7 +30,7 @@ fn unknown_values_flow() {
     V.P.C[P1] -> unknown: V.E.A
     ");
     // Written where nobody knows: what was there before is not known any more.
-    assert_snapshot!(bench.values(preparation, &["P3"]), @"P3 -> 5");
+    assert_snapshot!(bench.values(preparation, &["P3"]), @"P3 -> unknown: PV.E.I=7");
     assert_snapshot!(bench.values("#VAR\nV.P.L[3]\n#ENDVAR\nV.P.L[1]=4\nV.P.L[V.E.I]=3", &["V.P.L[1]", "V.P.L[2]"]), @"
     V.P.L[1] -> unknown: V.E.I
     V.P.L[2] -> unknown: V.E.I

@@ -296,13 +296,14 @@ fn hash_commands() {
       2 line 2 -
       3 line 3 -
       4 line 4 -
-      5 line 5 -
+      5 line 5 - X:active>unknown Y:active>unknown B:ineffective>unknown
+        FC210 5:1-13
       6 line 6 -
       7 line 7 -
       8 line 11 -
       9 line 12 -
-      end 9 M30 X:active Y:active Z:unconfigured B:ineffective
-    opaque {"#FOO BAR BAZ": 1, "#HSC": 2, "#MSG": 1, "#MSG SAVE EXCLUSIVE": 1, "#RT CYCLE": 1, "#SLOPE": 1}
+      end 9 M30 X:unknown Y:unknown Z:unconfigured B:unknown
+    opaque {"#HSC": 2, "#MSG": 1, "#MSG SAVE EXCLUSIVE": 1, "#RT CYCLE": 1, "#SLOPE": 1}
     "##);
     assert_snapshot!(run("#MACHINE DATA [AX=X lr_param.frict_comp 0]\n#MACHINE DATA [AX=X frict_comp.mode 0]\n#MACHINE DATA [AX=X other 1]\nM30"), @r##"
     start X:active Y:active Z:unconfigured B:ineffective

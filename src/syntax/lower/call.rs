@@ -2,9 +2,9 @@
 
 use pest::iterators::Pair;
 
-use super::{Lowering, not_understood, span_of, trimmed};
+use super::{Lowering, not_closed, not_understood, span_of, trimmed};
 use crate::source::Span;
-use crate::syntax::ast::{Call, CallForm, CallName, CallScope, Item, Repetition};
+use crate::syntax::ast::{Call, CallForm, CallName, CallScope, Effect, Item, Repetition};
 use crate::syntax::expression;
 use crate::syntax::grammar::Rule;
 
@@ -13,7 +13,9 @@ impl Lowering<'_> {
         let mut name = None;
         for part in pair.into_inner() {
             name = match part.as_rule() {
-                Rule::called => part.into_inner().next().map(|inner| self.call_name(inner)),
+                Rule::called | Rule::glued_name => {
+                    part.into_inner().next().map(|inner| self.call_name(inner))
+                }
                 _ => Some(self.call_name(part)),
             };
         }
@@ -23,6 +25,7 @@ impl Lowering<'_> {
                 name,
                 form: CallForm::Plain,
                 arguments: Vec::new(),
+                words: Vec::new(),
                 repetition: Repetition::Once,
                 span,
             }));
@@ -42,6 +45,8 @@ impl Lowering<'_> {
         let mut scope = CallScope::Global;
         let mut name = None;
         let mut arguments = Vec::new();
+        let mut words = Vec::new();
+        let mut known = true;
         let mut repetition = Repetition::Once;
         for part in pair.into_inner() {
             if part.as_rule() == Rule::call_word {
@@ -50,8 +55,10 @@ impl Lowering<'_> {
                 }
                 continue;
             }
-            if part.as_rule() == Rule::cycle_word {
-                continue;
+            match part.as_rule() {
+                Rule::cycle_keyword => continue,
+                Rule::unread_rest => known = false,
+                _ => {}
             }
             let Some(argument) = part.into_inner().next() else {
                 continue;
@@ -71,13 +78,28 @@ impl Lowering<'_> {
                         arguments.push((index, value));
                     }
                 }
+                Rule::cycle_word => {
+                    let mut inner = argument.into_inner();
+                    if let (Some(word), Some(value)) = (inner.next(), inner.next()) {
+                        let letter = word.as_str().bytes().nth(1).unwrap_or_default();
+                        let value = expression::lower(value, 0, self.block);
+                        words.push((letter.to_ascii_uppercase(), value));
+                    }
+                }
                 // `MODAL` is the older word for `MODAL_MOVE`.
                 _ => match argument.as_str().to_ascii_uppercase().as_str() {
                     "MODAL" | "MODAL_MOVE" => repetition = Repetition::AfterMotion,
                     "MODAL_BLOCK" => repetition = Repetition::AfterBlock,
-                    _ => {}
+                    _ => known = false,
                 },
             }
+        }
+        if !known {
+            match self.unclosed.take() {
+                Some(at) => self.refuse(not_closed(at), span),
+                None => self.unread(Effect::Everything, span),
+            }
+            return;
         }
         match name {
             Some(name) => self.block.items.push(Item::Call(Call {
@@ -85,6 +107,7 @@ impl Lowering<'_> {
                 name,
                 form: CallForm::Cycle,
                 arguments,
+                words,
                 repetition,
                 span,
             })),

@@ -2,17 +2,17 @@
 
 use pest::iterators::Pair;
 
-use super::{Lowering, span_of};
+use super::{Lowering, not_closed, not_understood, span_of, trimmed};
 use crate::codes::Code;
 use crate::diagnostic::did_you_mean;
 use crate::source::Span;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Flow, Item, JumpTarget, Operand};
+use crate::syntax::ast::{Effect, Expression, Flow, Item, JumpTarget, Operand, Target};
 use crate::syntax::expression;
 use crate::syntax::grammar::Rule;
 
 /// The `$` statements.
-const FLOW_WORDS: [&str; 20] = [
+const FLOW_WORDS: [&str; 19] = [
     "$IF",
     "$ELSEIF",
     "$ELSE",
@@ -32,8 +32,17 @@ const FLOW_WORDS: [&str; 20] = [
     "$BREAK",
     "$CONTINUE",
     "$GOTO",
-    "$",
 ];
+
+/// Whether a statement begins with a word of the language, and not with a misspelt one.
+pub(crate) fn is_statement(text: &str) -> bool {
+    let letters = text.get(1..).unwrap_or_default();
+    let length = letters.find(|c: char| !c.is_ascii_alphabetic());
+    let word = &letters[..length.unwrap_or(letters.len())];
+    FLOW_WORDS
+        .iter()
+        .any(|known| known[1..].eq_ignore_ascii_case(word))
+}
 
 impl Lowering<'_> {
     pub(super) fn flow(&mut self, pair: Pair<'_, Rule>, span: Span) {
@@ -45,15 +54,17 @@ impl Lowering<'_> {
             .find(|c: char| !c.is_ascii_alphabetic())
             .map_or(word.len(), |at| at + 1);
         self.note_case(Span::new(span.start as usize, span.start as usize + length));
-        if statement.as_rule() == Rule::flow_unknown {
-            self.refuse(unknown_flow(span, &word[..length]), span);
-            return;
+        let word = &word[..length];
+        let flow = match statement.as_rule() {
+            Rule::flow_unknown => self.unknown_statement(word, span),
+            _ => Some(self.flow_statement(statement, word)),
+        };
+        if let Some(flow) = flow {
+            self.block.items.push(Item::Flow(flow, span));
         }
-        let flow = self.flow_statement(statement);
-        self.block.items.push(Item::Flow(flow, span));
     }
 
-    fn flow_statement(&mut self, pair: Pair<'_, Rule>) -> Flow {
+    fn flow_statement(&mut self, pair: Pair<'_, Rule>, word: &str) -> Flow {
         let rule = pair.as_rule();
         let mut targets = Vec::new();
         let mut values = Vec::new();
@@ -61,6 +72,17 @@ impl Lowering<'_> {
             match part.as_rule() {
                 Rule::target => targets.push(self.target(part)),
                 Rule::expression => values.push(expression::lower(part, 0, self.block)),
+                Rule::unread_rest => {
+                    let value = self.unread_condition(span_of(&part), word);
+                    if rule == Rule::flow_goto {
+                        return Flow::Goto(JumpTarget::Variable(value));
+                    }
+                    if rule == Rule::flow_for && targets.is_empty() {
+                        let span = span_of(&part);
+                        targets.push(Target { place: value, span });
+                    }
+                    values.push(Operand::Expression(value));
+                }
                 Rule::goto_number => {
                     let value = part.into_inner().next();
                     let value = value.map(|value| expression::lower(value, 0, self.block));
@@ -108,25 +130,74 @@ impl Lowering<'_> {
             _ => Flow::Break,
         }
     }
+
+    /// A condition that cannot be read: its control block opens all the same (R2.71).
+    fn unread_condition(&mut self, rest: Span, word: &str) -> Expression {
+        let rest = trimmed(rest, self.code);
+        let shown = rest.of(self.code).trim();
+        let fault = match self.unclosed.filter(|at| rest.range().contains(at)) {
+            Some(at) => not_closed(at),
+            None if shown.is_empty() => {
+                let start = rest.start as usize;
+                let statement = Span::new(start.saturating_sub(word.len()), start);
+                Fault::new(Code::Fc207, statement, format!("`{word}` is incomplete"))
+            }
+            None => not_understood(rest, self.code),
+        };
+        self.block
+            .faults
+            .push(match word.to_ascii_uppercase().as_str() {
+                "$FOR" => fault.with_help("write `$FOR P1 = start, end, step`"),
+                "$GOTO" => fault.with_help("write `$GOTO N100` or `$GOTO [NAME]`"),
+                _ => fault,
+            });
+        expression::unread(rest, self.block)
+    }
+
+    /// A statement that is none: a misspelt one counts for the pairing as the one that it means, any
+    /// other could be anything (R2.70).
+    fn unknown_statement(&mut self, word: &str, span: Span) -> Option<Flow> {
+        let near = did_you_mean(word, FLOW_WORDS).filter(|_| word.len() > 1);
+        let Some(near) = near else {
+            self.unread(Effect::Everything, span);
+            return None;
+        };
+        self.block.faults.push(
+            Fault::new(Code::Fc207, span, format!("unknown statement `{word}`"))
+                .with_help(format!("did you mean `{near}`?")),
+        );
+        let place = expression::unread(span, self.block);
+        Some(meant(near, place, span))
+    }
 }
 
-fn unknown_flow(span: Span, word: &str) -> Fault {
-    let upper = word.to_ascii_uppercase();
-    if FLOW_WORDS.contains(&upper.as_str()) {
-        let fault = Fault::new(
-            Code::Fc207,
-            span,
-            format!("`{word}` is incomplete or not understood"),
-        );
-        return match upper.as_str() {
-            "$FOR" => fault.with_help("write `$FOR P1 = start, end, step`"),
-            "$GOTO" => fault.with_help("write `$GOTO N100` or `$GOTO [NAME]`"),
-            _ => fault,
-        };
-    }
-    let fault = Fault::new(Code::Fc207, span, format!("unknown statement `{word}`"));
-    match did_you_mean(word, FLOW_WORDS) {
-        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
-        None => fault,
+/// The statement that a word opens, closes or parts, with a condition that could not be read.
+fn meant(word: &str, place: Expression, span: Span) -> Flow {
+    let value = Operand::Expression(place);
+    match word {
+        "$IF" => Flow::If(value),
+        "$ELSEIF" => Flow::ElseIf(value),
+        "$ELSE" => Flow::Else,
+        "$ENDIF" => Flow::EndIf,
+        "$SWITCH" => Flow::Switch(None, value),
+        "$CASE" => Flow::Case(value),
+        "$DEFAULT" => Flow::Default,
+        "$ENDSWITCH" => Flow::EndSwitch,
+        "$FOR" => Flow::For {
+            counter: Target { place, span },
+            start: value,
+            end: value,
+            step: value,
+        },
+        "$ENDFOR" => Flow::EndFor,
+        "$WHILE" => Flow::While(value),
+        "$ENDWHILE" => Flow::EndWhile,
+        "$DO" => Flow::Do(Some(value)),
+        "$ENDDO" => Flow::EndDo(None),
+        "$REPEAT" => Flow::Repeat,
+        "$UNTIL" => Flow::Until(value),
+        "$BREAK" => Flow::Break,
+        "$CONTINUE" => Flow::Continue,
+        _ => Flow::Goto(JumpTarget::Variable(place)),
     }
 }

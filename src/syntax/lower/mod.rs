@@ -1,38 +1,25 @@
 //! pest pairs to blocks.
 
+mod bracket;
 mod call;
 mod flow;
+mod hash;
 mod part;
+
+pub(crate) use flow::is_statement;
 
 use pest::Parser;
 use pest::iterators::Pair;
 
 use super::ast::{
-    Address, Assignment, Block, CallScope, Declaration, GCall, Hash, Item, Number, Operand, Target,
-    Word,
+    Address, Assignment, Block, CallScope, Declaration, Effect, GCall, Item, Number, Operand,
+    Target, Word,
 };
-use super::comp::CompWords;
-use super::expression;
 use super::grammar::{NcParser, Rule};
-use super::{Fault, MAX_BRACKETS, hash_name};
+use super::unread::not_known;
+use super::{Fault, MAX_BRACKETS, expression};
 use crate::codes::Code;
-use crate::diagnostic::did_you_mean;
 use crate::source::Span;
-
-/// Keywords behind which an axis bracket is a command that is not modelled (R2.23).
-const OTHER_COMMANDS: [&str; 11] = [
-    "INDP_SYN",
-    "INDP_ASYN",
-    "OSC",
-    "DIST_CTRL",
-    "OVERRIDE",
-    "DYNAMIC",
-    "LIFT",
-    "LIFT_START",
-    "LIFT_END",
-    "SYNC",
-    "POLY",
-];
 
 /// Parses the code of a block into an empty block.
 pub(super) fn block(code: &str, block: &mut Block) {
@@ -155,7 +142,19 @@ impl Lowering<'_> {
             Rule::macro_use => self.block.items.push(Item::MacroUse(span)),
             Rule::label => {
                 let name = pair.into_inner().next().map_or(span, |name| span_of(&name));
-                self.block.items.push(Item::Label(name));
+                self.label(name, span);
+            }
+            Rule::spindle_word => self.spindle_word(pair, span),
+            Rule::unread_bracket => {
+                let assigns = pair
+                    .into_inner()
+                    .any(|part| part.as_rule() == Rule::expression);
+                let effect = if assigns {
+                    Effect::Parameters
+                } else {
+                    Effect::Everything
+                };
+                self.unread(effect, span);
             }
             Rule::cycle_call => self.cycle_call(pair, span),
             Rule::sequence_call => self.sequence_call(pair, span),
@@ -181,6 +180,21 @@ impl Lowering<'_> {
             }
             _ => {}
         }
+    }
+
+    /// A label stands in front of everything else; a bracket behind words is none (R2.70).
+    fn label(&mut self, name: Span, span: Span) {
+        if self.block.words.is_empty() && self.block.items.is_empty() {
+            self.block.items.push(Item::Label(name));
+        } else {
+            self.unread(Effect::Everything, span);
+        }
+    }
+
+    /// Text with the form of the language that is not known here (R2.70).
+    fn unread(&mut self, effect: Effect, span: Span) {
+        self.block.faults.push(not_known(span.of(self.code), span));
+        self.block.items.push(Item::Unread(effect, span));
     }
 
     fn finish(&mut self) {
@@ -301,6 +315,19 @@ impl Lowering<'_> {
         if main || !is_axis_letter(byte) {
             self.note_case(span_of(&letter));
         }
+        let letter = byte.to_ascii_uppercase();
+        // `M200=1200`, `G159=3` (PM/205952267)
+        let carries = matches!(letter, b'M' | b'H' | b'T' | b'G') && !main;
+        if inner.next().is_some() && !carries {
+            // `L10=5` may call something, `R1=5` assigns to something.
+            let effect = if letter == b'L' {
+                Effect::Everything
+            } else {
+                Effect::Parameters
+            };
+            self.unread(effect, span);
+            return;
+        }
         let value = expression::lower(value, 0, self.block);
         let address = if main {
             Address::Main(byte.to_ascii_uppercase())
@@ -346,9 +373,13 @@ impl Lowering<'_> {
 
     fn assignment(&mut self, pair: Pair<'_, Rule>, span: Span) {
         let mut inner = pair.into_inner();
-        if let (Some(place), Some(value)) = (inner.next(), inner.next()) {
-            let target = self.target(place);
-            let value = expression::lower(value, 0, self.block);
+        if let (Some(place), Some(sign), Some(value)) = (inner.next(), inner.next(), inner.next()) {
+            let target = self.target(place.clone());
+            let operator = expression::operator(sign.as_str().trim_end_matches('='));
+            let value = match operator {
+                Some(operator) => expression::compound((place, value), operator, self.block),
+                None => expression::lower(value, 0, self.block),
+            };
             self.block.items.push(Item::Assign(Assignment {
                 target,
                 value,
@@ -363,104 +394,9 @@ impl Lowering<'_> {
         Target { place, span }
     }
 
-    fn axis_bracket(&mut self, pair: Pair<'_, Rule>, span: Span) {
-        let mut axis = span;
-        let mut body = None;
-        let mut closed = false;
-        for part in pair.into_inner() {
-            match part.as_rule() {
-                Rule::axis_name => axis = trimmed(span_of(&part), self.code),
-                Rule::bracket_body => body = Some(span_of(&part)),
-                Rule::bracket_end => closed = true,
-                _ => {}
-            }
-        }
-        let body = body.unwrap_or(span);
-        if !closed {
-            let open = self.code[axis.end as usize..].find('[').unwrap_or_default();
-            self.unclosed = None;
-            self.refuse(not_closed(axis.end as usize + open), span);
-            return;
-        }
-        let words = words(self.code, body);
-        let keyword = words.first().copied();
-        let first = keyword.map_or("", |word| word.of(self.code));
-        if first.eq_ignore_ascii_case("COMP") {
-            let command = CompWords {
-                text: self.code,
-                axis,
-                whole: span,
-                words: &words,
-            }
-            .lower(&mut self.block.faults);
-            self.block.items.push(match command {
-                Some(command) => Item::Comp(command),
-                None => Item::BadCommand(span),
-            });
-        } else if let Some(keyword) = keyword.filter(|_| is_other_command(first)) {
-            self.block.items.push(Item::Bracket {
-                axis,
-                keyword,
-                span,
-            });
-        } else if let Some(keyword) = keyword {
-            // Spindle commands have keywords of their own (`M3`, `REV1000`, `MC_Home`).
-            let spindle = axis.of(self.code).starts_with(['S', 's']);
-            if spindle && !near_comp(first) {
-                self.block.items.push(Item::Bracket {
-                    axis,
-                    keyword,
-                    span,
-                });
-            } else {
-                self.refuse(invalid_keyword(keyword, first), span);
-            }
-        } else {
-            self.refuse(
-                Fault::new(
-                    Code::PErr21301,
-                    span,
-                    "no keyword stands in the bracket of an axis",
-                )
-                .with_help("write `X[COMP ON FRICT]`, or an expression for a position"),
-                span,
-            );
-        }
-    }
-
     fn refuse(&mut self, fault: Fault, span: Span) {
         self.block.faults.push(fault);
         self.block.items.push(Item::BadCommand(span));
-    }
-
-    fn hash(&mut self, span: Span) {
-        let code = self.code;
-        let (name, length) = hash_name(&code[span.start as usize..]);
-        let name_end = span.start as usize + length;
-        self.note_case(Span::new(span.start as usize, name_end));
-        let rest = Span::new(name_end, span.end as usize);
-        let argument = match name.as_str() {
-            "#TIME" | "#DELETE" => self.expression_in(rest),
-            _ => None,
-        };
-        let declarations = if name == "#VAR" {
-            self.declarations(rest)
-        } else {
-            Vec::new()
-        };
-        self.block.items.push(Item::Hash(Hash {
-            name,
-            rest,
-            argument,
-            declarations,
-            span,
-        }));
-    }
-
-    fn expression_in(&mut self, rest: Span) -> Option<Operand> {
-        let mut pairs = NcParser::parse(Rule::spaced_expression, rest.of(self.code)).ok()?;
-        let pair = pairs.next()?.into_inner().next()?;
-        Some(expression::lower(pair, rest.start, self.block))
     }
 
     fn declarations(&mut self, rest: Span) -> Vec<Declaration> {
@@ -537,55 +473,6 @@ fn address(byte: u8) -> Address {
         Address::Lower(byte)
     } else {
         Address::Letter(byte.to_ascii_uppercase())
-    }
-}
-
-/// The words of a bracket, separated by blanks.
-fn words(code: &str, body: Span) -> Vec<Span> {
-    let text = body.of(code);
-    let mut words = Vec::new();
-    let mut start = None;
-    for (at, c) in text.char_indices().chain([(text.len(), ' ')]) {
-        match (super::lines::is_blank(c), start) {
-            (false, None) => start = Some(at),
-            (true, Some(from)) => {
-                words.push(Span::new(from, at).shifted(body.start));
-                start = None;
-            }
-            _ => {}
-        }
-    }
-    words
-}
-
-/// `M3`, `H56`, `MC_MoveAbsolute`, or one of the commands that are passed over.
-fn is_other_command(word: &str) -> bool {
-    let upper = word.to_ascii_uppercase();
-    let numbered = upper
-        .strip_prefix(['M', 'H'])
-        .is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()));
-    // A command word may touch what follows it: `OVERRIDE=50`, `SYNC[1]`.
-    let head = upper
-        .split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
-        .next()
-        .unwrap_or_default();
-    numbered || upper.starts_with("MC_") || OTHER_COMMANDS.contains(&head)
-}
-
-fn near_comp(word: &str) -> bool {
-    did_you_mean(word, ["COMP"]).is_some()
-}
-
-fn invalid_keyword(span: Span, word: &str) -> Fault {
-    let known = OTHER_COMMANDS.into_iter().chain(["COMP"]);
-    let fault = Fault::new(
-        Code::PErr21301,
-        span,
-        format!("invalid first keyword `{word}` in an axis bracket"),
-    );
-    match did_you_mean(word, known) {
-        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
-        None => fault.with_help("the friction compensation is switched with `COMP ON FRICT`"),
     }
 }
 

@@ -1,0 +1,320 @@
+//! Words that are known by name (R2.70): what a dry run passes over without a word is listed here,
+//! one row a word. Everything else that looks like them is FC210.
+//!
+//! PM/n is page n of the TF5200 programming manual.
+
+/// What a `#` command does to what is followed here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Touches {
+    /// Neither flow nor values; what it does to coordinates is the modal state's business.
+    Nothing,
+    /// It writes the parameters and variables that its brackets name.
+    Values,
+}
+
+use Touches::{Nothing, Values};
+
+/// PM, appendix, overview of additional functions.
+const APPENDIX: &str = "PM/5252011631026770315";
+
+/// The commands that the vendor's editor for NC programs knows (isg-stuttgart/vscode-isg-cnc,
+/// syntaxes and snippets).
+const EDITOR: &str = "vscode-isg-cnc";
+
+/// The `#` commands: the words that tell one from the others, what it touches, where it is described.
+const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
+    ("#ACHSE", Nothing, "tccncprogramming/15557317259"),
+    ("#ACHSTAUSCH", Nothing, EDITOR),
+    ("#ACS", Nothing, APPENDIX),
+    ("#ADD", Nothing, APPENDIX),
+    ("#AKIMA ENDVECTOR", Nothing, APPENDIX),
+    ("#AKIMA STARTVECTOR", Nothing, APPENDIX),
+    ("#AKIMA TRANS", Nothing, APPENDIX),
+    ("#ANG", Nothing, APPENDIX),
+    ("#ASPLINE", Nothing, EDITOR),
+    ("#AX DEF", Nothing, APPENDIX),
+    ("#AX LINK", Nothing, APPENDIX),
+    ("#AX LOCK", Nothing, APPENDIX),
+    ("#AX RELEASE", Nothing, APPENDIX),
+    ("#AX REQUEST", Nothing, APPENDIX),
+    ("#AX UNLOCK", Nothing, APPENDIX),
+    ("#BACKWARD STORAGE CLEAR", Nothing, APPENDIX),
+    ("#BCS", Nothing, APPENDIX),
+    ("#BLOCKSEARCH LOCKED", Nothing, APPENDIX),
+    ("#BLOCKSEARCH RELEASED", Nothing, APPENDIX),
+    ("#BSPLINE", Nothing, EDITOR),
+    ("#CACHE", Nothing, APPENDIX),
+    ("#CALL AX", Nothing, APPENDIX),
+    ("#CAX", Nothing, APPENDIX),
+    ("#CAXTRACK", Nothing, APPENDIX),
+    ("#CHANNEL INIT", Nothing, APPENDIX),
+    ("#CHANNEL INTERFACE", Nothing, APPENDIX),
+    ("#CHANNEL SET", Nothing, APPENDIX),
+    ("#CHF", Nothing, EDITOR),
+    ("#CHR", Nothing, EDITOR),
+    ("#CLAMP", Nothing, EDITOR),
+    ("#CLEAR CONFIG", Nothing, EDITOR),
+    ("#COMMAND WAIT", Nothing, EDITOR),
+    ("#COMMAND WR", Nothing, EDITOR),
+    ("#COMMENT", Nothing, "PM/205979659"),
+    ("#CONTOUR BEGIN", Nothing, EDITOR),
+    ("#CONTOUR END", Nothing, EDITOR),
+    ("#CONTOUR MODE", Nothing, "tccncprogramming/15557317259"),
+    ("#CONTROL AREA", Nothing, "tccncprogramming/15557317259"),
+    ("#CORNER PARAM", Nothing, EDITOR),
+    ("#CS", Nothing, EDITOR),
+    ("#CYL", Nothing, EDITOR),
+    ("#DB INFO", Nothing, EDITOR),
+    ("#DCC", Nothing, EDITOR),
+    ("#DEL DIST2GO", Nothing, EDITOR),
+    ("#DELETE", Nothing, "PM/207960587"),
+    ("#DISABLE AX LINK", Nothing, "PM/207133579"),
+    ("#DISABLE MODAL CYCLE", Nothing, "PM/206859019"),
+    ("#DIST CTRL", Nothing, EDITOR),
+    ("#DISTANCE PROG START", Nothing, EDITOR),
+    ("#DRIVE RD", Nothing, EDITOR),
+    ("#DRIVE WAIT", Nothing, EDITOR),
+    ("#DRIVE WR", Nothing, EDITOR),
+    ("#DYN WEIGHT", Nothing, EDITOR),
+    ("#DYNAMIC WEIGHT", Nothing, EDITOR),
+    ("#DYN_WEIGHT", Nothing, EDITOR),
+    ("#ECS", Nothing, EDITOR),
+    ("#EDGE MACHINING", Nothing, EDITOR),
+    ("#EDM", Nothing, EDITOR),
+    ("#ENABLE AX LINK", Nothing, "PM/207133579"),
+    ("#ENDVAR", Nothing, "PM/207960587"),
+    ("#ERROR", Nothing, EDITOR),
+    ("#EXPL SYN", Nothing, EDITOR),
+    ("#EXPORT VE", Nothing, EDITOR),
+    ("#FACE", Nothing, EDITOR),
+    ("#FGROUP", Nothing, EDITOR),
+    ("#FILE DELETE", Nothing, "FCT-C18"),
+    ("#FILE EXIST", Nothing, "FCT-C18"),
+    ("#FILE NAME", Nothing, "FCT-C18"),
+    ("#FILE RENAME", Nothing, "FCT-C18"),
+    ("#FILTER", Nothing, EDITOR),
+    ("#FLUSH", Nothing, EDITOR),
+    ("#FRC", Nothing, EDITOR),
+    ("#FREE TOOL CHANGE", Nothing, EDITOR),
+    ("#GANTRY", Nothing, EDITOR),
+    ("#GEAR LINK", Nothing, "PM/546229387"),
+    ("#GEO", Nothing, EDITOR),
+    ("#GET ACTPOS", Values, EDITOR),
+    ("#GET CMDPOS", Values, EDITOR),
+    ("#GET IPO OFFSET", Values, EDITOR),
+    ("#GET MANUAL OFFSETS", Values, EDITOR),
+    ("#GET WCS POSLIMIT", Values, EDITOR),
+    ("#HANDWHEEL", Nothing, EDITOR),
+    ("#HSC", Nothing, EDITOR),
+    ("#IDENT RD", Values, EDITOR),
+    ("#IDENT WR", Nothing, EDITOR),
+    ("#INFO", Nothing, EDITOR),
+    ("#INIT", Nothing, EDITOR),
+    ("#INIT MACRO TAB", Nothing, EDITOR),
+    ("#INIT V", Nothing, EDITOR),
+    ("#JOG CONT", Nothing, EDITOR),
+    ("#JOG INCR", Nothing, EDITOR),
+    ("#KIN DATA", Nothing, EDITOR),
+    ("#KIN ID", Nothing, EDITOR),
+    ("#LASER", Nothing, EDITOR),
+    ("#LOAD CONFIG", Nothing, EDITOR),
+    ("#MACHINE DATA", Nothing, EDITOR),
+    ("#MAIN SPINDLE", Nothing, EDITOR),
+    ("#MANUAL LIMITS", Nothing, EDITOR),
+    ("#MARK", Nothing, EDITOR),
+    ("#MCS", Nothing, EDITOR),
+    ("#MCS TO WCS", Nothing, EDITOR),
+    ("#MEAS", Nothing, EDITOR),
+    ("#MICROJOINT", Nothing, EDITOR),
+    ("#MSG", Nothing, EDITOR),
+    ("#NIBBLE", Nothing, EDITOR),
+    ("#OPTIONAL EXECUTION", Nothing, EDITOR),
+    ("#ORI MODE", Nothing, EDITOR),
+    ("#ORIMODE", Nothing, EDITOR),
+    ("#OTC", Nothing, EDITOR),
+    ("#OVERRIDE", Nothing, EDITOR),
+    ("#PRESET", Nothing, EDITOR),
+    ("#PSET", Nothing, EDITOR),
+    ("#PTP", Nothing, EDITOR),
+    ("#PUNCH", Nothing, EDITOR),
+    ("#PUT AX", Nothing, EDITOR),
+    ("#RETAIN CYCLE CHANGES", Nothing, "PM/206859019"),
+    ("#RND", Nothing, EDITOR),
+    ("#ROTATION", Nothing, EDITOR),
+    ("#RT CYCLE", Nothing, EDITOR),
+    ("#RT ENDWHILE", Nothing, EDITOR),
+    ("#RT WHILE", Nothing, EDITOR),
+    ("#RTCP", Nothing, EDITOR),
+    ("#SAVE CONFIG", Nothing, EDITOR),
+    ("#SCALE", Nothing, EDITOR),
+    ("#SCENE", Nothing, EDITOR),
+    ("#SEGMENTATION", Nothing, EDITOR),
+    ("#SET ASPLINE", Nothing, EDITOR),
+    ("#SET AX", Nothing, EDITOR),
+    ("#SET AX LINK", Nothing, EDITOR),
+    ("#SET CORNER PARAM", Nothing, EDITOR),
+    ("#SET DEC LR SOLL", Nothing, EDITOR),
+    ("#SET HR", Nothing, EDITOR),
+    ("#SET IPO SOLLPOS", Nothing, EDITOR),
+    ("#SET JOG", Nothing, EDITOR),
+    ("#SET OFFSET", Nothing, EDITOR),
+    ("#SET PATH SMOOTH", Nothing, EDITOR),
+    ("#SET SLOPE", Nothing, EDITOR),
+    ("#SET SLOPE PROFIL", Nothing, EDITOR),
+    ("#SET SPLINE", Nothing, EDITOR),
+    ("#SET SPLINETYPE", Nothing, EDITOR),
+    ("#SET TANGFEED RMIN", Nothing, EDITOR),
+    ("#SET TIP", Nothing, EDITOR),
+    ("#SET UEBERSCH_PARAM", Nothing, EDITOR),
+    ("#SHIFT", Nothing, EDITOR),
+    ("#SIGNAL", Nothing, EDITOR),
+    ("#SINGLE STEP", Nothing, EDITOR),
+    ("#SLOPE", Nothing, EDITOR),
+    ("#SPLINE", Nothing, EDITOR),
+    ("#STOP REVERSIBLE", Nothing, EDITOR),
+    ("#STROKE DEF", Nothing, EDITOR),
+    ("#SUPPRESS OFFSETS", Nothing, EDITOR),
+    ("#SURFACE", Nothing, EDITOR),
+    ("#TANGFEED", Nothing, EDITOR),
+    ("#TGC", Nothing, EDITOR),
+    ("#TIME", Nothing, "PM/206602507"),
+    ("#TIMER", Values, EDITOR),
+    ("#TLAX", Nothing, EDITOR),
+    ("#TLC", Nothing, EDITOR),
+    ("#TOOL AX", Nothing, EDITOR),
+    ("#TOOL DATA", Nothing, EDITOR),
+    ("#TOOL DEF", Nothing, EDITOR),
+    ("#TOOL LIFE READ", Values, EDITOR),
+    ("#TOOL LIFE REMOVE", Nothing, EDITOR),
+    ("#TOOL ORI CS", Nothing, EDITOR),
+    ("#TOOL PREP", Nothing, EDITOR),
+    ("#TOOL REFRESH", Nothing, EDITOR),
+    ("#TRACK CHAN", Nothing, EDITOR),
+    ("#TRACK CS", Nothing, EDITOR),
+    ("#TRAFO", Nothing, EDITOR),
+    ("#TRANSFORM", Nothing, EDITOR),
+    ("#TRANSVELMIN", Nothing, EDITOR),
+    ("#TRC", Nothing, EDITOR),
+    ("#TURN", Nothing, EDITOR),
+    ("#UNLOCK", Nothing, EDITOR),
+    ("#VAR", Nothing, "PM/207960587"),
+    ("#VECTOR LIMIT", Nothing, EDITOR),
+    ("#VECTOR OFFSET", Nothing, EDITOR),
+    ("#VECTORACC", Nothing, EDITOR),
+    ("#VECTORVEL", Nothing, EDITOR),
+    ("#VIRTUAL AX", Nothing, EDITOR),
+    ("#VOLCOMP", Nothing, EDITOR),
+    ("#VOLKOMP", Nothing, EDITOR),
+    ("#WAIT", Nothing, EDITOR),
+    ("#WAIT FOR", Nothing, EDITOR),
+    ("#WAIT INDP", Nothing, EDITOR),
+    ("#WCS TO MCS", Nothing, EDITOR),
+];
+
+/// What a `#` command touches; `None` where no row names it. The name has its words in upper case
+/// with one blank between them; a row holds for what continues it.
+pub(crate) fn hash_command(name: &str) -> Option<Touches> {
+    let begins = |words: &str| {
+        name.strip_prefix(words)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    let rows = HASH_COMMANDS.iter();
+    let row = rows.filter(|(words, ..)| begins(words));
+    row.max_by_key(|(words, ..)| words.len())
+        .map(|(_, touches, _)| *touches)
+}
+
+/// The `#` commands by name, for "did you mean".
+pub(super) fn hash_commands() -> impl Iterator<Item = &'static str> {
+    HASH_COMMANDS.iter().map(|(words, ..)| *words)
+}
+
+/// First keywords in an axis bracket behind which nothing touches the compensation (R2.23; PM,
+/// chapters on independent axes, oscillation, distance control, lifting, polynomials; PM/5252363631026771979).
+const AXIS_COMMANDS: [&str; 11] = [
+    "INDP_SYN",
+    "INDP_ASYN",
+    "OSC",
+    "DIST_CTRL",
+    "OVERRIDE",
+    "DYNAMIC",
+    "LIFT",
+    "LIFT_START",
+    "LIFT_END",
+    "SYNC",
+    "POLY",
+];
+
+/// Keywords in the bracket of a spindle, beside M, H and G with their numbers (PM/208178187).
+const SPINDLE_COMMANDS: [&str; 10] = [
+    "REV",
+    "POS",
+    "CALLAX",
+    "PUTAX",
+    "GET_DYNAMIC_DATA",
+    "GET_DYNAMIK_DATA",
+    "FEED_LINK",
+    "OVERRIDE",
+    "SLOPE_TYPE",
+    "SYN",
+];
+
+/// Letters of words that are no axis and touch neither flow, parameters, calls nor COMP by themselves,
+/// or are followed here (PM/205952267): tool data, feed, G and M functions, H functions, centre and
+/// radius of circles, block numbers, spindle speed, tools.
+const LETTERS: &[u8] = b"DEFGHIJKMNRST";
+
+/// Words behind `S.` (PM/208038923).
+const SPINDLE_WORDS: [&str; 2] = ["POS", "OFFSET"];
+
+/// Whether a keyword of an axis bracket opens a command that is passed over.
+pub(super) fn is_axis_command(word: &str) -> bool {
+    let upper = word.to_ascii_uppercase();
+    numbered(&upper, &['M', 'H'])
+        || upper.starts_with("MC_")
+        || AXIS_COMMANDS.contains(&head(&upper))
+}
+
+/// Whether a keyword of a spindle's bracket opens a command that is passed over. A number, a
+/// parameter or a variable may follow it at once.
+pub(super) fn is_spindle_command(word: &str) -> bool {
+    let upper = word.to_ascii_uppercase();
+    let begins = |known: &str| {
+        let rest = upper.strip_prefix(known);
+        rest.is_some_and(|rest| {
+            !rest.starts_with(|c: char| matches!(c, 'A'..='O' | 'Q'..='U' | 'W'..='Z' | '_'))
+        })
+    };
+    is_axis_command(word)
+        || numbered(&upper, &['G'])
+        || SPINDLE_COMMANDS.iter().any(|known| begins(known))
+}
+
+/// The commands of an axis bracket, for "did you mean".
+pub(super) fn axis_commands() -> impl Iterator<Item = &'static str> {
+    AXIS_COMMANDS.into_iter()
+}
+
+/// Whether a letter begins words that are known.
+pub(crate) fn is_letter(letter: u8) -> bool {
+    LETTERS.contains(&letter) || matches!(letter, b'A'..=b'C' | b'Q' | b'U'..=b'Z')
+}
+
+/// Whether `S.WORD` is known.
+pub(super) fn is_spindle_word(word: &str) -> bool {
+    SPINDLE_WORDS
+        .iter()
+        .any(|known| known.eq_ignore_ascii_case(word))
+}
+
+/// A command word may touch what follows it: `OVERRIDE=50`, `SYNC[1]`.
+fn head(upper: &str) -> &str {
+    let end = upper.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+    &upper[..end.unwrap_or(upper.len())]
+}
+
+/// A letter with a number, `M3`.
+fn numbered(upper: &str, letters: &[char]) -> bool {
+    let number = upper.strip_prefix(letters);
+    number.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
+}

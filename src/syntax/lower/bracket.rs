@@ -1,0 +1,140 @@
+//! Commands in the brackets of an axis or spindle, and words of a spindle.
+
+use pest::iterators::Pair;
+
+use super::{Lowering, not_closed, span_of, trimmed};
+use crate::codes::Code;
+use crate::diagnostic::did_you_mean;
+use crate::source::Span;
+use crate::syntax::ast::{Address, Effect, Item, Word};
+use crate::syntax::comp::CompWords;
+use crate::syntax::grammar::Rule;
+use crate::syntax::known::{axis_commands, is_axis_command, is_spindle_command, is_spindle_word};
+use crate::syntax::lines::is_blank;
+use crate::syntax::{Fault, expression};
+
+impl Lowering<'_> {
+    pub(super) fn axis_bracket(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut axis = span;
+        let mut body = None;
+        let mut closed = false;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::axis_name => axis = trimmed(span_of(&part), self.code),
+                Rule::bracket_body => body = Some(span_of(&part)),
+                Rule::bracket_end => closed = true,
+                _ => {}
+            }
+        }
+        let body = body.unwrap_or(span);
+        if !closed {
+            let open = self.code[axis.end as usize..].find('[').unwrap_or_default();
+            self.unclosed = None;
+            self.refuse(not_closed(axis.end as usize + open), span);
+            return;
+        }
+        let words = words(self.code, body);
+        let keyword = words.first().copied();
+        let first = keyword.map_or("", |word| word.of(self.code));
+        if first.eq_ignore_ascii_case("COMP") {
+            let command = CompWords {
+                text: self.code,
+                axis,
+                whole: span,
+                words: &words,
+            }
+            .lower(&mut self.block.faults);
+            self.block.items.push(match command {
+                Some(command) => Item::Comp(command),
+                None => Item::BadCommand(span),
+            });
+        } else if let Some(keyword) = keyword {
+            let spindle = axis.of(self.code).starts_with(['S', 's']) && !near_comp(first);
+            let known = if spindle {
+                is_spindle_command(first)
+            } else {
+                is_axis_command(first)
+            };
+            if known {
+                self.block.items.push(Item::Bracket {
+                    axis,
+                    keyword,
+                    span,
+                });
+            } else if spindle {
+                self.unread(Effect::Spindle, span);
+            } else {
+                self.refuse(invalid_keyword(keyword, first), span);
+            }
+        } else {
+            self.refuse(
+                Fault::new(
+                    Code::PErr21301,
+                    span,
+                    "no keyword stands in the bracket of an axis",
+                )
+                .with_help("write `X[COMP ON FRICT]`, or an expression for a position"),
+                span,
+            );
+        }
+    }
+
+    /// `S.POS180`
+    pub(super) fn spindle_word(&mut self, pair: Pair<'_, Rule>, span: Span) {
+        let mut name = span;
+        let mut value = None;
+        let mut bracketed = false;
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::spindle_name => name = trimmed(span_of(&part), self.code),
+                Rule::expression => value = Some(expression::lower(part, 0, self.block)),
+                _ => bracketed = true,
+            }
+        }
+        let word = name.of(self.code).split('.').nth(1).unwrap_or_default();
+        if bracketed || !is_spindle_word(word) {
+            self.unread(Effect::Spindle, span);
+            return;
+        }
+        self.block.push_word(Word {
+            address: Address::Name(name),
+            value,
+            span,
+        });
+    }
+}
+
+/// The words of a bracket, separated by blanks.
+fn words(code: &str, body: Span) -> Vec<Span> {
+    let text = body.of(code);
+    let mut words = Vec::new();
+    let mut start = None;
+    for (at, c) in text.char_indices().chain([(text.len(), ' ')]) {
+        match (is_blank(c), start) {
+            (false, None) => start = Some(at),
+            (true, Some(from)) => {
+                words.push(Span::new(from, at).shifted(body.start));
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    words
+}
+
+fn near_comp(word: &str) -> bool {
+    did_you_mean(word, ["COMP"]).is_some()
+}
+
+fn invalid_keyword(span: Span, word: &str) -> Fault {
+    let known = axis_commands().chain(["COMP"]);
+    let fault = Fault::new(
+        Code::PErr21301,
+        span,
+        format!("invalid first keyword `{word}` in an axis bracket"),
+    );
+    match did_you_mean(word, known) {
+        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+        None => fault.with_help("the friction compensation is switched with `COMP ON FRICT`"),
+    }
+}

@@ -1,0 +1,99 @@
+//! `#` commands.
+
+use pest::Parser;
+use pest::iterators::Pair;
+
+use super::{Lowering, span_of, trimmed};
+use crate::diagnostic::did_you_mean;
+use crate::source::Span;
+use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
+use crate::syntax::grammar::{NcParser, Rule};
+use crate::syntax::known::{Touches, hash_command, hash_commands};
+use crate::syntax::unread::not_known;
+use crate::syntax::{expression, hash_name};
+
+impl Lowering<'_> {
+    pub(super) fn hash(&mut self, span: Span) {
+        let code = self.code;
+        let (name, length) = hash_name(&code[span.start as usize..]);
+        let name_end = span.start as usize + length;
+        self.note_case(Span::new(span.start as usize, name_end));
+        let Some(touches) = hash_command(&name) else {
+            self.unknown_hash(&name, span);
+            return;
+        };
+        let rest = Span::new(name_end, span.end as usize);
+        let arguments = match name.as_str() {
+            "#TIME" | "#DELETE" => self.expressions_in(rest),
+            _ => Vec::new(),
+        };
+        let declarations = if name == "#VAR" {
+            self.declarations(rest)
+        } else {
+            Vec::new()
+        };
+        let written = match touches {
+            Touches::Values => self.places_in(rest),
+            Touches::Nothing => Vec::new(),
+        };
+        self.block.items.push(Item::Hash(Hash {
+            name,
+            rest,
+            arguments,
+            declarations,
+            written,
+            span,
+        }));
+    }
+
+    /// A `#` command that no table names could do anything (R2.70).
+    fn unknown_hash(&mut self, name: &str, span: Span) {
+        let mut fault = not_known(name, span);
+        if let Some(near) = did_you_mean(name, hash_commands()) {
+            fault = fault.with_help(format!("did you mean `{near}`?"));
+        }
+        self.block.faults.push(fault);
+        self.block
+            .items
+            .push(Item::Unread(Effect::Everything, span));
+    }
+
+    fn expressions_in(&mut self, rest: Span) -> Vec<Operand> {
+        let Ok(pairs) = NcParser::parse(Rule::spaced_expressions, rest.of(self.code)) else {
+            return Vec::new();
+        };
+        let values = pairs.flat_map(Pair::into_inner);
+        values
+            .map(|value| expression::lower(value, rest.start, self.block))
+            .collect()
+    }
+
+    /// The parameters and variables that a text names.
+    fn places_in(&mut self, rest: Span) -> Vec<Target> {
+        let text = rest.of(self.code);
+        let mut places = Vec::new();
+        let mut from = 0;
+        while let Some(start) = next_place(text, from) {
+            let found = NcParser::parse(Rule::written_place, &text[start..]).ok();
+            let pair = found.and_then(|mut pairs| pairs.next()?.into_inner().next());
+            from = start + pair.as_ref().map_or(1, |pair| pair.as_str().len());
+            if let Some(pair) = pair {
+                let base = rest.start + Span::new(start, start).start;
+                let span = trimmed(span_of(&pair).shifted(base), self.code);
+                let place = expression::place(pair, base, self.block);
+                places.push(Target { place, span });
+            }
+        }
+        places
+    }
+}
+
+/// Where the next name begins that may be one of a parameter or variable.
+fn next_place(text: &str, from: usize) -> Option<usize> {
+    let bytes = text.as_bytes();
+    let begins = |at: &usize| {
+        let alone = *at == 0 || !(bytes[at - 1].is_ascii_alphanumeric() || bytes[at - 1] == b'_');
+        alone && matches!(bytes[*at], b'P' | b'p' | b'V' | b'v' | b'@')
+    };
+    (from..bytes.len()).find(begins)
+}

@@ -1,0 +1,344 @@
+//! 2.10: what is not understood, and forms of real programs.
+
+use crate::support::Bench;
+
+fn run(program: &str) -> String {
+    Bench::new().keep_going().run(&[program])
+}
+
+/// The line of a block, its states and the codes below it.
+fn block(program: &str, line: u32) -> String {
+    let text = run(program);
+    let head = format!(" line {line} ");
+    let mut lines = text.lines().skip_while(|row| !row.contains(&head));
+    let first = lines.next().unwrap_or_default().to_owned();
+    let codes = lines.take_while(|row| row.starts_with("    "));
+    codes.fold(first, |all, code| all + "|" + code.trim())
+}
+
+/// The codes of a program, each as often as it is said.
+fn codes(program: &str) -> Vec<String> {
+    let text = run(program);
+    let words = text.lines().filter_map(|row| row.trim().split(' ').next());
+    let codes = words.filter(|word| word.starts_with("FC") || word.starts_with("P-ERR"));
+    codes.map(str::to_owned).collect()
+}
+
+#[test]
+fn text_with_the_form_of_the_language_may_change_everything() {
+    // R2.70
+    for text in [
+        "L[NAME]",
+        "M[3]",
+        "L10=5",
+        "#SPECIAL MODE",
+        "#SET SPECIAL",
+        "$FLOW X",
+        "O1000",
+        "P1000",
+        "G54.1 X1",
+        "GETREV[1]",
+        "LOOK_UP[1, 2]",
+        "M3 [LATER]",
+        "L CYCLE [NAME=a.cyc @P1=3 SLOWLY]",
+        "M3.5",
+    ] {
+        let found = block(&format!("{text}\nM30"), 1);
+        assert!(found.contains("FC210"), "{text}: {found}");
+        assert!(
+            found.contains("X:active>unknown Y:active>unknown"),
+            "{text}: {found}"
+        );
+        let values = Bench::new().values(
+            &format!("P1=1 V.P.A=2 V.S.B=3\n{text}"),
+            &["P1", "V.P.A", "V.S.B", "P77", "V.P.NEW"],
+        );
+        assert_eq!(values.matches("-> unknown").count(), 5, "{text}: {values}");
+    }
+}
+
+#[test]
+fn assignments_of_what_is_not_known_change_their_target() {
+    // R2.70
+    let values = Bench::new().values("P1=1 P2=2\nP1=FOO[3]\nV.P.A=V.x.+y", &["P1", "P2", "V.P.A"]);
+    assert_eq!(
+        values.trim(),
+        "P1 -> unknown: FOO[3]\nP2 -> 2\nV.P.A -> unknown: V.x.+y"
+    );
+    // The target itself is not known: any parameter may be it.
+    for text in ["FOO[3]=5", "FOO[3] += 1", "R1=5", "V.P.-A=3"] {
+        let values = Bench::new().values(&format!("P1=1\n{text}"), &["P1"]);
+        assert!(values.contains("P1 -> unknown"), "{text}: {values}");
+        assert_eq!(codes(&format!("{text}\nM30")), ["FC210"], "{text}");
+    }
+    assert_eq!(codes("X1\nX=FOO[1]\nM30"), ["FC210"]);
+    assert!(
+        Bench::new()
+            .positions("X1\nX=FOO[1] Y2\nM30")
+            .contains("X:?")
+    );
+    // A letter in lower case names no axis.
+    let found = Bench::new().positions("X1 Y1\nx5 Y2\nM30");
+    assert!(found.contains("X:?"), "{found}");
+}
+
+#[test]
+fn text_that_no_form_explains_is_an_error() {
+    // R2.70
+    for text in ["X1O", "X1 )", "$IFF P1", "X ! 3", "FOO", "P1=3 *"] {
+        let found = block(&format!("{text}\nM30"), 1);
+        assert!(
+            found.contains("FC207") && !found.contains("unknown"),
+            "{text}: {found}"
+        );
+    }
+    let said = Bench::new().said("$WHIL 1\n$ENDWHILE\nM30");
+    assert!(said.contains("did you mean `$WHILE`?"), "{said}");
+}
+
+#[test]
+fn what_a_table_names_is_silent() {
+    // R2.70
+    for text in [
+        "#HSC ON",
+        "#MSG SYN [\"a\"]",
+        "X[OSC ON]",
+        "S[REV500]",
+        "M77",
+        "H3",
+        "G777",
+        "Q5",
+    ] {
+        let found = block(&format!("{text}\nM30"), 1);
+        assert!(
+            !found.contains("FC") && !found.contains('>'),
+            "{text}: {found}"
+        );
+    }
+    // What reads into a parameter makes it unknown.
+    let values = Bench::new().values(
+        "P1=1 P2=2 V.P.A=3\n#GET CMDPOS [P1, V.P.A]",
+        &["P1", "P2", "V.P.A"],
+    );
+    assert_eq!(
+        values.trim(),
+        "P1 -> unknown: #GET CMDPOS\nP2 -> 2\nV.P.A -> unknown: #GET CMDPOS"
+    );
+}
+
+#[test]
+fn an_unreadable_condition_opens_its_block_and_is_said_once() {
+    // R2.71
+    for (opener, closer) in [
+        ("$IF P1 = 3", "$ENDIF"),
+        ("$IF FOO[1] > 2", "$ENDIF"),
+        ("$IF", "$ENDIF"),
+        ("$IFF P1", "$ENDIF"),
+        ("$WHILE P1 ==", "$ENDWHILE"),
+        ("$FOR P1 = 1", "$ENDFOR"),
+        ("$FOR P1 = 1, FOO[2], 1", "$ENDFOR"),
+        ("$SWITCH ?", "$ENDSWITCH"),
+        ("$DO ?", "$ENDDO"),
+        ("#IF P1 = 3", "#ENDIF"),
+        ("$REPEAT", "$UNTIL ?"),
+        ("$IF P1 = 3 $GOTO N9", "N9: X1"),
+        ("$IF GETREV[2] $GOTO N9", "N9: X1"),
+    ] {
+        let program = format!("P1=1\n{opener}\nX[COMP OFF FRICT] P1=2\n{closer}\nM30");
+        let found = codes(&program);
+        let said: Vec<_> = found
+            .iter()
+            .filter(|code| !code.starts_with("FC40"))
+            .collect();
+        assert_eq!(said.len(), 1, "{opener}: {found:?}");
+        assert!(
+            ["FC207", "FC210"].contains(&said[0].as_str()),
+            "{opener}: {found:?}"
+        );
+        if !opener.contains("GOTO") && opener != "$REPEAT" {
+            assert!(run(&program).contains("X:active>unknown"), "{opener}");
+        }
+    }
+    // What follows from it later is said, in words that fit.
+    let said = Bench::new().said("P1=FOO[1]\n$IF P1 == 1\n$ENDIF\nM30");
+    assert!(
+        said.contains("depends on `FOO[1]`, which is not known here"),
+        "{said}"
+    );
+}
+
+#[test]
+fn parameters_with_computed_numbers() {
+    // R2.72
+    let values = Bench::new().values(
+        "P[1+1]=5 P4=3\nP[P4]=P[2]*2\nP[P4] += 1\nP7=P[P[2]-1]",
+        &["P2", "P3", "P7", "P[P4]", "P[1] + 0", "P[1.6]"],
+    );
+    assert_eq!(
+        values.trim(),
+        "P2 -> 5\nP3 -> 11\nP7 -> 3\nP[P4] -> 11\nP[1] + 0 -> FC311 5:9-13\nP[1.6] -> 5"
+    );
+    let values = Bench::new().values("P1=1\nP[V.E.I]=2", &["P1", "P2"]);
+    assert_eq!(values.matches("-> unknown: V.E.I").count(), 2, "{values}");
+}
+
+#[test]
+fn conditional_interpretation_is_executed() {
+    // R2.73
+    let off = "X[COMP OFF FRICT]";
+    for (program, executed) in [
+        (format!("#IF 1 == 2\n{off}\n#ENDIF"), false),
+        (format!("#IF 1 == 2\n#ELSE\n{off}\n#ENDIF"), true),
+        (
+            format!("#IF FALSE\n#ELSEIF TRUE\n{off}\n#ELSE\nY[COMP OFF FRICT]\n#ENDIF"),
+            true,
+        ),
+        (format!("#IF TRUE\n#IF FALSE\n{off}\n#ENDIF\n#ENDIF"), false),
+        (format!("#IF TRUE\n$IF TRUE\n{off}\n$ENDIF\n#ENDIF"), true),
+        (format!("$IF TRUE\n#IF FALSE\n{off}\n#ENDIF\n$ENDIF"), false),
+        (format!("#if true\n{off}\n#endif"), true),
+        (format!("#IF TRUE $GOTO N9\n{off}\nN9: X1"), false),
+        (format!("/#IF TRUE\n{off}\n/#ENDIF"), true),
+    ] {
+        let text = run(&format!("{program}\nM30"));
+        assert_eq!(
+            text.contains("X:active>inactive"),
+            executed,
+            "{program}: {text}"
+        );
+        assert!(!text.contains("Y:active>"), "{program}: {text}");
+    }
+    let said = Bench::new().said("X1\n#IF 1\nX2\nM30");
+    assert!(
+        said.contains("`#IF` has no `#ENDIF`") && said.contains(" 2:1"),
+        "{said}"
+    );
+    assert_eq!(
+        codes("#IF V.E.A\nX[COMP OFF FRICT]\n#ENDIF\nX[COMP ON FRICT]\nM30"),
+        ["FC901"]
+    );
+    // A branch that is left out is not read; one that nobody knows is.
+    let check = |program: &str| Bench::new().check_all().run(&[program]);
+    assert!(!check("#IF FALSE\nX[COMP ON FRIKT]\n#ENDIF\nM30").contains("FC202"));
+    assert!(check("#IF V.E.A\nX[COMP ON FRIKT]\n#ENDIF\nM30").contains("FC202"));
+    assert!(check("$IF FALSE\nX[COMP ON FRIKT]\n$ENDIF\nM30").contains("FC202"));
+}
+
+#[test]
+fn calls_need_no_blank() {
+    // R2.74
+    let off = "X[COMP OFF FRICT]\nM17";
+    let bench = || {
+        let bench = Bench::new().keep_going();
+        bench
+            .file("4712", off)
+            .file("UP1.nc", off)
+            .file("a b.nc", off)
+    };
+    for call in [
+        "L4712",
+        "LUP1.nc",
+        "N10LUP1.nc",
+        "L 4712",
+        "L\"a b.nc\"",
+        "X1 LUP1.nc",
+        "l4712",
+        "LV.E.NAME",
+    ] {
+        let text = bench()
+            .set_text("V.E.NAME", "4712")
+            .run(&[&format!("{call}\nX[COMP ON FRICT]\nM30")]);
+        assert!(text.contains("X:active>inactive"), "{call}: {text}");
+    }
+    let local = Bench::new()
+        .run(&["%L UP\nX[COMP OFF FRICT]\nM17\n%M\nLL UP\nLLUP\nX[COMP ON FRICT]\nM30"]);
+    assert_eq!(local.matches("line 2").count(), 2, "{local}");
+    assert_eq!(codes("L4713\nM30"), ["FC320"]);
+    assert_eq!(codes("LOOK\nM30"), ["FC320"]);
+}
+
+#[test]
+fn words_of_spindles() {
+    // R2.76
+    for text in [
+        "S.POS180",
+        "S.POS=180",
+        "S.OFFSET=10",
+        "S1000 S.POS314",
+        "S2.POS180",
+        "S.POS P1",
+        "S.POS[P1+1]",
+    ] {
+        let found = block(&format!("P1=1\n{text}\nM30"), 2);
+        let known = !text.contains('[');
+        assert_eq!(!found.contains("FC"), known, "{text}: {found}");
+    }
+    let found = block("S.TURN3\nM30", 1);
+    assert!(found.contains("FC210") && !found.contains('>'), "{found}");
+}
+
+#[test]
+fn what_a_call_gave() {
+    // R2.79
+    let cycle = "$IF V.G.@P[1].VALID\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.G.@P[2].VALID == TRUE\nY[COMP OFF FRICT]\n$ENDIF\nM17";
+    let bench = || Bench::new().file("a.cyc", cycle);
+    let text = bench().run(&["L CYCLE [NAME=a.cyc @P1=3 @X=10 @S=100]\nX[COMP ON FRICT]\nM30"]);
+    assert!(
+        text.contains("X:active>inactive") && !text.contains("Y:active>"),
+        "{text}"
+    );
+    // Alone, nobody knows, unless the user says what the call would give.
+    let alone = Bench::new().run(&[cycle]);
+    assert_eq!(alone.matches("FC901").count(), 2, "{alone}");
+    let told = Bench::new().set("@P1", 4.0).run(&[
+        "$IF @P1 == 4 && V.G.@P[1].VALID\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30",
+    ]);
+    assert!(told.contains("X:active>inactive"), "{told}");
+    let values = Bench::new().values(
+        "@P2=1 V.P.T=\"a\"",
+        &[
+            "@P4",
+            "@P2",
+            "@X",
+            "IS_STRING[V.P.T]",
+            "IS_NUMBER[V.P.T]",
+            "IS_NUMBER[3]",
+            "IS_STRING[V.E.A]",
+        ],
+    );
+    assert_eq!(
+        values.trim(),
+        "@P4 -> unknown: @P4\n@P2 -> 1\n@X -> unknown: @X\nIS_STRING[V.P.T] -> 1\nIS_NUMBER[V.P.T] -> 0\nIS_NUMBER[3] -> 1\nIS_STRING[V.E.A] -> unknown: V.E.A"
+    );
+}
+
+#[test]
+fn signs_in_names_and_assignments() {
+    // R2.80
+    let values = Bench::new().values(
+        "P1=10\nP1 += 1\nP1 -= 3\nP1*=2\nP1 /= 4\nV.P.A=2 V.P.A+=3\n#VAR\nV.P.L[2]=[1,2]\n#ENDVAR\nV.P.L[1]*=5\nP2=1 P[P2+2]=7 P[P2+2]-=2",
+        &["P1", "V.P.A", "V.P.L[1]", "P3", "MIN[4,2,9]", "MAX[4,2,9,10]", "MIN[1]", "V.A.+SWE.X-1", "V.A.-SWE_MDS.X"],
+    );
+    assert_eq!(
+        values.trim(),
+        "P1 -> 4\nV.P.A -> 5\nV.P.L[1] -> 10\nP3 -> 5\nMIN[4,2,9] -> 2\nMAX[4,2,9,10] -> 10\nMIN[1] -> FC312 12:9-15\nV.A.+SWE.X-1 -> unknown: V.A.+SWE.X\nV.A.-SWE_MDS.X -> unknown: V.A.-SWE_MDS.X"
+    );
+    assert_eq!(codes("P1 += 1\nM30"), ["FC311"]);
+}
+
+#[test]
+fn an_axis_has_one_coordinate_a_block() {
+    // R2.82
+    let found = Bench::new().positions("G90 X5 Y1\nG91 X1 X2 Y1\nM30");
+    assert!(found.contains("X1 X2 Y1 X:8 Y:2"), "{found}");
+    assert_eq!(codes("G90 X5 Y1 X=7 X8\nM30"), ["FC313"]);
+    assert!(codes("G91 X5 X7\nG04 X1\nM30").is_empty());
+    assert!(codes("G90 G92 X5\nX1 G91 X2\nM30").is_empty());
+}
+
+#[test]
+fn what_only_the_machine_numbers_ends_no_program() {
+    // R2.52
+    assert_eq!(codes("MV.E.CODE\nX1\nM30"), ["FC902"]);
+    assert_eq!(codes("TV.E.TOOL\nX1\nM30"), Vec::<String>::new());
+}

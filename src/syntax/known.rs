@@ -91,6 +91,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#FILE DELETE", Nothing, "FCT-C18"),
     ("#FILE EXIST", Nothing, "FCT-C18"),
     ("#FILE NAME", Nothing, "FCT-C18"),
+    ("#FILENAME", Nothing, "FCT-C18"),
     ("#FILE RENAME", Nothing, "FCT-C18"),
     ("#FILTER", Nothing, EDITOR),
     ("#FLUSH", Nothing, EDITOR),

@@ -515,7 +515,7 @@ fn a_region_of_declarations_is_read_to_its_end() {
 #[test]
 fn words_that_were_passed_over_are_counted_together_beyond_a_thousand() {
     // R2.85
-    let text: String = (0..1500).map(|word| format!("#FOO{word}\n")).collect();
+    let text: String = (0..1500).map(|word| format!("Q{word}=1\n")).collect();
     let heard = heard(&format!("{text}M30"), StopPolicy::KeepGoing);
     assert_eq!(heard.opaque.len(), 1001);
     let others = heard.opaque.iter().find(|(word, _)| word == "other words");

@@ -1,6 +1,7 @@
 //! `frictcomp check`: every diagnostic of every program.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -8,7 +9,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use super::console::{Console, Printed};
+use super::console::{Console, Printed, Target};
 use super::discovery::{LoadedMachine, MachineArgs, Machines};
 use super::dry_run::{Alone, Axes, ExecutionArgs, run_alone};
 use super::failure::{Failure, Failures};
@@ -18,7 +19,7 @@ use super::listing::{Lister, ListingArgs, total};
 use super::notes::{self, Note};
 use super::outputs::Outputs;
 use super::unread::say_unread;
-use super::{walk, workers};
+use super::{switched, walk, workers};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::session::{NoteKind, Notes, StopPolicy};
@@ -64,7 +65,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     }
     machines.look_ahead(&inputs);
     let mut outputs = Outputs::new(&ledger, console);
-    let target = outputs.result(args.listing.output.as_deref())?;
+    let mut target = outputs.result(args.listing.output.as_deref())?;
     // Every list is known before anything runs.
     let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
     let jobs: Vec<Job> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
@@ -81,6 +82,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         outputs.finish()?;
         return failures.status(console, super::exit::CLEAN);
     }
+    say_undescribed(args, &jobs, (&mut target, console));
     let mut listing = args.listing.lister(target)?;
     args.check_all(jobs, &mut listing, &mut failures);
     let printed = listing.finish()?;
@@ -98,6 +100,23 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
     failures.status(console, listing.status())
+}
+
+/// Says above everything else that no machine is described (R1.37).
+fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], (target, console): (&mut Target, Console)) {
+    let undescribed = jobs.iter().filter_map(|(input, loaded)| {
+        let described = loaded.as_ref().map_or(true, |it| it.machine.is_described());
+        (!described).then_some(*input)
+    });
+    let Some(remark) = switched::remark(undescribed) else {
+        return;
+    };
+    if args.listing.format.is_text() && !args.listing.quiet {
+        // A writer that takes no more says so at the next line.
+        let _ = writeln!(target.writer, "{remark}\n");
+    } else {
+        console.remark(&remark);
+    }
 }
 
 /// A program and the machine that it runs on.

@@ -17,11 +17,14 @@ use super::files::{Input, Naming};
 use super::ledger::Ledger;
 use super::painted::difference;
 use super::settings;
-use crate::diagnostic::Severity;
+use super::switched;
+use crate::codes::Code;
+use crate::compensation::State;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::visible_line;
 use crate::session::StopPolicy;
 use crate::syntax::KindSet;
-use crate::timeline::{Record, Row, Sink};
+use crate::timeline::{EndedBy, Record, Row, Sink};
 
 /// Shows which blocks change the compensation state between two versions of a program
 #[derive(Debug, Args)]
@@ -71,8 +74,10 @@ impl Hash for Switch {
 struct Switches {
     kinds: KindSet,
     list: Vec<Switch>,
-    /// The first error, which ends the run.
-    error: Option<String>,
+    /// An error or a bound of which the end will tell whether it stopped the program.
+    candidate: Option<String>,
+    /// Why the version cannot be compared as a whole.
+    obstacle: Option<String>,
 }
 
 impl Switches {
@@ -102,20 +107,52 @@ impl Switches {
     }
 }
 
+impl Switches {
+    /// Looks at a message for what keeps the version from being compared.
+    fn judge(&mut self, said: &Diagnostic) {
+        let place = &said.place;
+        let (file, line) = (&place.file, place.start().line);
+        let code = said.code;
+        if code.severity() == Severity::Error || code.is_budget() {
+            self.candidate.get_or_insert_with(|| {
+                format!("{file}:{line} stops with {code}: {}", said.message)
+            });
+        }
+        if code == Code::Fc408 {
+            self.obstacle.get_or_insert_with(|| {
+                format!("what {file}:{line} does depends on a machine that is not described")
+            });
+        }
+    }
+}
+
 impl Sink for Switches {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        if let Record::Block(row) = record {
-            self.add(row);
-            let error = row
-                .diagnostics
-                .iter()
-                .find(|diagnostic| diagnostic.severity == Severity::Error);
-            if let (None, Some(error)) = (&self.error, error) {
-                self.error = Some(format!(
-                    "{}:{} stops with {}: {}",
-                    row.file, row.line, error.code, error.message
-                ));
+        match record {
+            Record::Block(row) => {
+                self.add(row);
+                row.diagnostics.iter().for_each(|said| self.judge(said));
+                let lost = row
+                    .changes
+                    .iter()
+                    .find(|change| change.to == State::Unknown && self.kinds.contains(change.kind));
+                if let Some(change) = lost {
+                    let (file, line) = (row.file, row.line);
+                    let (name, kind) = (row.state.name(change.axis), change.kind.keyword());
+                    self.obstacle.get_or_insert_with(|| {
+                        format!("from {file}:{line} on {kind} of {name} is not known offline")
+                    });
+                }
             }
+            Record::End(end) => {
+                end.notes
+                    .iter()
+                    .for_each(|note| self.judge(&note.diagnostic));
+                if matches!(end.by, EndedBy::Error | EndedBy::Budget) {
+                    self.obstacle = self.candidate.take().or(self.obstacle.take());
+                }
+            }
+            _ => {}
         }
         ControlFlow::Continue(())
     }
@@ -123,28 +160,44 @@ impl Sink for Switches {
 
 /// Runs the command.
 pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
-    let old = switches(args, &Input::new(&args.old))?;
-    let new = switches(args, &Input::new(&args.new))?;
+    let (old, above) = switches(args, &Input::new(&args.old))?;
+    let (new, above_new) = switches(args, &Input::new(&args.new))?;
     let mut output = String::new();
-    let same = append_difference(&mut output, &old, &new);
-    if same {
-        let count = new.len();
+    let same = append_difference(&mut output, &old.list, &new.list);
+    if !same {
+        let names = format!("--- {}\n+++ {}\n", shown(&args.old), shown(&args.new));
+        output.insert_str(0, &names);
+    }
+    let obstacles: Vec<&String> = [&old, &new]
+        .into_iter()
+        .filter_map(|version| version.obstacle.as_ref())
+        .collect();
+    for obstacle in &obstacles {
+        let _ = writeln!(output, "not comparable: {}", visible_line(obstacle));
+    }
+    if same && obstacles.is_empty() {
+        let count = new.list.len();
         let plural = if count == 1 { "" } else { "s" };
         let _ = writeln!(
             output,
             "no difference: {count} change{plural} of state in both"
         );
-    } else {
-        let names = format!("--- {}\n+++ {}\n", shown(&args.old), shown(&args.new));
-        output.insert_str(0, &names);
+    }
+    if let Some(remark) = above.or(above_new) {
+        output.insert_str(0, &format!("{remark}\n\n"));
     }
     if let Printed::Unread = console.print_painted(&output, difference)? {
         return Ok(exit::CLEAN);
     }
-    Ok(if same { exit::CLEAN } else { exit::FOUND })
+    Ok(if same && obstacles.is_empty() {
+        exit::CLEAN
+    } else {
+        exit::FOUND
+    })
 }
 
-fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
+/// The changes of one version, and what stands above the result where its machine is not described.
+fn switches(args: &DiffArgs, input: &Input) -> Result<(Switches, Option<String>), Failure> {
     input.probe()?;
     let mut machines = Machines::new(&args.machine, &Ledger::default());
     machines.look_ahead(std::slice::from_ref(input));
@@ -153,7 +206,8 @@ fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
     let mut switches = Switches {
         kinds: args.kinds,
         list: Vec::new(),
-        error: None,
+        candidate: None,
+        obstacle: None,
     };
     run_alone(
         input,
@@ -165,10 +219,12 @@ fn switches(args: &DiffArgs, input: &Input) -> Result<Vec<Switch>, Failure> {
         },
         &mut switches,
     )?;
-    if let Some(error) = &switches.error {
-        Console::talk(error);
-    }
-    Ok(switches.list)
+    let remark = if loaded.machine.is_described() {
+        None
+    } else {
+        switched::remark([&Input::new(&args.old), &Input::new(&args.new)])
+    };
+    Ok((switches, remark))
 }
 
 /// Appends what differs; says whether nothing does.

@@ -13,6 +13,7 @@ use super::finder::{ProgramFinder, Reach};
 use super::ledger::Ledger;
 use super::lookahead::AxesAhead;
 use super::settings::{self, SkipLevels};
+use super::switched;
 use super::watch::{Watch, Watched};
 use crate::machine::AxisSet;
 use crate::session::{Limits, Motions, Notes, Program, Session, SessionOptions, StopPolicy};
@@ -164,7 +165,11 @@ pub(super) fn run_alone(
     sink: &mut dyn Sink,
 ) -> Result<Session, Failure> {
     let surroundings = Surroundings::new(loaded, alone.naming);
-    let mut session = Session::new(loaded.machine.clone(), alone.options);
+    let mut options = alone.options;
+    if !loaded.machine.is_described() {
+        options.switched = switched::axes([input]);
+    }
+    let mut session = Session::new(loaded.machine.clone(), options);
     if alone.axes == Axes::Ahead && loaded.machine.axis_set == AxisSet::AsTheyOccur {
         session.expect_axes(AxesAhead::of([input], []).names());
     }

@@ -43,6 +43,7 @@ mod settings;
 mod severities;
 mod state;
 mod steady;
+mod switched;
 mod tune;
 mod unfinished;
 mod unread;

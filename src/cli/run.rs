@@ -21,13 +21,14 @@ use super::quiet::Quiet;
 use super::settings;
 use super::severities::SeverityArgs;
 use super::state::StateFile;
+use super::switched;
 use super::unread::say_unread;
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::machine::{AxisSet, Setting};
 use crate::report::html::RunStory;
 use crate::report::{Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View};
-use crate::session::{Session, StopPolicy};
+use crate::session::{Session, StopPolicy, undescribed};
 use crate::syntax::KindSet;
 use crate::timeline::{Record, Sink};
 
@@ -240,7 +241,16 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     outputs.check()?;
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
-    let options = args.execution.options(&loaded, args.stop_policy());
+    let mut options = args.execution.options(&loaded, args.stop_policy());
+    if !loaded.machine.is_described() {
+        options.switched = switched::axes(&inputs);
+    }
+    if args.format == Format::Csv {
+        // A row is a block: the remark has no row.
+        undescribed(&loaded.machine, &options.switched)
+            .iter()
+            .for_each(|remark| Console::talk(remark));
+    }
     let (session, said) = match (saved, &state) {
         (Some(saved), Some(file)) => Session::resume(loaded.machine.clone(), options, saved)
             .map_err(|error| file.refused(&error))?,

@@ -152,15 +152,20 @@ impl Interpreter {
         match error {
             CompensationError::NotConfigured { .. } => {
                 let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
+                let described = self.machine.is_described();
                 diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
                     Some(Origin::File { file, line }) => {
                         format!("{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control")
                     }
-                    _ => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control"),
+                    _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control"),
+                    // One list with all axes stands above (R1.37).
+                    _ => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list, or assume it with `--enable`"),
                 });
-                diagnostic = diagnostic.with_help(format!(
-                    "to go on as if it were set, run with `--enable {name}`"
-                ));
+                if described {
+                    diagnostic = diagnostic.with_help(format!(
+                        "to go on as if it were set, run with `--enable {name}`"
+                    ));
+                }
             }
             CompensationError::UnknownAxis { .. } => {
                 diagnostic = self.advise_on_axis(diagnostic, name);

@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
+pub use undescribed::undescribed;
 
 use crate::compensation::Compensation;
 use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
@@ -123,7 +124,7 @@ impl Session {
         }
         let axes = machine.axes.len();
         Self {
-            remark: undescribed::remark(&machine, &options.switched),
+            remark: undescribed(&machine, &options.switched),
             machine,
             interpreter,
             levels: options.levels,

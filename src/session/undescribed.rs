@@ -4,7 +4,7 @@ use crate::machine::Machine;
 
 /// Says that no machine is described, and how to mend it for the axes that the programs switch.
 /// `None` where one is.
-pub(super) fn remark(machine: &Machine, switched: &[String]) -> Option<String> {
+pub fn undescribed(machine: &Machine, switched: &[String]) -> Option<String> {
     if machine.is_described() {
         return None;
     }
@@ -27,11 +27,11 @@ mod tests {
     fn all_axes_are_proposed_in_one_list() {
         // R1.37
         let axes = ["X".to_owned(), "Y".to_owned()];
-        let said = remark(&Machine::unconfigured(), &axes).unwrap_or_default();
+        let said = undescribed(&Machine::unconfigured(), &axes).unwrap_or_default();
         assert!(said.contains("`frictcomp init`"), "{said}");
         assert!(said.ends_with("`--enable X,Y`"), "{said}");
-        let said = remark(&Machine::unconfigured(), &[]).unwrap_or_default();
+        let said = undescribed(&Machine::unconfigured(), &[]).unwrap_or_default();
         assert!(said.ends_with("`frictcomp init`"), "{said}");
-        assert_eq!(remark(&Machine::enabled(["X"]), &axes), None);
+        assert_eq!(undescribed(&Machine::enabled(["X"]), &axes), None);
     }
 }

@@ -5,3 +5,4 @@ mod program;
 mod saved;
 mod sessions;
 mod undescribed;
+mod versions;

@@ -1,0 +1,79 @@
+//! `diff`: versions that cannot be compared as a whole are said to be so.
+
+use crate::folder::Bench;
+
+fn diff(old: &str, new: &str, arguments: &[&str]) -> (Option<i32>, String) {
+    let bench = Bench::new(&[("old.nc", old), ("new.nc", new)]);
+    let mut all = vec!["diff", "old.nc", "new.nc"];
+    all.extend(arguments);
+    let output = bench.call(&all);
+    let shown = String::from_utf8(output.stdout).expect("text");
+    (output.status.code(), shown)
+}
+
+#[test]
+fn versions_that_stop_are_not_comparable() {
+    // R1.37, R9.26
+    let stops = "Z[COMP ON FRICT]\nX[COMP OFF FRICT]\nM30\n";
+    let (status, shown) = diff(stops, stops, &[]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert!(!shown.contains("no difference"), "{shown}");
+    assert_eq!(shown.matches("not comparable: ").count(), 2, "{shown}");
+    assert!(shown.contains("old.nc:1 stops with P-ERR-70495"), "{shown}");
+    assert!(shown.contains("new.nc:1 stops with P-ERR-70495"), "{shown}");
+
+    let endless = "X[COMP OFF FRICT]\n$WHILE 1\nG90\n$ENDWHILE\nM30\n";
+    let (status, shown) = diff(endless, endless, &["--max-blocks", "50"]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert!(shown.contains("FC910"), "{shown}");
+
+    let refused = "$IF 1\nX[COMP OFF FRICT]\nM30\n";
+    let (status, shown) = diff(refused, refused, &[]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert!(shown.contains("not comparable: "), "{shown}");
+}
+
+#[test]
+fn what_is_not_known_is_not_comparable() {
+    // R1.37, R9.26
+    let unknown = "$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nM30\n";
+    let (status, shown) = diff(unknown, unknown, &[]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert!(
+        shown.contains("not comparable: from old.nc:1 on FRICT of X"),
+        "{shown}"
+    );
+    let (status, shown) = diff(unknown, unknown, &["--set", "V.E.A=1"]);
+    assert_eq!(status, Some(0), "{shown}");
+    assert!(shown.starts_with("no difference"), "{shown}");
+
+    let off = "X[COMP OFF FRICT]\nM30\n";
+    let (status, shown) = diff(off, off, &["--isolated"]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert!(shown.starts_with("no machine is described"), "{shown}");
+    assert!(
+        shown.contains("not comparable: what old.nc:1 does"),
+        "{shown}"
+    );
+    let (status, shown) = diff(off, off, &["--isolated", "--enable", "X"]);
+    assert_eq!(status, Some(0), "{shown}");
+}
+
+#[test]
+fn differences_are_shown_beside() {
+    // R9.26: a lint that the user made an error stops nothing.
+    let stops = "X[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30\n";
+    let (status, shown) = diff("M30\n", stops, &[]);
+    assert_eq!(status, Some(1));
+    assert!(
+        shown.contains("+      1  X FRICT: active → inactive"),
+        "{shown}"
+    );
+    assert!(shown.contains("not comparable: new.nc:2"), "{shown}");
+    let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n")]);
+    bench.write(
+        "frictcomp.toml",
+        &format!("{}[lint]\nFC401 = \"error\"\n", crate::folder::MACHINE),
+    );
+    assert_eq!(bench.status(&["diff", "a.nc", "a.nc"]), Some(0));
+}

@@ -9,13 +9,13 @@ pub fn undescribed(machine: &Machine, switched: &[String]) -> Option<String> {
         return None;
     }
     let mut text = "no machine is described, so P-AXIS-00522 counts as 0 on every axis: describe \
-                    it with `frictcomp init`"
+                    it with `frictcomp init`, or assume friction compensation with `--enable"
         .to_owned();
     if !switched.is_empty() {
-        text.push_str(", or assume friction compensation with `--enable ");
+        text.push(' ');
         text.push_str(&switched.join(","));
-        text.push('`');
     }
+    text.push('`');
     Some(text)
 }
 
@@ -31,7 +31,7 @@ mod tests {
         assert!(said.contains("`frictcomp init`"), "{said}");
         assert!(said.ends_with("`--enable X,Y`"), "{said}");
         let said = undescribed(&Machine::unconfigured(), &[]).unwrap_or_default();
-        assert!(said.ends_with("`frictcomp init`"), "{said}");
+        assert!(said.ends_with("`--enable`"), "{said}");
         assert_eq!(undescribed(&Machine::enabled(["X"]), &axes), None);
     }
 }

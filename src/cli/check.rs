@@ -94,7 +94,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         console.remark(&remark);
     }
     say_unread(&args.machine, &ledger, console);
-    if args.listing.format.is_text() {
+    if args.listing.format.is_text() && listing.tally().files > 0 {
         let passed_over = walk::passed_over(found.passed_over);
         console.remark(&(total(listing.tally()) + &passed_over));
         listing.hint().iter().for_each(|hint| console.remark(hint));

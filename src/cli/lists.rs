@@ -213,7 +213,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     }
     console.print_painted(&table, parts)?;
     outputs.finish()?;
-    if args.listing.format == Format::Text {
+    if args.listing.format == Format::Text && listing.tally().files > 0 {
         let missing = reports.iter().map(|report| report.missing).sum();
         console.remark(&(total(listing.tally()) + &lacking(missing)));
         listing.hint().iter().for_each(|hint| console.remark(hint));

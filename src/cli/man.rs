@@ -1,5 +1,6 @@
 //! `frictcomp man`: the manual pages.
 
+use std::collections::VecDeque;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -40,8 +41,8 @@ pub(super) fn run(args: &ManArgs, console: Console) -> Result<u8, Failure> {
 /// The tool and its commands, each by its whole name, `frictcomp-config-show`.
 fn commands(command: clap::Command) -> Vec<clap::Command> {
     let mut found = Vec::new();
-    let mut open = vec![command.disable_help_subcommand(true)];
-    while let Some(mut command) = open.pop() {
+    let mut open = VecDeque::from([command.disable_help_subcommand(true)]);
+    while let Some(mut command) = open.pop_front() {
         // Gives the commands below what they have from above.
         command.build();
         let name = command.get_display_name().unwrap_or("frictcomp").to_owned();

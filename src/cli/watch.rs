@@ -60,17 +60,18 @@ impl Watch {
     }
 
     /// Shows how far a program is: what was done of it, and at which line it stands.
-    pub(super) fn show(&self, done: &str, (file, line): (&str, u32)) {
+    pub(super) fn show(&self, done: &str, (file, line): (&str, u32), way: Way) {
         // Who comes while another program shows itself need not wait.
         let Ok(mut shown) = self.shown.try_lock() else {
             return;
         };
         let Shown { progress, lines } = &mut *shown;
         progress.show(|| {
-            if lines.as_ref().is_none_or(|(known, _)| known != file) {
+            if way == Way::Down && lines.as_ref().is_none_or(|(known, _)| known != file) {
                 *lines = Some((file.to_owned(), count_lines(file)));
             }
             let all = lines.as_ref().map_or(0, |(_, all)| *all);
+            let all = if way == Way::Down { all } else { 0 };
             let programs = self.programs.load(Ordering::Relaxed);
             let current = self.done.load(Ordering::Relaxed) + 1;
             far((current, programs), &format!("{done}{}", share(line, all)))
@@ -78,7 +79,35 @@ impl Watch {
     }
 }
 
-/// `2 of 12 programs: 300000 blocks, line 20 of 400 (5 %)`
+/// How control goes through a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Way {
+    /// From its first line to its last.
+    #[default]
+    Down,
+    /// It comes back: nobody knows how often.
+    Back,
+}
+
+/// Which way control went through a program so far.
+#[derive(Debug, Default)]
+pub(super) struct Course {
+    line: u32,
+    way: Way,
+}
+
+impl Course {
+    /// Control reaches a line.
+    pub(super) fn reach(&mut self, line: u32) -> Way {
+        if line < self.line {
+            self.way = Way::Back;
+        }
+        self.line = line;
+        self.way
+    }
+}
+
+/// `program 2 of 12: 300000 blocks, line 20 of 400 (5 %)`
 fn far((current, programs): (u64, u64), what: &str) -> String {
     if programs > 1 {
         format!("program {} of {programs}: {what}", current.min(programs))
@@ -119,6 +148,7 @@ pub(super) struct Watched<'a> {
     sink: &'a mut dyn Sink,
     watch: &'a Watch,
     blocks: u64,
+    course: Course,
 }
 
 impl<'a> Watched<'a> {
@@ -128,14 +158,19 @@ impl<'a> Watched<'a> {
             sink,
             watch,
             blocks: 0,
+            course: Course::default(),
         }
     }
 
     fn step(&mut self, row: &Row<'_>) {
         self.blocks += 1;
+        if row.level.is_none() {
+            self.course.reach(row.line);
+        }
         if self.blocks.is_multiple_of(STEP) {
             let done = format!("{} blocks", self.blocks);
-            self.watch.show(&done, (row.file, row.line));
+            self.watch
+                .show(&done, (row.file, row.line), self.course.way);
         }
     }
 }
@@ -162,6 +197,12 @@ mod tests {
         );
         assert_eq!(far((2, 9), "5 blocks"), "program 2 of 9: 5 blocks");
         assert_eq!(share(3, 0), ", line 3");
+        let mut course = Course::default();
+        let ways = [1, 2, 2, 1, 2].map(|line| course.reach(line));
+        assert_eq!(
+            ways,
+            [Way::Down, Way::Down, Way::Down, Way::Back, Way::Back]
+        );
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), "N1\nN2\n").unwrap();
         assert_eq!(count_lines(&file.path().display().to_string()), 2);

@@ -16,7 +16,7 @@ use super::super::files::{Input, Naming};
 use super::super::ledger::Ledger;
 use super::super::outputs::Outputs;
 use super::super::unread::say_unread;
-use super::super::watch::Watch;
+use super::super::watch::{Course, Watch};
 use super::{Column, CurrentArgs, Plot, say_saturated, value_list};
 use crate::compensation::State;
 use crate::current::{
@@ -79,6 +79,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
             cycles: 0,
             watch: Arc::clone(&loaded.watch),
             program: input.name(Naming::AsGiven),
+            course: Course::default(),
             begins: Vec::new(),
             seen: vec![Vec::new(); followed.len()],
             plot,
@@ -267,6 +268,7 @@ struct Table {
     cycles: u64,
     watch: Arc<Watch>,
     program: String,
+    course: Course,
     /// When and at which line the trace begins, and begins anew.
     begins: Vec<(f64, u32)>,
     /// The states that each axis was in, other than active.
@@ -327,9 +329,11 @@ impl TraceSink for Table {
 
     fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
         self.cycles += 1;
+        let way = self.course.reach(sample.cause.line);
         if self.cycles.is_multiple_of(STEP) {
             let done = format!("{} cycles", self.cycles);
-            self.watch.show(&done, (&self.program, sample.cause.line));
+            self.watch
+                .show(&done, (&self.program, sample.cause.line), way);
         }
         for (seen, state) in self.seen.iter_mut().zip(sample.cause.friction.iter()) {
             if *state != State::Active && !seen.contains(state) {

@@ -4,7 +4,7 @@ use pest::iterators::Pair;
 
 use super::{Lowering, not_closed, not_understood, span_of};
 use crate::source::Span;
-use crate::syntax::ast::{Item, JumpTarget, Levels, Operand, Return, Sequence};
+use crate::syntax::ast::{Effect, Item, JumpTarget, Levels, Operand, Return, Sequence};
 use crate::syntax::expression;
 use crate::syntax::grammar::Rule;
 
@@ -19,11 +19,10 @@ impl Lowering<'_> {
         let mut passes = None;
         for part in pair.into_inner() {
             if part.as_rule() == Rule::sequence_rest {
-                let fault = match self.unclosed.take() {
-                    Some(at) => not_closed(at),
-                    None => not_understood(span, self.code).with_help(HOW),
-                };
-                self.refuse(fault, span);
+                match self.unclosed.take() {
+                    Some(at) => self.refuse(not_closed(at), span),
+                    None => self.unread(Effect::Everything, span),
+                }
                 return;
             }
             let Some(argument) = part.into_inner().next() else {

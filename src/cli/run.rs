@@ -247,9 +247,9 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     if args.format == Format::Csv {
         // A row is a block: the remark has no row.
-        undescribed(&loaded.machine, &options.switched)
-            .iter()
-            .for_each(|remark| Console::talk(remark));
+        if let Some(remark) = undescribed(&loaded.machine, &options.switched) {
+            Console::talk(&remark);
+        }
     }
     let (session, said) = match (saved, &state) {
         (Some(saved), Some(file)) => Session::resume(loaded.machine.clone(), options, saved)

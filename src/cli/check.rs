@@ -22,6 +22,7 @@ use super::unread::say_unread;
 use super::{switched, walk, workers};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
+use crate::report::wrap;
 use crate::session::{NoteKind, Notes, StopPolicy};
 use crate::source::Position;
 use crate::timeline::{Record, Repeat, Sink};
@@ -113,7 +114,7 @@ fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], (target, console): (&mut 
     };
     if args.listing.format.is_text() && !args.listing.quiet {
         // A writer that takes no more says so at the next line.
-        let _ = writeln!(target.writer, "{remark}\n");
+        let _ = writeln!(target.writer, "{}\n", wrap(&remark, target.look.width, 0));
     } else {
         console.remark(&remark);
     }

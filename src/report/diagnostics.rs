@@ -87,7 +87,7 @@ fn title_indent(diagnostic: &Diagnostic) -> usize {
 }
 
 /// Breaks a text between words so that it fits behind an indent; the renderer aligns the lines.
-pub(super) fn wrap(text: &str, width: usize, indent: usize) -> String {
+pub(crate) fn wrap(text: &str, width: usize, indent: usize) -> String {
     let room = width.saturating_sub(indent).max(20);
     let mut wrapped = String::with_capacity(text.len() + 8);
     let mut column = 0;

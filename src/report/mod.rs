@@ -28,6 +28,7 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 pub use csv::Csv;
+pub(crate) use diagnostics::wrap;
 pub use diagnostics::{Look, Paint, render};
 pub use json::Json;
 pub use listing::{Listing, ListingFormat, Tally};

@@ -4,11 +4,9 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 
-use encoding_rs::WINDOWS_1252;
-
 use super::failure::Failure;
 use super::ledger::{Ledger, PROGRAM};
-use super::lines::{LineReader, MOST_KEPT, too_big};
+use super::lines::{LineReader, MOST_KEPT, decode_lines, too_big};
 use super::steady::Steady;
 use crate::source::SourceFile;
 
@@ -191,14 +189,15 @@ fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
     Opened::Lines(LineReader::new(Box::new(Waiting { reader, before })))
 }
 
-/// The text of a file: UTF-8 when it is valid, else code page 1252. A byte order mark is passed
+/// The text of a file, decoded as a stream of its lines is. A byte order mark at its start is passed
 /// over.
 pub(super) fn decode(bytes: Vec<u8>) -> String {
     let mut text = match String::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => {
-            let (text, _) = WINDOWS_1252.decode_without_bom_handling(error.as_bytes());
-            text.into_owned()
+            let mut text = String::with_capacity(error.as_bytes().len());
+            decode_lines(error.as_bytes(), &mut false, &mut text);
+            text
         }
     };
     if text.starts_with('\u{feff}') {

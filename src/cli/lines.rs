@@ -192,21 +192,7 @@ impl<R: Read> LineReader<R> {
         let end = self.unread.start + length;
         let bytes = &self.buffer[self.unread.start..end];
         self.unread.start = end;
-        match std::str::from_utf8(bytes) {
-            Ok(text) if !self.legacy || text.is_ascii() => self.text.push_str(text),
-            _ => {
-                for line in bytes.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
-                    match std::str::from_utf8(line) {
-                        Ok(text) if !self.legacy || text.is_ascii() => self.text.push_str(text),
-                        _ => {
-                            self.legacy = true;
-                            let (text, _) = WINDOWS_1252.decode_without_bom_handling(line);
-                            self.text.push_str(&text);
-                        }
-                    }
-                }
-            }
-        }
+        decode_lines(bytes, &mut self.legacy, &mut self.text);
     }
 
     /// Passes over the rest of a line and its end.
@@ -327,6 +313,26 @@ pub(super) fn too_big() -> io::Error {
     io::Error::new(io::ErrorKind::FileTooLarge, reason)
 }
 
+/// Appends whole lines in UTF-8. The first line that is none is taken as code page 1252, and so is
+/// every later one that is not ASCII.
+pub(super) fn decode_lines(bytes: &[u8], legacy: &mut bool, text: &mut String) {
+    match std::str::from_utf8(bytes) {
+        Ok(all) if !*legacy || all.is_ascii() => text.push_str(all),
+        _ => {
+            for line in bytes.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
+                match std::str::from_utf8(line) {
+                    Ok(line) if !*legacy || line.is_ascii() => text.push_str(line),
+                    _ => {
+                        *legacy = true;
+                        let (line, _) = WINDOWS_1252.decode_without_bom_handling(line);
+                        text.push_str(&line);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Bytes without a character that was cut at their end.
 fn whole_characters(bytes: &[u8]) -> &[u8] {
     match std::str::from_utf8(bytes) {
@@ -443,6 +449,16 @@ mod tests {
         let found = lines(&mut LineReader::new(&bytes[..]));
         let texts: Vec<&str> = found.iter().map(|(text, _)| text.as_str()).collect();
         assert_eq!(texts, ["N1 (Ü)", "N2 (Ü)", "N3 (Ãœ)", "N4"]);
+    }
+
+    #[test]
+    fn a_file_is_decoded_as_its_lines_are() {
+        // R2.1
+        let bytes = b"\xef\xbb\xbfN1\n\xef\xbb\xbfN2 (\xc3\x9c)\rN3 (\xdc)\r\nN4 (\xc3\x9c)\n";
+        let whole = crate::cli::files::decode(bytes.to_vec());
+        let streamed = lines(&mut LineReader::new(&bytes[..]));
+        assert_eq!(lines(&mut TextLines::new(&whole)), streamed);
+        assert_eq!(streamed[1].0, "\u{feff}N2 (\u{dc})");
     }
 
     #[test]

@@ -212,7 +212,10 @@ impl Evaluator<'_> {
                 (found, _) => found.cloned(),
             },
         };
-        found.ok_or_else(|| never_written(span, self.text))
+        let given = || self.scope.memory.given(&format!("P{index}")).cloned();
+        found
+            .or_else(given)
+            .ok_or_else(|| never_written(span, self.text))
     }
 
     /// What only a call or the machine gives, unless the user says what it is.
@@ -346,11 +349,16 @@ impl Evaluator<'_> {
         if let Some(value) = self.scope.memory.variable(name) {
             return Ok(value);
         }
+        if let Some(value) = self.scope.memory.given(name) {
+            return Ok(value.clone());
+        }
         if is_program_variable(name) {
             return Err(never_written(span, self.text));
         }
         Ok((self.scope.system)(name).unwrap_or_else(|| {
-            (self.scope.unknown)(name, self.shown.unwrap_or(span));
+            let written = span.of(self.text).trim_end();
+            let as_written = Some(written).filter(|text| text.eq_ignore_ascii_case(name));
+            (self.scope.unknown)(as_written.unwrap_or(name), self.shown.unwrap_or(span));
             Value::Unknown(name.into())
         }))
     }

@@ -10,7 +10,6 @@ use std::sync::Arc;
 use super::expression::Place as Target;
 use super::functions::finite;
 use super::program::{EntryIndex, LabelName};
-use super::value::rounded;
 use super::{
     At, Departure, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Seeking,
     Shown, Step, Value,
@@ -517,7 +516,7 @@ impl Interpreter {
             JumpTarget::Variable(place) => self.value(Operand::Expression(*place), block, at)?,
         };
         let label = match &value {
-            Value::Number(number) => LabelName::Number(rounded(*number).unwrap_or_default()),
+            Value::Number(number) => LabelName::numbered(*number),
             Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
             Value::Unknown(cause) => {
                 self.assume_no_jump("where this jump goes", (cause, span), at);

@@ -41,6 +41,8 @@ pub(super) struct Memory {
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     variables: Names,
+    /// What the user said that parameters and variables hold which no program wrote.
+    given: BTreeMap<String, Value>,
     /// Set when any of those that programs write may have been: the text that made it so.
     unknown_names: Option<Arc<str>>,
     /// `V.L.` of each call level.
@@ -391,6 +393,24 @@ impl Memory {
         let unknown = self.unknown_names.as_ref().filter(|_| is_written(name));
         let written = self.variables.value(name);
         written.or_else(|| unknown.map(|cause| Value::Unknown(cause.clone())))
+    }
+
+    /// A value from the user (R2.36). What programs write themselves goes before it.
+    pub(super) fn give(&mut self, name: &str, value: Value) {
+        let name = match name.strip_prefix('v').or_else(|| name.strip_prefix('p')) {
+            Some(rest) => format!("{}{rest}", name[..1].to_ascii_uppercase()),
+            None => name.to_owned(),
+        };
+        if is_written(&name) {
+            self.given.insert(name, value);
+        } else {
+            self.set_variable(&name, value);
+        }
+    }
+
+    /// The value that the user gave.
+    pub(super) fn given(&self, name: &str) -> Option<&Value> {
+        self.given.get(name)
     }
 
     pub(super) fn set_variable(&mut self, name: &str, value: Value) {

@@ -461,7 +461,7 @@ impl Interpreter {
 
     /// Gives a variable the value that only the machine knows (R2.36).
     pub fn set(&mut self, name: &str, setting: &Setting) {
-        self.state.memory.set_variable(name, setting.into());
+        self.state.memory.give(name, setting.into());
         self.journal.begin_anew();
     }
 

@@ -49,6 +49,13 @@ pub(super) enum LabelName {
     Text(String),
 }
 
+impl LabelName {
+    /// The label of a number. One that is larger than any block number names no block.
+    pub(super) fn numbered(number: f64) -> Self {
+        rounded(number).map_or_else(|| Self::Text(format!("N{number}")), Self::Number)
+    }
+}
+
 impl std::fmt::Display for LabelName {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -384,8 +391,13 @@ impl Builder {
         if let Some(number) = block.number.filter(|number| number.label)
             && let Operand::Number(value) = number.value
         {
-            let name = LabelName::Number(rounded(value).unwrap_or_default());
-            self.label(entry, name, number.span);
+            if rounded(value).is_some() {
+                self.label(entry, LabelName::numbered(value), number.span);
+            } else {
+                let shown = number.span.of(text).trim();
+                let message = format!("`{shown}` is larger than any block number");
+                self.refuse(entry, Fault::new(Code::Fc209, number.span, message));
+            }
         }
         let jumps = block.jumps();
         for item in &block.items {
@@ -528,9 +540,7 @@ impl Builder {
 
     fn jump(&mut self, target: &JumpTarget, (span, text): (Span, &str)) {
         let label = match target {
-            JumpTarget::Number(Operand::Number(number)) => {
-                LabelName::Number(rounded(*number).unwrap_or_default())
-            }
+            JumpTarget::Number(Operand::Number(number)) => LabelName::numbered(*number),
             JumpTarget::Label(name) => LabelName::Text(name.of(text).to_owned()),
             _ => return,
         };

@@ -342,3 +342,44 @@ fn what_only_the_machine_numbers_ends_no_program() {
     assert_eq!(codes("MV.E.CODE\nX1\nM30"), ["FC902"]);
     assert_eq!(codes("TV.E.TOOL\nX1\nM30"), Vec::<String>::new());
 }
+
+#[test]
+fn arrays_go_on_over_lines_of_a_declaration() {
+    // R2.34
+    let program = "#VAR\nV.P.A[2][3] = [1, 2,\n\n 3, 4, 5, 6]\nV.P.B = 7\n#ENDVAR";
+    let values = Bench::new().values(program, &["V.P.A[1][2]", "V.P.B"]);
+    assert_eq!(values.trim(), "V.P.A[1][2] -> 6\nV.P.B -> 7");
+    let open = codes("#VAR\nV.P.A[2] = [1, 2\nV.P.B = 7\n#ENDVAR\nP1=V.P.B\nM30");
+    assert_eq!(open, ["FC207"]);
+}
+
+#[test]
+fn labels_beyond_any_block_number_are_refused() {
+    // R2.42
+    let label = "N99999999999999999999: X1\nN0: X2\nM30";
+    assert_eq!(codes(label), ["FC209"]);
+    let said = Bench::new().said("$GOTO N99999999999999999999\nN0: X1\nM30");
+    assert!(
+        said.contains("does not exist") && !said.contains("`N0`"),
+        "{said}"
+    );
+}
+
+#[test]
+fn what_the_user_says_stands_for_what_no_program_wrote() {
+    // R2.36
+    let bench = Bench::new()
+        .set("P1", 3.0)
+        .set("V.P.A", 4.0)
+        .set("v.e.b", 5.0)
+        .set("V.S.C", 6.0);
+    let values = bench.values(
+        "P2=P1+V.P.A",
+        &["P1", "V.P.A", "V.E.b", "v.e.b", "V.S.C", "P2"],
+    );
+    assert_eq!(
+        values.trim(),
+        "P1 -> 3\nV.P.A -> 4\nV.E.b -> unknown: V.E.b\nv.e.b -> 5\nV.S.C -> 6\nP2 -> 7"
+    );
+    assert_eq!(bench.values("P1=8", &["P1"]).trim(), "P1 -> 8");
+}

@@ -402,7 +402,11 @@ impl Lowering<'_> {
     fn declarations(&mut self, rest: Span) -> Vec<Declaration> {
         let mut declarations = Vec::new();
         let mut start = rest.start as usize;
-        for line in rest.of(self.code).split('\n') {
+        let mut left = rest.of(self.code);
+        let last_bracket = start + left.rfind(']').unwrap_or_default();
+        while !left.is_empty() {
+            let line = &left[..declaration_end(left, last_bracket.saturating_sub(start))];
+            left = left.get(line.len() + 1..).unwrap_or_default();
             let span = Span::new(start, start + line.len());
             start += line.len() + 1;
             let code = line.trim_matches(super::lines::is_blank);
@@ -462,6 +466,21 @@ impl Lowering<'_> {
             }
         }
     }
+}
+
+/// How long the first declaration of a region is: one line, or more where a bracket stays open, as the
+/// values of an array may. A bracket behind the last `]` is never closed and ends with its line.
+fn declaration_end(text: &str, last_bracket: usize) -> usize {
+    let mut depth = 0_usize;
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            b'[' => depth += 1,
+            b']' => depth = depth.saturating_sub(1),
+            b'\n' if depth == 0 || at > last_bracket => return at,
+            _ => {}
+        }
+    }
+    text.len()
 }
 
 fn is_axis_letter(byte: u8) -> bool {

@@ -111,7 +111,7 @@ codes! {
     Fc903 "FC903" Warning "motion not known offline";
     Fc904 "FC904" Info "trace of the program, not of the machine";
     Fc905 "FC905" Info "messages that are only counted";
-    Fc910 "FC910" Warning "budget of executed blocks";
+    Fc910 "FC910" Warning "loop or program without an end";
     Fc911 "FC911" Error "budget of call depth";
     Fc912 "FC912" Error "budget of nested control blocks";
     Fc913 "FC913" Error "budget of nested brackets";

@@ -155,6 +155,13 @@ impl CheckArgs {
                 start: place.start(),
             });
         }
+        let more = session.notes_left_out();
+        if more > 0 {
+            let (name, listed) = (input.name(Naming::AsGiven), session.notes(kind).count());
+            Console::talk(&format!(
+                "{name}: {listed} places are listed; something else came up {more} times"
+            ));
+        }
         Ok(())
     }
 
@@ -184,8 +191,11 @@ impl CheckArgs {
                 }
             }
             listing.file();
-            for diagnostic in &found {
+            for diagnostic in found.diagnostics.values() {
                 flow = listing.diagnostic(diagnostic);
+            }
+            for (severity, more) in &found.unsaid {
+                listing.count(*severity, *more);
             }
             flow
         });
@@ -197,10 +207,10 @@ fn check_file(
     input: &Input,
     loaded: &LoadedMachine,
     execution: &ExecutionArgs,
-) -> Result<Vec<Diagnostic>, Failure> {
+) -> Result<Found, Failure> {
     let options = execution.options(loaded, StopPolicy::CheckAll);
     let mut found = Found::default();
-    run_alone(
+    let session = run_alone(
         input,
         loaded,
         Alone {
@@ -210,7 +220,12 @@ fn check_file(
         },
         &mut found,
     )?;
-    Ok(found.diagnostics.into_values().collect())
+    found.unsaid = session.counts().clone();
+    for (severity, said) in &found.said {
+        let counted = found.unsaid.entry(*severity).or_default();
+        *counted = counted.saturating_sub(*said);
+    }
+    Ok(found)
 }
 
 /// What makes two diagnostics the same.
@@ -220,10 +235,15 @@ type Key = (Arc<str>, Position, Position, Code, String);
 #[derive(Default)]
 struct Found {
     diagnostics: BTreeMap<Key, Diagnostic>,
+    /// How many came, by severity.
+    said: BTreeMap<Severity, u64>,
+    /// How many more the session counted: a file says so many and no more (R2.85).
+    unsaid: BTreeMap<Severity, u64>,
 }
 
 impl Found {
     fn add(&mut self, diagnostic: &Diagnostic) {
+        *self.said.entry(diagnostic.severity).or_default() += 1;
         let place = &diagnostic.place;
         let key = (
             place.file.clone(),
@@ -266,10 +286,8 @@ impl Sink for Found {
                 end.repeated.iter().for_each(|repeat| self.count(repeat));
             }
             // What the lists say is listed once a machine, not once a program.
-            Record::Machine(_)
-            | Record::Session { .. }
-            | Record::Program { .. }
-            | Record::Summary(_) => {}
+            Record::Machine(said) => *self.said.entry(said.severity).or_default() += 1,
+            Record::Session { .. } | Record::Program { .. } | Record::Summary(_) => {}
         }
         ControlFlow::Continue(())
     }

@@ -11,6 +11,7 @@ use super::exit;
 use super::failure::Failure;
 use super::jobs::Jobs;
 use super::ledger::Ledger;
+use super::memory;
 use super::outputs::Outputs;
 use super::plants::{Model, plant};
 use super::recorded;
@@ -85,6 +86,7 @@ enum Format {
 
 /// Runs the command.
 pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
+    memory::for_simulation()?;
     let ledger = Ledger::default();
     let mut outputs = Outputs::new(&ledger, console);
     let mut result = outputs.result(args.output.as_deref())?;

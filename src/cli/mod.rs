@@ -31,6 +31,7 @@ mod listing;
 mod lists;
 mod lookahead;
 mod man;
+mod memory;
 mod notes;
 mod outputs;
 mod painted;

@@ -196,6 +196,8 @@ struct Start<'a> {
     /// What the control says about lists that changed since the state was saved.
     said: Vec<Diagnostic>,
     state: Option<StateFile>,
+    /// How many programs were left when the session stopped.
+    unrun: usize,
 }
 
 /// Runs the command.
@@ -266,6 +268,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         session,
         said,
         state,
+        unrun: 0,
     };
     let report = args.report(target);
     let given = args.given(&loaded);
@@ -285,7 +288,10 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if let (Format::Text, Some(code)) = (args.format, hint) {
         console.remark(&explain(code));
     }
-    Ok(args.fail_on.status(start.session.counts()))
+    let status = args.fail_on.status(start.session.counts());
+    // Programs that did not run are no all-clear, whatever kept them from it.
+    let unrun = (start.unrun > 0).then_some(super::exit::FOUND);
+    Ok(status.max(unrun.unwrap_or_default()))
 }
 
 /// How far the programs were played.
@@ -350,11 +356,16 @@ impl Start<'_> {
             flow = self.session.finish(sink);
             if left > 0 {
                 let programs = if left == 1 { "program" } else { "programs" };
+                let why = if self.session.counts().contains_key(&Severity::Error) {
+                    "the error stopped the session"
+                } else {
+                    "the budget ended the session"
+                };
                 Console::talk(&format!(
-                    "the error stopped the session: {left} more {programs} did not run \
-                     (`--keep-going` runs on)"
+                    "{why}: {left} more {programs} did not run (`--keep-going` runs on after errors)"
                 ));
             }
+            self.unrun = left;
         }
         Ok(flow)
     }

@@ -10,6 +10,7 @@ use super::exit;
 use super::failure::Failure;
 use super::jobs::Jobs;
 use super::ledger::Ledger;
+use super::memory;
 use super::outputs::Outputs;
 use super::plants::{Model, plant};
 use crate::circle::{Circle, Ranges, Search, Task, Tuned};
@@ -108,6 +109,7 @@ enum Format {
 
 /// Runs the command.
 pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
+    memory::for_simulation()?;
     let circles = circles(args)?;
     if args.plant.len() > MAX_PLANTS {
         let message = format!("{} plants were given", args.plant.len());

@@ -27,6 +27,11 @@ pub(super) fn in_order<T: Send, R: Send>(
     work: impl Fn(T) -> R + Sync,
     mut take: impl FnMut(R) -> ControlFlow<()>,
 ) {
+    if workers.get() == 1 {
+        // A thread of its own would only cost: memory, too, where there is little address space.
+        let _ = items.map(work).try_for_each(take);
+        return;
+    }
     let (jobs, queue) = mpsc::channel::<Job<T, R>>();
     let queue = Mutex::new(queue);
     let (queue, work) = (&queue, &work);

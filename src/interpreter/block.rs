@@ -88,23 +88,12 @@ impl Interpreter {
         if !stopped {
             self.move_axes(&intent, at);
         }
-        if let Some((span, more)) = self.work.unsaid.take() {
-            let message = format!(
-                "the first {MAX_SAID} messages about this block are shown; there are {more} more"
-            );
-            let fault = Fault::new(Code::Fc905, at.in_block(span), message);
-            self.work.diagnostics.push(at.diagnostic(fault));
-        }
         let number = self.block_number(block, at);
         self.state.grant(at.text);
-        let over = self.used_up(at);
-        let is_over = over.is_some();
-        if let Some(over) = over {
-            // The faults of the parts that were given up say no more than it does.
-            let spent = |said: &Diagnostic| said.code == Code::Fc919;
-            self.work.diagnostics.retain(|said| !spent(said));
-            self.work.diagnostics.push(over);
-        }
+        let is_plain = !self.work.wrote
+            && self.work.unsaid.is_none()
+            && self.state.level.get() <= self.options.limits.work;
+        let is_over = !is_plain && self.settle(at);
         if !self.work.changes.is_empty() || self.work.new_axes {
             self.version += 1;
         }
@@ -232,11 +221,7 @@ impl Interpreter {
     #[inline]
     fn say(&mut self, done: Result<(), Box<Fault>>, at: &At<'_>) -> ControlFlow<()> {
         if let Err(fault) = done {
-            if self.work.diagnostics.len() < MAX_SAID || !self.work.diagnostics.iter().any(stops) {
-                self.work.diagnostics.push(at.diagnostic(*fault));
-            } else {
-                self.work.unsaid.get_or_insert((fault.span, 0)).1 += 1;
-            }
+            self.complain(*fault, at);
         }
         let refused =
             self.options.stop == StopPolicy::FirstError && self.work.diagnostics.iter().any(stops);
@@ -245,6 +230,36 @@ impl Interpreter {
         } else {
             ControlFlow::Continue(())
         }
+    }
+
+    #[cold]
+    fn complain(&mut self, fault: Fault, at: &At<'_>) {
+        if self.work.diagnostics.len() < MAX_SAID || !self.work.diagnostics.iter().any(stops) {
+            self.work.diagnostics.push(at.diagnostic(fault));
+        } else {
+            self.work.unsaid.get_or_insert((fault.span, 0)).1 += 1;
+        }
+    }
+
+    /// What a block that did more than move says at its end: how much it left unsaid, and which
+    /// budget it used up. Whether it used up one.
+    #[inline(never)]
+    fn settle(&mut self, at: &At<'_>) -> bool {
+        if let Some((span, more)) = self.work.unsaid.take() {
+            let message = format!(
+                "the first {MAX_SAID} messages about this block are shown; there are {more} more"
+            );
+            let fault = Fault::new(Code::Fc905, at.in_block(span), message);
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+        let Some(over) = self.used_up(at) else {
+            return false;
+        };
+        // The faults of the parts that were given up say no more than it does.
+        let is_part = |said: &Diagnostic| said.code == Code::Fc919;
+        self.work.diagnostics.retain(|said| !is_part(said));
+        self.work.diagnostics.push(over);
+        true
     }
 
     /// What the control does next, where that is not the next block.

@@ -104,7 +104,6 @@ impl Interpreter {
 
     /// FC919 or FC918 when the block used up what it must not. What it could have changed besides is
     /// unknown then: the run did not get to the end of it.
-    #[inline]
     pub(super) fn used_up(&mut self, at: &At<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.work.wrote);
         if self.state.level.get() > self.options.limits.work && self.is_worn_out() {

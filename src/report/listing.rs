@@ -86,6 +86,13 @@ impl<W: Write> Listing<W> {
         self.tally.files += 1;
     }
 
+    /// Counts diagnostics that are not written (R2.85).
+    pub fn count(&mut self, severity: Severity, more: u64) {
+        if more > 0 {
+            *self.tally.counts.entry(severity).or_default() += more;
+        }
+    }
+
     /// What was counted so far.
     pub fn tally(&self) -> &Tally {
         &self.tally

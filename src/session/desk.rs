@@ -21,10 +21,15 @@ use super::said::{Said, Verdict};
 const MAX_NAMED: usize = 100;
 
 /// How many notes are kept.
-pub(super) const MAX_NOTES: usize = 100_000;
+pub(super) const MAX_NOTES: usize = 20_000;
 
 /// Notes by kind, name and place, each once.
-pub(super) type NoteBook = BTreeMap<(NoteKind, String, Arc<str>, Position), Place>;
+#[derive(Default)]
+pub(super) struct NoteBook {
+    pub(super) notes: BTreeMap<(NoteKind, String, Arc<str>, Position), Place>,
+    /// How often something came up that is not among them.
+    pub(super) more: u64,
+}
 
 /// What the summary says.
 pub(super) struct Tally {
@@ -42,7 +47,7 @@ impl Tally {
 
 /// How many comments are kept, to say of each whether it was of use. Further ones allow what they
 /// say in their block, and that is all.
-const MAX_ALLOWS: usize = 100_000;
+const MAX_ALLOWS: usize = 20_000;
 
 /// A code that a comment allows, and whether that was of use.
 pub(super) struct Allow {
@@ -111,8 +116,11 @@ impl Desk<'_> {
                 Arc::clone(&place.file),
                 place.start(),
             );
-            if self.notes.len() < MAX_NOTES || self.notes.contains_key(&key) {
-                self.notes.entry(key).or_insert_with(|| place.clone());
+            let known = &mut self.notes.notes;
+            if known.len() < MAX_NOTES || known.contains_key(&key) {
+                known.entry(key).or_insert_with(|| place.clone());
+            } else {
+                self.notes.more += 1;
             }
         }
         self.said.clear();

@@ -139,7 +139,7 @@ impl Session {
                 changed_by: vec![Vec::new(); axes],
                 changes: vec![0; axes],
             },
-            notes: NoteBook::new(),
+            notes: NoteBook::default(),
         }
     }
 
@@ -206,12 +206,18 @@ impl Session {
     }
 
     /// What the programs needed from the machine, or what was passed over: names with their places,
-    /// sorted, each once, 100 000 of them at most. Empty unless [`SessionOptions::notes`] asks for them.
+    /// sorted, each once, 20 000 of them at most. Empty unless [`SessionOptions::notes`] asks for them.
     pub fn notes(&self, kind: NoteKind) -> impl Iterator<Item = (&str, &Place)> {
         self.notes
+            .notes
             .iter()
             .filter(move |((of, ..), _)| *of == kind)
             .map(|((_, name, ..), place)| (name.as_str(), place))
+    }
+
+    /// How often something came up that [`Self::notes`] does not have, because there are too many.
+    pub fn notes_left_out(&self) -> u64 {
+        self.notes.more
     }
 
     /// The interpreter, for positions and modal state.

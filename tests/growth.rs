@@ -1,0 +1,189 @@
+//! Time and memory grow with the length of a program and no faster (R2.60, R2.85), shape by shape.
+//!
+//! Time is nothing that a test can rely on, so what is compared are counts that are the same in
+//! every run: units of work, bytes that were allocated, and bytes that were held at a time, for a
+//! program and for one that is twice as long.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use frictcomp::machine::Machine;
+use frictcomp::session::{Program, Session, SessionOptions, StopPolicy};
+use frictcomp::source::SourceFile;
+use frictcomp::timeline::{Record, Sink};
+
+/// How much more a program of twice the length may need: the exponent 1.2.
+const TWICE: f64 = 2.3;
+
+/// Work, and bytes, that a run may need however short its program is.
+const ANYWAY: [u64; 2] = [2_000, 50_000];
+
+/// The lines of a program, one for each number.
+fn each(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).fold(String::new(), |mut text, number| {
+        let _ = writeln!(text, "{}", line(number));
+        text
+    })
+}
+
+/// A list of values.
+fn values(count: usize, separator: &str) -> String {
+    let values: Vec<String> = (0..count).map(|value| value.to_string()).collect();
+    values.join(separator)
+}
+
+/// Subprograms and calls of some.
+fn subprograms(count: usize, calls: &str) -> String {
+    let programs = each(count, |n| format!("%L S{n}\nX{n}\nM17"));
+    format!("{programs}%MAIN\n{calls}M30\n")
+}
+
+type Shape = (&'static str, fn(usize) -> String, usize);
+
+/// What programs are made of, and how many of it a test needs to see how it grows.
+#[rustfmt::skip]
+const SHAPES: &[Shape] = &[
+    ("plain blocks", |n| each(n, |n| format!("N{n} G01 X{n} Y1 F500")), 1000),
+    ("jump labels", |n| each(n, |n| format!("N{n}: X1")), 500),
+    ("labels given twice", |n| each(n, |_| "N1: X1".to_owned()), 250),
+    ("jumps", |n| each(n, |n| format!("N{n}: X1\n$GOTO N{}", n + 1)), 250),
+    ("jumps to labels that are missing", |n| each(n, |n| format!("$IF 0 $GOTO N{n}")), 250),
+    ("macros", |n| each(n, |n| format!("\"A{n}\" = \"X{n}\"\n\"A{n}\"")), 250),
+    ("macros in an expression", |n| format!("\"A\"=\"1+1\"\n{}", each(n, |_| "P1=\"A\"*\"A\"".to_owned())), 250),
+    ("a macro that is defined anew", |n| format!("$FOR P1=1,{n},1\n\"A\"=\"X1\"\n\"A\"\n$IF V.E.X\n\"A\"\n$ENDIF\n$ENDFOR"), 250),
+    ("local subprograms", |n| subprograms(n, ""), 250),
+    ("calls of distinct local subprograms", |n| subprograms(n, &each(n, |n| format!("LL S{n}"))), 250),
+    ("calls of missing local subprograms", |n| subprograms(n, &each(n, |n| format!("LL T{n}"))), 500),
+    ("calls of missing programs", |n| each(n, |n| format!("L t{n}.nc")), 250),
+    ("calls in a region that is not known", |n| subprograms(n, &format!("$IF V.E.X\n{}$ENDIF\n", each(n, |n| format!("LL S{n}")))), 250),
+    ("missing programs in a region that is not known", |n| format!("$IF V.E.X\n{}$ENDIF", each(n, |n| format!("L t{n}.nc"))), 250),
+    ("a long region that is not known in a long loop", |n| format!("$FOR P1=1,{n},1\n$IF V.E.X\n{}$ENDIF\n$ENDFOR", each(n, |n| format!("P{}=1 X{n}", n + 9))), 150),
+    ("many regions that are not known", |n| each(n, |n| format!("$IF V.E.X\nP{n}=1\n$ENDIF")), 250),
+    ("regions that are not known in each other", |n| format!("{}{}", each(n.min(40), |n| format!("$IF V.E.A{n}\nX1")), each(n.min(40), |_| "$ENDIF".to_owned())), 10),
+    ("calls of a file with faults", |n| format!("; faults {n}\n{}", each(n, |_| "L faulty.nc".to_owned())), 100),
+    ("allow comments", |n| each(n, |_| "X[COMP ON FRICT] ; frictcomp: allow FC402".to_owned()), 250),
+    ("allow comments of no use", |n| each(n, |_| "X1 ; frictcomp: allow FC402".to_owned()), 250),
+    ("lints", |n| each(n, |_| "X[COMP ON FRICT]".to_owned()), 250),
+    ("lints in a loop", |n| format!("$FOR P1=1,3,1\n{}$ENDFOR", each(n, |_| "X[COMP ON FRICT]".to_owned())), 250),
+    ("one message in a long loop", |n| format!("$FOR P1=1,{n},1\nP2=P9\n$ENDFOR"), 500),
+    ("couplings", |n| each(n, |n| format!("#SET AX LINK [{n}, Y=X]\n#ENABLE AX LINK [{n}]")), 250),
+    ("couplings that are released", |n| format!("{}{}", each(n, |n| format!("#SET AX LINK [{n}, Y=X]\n#ENABLE AX LINK [{n}]")), each(n, |n| format!("#DISABLE AX LINK [{n}]"))), 250),
+    ("variables", |n| each(n, |n| format!("V.P.A{n}=1")), 250),
+    ("variables of a level", |n| each(n, |n| format!("V.L.A{n}=1")), 250),
+    ("variables that are deleted", |n| format!("{}{}", each(n, |n| format!("V.P.A{n}=1")), each(n, |n| format!("#DELETE V.P.A{n}"))), 250),
+    ("elements that are deleted", |n| format!("{}{}", each(n, |n| format!("V.P.A[{n}]=1")), each(n, |n| format!("#DELETE V.P.A[{n}]"))), 250),
+    ("array declarations", |n| each(n, |n| format!("#VAR\nV.P.A{n}[3]=[1,2,3]\n#ENDVAR")), 250),
+    ("array declarations in one region", |n| format!("#VAR\n{}#ENDVAR", each(n, |n| format!("V.P.A{n}[3]=[1,2,3]"))), 250),
+    ("an array of many values", |n| format!("#VAR\nV.P.A[{n}]=[{}]\n#ENDVAR", values(n, ",\\\n")), 500),
+    ("elements of an array", |n| each(n, |n| format!("V.P.A[{n}]=1")), 250),
+    ("elements that nobody knows", |n| each(n, |n| format!("V.P.A[{n}]=1\nV.P.A[V.E.I]=1")), 250),
+    ("parameters that nobody knows", |n| each(n, |n| format!("P{n}=1\nP[V.E.I]=1")), 250),
+    ("faults of a continued block", |n| format!("V.P.T[9] = [1,\\\n{}1]", "1,2,3,4,5,6,7,8,9,0,\\\n".repeat(n)), 10),
+    ("a continued block", |n| format!("X1 \\\n{}Y1", "F1 \\\n".repeat(n)), 250),
+    ("continued blocks", |n| "X[COMP \\\nON \\\nFRICT]\n".repeat(n), 250),
+    ("long lines", |n| format!("{}\n", "X1 ".repeat(n)).repeat(5), 300),
+    ("long lines with faults", |n| format!("{}\n", "?1 ".repeat(n)).repeat(5), 150),
+    ("long expressions", |n| format!("P1=1{}\n", "+1".repeat(n)).repeat(5), 450),
+    ("texts that grow", |n| format!("P1=\"\"\n$FOR P2=1,{n},1\nP1=P1+\"a\"\n$IF LEN[P1]>50\nP1=\"\"\n$ENDIF\n$ENDFOR"), 500),
+    ("diagnostics", |n| each(n, |n| format!("P1=P{}", n + 9)), 500),
+    ("diagnostics of blocks that are never run", |n| format!("M30\n{}", each(n, |n| format!("X1 ?{n}"))), 500),
+    ("words that are passed over", |n| each(n, |n| format!("#FOO{n}")), 500),
+    ("ends without an opener", |n| "$ENDIF\n".repeat(n), 250),
+    ("openers without an end", |n| "$IF 1\n".repeat(n), 250),
+    ("control blocks in each other", |n| format!("{}{}", "$IF 1\n".repeat(n), "$ENDIF\n".repeat(n)), 250),
+    ("loops", |n| "$FOR P1=1,2,1\nX1\n$ENDFOR\n".repeat(n), 250),
+    ("cases", |n| format!("P1={n}\n$SWITCH P1\n{}$ENDSWITCH", each(n, |n| format!("$CASE {n}\nX1\n$BREAK"))), 250),
+    ("branches", |n| format!("P1=-1\n$IF P1==-2\n{}$ENDIF", each(n, |n| format!("$ELSEIF P1=={n}\nX1"))), 250),
+    ("programs in a file", |n| each(n, |n| format!("%P{n}\nX1\nM30")), 250),
+    ("comments", |n| "(a (b)) X1 ; c\n".repeat(n), 250),
+    ("comment regions", |n| "#COMMENT BEGIN\nX1\n#COMMENT END\n".repeat(n), 250),
+    ("values of the machine", |n| each(n, |n| format!("P1=V.E.A{n}")), 250),
+    ("the language of other controls", |n| each(n, |n| format!("CYCLE81({n},1,,2) ; IF R{n} > 2 GOTOF X")), 250),
+];
+
+/// What a run came to.
+#[derive(Debug)]
+struct Cost {
+    work: u64,
+    allocated: u64,
+    held: u64,
+}
+
+struct Nobody;
+
+impl Sink for Nobody {
+    fn record(&mut self, _: &Record<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+fn cost(text: &str) -> Cost {
+    let machine = Machine::enabled(["X", "Y"]);
+    let options = SessionOptions {
+        stop: StopPolicy::CheckAll,
+        ..SessionOptions::default()
+    };
+    let source = SourceFile::new("a.nc", text);
+    let faults: usize = text
+        .lines()
+        .next()
+        .and_then(|line| line.strip_prefix("; faults "))
+        .map_or(0, |faults| faults.parse().expect("a number"));
+    let faulty = "$ENDIF\n".repeat(faults) + "M17";
+    let mut finder =
+        |name: &str, _: &str| (name == "faulty.nc").then(|| SourceFile::new(name, faulty.as_str()));
+    let mut work = 0;
+    let info = allocation_counter::measure(|| {
+        let mut session = Session::new(machine, options);
+        let _ = session.program("a.nc", Program::Whole(source), &mut finder, &mut Nobody);
+        work = session.interpreter().work();
+    });
+    Cost {
+        work,
+        allocated: info.bytes_total,
+        held: info.bytes_max,
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "counts of a test")]
+fn growth(once: u64, twice: u64, anyway: u64) -> f64 {
+    twice as f64 / once.max(anyway) as f64
+}
+
+#[test]
+fn twice_the_program_needs_twice_the_time_and_memory() {
+    // R2.60, R2.85
+    let mut table = String::new();
+    let mut too_fast = Vec::new();
+    for &(shape, program, count) in SHAPES {
+        let (once, twice) = (cost(&program(count)), cost(&program(2 * count)));
+        let growth = [
+            growth(once.work, twice.work, ANYWAY[0]),
+            growth(once.allocated, twice.allocated, ANYWAY[1]),
+            growth(once.held, twice.held, ANYWAY[1]),
+        ];
+        let [work, allocated, held] = growth;
+        let _ = writeln!(table, "{shape:<50} {work:.2} {allocated:.2} {held:.2}");
+        if growth.into_iter().any(|growth| growth > TWICE) {
+            too_fast.push(format!("{shape}: {once:?} {twice:?}"));
+        }
+    }
+    // Shown with `--nocapture`.
+    println!("{table}");
+    assert!(too_fast.is_empty(), "{}", too_fast.join("\n"));
+}
+
+#[test]
+fn the_document_shows_every_shape() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reliability.md");
+    let text = fs::read_to_string(path).expect("a document");
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let missing: Vec<&str> = SHAPES
+        .iter()
+        .map(|(shape, ..)| *shape)
+        .filter(|shape| !text.contains(shape))
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}

@@ -21,7 +21,7 @@ use super::outputs::Outputs;
 use super::unread::say_unread;
 use super::{switched, walk, workers};
 use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::report::wrap;
 use crate::session::{NoteKind, Notes, StopPolicy};
 use crate::source::Position;

@@ -148,6 +148,13 @@ impl Lister<'_> {
         self.listing.diagnostic(said)
     }
 
+    /// Counts diagnostics that are too many to be listed (R2.85).
+    pub(super) fn count(&mut self, severity: Severity, more: u64) {
+        if !self.args.quiet || self.args.fail_on.counts(severity) {
+            self.listing.count(severity, more);
+        }
+    }
+
     /// Lists effective parameters, where the format has records.
     pub(super) fn parameters(&mut self, reports: &[AxisReport]) {
         for report in reports {

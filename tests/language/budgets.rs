@@ -415,7 +415,7 @@ fn a_message_in_a_loop_or_a_macro_is_said_once() {
     let expected = [
         ("FC311", 3, 500),
         ("FC311", 4, 500),
-        ("FC402", 5, 500),
+        ("FC402", 5, 499),
         ("FC902", 6, 500),
     ];
     assert_eq!(counts, expected);

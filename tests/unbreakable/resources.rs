@@ -503,10 +503,10 @@ fn a_simulation_without_memory_ends_with_a_message() {
 }
 
 #[test]
-fn a_million_messages_are_counted_in_little_memory() {
+fn more_messages_than_are_said_are_counted_in_little_memory() {
     // R2.85, R9.40: in every format of `run` and `check`.
     let bench = Bench::new(&[]);
-    let many = "X[COMP OFF FRICT]\nP1=P9\n".repeat(15_000) + "M30\n";
+    let many = "X[COMP OFF FRICT]\nP1=P9\n".repeat(5_500) + "M30\n";
     fs::write(bench.folder().join("many.nc"), many).expect("written");
     for format in FORMATS {
         let call = ["run", "--keep-going", "--format", format, "many.nc"];
@@ -524,11 +524,8 @@ fn a_million_messages_are_counted_in_little_memory() {
         let listed = std::str::from_utf8(&output.stdout).expect("text");
         assert!(listed.contains("FC905"), "{format}");
         if format == "text" {
-            assert!(
-                said(&output).contains("14999 errors") || said(&output).contains("15000 errors"),
-                "{}",
-                said(&output)
-            );
+            let total = said(&output);
+            assert!(total.contains("5500 errors"), "{total}");
         }
     }
 }

@@ -449,7 +449,7 @@ impl Gathering<'_> {
                     self.axis(axis, block);
                 }
             }
-            _ => {}
+            Address::Letter(_) => {}
         }
     }
 

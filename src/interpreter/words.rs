@@ -215,9 +215,10 @@ impl Interpreter {
             b'G' | b'M' | b'T' | b'D' => number.and_then(rounded),
             _ => None,
         };
-        if let (Some(whole), Some(number)) = (whole, number)
-            && i32::try_from(whole).is_ok_and(|whole| f64::from(whole) != number)
-        {
+        #[allow(clippy::float_cmp)] // whole numbers are exact
+        let is_other =
+            |whole: i64| i32::try_from(whole).is_ok_and(|whole| Some(f64::from(whole)) != number);
+        if whole.is_some_and(is_other) {
             // `G54.1` is a function of its own, not G54.
             self.unread_word(word.span, at);
             return Ok(());

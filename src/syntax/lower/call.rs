@@ -81,7 +81,7 @@ impl Lowering<'_> {
                 Rule::cycle_word => {
                     let mut inner = argument.into_inner();
                     if let (Some(word), Some(value)) = (inner.next(), inner.next()) {
-                        let letter = word.as_str().bytes().nth(1).unwrap_or_default();
+                        let letter = word.as_str().as_bytes().get(1).copied().unwrap_or_default();
                         let value = expression::lower(value, 0, self.block);
                         words.push((letter.to_ascii_uppercase(), value));
                     }

@@ -17,7 +17,7 @@ use frictcomp::machine::AcceptedList;
 use frictcomp::report::pictures::{AxisPlot, CurrentPlot, tuning, value_curve, value_curves};
 use frictcomp::report::svg::{
     Axis, Band, BandChart, BandRow, BandState, Drawn, Frame, LineChart, Panel, PolarChart,
-    PolarSeries, Series,
+    PolarSeries, Series, Standing,
 };
 use frictcomp::report::tune::TuneReport;
 
@@ -43,7 +43,12 @@ fn list() -> FrictionList {
 }
 
 fn band(from: f64, to: f64, state: BandState) -> Band {
+    let standing = match state {
+        BandState::One(state) => Standing::of(state, State::Active),
+        BandState::Changing => Standing::Home,
+    };
     Band {
+        standing,
         from,
         to,
         state,
@@ -168,6 +173,7 @@ fn states() -> BandChart {
         title: "States over the blocks".to_owned(),
         description: "Four rows of states.".to_owned(),
         x: Axis::linear("executed blocks"),
+        steps: None,
         rows: vec![
             row("X", [Active, Inactive, Active]),
             row("Y", [Ineffective, Unknown, Inactive]),

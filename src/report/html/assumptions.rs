@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use super::page::Page;
 use crate::codes::Code;
+use crate::machine::AxisSet;
 use crate::report::markup::{escaped, push_escaped};
 
 /// The list that the documentation shows.
@@ -30,6 +31,11 @@ fn assumptions() -> impl Iterator<Item = Assumption> {
 }
 
 impl Assumption {
+    /// Whether it is made only where no machine is described.
+    fn needs_no_configuration(&self) -> bool {
+        self.cells[1].starts_with("without a configuration")
+    }
+
     /// Whether one of the codes tells that the assumption was made. The rules that every session
     /// rests on tell it in its first record.
     fn is_used(&self, said: &BTreeSet<Code>) -> bool {
@@ -56,19 +62,22 @@ fn ranges(text: &str) -> impl Iterator<Item = Code> {
 }
 
 /// Writes the assumptions that this run made, and folded all others.
-pub(super) fn render(page: &mut Page<'_>, said: &BTreeSet<Code>) {
+pub(super) fn render(page: &mut Page<'_>, said: &BTreeSet<Code>, axes: AxisSet) {
+    let made = |it: &Assumption| {
+        it.is_used(said) && (axes == AxisSet::AsTheyOccur || !it.needs_no_configuration())
+    };
     let columns = ["rule", "assumption", "what it changes", "how it shows"];
     page.paragraph(
         "The documents of the control leave things open. These readings this run rests on or met:",
     );
     page.open_table("Assumptions of this run", &columns);
-    for used in assumptions().filter(|assumption| assumption.is_used(said)) {
+    for used in assumptions().filter(made) {
         row(page, &used);
     }
     page.close_table();
     page.raw("<details><summary>All other assumptions that can change a result</summary>\n");
     let mut heading = "";
-    for other in assumptions().filter(|assumption| !assumption.is_used(said)) {
+    for other in assumptions().filter(|assumption| !made(assumption)) {
         if other.heading != heading {
             if !heading.is_empty() {
                 page.close_table();

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::page::{Page, Part};
+use super::page::{NUMBERS, Page, Part};
 use crate::lists::AxisType;
 use crate::machine::AcceptedList;
 use crate::report::circle::{CircleReport, Subject, advice_lines, conditions, table};
@@ -72,7 +72,12 @@ pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<(
 fn render_figures(page: &mut Page<'_>, report: &CircleReport) {
     let table = table(report);
     let mut columns = vec!["figure"];
-    columns.extend(table.columns.iter().map(String::as_str));
+    let numbers: Vec<String> = table
+        .columns
+        .iter()
+        .map(|name| format!("{NUMBERS}{name}"))
+        .collect();
+    columns.extend(numbers.iter().map(String::as_str));
     page.open_table(
         "Figures of ISO 230-4 and glitches at reversals, in µm",
         &columns,

@@ -3,6 +3,7 @@
 use super::page::{Page, state_word};
 use super::run::Given;
 use super::story::RunStory;
+use crate::compensation::Change;
 use crate::lists::{AxisType, Origin};
 use crate::machine::{AxisReport, AxisSet, Parameterisation};
 use crate::report::lists::cells;
@@ -65,7 +66,7 @@ fn parameters(page: &mut Page<'_>, report: &AxisReport) {
         return;
     }
     let caption = format!("Parameters of axis {}", report.axis);
-    page.open_table(&caption, &["number", "key", "value", "origin"]);
+    page.open_table(&caption, &["number", "key", "#value", "origin"]);
     for parameter in &report.parameters {
         let [number, key, value, origin] = cells(parameter);
         let key = format!("<code>{}</code>", escaped(&key));
@@ -103,6 +104,8 @@ fn value_list(friction: &Parameterisation) -> String {
 }
 
 /// The words of a change of state.
-pub(super) fn change_words(from: &str, to: &str) -> String {
-    format!("{} \u{2192} {}", state_word(from), state_word(to))
+pub(super) fn change_words(story: &RunStory, change: Change) -> String {
+    let of = (change.axis, change.kind);
+    let word = |state| state_word(state, story.standing(of, state));
+    format!("{} \u{2192} {}", word(change.from), word(change.to))
 }

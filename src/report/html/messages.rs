@@ -13,7 +13,7 @@ pub(super) fn render(page: &mut Page<'_>, story: &RunStory) -> std::io::Result<(
         page.paragraph("There is nothing to say about these programs.");
         return Ok(());
     }
-    page.open_table("Messages", &["code", "severity", "where", "what", "said"]);
+    page.open_table("Messages", &["code", "severity", "where", "what"]);
     for (number, message) in story.messages.iter().enumerate() {
         let diagnostic = &message.diagnostic;
         let place = format!("{}:{}", diagnostic.place.file, diagnostic.place.start());
@@ -26,15 +26,17 @@ pub(super) fn render(page: &mut Page<'_>, story: &RunStory) -> std::io::Result<(
         if message.shown.is_none() {
             help(&mut what, message);
         }
-        let said = match message.times {
-            1 => "once".to_owned(),
-            times => format!("{times} times"),
-        };
+        if message.times > 1 {
+            let _ = write!(
+                what,
+                " <span class=\"quiet\">({} times)</span>",
+                message.times
+            );
+        }
         let cells = [
             format!("<span class=\"sev {severity}\">{severity}</span>"),
             place,
             format!("<span id=\"m{number}\">{what}</span>"),
-            said,
         ];
         page.row(diagnostic.code.text(), &cells);
         page.settle()?;

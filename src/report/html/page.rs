@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
+use crate::compensation::State;
 use crate::report::markup::{escaped, push_escaped};
-use crate::report::svg;
+use crate::report::svg::{self, Standing};
 
 /// How much text is gathered before it is written.
 const CHUNK: usize = 64 * 1024;
@@ -13,7 +14,14 @@ const CHUNK: usize = 64 * 1024;
 pub(super) struct Page<'a> {
     out: &'a mut dyn Write,
     buffer: String,
+    /// The title of the part that is open.
+    heading: &'static str,
+    /// Which columns of the table that is open hold numbers.
+    numbers: Vec<bool>,
 }
+
+/// Stands before the name of a column that holds numbers.
+pub(super) const NUMBERS: char = '#';
 
 /// A part of the page that the navigation leads to.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +42,8 @@ impl<'a> Page<'a> {
         let mut page = Self {
             out,
             buffer: String::with_capacity(CHUNK + CHUNK / 4),
+            heading: "",
+            numbers: Vec::new(),
         };
         page.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n");
         page.raw(concat!(
@@ -68,6 +78,7 @@ impl<'a> Page<'a> {
     /// Opens a part.
     pub(super) fn part(&mut self, part: Part) {
         let Part { id, title } = part;
+        self.heading = title;
         self.raw(&format!(
             "<section id=\"{id}\" aria-labelledby=\"{id}-h\">\n<h2 id=\"{id}-h\">{title}</h2>\n"
         ));
@@ -112,11 +123,24 @@ impl<'a> Page<'a> {
     pub(super) fn open_table(&mut self, caption: &str, columns: &[&str]) {
         self.raw("<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"");
         self.text(caption);
-        self.raw("\"><table><caption>");
+        // A caption that repeats the heading above it is for those who listen.
+        let repeats = self.heading == caption;
+        self.raw(if repeats {
+            "\"><table><caption class=\"unseen\">"
+        } else {
+            "\"><table><caption>"
+        });
         self.text(caption);
         self.raw("</caption>\n<thead><tr>");
+        self.numbers.clear();
         for column in columns {
-            let _ = write!(self.buffer, "<th scope=\"col\">{column}</th>");
+            let number = column.strip_prefix(NUMBERS);
+            self.numbers.push(number.is_some());
+            let (class, name) = match number {
+                Some(name) => (" class=\"num\"", name),
+                None => ("", *column),
+            };
+            let _ = write!(self.buffer, "<th scope=\"col\"{class}>{name}</th>");
         }
         self.raw("</tr></thead>\n<tbody>\n");
     }
@@ -131,8 +155,10 @@ impl<'a> Page<'a> {
         self.raw("<tr><th scope=\"row\">");
         self.text(heading);
         self.raw("</th>");
-        for cell in cells {
-            let _ = write!(self.buffer, "<td>{cell}</td>");
+        for (column, cell) in (1..).zip(cells) {
+            let number = self.numbers.get(column).copied().unwrap_or_default();
+            let class = if number { " class=\"num\"" } else { "" };
+            let _ = write!(self.buffer, "<td{class}>{cell}</td>");
         }
         self.raw("</tr>\n");
     }
@@ -159,19 +185,24 @@ impl<'a> Page<'a> {
     }
 }
 
-/// A state as markup: its word, told apart by more than colour.
-pub(super) fn state_word(word: &str) -> String {
-    format!("<span class=\"state {word}\">{word}</span>")
+/// A state as markup: its word, told apart by more than colour, above all where it is away from home.
+pub(super) fn state_word(state: State, standing: Standing) -> String {
+    let word = state.word();
+    let away = match standing {
+        Standing::Away => " away",
+        Standing::Home => "",
+    };
+    format!("<span class=\"state {word}{away}\">{word}</span>")
 }
 
 /// The style of a page.
 const STYLE: &str = "\
 :root{--ink:#1f2328;--quiet:#57606a;--paper:#fff;--panel:#f6f8fa;--rule:#d0d7de;--link:#0550ae;
---error:#a40e26;--warning:#7d4e00;--info:#0550ae;--mark:#fff1b8;--event:#eef6ff}
+--error:#a40e26;--warning:#7d4e00;--info:#0550ae;--mark:#fff1b8;--event:#eef6ff;--away:#a33f00}
 @media (prefers-color-scheme:dark){:root{--ink:#e6edf3;--quiet:#9da7b3;--paper:#14181d;--panel:#1b2027;
---rule:#343b44;--link:#79b8ff;--error:#ff8f8f;--warning:#e8b455;--info:#79b8ff;--mark:#5c4a12;--event:#172433}}
+--rule:#343b44;--link:#79b8ff;--error:#ff8f8f;--warning:#e8b455;--info:#79b8ff;--mark:#5c4a12;--event:#172433;--away:#ff9e5c}}
 @media print{:root{--ink:#000;--quiet:#444;--paper:#fff;--panel:#fff;--rule:#bbb;--link:#000;
---error:#a40e26;--warning:#7d4e00;--info:#0550ae;--mark:#fff1b8;--event:#fff}}
+--error:#a40e26;--warning:#7d4e00;--info:#0550ae;--mark:#fff1b8;--event:#fff;--away:#a33f00}}
 *{box-sizing:border-box}
 html{background:var(--paper);color:var(--ink);font:16px/1.55 system-ui,-apple-system,'Segoe UI',Roboto,'Noto Sans',sans-serif}
 body{max-width:72rem;margin:0 auto;padding:1.5rem 1.25rem 4rem}
@@ -187,12 +218,15 @@ nav ul{display:flex;flex-wrap:wrap;gap:.25rem 1.1rem;list-style:none;padding:0;m
 .wide{overflow-x:auto;margin:.6rem 0 1rem}
 table{border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}
 caption{text-align:left;padding:.2rem 0;font-size:.9rem}
+caption.unseen{position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%)}
+.num{text-align:right}th.num{padding-left:.9rem}
 th,td{text-align:left;vertical-align:top;padding:.28rem .9rem .28rem 0;border-bottom:1px solid var(--rule)}
 thead th{color:var(--quiet);font-weight:600}tbody th{font-weight:600;white-space:nowrap}
 td code,p code,li code{font-size:.92em}
 code,pre{font-family:ui-monospace,SFMono-Regular,Consolas,'DejaVu Sans Mono',monospace}
-.state{white-space:nowrap}.state.active::before{content:'\\25A0\\00A0';color:#0072b2}
-.state.inactive::before{content:'\\25A1\\00A0'}.state.ineffective::before{content:'\\25E7\\00A0';color:#d55e00}
+.state{white-space:nowrap}.state.active::before{content:'\\25CF\\00A0';color:var(--link)}
+.state.inactive::before{content:'\\25CB\\00A0'}.state.away{font-weight:700;color:var(--away)}
+.state.away::before{content:'\\25B2\\00A0';color:var(--away)}.state.ineffective::before{content:'\\25E7\\00A0';color:#d55e00}
 .state.unconfigured::before{content:'\\2013\\00A0'}.state.unknown::before{content:'?\\00A0';font-weight:700}
 .sev{font-weight:600;white-space:nowrap}
 .error .sev,.sev.error{color:var(--error)}.warning .sev,.sev.warning{color:var(--warning)}.info .sev,.sev.info{color:var(--info)}
@@ -210,7 +244,9 @@ max-width:60rem;font-size:.95em}
 mark{background:var(--mark);color:inherit;text-decoration:underline 2px #d55e00;text-underline-offset:.2em}
 .to-do{border-left:4px solid #d55e00;padding:.2rem 0 .2rem 1rem;margin:1rem 0}
 .to-do ul{margin:0;padding-left:1.1rem}
-@media (max-width:40rem){body{padding:1rem .75rem 3rem}.wide table{min-width:36rem}.ev ul{padding-left:1.2rem}.picture svg{max-width:none;width:44rem}}
+@media (max-width:40rem){body{padding:1rem .75rem 3rem}.wide table{min-width:22rem}td{overflow-wrap:anywhere;min-width:5rem}.ev ul{padding-left:1.2rem}}
 @media print{html{font-size:10.5pt}body{max-width:none;padding:0}nav,.skip{display:none}.wide,.picture,.source{overflow:visible}
-.source pre{white-space:pre-wrap;width:auto}h2,h3{break-after:avoid}.picture,.ev,tr{break-inside:avoid}a{text-decoration:none}}
+.source pre{white-space:pre-wrap;width:auto}h2,h3,h2+p,h3+p,caption,thead,.source .head{break-after:avoid}thead{display:table-header-group}
+tbody tr:first-child,figure{break-before:avoid}.picture,.ev,tr{break-inside:avoid}
+details::details-content{content-visibility:visible;display:block;block-size:auto;overflow:visible}summary{display:none}.source details{content-visibility:visible}a{text-decoration:none}}
 ";

@@ -88,7 +88,7 @@ pub fn render_run(
     page.end_part()?;
     page.part(READING);
     let said: BTreeSet<_> = story.messages.iter().map(|it| it.diagnostic.code).collect();
-    assumptions::render(&mut page, &said);
+    assumptions::render(&mut page, &said, story.axis_set);
     page.end_part()?;
     page.close()
 }
@@ -143,15 +143,18 @@ fn render_left(page: &mut Page<'_>, story: &RunStory) {
         page.paragraph("The session did not come to its end.");
         return;
     };
-    page.paragraph("Friction compensation (FRICT) by axis, behind the last program:");
+    page.paragraph("Friction compensation (FRICT) by axis, after the last program. Home is the state after a start \
+         of the control; \u{25b2} marks what is away from home and stays so.");
     page.open_table(
         "What is left",
         &["axis", "at start", "at end", "changed by"],
     );
     for axis in &summary.axes {
+        let of = (axis.axis, Kind::Frict);
+        let state = |state| state_word(state, story.standing(of, state));
         let cells = [
-            state_word(axis.start.word()),
-            state_word(axis.end.word()),
+            state(axis.start),
+            state(axis.end),
             changed_by(story, &axis.changed_by, axis.changes),
         ];
         page.row(story.axis_name(axis.axis), &cells);
@@ -238,7 +241,8 @@ fn changed_by(story: &RunStory, blocks: &[ChangedBy], total: u64) -> String {
 
 fn render_states(page: &mut Page<'_>, story: &RunStory) -> io::Result<()> {
     page.paragraph(
-        "Each bar is a state over the executed blocks and leads to the line that made it so.",
+        "Each bar is a state over the executed blocks and leads to the line that made it so. Striped \
+         bars are away from home, the state after a start of the control.",
     );
     let charted = story
         .programs
@@ -289,13 +293,15 @@ fn chart(story: &RunStory, program: &ProgramStory) -> BandChart {
     let rows: Vec<BandRow> = shown.map(|track| row(story, program, track)).collect();
     let told: Vec<String> = rows.iter().map(describe).collect();
     BandChart {
-        title: "States over the executed blocks".to_owned(),
+        // The heading above it says what it is.
+        title: String::new(),
         description: if told.is_empty() {
             "No axis occurred.".to_owned()
         } else {
             told.join(" ")
         },
         x: Axis::linear("executed block"),
+        steps: Some((0.0, block(program.blocks))),
         rows,
     }
 }
@@ -320,14 +326,15 @@ fn row(story: &RunStory, program: &ProgramStory, track: &Track) -> BandRow {
         Kind::Frict => axis.to_owned(),
         kind => format!("{axis} {}", kind.keyword()),
     };
-    // The state behind block n is drawn from n to n + 1, the one at start from 0 to 1.
+    // Block n has the room about n, the start that about 0.
     let ends = track.stretches.iter().skip(1).map(|next| next.from);
     let ends = ends.chain([program.blocks + 1]);
     let bands = (track.stretches.iter().zip(ends))
         .map(|(stretch, end)| Band {
-            from: block(stretch.from),
-            to: block(end),
+            from: block(stretch.from) - 0.5,
+            to: block(end) - 0.5,
             state: stretch.state,
+            standing: track.standing(stretch.state),
             title: told(story, &label, stretch),
             href: Some(target(story, program, stretch)),
         })

@@ -207,7 +207,7 @@ impl Listing<'_, '_> {
             if change.kind != Kind::Frict {
                 let _ = write!(out, " {}", change.kind.keyword());
             }
-            let words = change_words(change.from.word(), change.to.word());
+            let words = change_words(story, *change);
             let _ = write!(out, "</strong> {words}");
             if *times > 1 {
                 let _ = write!(out, " <span class=\"quiet\">({times} times)</span>");

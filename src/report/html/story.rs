@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use super::track::{Spot, Track};
 use crate::codes::Code;
-use crate::compensation::Change;
+use crate::compensation::{Change, Compensation, State};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::lists::AxisType;
 use crate::machine::{AcceptedList, AxisIndex, AxisSet, Origin, Parameterisation};
+use crate::report::svg::Standing;
 use crate::source::Position;
 use crate::syntax::{Kind, KindSet};
 use crate::timeline::{AxisSummary, End, EndedBy, Record, Row, Sink, StateView, Summary};
@@ -145,6 +146,13 @@ impl RunStory {
         self.axes.get(axis.get()).map_or("", |axis| &axis.name)
     }
 
+    /// How a state of a kind on an axis stands to that after a start of the control.
+    pub(super) fn standing(&self, (axis, kind): (AxisIndex, Kind), state: State) -> Standing {
+        let mut tracks = self.programs.iter().flat_map(|program| &program.tracks);
+        let track = tracks.find(|track| (track.axis, track.kind) == (axis, kind));
+        track.map_or(Standing::Home, |track| Standing::of(state, track.home))
+    }
+
     /// How the last program ended.
     pub(super) fn ended(&self) -> Option<EndedBy> {
         self.programs.last().and_then(|program| program.by)
@@ -172,12 +180,14 @@ impl RunStory {
         if self.programs.len() >= MAX_PROGRAMS {
             self.more_programs += 1;
         }
+        let start = Compensation::at_startup(state.machine);
         let mut tracks = Vec::new();
         for (axis, _) in state.machine.axes.iter().enumerate() {
             let axis = AxisIndex::new(axis);
             let kinds = Kind::ALL.into_iter();
             for kind in kinds.filter(|&kind| self.kinds.contains(kind)) {
-                tracks.push(Track::new(axis, kind, state.state(axis, kind)));
+                let home = start.state(axis, kind);
+                tracks.push(Track::new((axis, kind), state.state(axis, kind), home));
             }
         }
         self.version = Some(state.version);

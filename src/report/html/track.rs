@@ -2,7 +2,7 @@
 
 use crate::compensation::State;
 use crate::machine::AxisIndex;
-use crate::report::svg::BandState;
+use crate::report::svg::{BandState, Standing};
 use crate::syntax::Kind;
 
 /// Where a stretch begins.
@@ -32,6 +32,8 @@ pub(super) struct Stretch {
 pub(super) struct Track {
     pub(super) axis: AxisIndex,
     pub(super) kind: Kind,
+    /// The state after a start of the control.
+    pub(super) home: State,
     pub(super) stretches: Vec<Stretch>,
     /// The state of the moment.
     state: State,
@@ -44,10 +46,11 @@ const MAX_STRETCHES: usize = 2048;
 
 impl Track {
     /// A track that begins with a state.
-    pub(super) fn new(axis: AxisIndex, kind: Kind, state: State) -> Self {
+    pub(super) fn new((axis, kind): (AxisIndex, Kind), state: State, home: State) -> Self {
         Self {
             axis,
             kind,
+            home,
             stretches: vec![Stretch {
                 from: 0,
                 state: BandState::One(state),
@@ -81,6 +84,14 @@ impl Track {
     pub(super) fn is_configured(&self) -> bool {
         let absent = BandState::One(State::Unconfigured);
         self.stretches.iter().any(|stretch| stretch.state != absent)
+    }
+
+    /// How a state of this kind on this axis stands to that after a start of the control.
+    pub(super) fn standing(&self, state: BandState) -> Standing {
+        match state {
+            BandState::One(state) => Standing::of(state, self.home),
+            BandState::Changing => Standing::Home,
+        }
     }
 
     /// Joins neighbours that are shorter than the grain to one stretch of changes.
@@ -119,7 +130,11 @@ mod tests {
     };
 
     fn track(blocks: u64) -> Track {
-        let mut track = Track::new(AxisIndex::new(0), Kind::Frict, State::Active);
+        let mut track = Track::new(
+            (AxisIndex::new(0), Kind::Frict),
+            State::Active,
+            State::Active,
+        );
         for seq in 1..=blocks {
             let state = if seq % 2 == 0 {
                 State::Active

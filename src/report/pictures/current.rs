@@ -3,7 +3,9 @@
 use crate::compensation::State;
 use crate::current::Added;
 use crate::lists::AxisType;
-use crate::report::svg::{Axis, Band, BandRow, BandState, Curve, Drawn, LineChart, Panel, Series};
+use crate::report::svg::{
+    Axis, Band, BandRow, BandState, Curve, Drawn, LineChart, Panel, Series, Standing,
+};
 
 use super::velocity_unit;
 
@@ -67,6 +69,7 @@ impl AxisPlot {
             Some(last) if last.state == BandState::One(state) || full => {
                 if last.state != BandState::One(state) {
                     last.state = BandState::Changing;
+                    last.standing = Standing::Home;
                 }
                 last.to = time;
             }
@@ -79,6 +82,8 @@ impl AxisPlot {
                     from: time,
                     to: time,
                     state: BandState::One(state),
+                    // Friction compensation that can be switched is on after a start.
+                    standing: Standing::of(state, State::Active),
                     title: format!("{name} {} from {time} s", state.word()),
                     href: None,
                 });

@@ -34,6 +34,28 @@ impl BandState {
     }
 }
 
+/// How a state stands to the one after a start of the control.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Standing {
+    /// It is that state, or nobody can say.
+    #[default]
+    Home,
+    /// It is another one, which outlives the program.
+    Away,
+}
+
+impl Standing {
+    /// The standing of a state. Only what a command switches can be away from home.
+    pub fn of(state: State, home: State) -> Self {
+        let switched = matches!(state, State::Active | State::Inactive);
+        if switched && state != home {
+            Self::Away
+        } else {
+            Self::Home
+        }
+    }
+}
+
 /// A bar: one state from one value of the axis to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Band {
@@ -43,6 +65,8 @@ pub struct Band {
     pub to: f64,
     /// What it says.
     pub state: BandState,
+    /// How the state stands to that after a start of the control.
+    pub standing: Standing,
     /// What a pointer and a screen reader say.
     pub title: String,
     /// Where it leads, `#id` of the page.
@@ -61,12 +85,15 @@ pub struct BandRow {
 /// Rows of bars over one axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BandChart {
-    /// The heading.
+    /// The heading; empty where the page around it has one.
     pub title: String,
     /// The picture in a sentence or two.
     pub description: String,
     /// What the bars are drawn over.
     pub x: Axis,
+    /// The first and the last step where each bar stands for whole steps: the start and the last
+    /// block.
+    pub steps: Option<(f64, f64)>,
     /// The rows from top to bottom.
     pub rows: Vec<BandRow>,
 }
@@ -75,17 +102,21 @@ impl BandChart {
     /// The picture. Bars that are too narrow to be seen are drawn as one that is `changing`.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::default();
-        canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
+        let top = if self.title.is_empty() { 4.0 } else { 44.0 };
+        if !self.title.is_empty() {
+            canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
+        }
         let ends = self
             .rows
             .iter()
             .flat_map(|row| &row.bands)
             .flat_map(|band| [band.from, band.to]);
-        let scale = Scale::over(ends, Spacing::Linear, Ends::Exact, 8);
+        let mut scale = Scale::over(ends, Spacing::Linear, Ends::Exact, 8);
+        self.name_ticks(&mut scale);
         let left = 16.0 + label_width(&self.rows);
         let area = Area {
             x: left,
-            y: 44.0,
+            y: top,
             width: WIDTH - 24.0 - left,
             height: height(&self.rows),
         };
@@ -106,12 +137,32 @@ impl BandChart {
         canvas.finish(
             frame,
             &Head {
-                title: &self.title,
+                title: if self.title.is_empty() {
+                    &self.description
+                } else {
+                    &self.title
+                },
                 description: &self.description,
                 height,
                 role: Role::Group,
             },
         )
+    }
+
+    /// Where the bars stand for whole steps, only those have ticks, the first and the last always.
+    fn name_ticks(&self, scale: &mut Scale) {
+        let Some((first, last)) = self.steps else {
+            return;
+        };
+        let near = (last - first) * 0.06;
+        scale.ticks.retain(|(value, _)| {
+            let whole = (value - value.round()).abs() < 1e-9;
+            whole && *value > first && *value < last - near
+        });
+        scale.ticks.insert(0, (first, "start".to_owned()));
+        if last > first {
+            scale.ticks.push((last, format!("{last}")));
+        }
     }
 }
 
@@ -142,7 +193,7 @@ pub(super) struct Rows<'a> {
 impl Rows<'_> {
     /// Draws the rows one below the other, their labels left of the area; gives the states that
     /// are to be seen.
-    pub(super) fn draw(&self, canvas: &mut Canvas) -> Vec<BandState> {
+    pub(super) fn draw(&self, canvas: &mut Canvas) -> Vec<(BandState, Standing)> {
         let mut drawn = Vec::new();
         let Area { x, y, width, .. } = self.area;
         let mut top = y;
@@ -159,6 +210,7 @@ impl Rows<'_> {
                     && let Some(next) = bands.next_if(|next| narrow(next))
                 {
                     shown.state = BandState::Changing;
+                    shown.standing = Standing::Home;
                     shown.to = next.to;
                 }
                 if shown.state != first.state {
@@ -171,7 +223,7 @@ impl Rows<'_> {
                     height: BAR,
                 };
                 draw_band(canvas, &shown, area);
-                drawn.push(shown.state);
+                drawn.push((shown.state, shown.standing));
             }
             top += ROW;
         }
@@ -185,12 +237,12 @@ const NARROW: f64 = 1.5;
 fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
     let href = band.href.as_deref();
     canvas.open_link(href, &band.title);
-    draw_shape(canvas, band.state, area);
+    draw_shape(canvas, (band.state, band.standing), area);
     let word = band.state.word();
     if band.state != BandState::One(State::Unconfigured) && text_width(word) + 10.0 < area.width {
-        let class = match band.state {
-            BandState::One(State::Active) => "fc-on-active",
-            _ => "",
+        let class = match band.standing {
+            Standing::Away => "fc-on-away",
+            Standing::Home => "",
         };
         let place = (area.x + 6.0, area.y + BAR / 2.0 + 4.0);
         canvas.text(class, place, Anchor::Start, word);
@@ -198,8 +250,20 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
     canvas.close_link(href);
 }
 
-/// The shape of a state: full, hollow, half full, a line, dashed.
-fn draw_shape(canvas: &mut Canvas, state: BandState, area: Area) {
+/// The shape of a state: full, hollow, half full, a line, dashed; striped where it is away from
+/// home.
+fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, Standing), area: Area) {
+    if standing == Standing::Away {
+        canvas.rect("fc-away", area);
+        let middle = area.y + area.height / 2.0;
+        let class = if area.height < BAR {
+            "fc-stripes fc-low"
+        } else {
+            "fc-stripes"
+        };
+        canvas.line(class, (area.x, middle), (area.right(), middle));
+        return;
+    }
     match state {
         BandState::One(State::Active) => canvas.rect("fc-active", area),
         BandState::One(State::Inactive) => canvas.rect("fc-inactive", area),
@@ -224,11 +288,20 @@ fn draw_shape(canvas: &mut Canvas, state: BandState, area: Area) {
 }
 
 /// Draws each of the states with its word; gives the height that this takes.
-pub(super) fn draw_legend(canvas: &mut Canvas, drawn: &[BandState], (left, y): (f64, f64)) -> f64 {
-    let mut states = BandState::ALL.to_vec();
+pub(super) fn draw_legend(
+    canvas: &mut Canvas,
+    drawn: &[(BandState, Standing)],
+    (left, y): (f64, f64),
+) -> f64 {
+    let both = |state| [(state, Standing::Home), (state, Standing::Away)];
+    let mut states: Vec<_> = BandState::ALL.into_iter().flat_map(both).collect();
     states.retain(|state| drawn.contains(state));
     let mut x = left;
     for state in &states {
+        let word = match *state {
+            (state, Standing::Away) => format!("{}, away from home", state.word()),
+            (state, Standing::Home) => state.word().to_owned(),
+        };
         let swatch = Area {
             x,
             y: y + 3.0,
@@ -236,8 +309,9 @@ pub(super) fn draw_legend(canvas: &mut Canvas, drawn: &[BandState], (left, y): (
             height: 12.0,
         };
         draw_shape(canvas, *state, swatch);
-        canvas.text("", (x + 28.0, y + 13.0), Anchor::Start, state.word());
-        x += 28.0 + text_width(state.word()) + 18.0;
+        canvas.text("", (x + 28.0, y + 13.0), Anchor::Start, &word);
+        // Letters are larger on narrow screens.
+        x += 28.0 + text_width(&word) * 1.25 + 14.0;
     }
     if states.is_empty() { 0.0 } else { 20.0 }
 }

@@ -17,7 +17,7 @@ mod polar;
 mod reduce;
 mod scale;
 
-pub use bands::{Band, BandChart, BandRow, BandState};
+pub use bands::{Band, BandChart, BandRow, BandState, Standing};
 pub use line::{Drawn, LineChart, Panel, Series};
 pub use polar::{PolarChart, PolarSeries};
 pub use reduce::Curve;
@@ -49,14 +49,17 @@ pub const STYLE: &str = "\
 .fc-picture .fc-s3{stroke:#a0467a;stroke-dasharray:10 3 2 3}.fc-picture .fc-m3{fill:#a0467a}
 .fc-picture .fc-curve{fill:none;stroke-width:1.6;stroke-linejoin:round}
 .fc-picture .fc-held{stroke-dasharray:4 4;stroke-width:1.2}
-.fc-picture .fc-active{fill:#0072b2;stroke:#0072b2}
+.fc-picture .fc-active{fill:#d6e8f5;stroke:#0072b2}
 .fc-picture .fc-inactive{fill:#fff;stroke:#6e7781}
 .fc-picture .fc-half{fill:#d55e00;stroke:none}
 .fc-picture .fc-outline{fill:#fff;stroke:#d55e00}
 .fc-picture .fc-absent{stroke:#8c959f;stroke-width:2}
 .fc-picture .fc-unknown{fill:#fff6d6;stroke:#8a6400;stroke-dasharray:4 3}
 .fc-picture .fc-mixed{fill:#cfe3f1;stroke:#0072b2;stroke-dasharray:2 2}
-.fc-picture text.fc-on-active{fill:#fff}
+.fc-picture .fc-away{fill:#ffd9b8;stroke:#b34700;stroke-width:1.4}
+.fc-picture .fc-stripes{stroke:#f3a161;stroke-width:16;stroke-dasharray:3 6}.fc-picture .fc-low{stroke-width:11}
+.fc-picture text.fc-on-away{fill:#5f2500;font-weight:700;paint-order:stroke;stroke:#ffd9b8;stroke-width:4px;stroke-linejoin:round}
+@media (max-width:40rem){.fc-picture{font-size:15px}.fc-picture .fc-title{font-size:17px}}
 .fc-picture a:focus-visible{outline:2px solid #d55e00;outline-offset:1px}
 @media (prefers-color-scheme:dark){
 .fc-picture text{fill:#e6edf3}
@@ -68,7 +71,10 @@ pub const STYLE: &str = "\
 .fc-picture .fc-s1{stroke:#ff9248}.fc-picture .fc-m1{fill:#ff9248}
 .fc-picture .fc-s2{stroke:#3ccf9e}.fc-picture .fc-m2{fill:#3ccf9e}
 .fc-picture .fc-s3{stroke:#e59ac4}.fc-picture .fc-m3{fill:#e59ac4}
-.fc-picture .fc-active{fill:#1f6fb2;stroke:#58b4f0}
+.fc-picture .fc-active{fill:#16344d;stroke:#58b4f0}
+.fc-picture .fc-away{fill:#4d2608;stroke:#ff9248}
+.fc-picture .fc-stripes{stroke:#8a4510}
+.fc-picture text.fc-on-away{fill:#ffe0c7;stroke:#4d2608}
 .fc-picture .fc-inactive{fill:#14181d;stroke:#8b949e}
 .fc-picture .fc-half{fill:#ff9248}
 .fc-picture .fc-outline{fill:#14181d;stroke:#ff9248}
@@ -85,7 +91,10 @@ pub const STYLE: &str = "\
 .fc-picture .fc-s1{stroke:#d55e00}.fc-picture .fc-m1{fill:#d55e00}
 .fc-picture .fc-s2{stroke:#007a5a}.fc-picture .fc-m2{fill:#007a5a}
 .fc-picture .fc-s3{stroke:#a0467a}.fc-picture .fc-m3{fill:#a0467a}
-.fc-picture .fc-active{fill:#0072b2;stroke:#0072b2}
+.fc-picture .fc-active{fill:#d6e8f5;stroke:#0072b2}
+.fc-picture .fc-away{fill:#ffd9b8;stroke:#b34700}
+.fc-picture .fc-stripes{stroke:#f3a161}
+.fc-picture text.fc-on-away{fill:#5f2500;stroke:#ffd9b8}
 .fc-picture .fc-inactive{fill:#fff;stroke:#555}
 .fc-picture .fc-half{fill:#d55e00}
 .fc-picture .fc-outline{fill:#fff;stroke:#d55e00}

@@ -200,6 +200,58 @@ fn bars_lead_to_the_lines_that_made_them() {
     assert_eq!(leads, ["#f0", "#f0l5", "#f0", "#f0l3", "#f0"]);
 }
 
+/// The markup of a part of the report.
+fn section(report: &str, id: &str) -> String {
+    let (_, behind) = report
+        .split_once(&format!("<section id=\"{id}\""))
+        .expect("the part");
+    behind
+        .split_once("</section>")
+        .expect("its end")
+        .0
+        .to_owned()
+}
+
+#[test]
+fn what_is_away_from_home_looks_like_it() {
+    // R9.50, R9.51
+    let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nG1 X1 F100\nM30\n")]);
+    let report = bench.report(&["a.nc"]);
+    let left = section(&report, "left");
+    assert!(left.contains("class=\"state inactive away\""), "{left}");
+    assert!(left.contains("class=\"state active\""), "{left}");
+    let states = section(&report, "states");
+    assert!(
+        states.contains("fc-away") && states.contains("fc-stripes"),
+        "{states}"
+    );
+    assert!(states.contains("inactive, away from home"), "{states}");
+    assert!(
+        states.contains(">start<") && states.contains(">3<"),
+        "{states}"
+    );
+    assert!(
+        !states.contains(">4<"),
+        "the scale ends at the last block: {states}"
+    );
+    let back = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n")]);
+    let left = section(&back.report(&["a.nc"]), "left");
+    assert!(!left.contains(" away\""), "{left}");
+}
+
+#[test]
+fn a_report_says_nothing_twice() {
+    // R9.50
+    let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n")]);
+    let report = bench.report(&["a.nc"]);
+    assert!(!report.contains(">once<") && !report.contains(">said<"));
+    assert!(report.contains("<caption class=\"unseen\">Messages</caption>"));
+    assert!(report.contains("<td class=\"num\">"));
+    let made = section(&report, "reading");
+    let (made, _) = made.split_once("<details>").unwrap_or((&made, ""));
+    assert!(!made.contains("without a configuration"), "{made}");
+}
+
 #[test]
 fn nothing_in_a_program_becomes_active() {
     // R9.51

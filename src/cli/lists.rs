@@ -183,10 +183,11 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
         reports.push(report);
     }
     outputs.check()?;
+    let width = console.stdout().look.width;
     let mut table = String::new();
     if args.show && args.listing.format == Format::Text {
         for report in &reports {
-            render_parameters(&report.reports, &report.programs, &mut table)
+            render_parameters(&report.reports, &report.programs, width, &mut table)
                 .map_err(|_| Failure::new("the table of the parameters cannot be written"))?;
         }
     }

@@ -88,7 +88,7 @@ fn title_indent(diagnostic: &Diagnostic) -> usize {
 
 /// Breaks a text between words so that it fits behind an indent; the renderer aligns the lines.
 pub(crate) fn wrap(text: &str, width: usize, indent: usize) -> String {
-    let room = width.saturating_sub(indent).max(20);
+    let room = width.saturating_sub(indent).max(12);
     let mut wrapped = String::with_capacity(text.len() + 8);
     let mut column = 0;
     let text = visible_line(text);

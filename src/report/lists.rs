@@ -6,39 +6,37 @@ use super::visible::visible_line;
 use crate::lists::{AxisType, Origin, Parameter};
 use crate::machine::AxisReport;
 
-/// Columns of the whole table at most; longer origins lose their beginning.
-const WIDTH: usize = 100;
-
 /// Columns that an origin has at least, however wide the others are.
 const MIN_ORIGIN: usize = 16;
 
-/// Writes one table an axis, and one of the programs: number, key, value with unit, origin. Lines have at most 100 columns
-/// unless a value is longer than that by itself.
+/// Writes one table an axis, and one of the programs: number, key, value with unit, origin. A
+/// parameter that has no room on a line of `width` columns takes two.
 ///
 /// # Errors
 /// Only those of `out`.
 pub fn render_parameters(
     reports: &[AxisReport],
     programs: &[Parameter],
+    width: usize,
     out: &mut dyn fmt::Write,
 ) -> fmt::Result {
     for (at, report) in reports.iter().enumerate() {
         if at > 0 {
             writeln!(out)?;
         }
-        render_axis(report, out)?;
+        render_axis(report, width, out)?;
     }
     if !programs.is_empty() {
         if !reports.is_empty() {
             writeln!(out)?;
         }
         writeln!(out, "programs and macros of the channel")?;
-        render_rows(programs, out)?;
+        render_rows(programs, width, out)?;
     }
     Ok(())
 }
 
-fn render_axis(report: &AxisReport, out: &mut dyn fmt::Write) -> fmt::Result {
+fn render_axis(report: &AxisReport, room: usize, out: &mut dyn fmt::Write) -> fmt::Result {
     let name = if report.axis.is_empty() {
         "without a name"
     } else {
@@ -50,15 +48,26 @@ fn render_axis(report: &AxisReport, out: &mut dyn fmt::Write) -> fmt::Result {
         AxisType::Spindle => "spindle",
     };
     writeln!(out, "axis {name} ({what})")?;
-    render_rows(&report.parameters, out)
+    render_rows(&report.parameters, room, out)
 }
 
-fn render_rows(parameters: &[Parameter], out: &mut dyn fmt::Write) -> fmt::Result {
+fn render_rows(parameters: &[Parameter], room: usize, out: &mut dyn fmt::Write) -> fmt::Result {
     let rows: Vec<[String; 4]> = parameters.iter().map(cells).collect();
     let width = |column: usize| rows.iter().map(|row| columns(&row[column])).max();
     let [number, key, value] = [0, 1, 2].map(|column| width(column).unwrap_or_default());
     let taken = 2 + number + 2 + key + 2 + value + 2;
-    let room = WIDTH.saturating_sub(taken).max(MIN_ORIGIN);
+    if room < taken + MIN_ORIGIN {
+        for [n, k, v, origin] in &rows {
+            writeln!(out, "  {n}  {k}")?;
+            writeln!(
+                out,
+                "    {v}  {}",
+                shortened(origin, room.saturating_sub(6 + columns(v)).max(8))
+            )?;
+        }
+        return Ok(());
+    }
+    let room = room - taken;
     for [n, k, v, origin] in &rows {
         let origin = shortened(origin, room);
         let line = format!("  {n:number$}  {k:key$}  {v:value$}  {origin}");

@@ -378,7 +378,7 @@ fn effective_parameters_are_shown_with_their_origin() {
     // R3.10, R3.11
     let report = check_list(Disk::open("mill3/hochlauf.lis"), None, &mut Disk);
     let mut table = String::new();
-    render_parameters(&report.reports, &report.programs, &mut table).unwrap();
+    render_parameters(&report.reports, &report.programs, 100, &mut table).unwrap();
     assert!(
         table.lines().all(|line| line.chars().count() <= 100),
         "{table}"

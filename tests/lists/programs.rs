@@ -71,7 +71,7 @@ fn the_channel_list_names_programs_and_macros() {
         [("CALC_P5".to_owned(), "P5 = P2 + 3".to_owned())]
     );
     let mut shown = String::new();
-    render_parameters(&[], &found.programs, &mut shown).unwrap();
+    render_parameters(&[], &found.programs, 100, &mut shown).unwrap();
     assert_snapshot!(shown, @"
     programs and macros of the channel
       P-CHAN-00119  start_init_prog_file  init.nc         c.lis:3
@@ -103,7 +103,7 @@ fn the_configuration_counts_before_the_channel_list() {
     assert_eq!(programs.word("M6"), Some("my.nc"));
     assert_eq!(programs.word("T"), Some("select.nc"));
     let mut shown = String::new();
-    render_parameters(&[], &found.programs, &mut shown).unwrap();
+    render_parameters(&[], &found.programs, 100, &mut shown).unwrap();
     let first: Vec<&str> = shown.lines().take(4).collect();
     assert_snapshot!(first.join("\n"), @"
     programs and macros of the channel

@@ -248,5 +248,5 @@ mark{background:var(--mark);color:inherit;text-decoration:underline 2px #d55e00;
 @media print{html{font-size:10.5pt}body{max-width:none;padding:0}nav,.skip{display:none}.wide,.picture,.source{overflow:visible}
 .source pre{white-space:pre-wrap;width:auto}h2,h3,h2+p,h3+p,caption,thead,.source .head{break-after:avoid}thead{display:table-header-group}
 tbody tr:first-child,figure{break-before:avoid}.picture,.ev,tr{break-inside:avoid}
-details::details-content{content-visibility:visible;display:block;block-size:auto;overflow:visible}summary{display:none}.source details{content-visibility:visible}a{text-decoration:none}}
+.source details::details-content{content-visibility:visible;display:block;block-size:auto;overflow:visible}.source summary{display:none}.source details{content-visibility:visible}a{text-decoration:none}}
 ";

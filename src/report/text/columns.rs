@@ -16,9 +16,16 @@ const LINE_END: usize = 6;
 /// The block text must keep so many columns, or states become symbols.
 const MIN_TEXT: usize = 24;
 
-/// The block text takes at most this share of the width, in tenths, so that few axes do not stand
-/// far away from it.
-const MAX_TEXT_TENTHS: usize = 6;
+/// Beside symbols it keeps so many.
+const LEAST_TEXT: usize = 8;
+
+/// The block text takes at most so many columns, so that few axes do not stand far away from it.
+const MAX_TEXT: usize = 72;
+
+/// The most of a width that the block text takes, six tenths where that is less.
+fn most_text(width: usize) -> usize {
+    MAX_TEXT.min(width * 6 / 10)
+}
 
 /// Columns of the widest symbol with its mark.
 const SYMBOL: usize = 4;
@@ -59,7 +66,7 @@ impl Columns {
             .collect();
         let full: usize = widths.iter().map(|width| width + 2).sum();
         if full + MIN_TEXT <= room {
-            let text = (room - full).min(width * MAX_TEXT_TENTHS / 10);
+            let text = (room - full).min(most_text(width));
             return Self::place(state, Words::Full, text, &widths);
         }
         let widths: Vec<usize> = state
@@ -69,7 +76,7 @@ impl Columns {
         let short: usize = widths.iter().map(|width| width + 1).sum::<usize>() + 1;
         let text = room
             .saturating_sub(short)
-            .clamp(MIN_TEXT, (width * MAX_TEXT_TENTHS / 10).max(MIN_TEXT));
+            .clamp(LEAST_TEXT, most_text(width).max(LEAST_TEXT));
         Self::place(state, Words::Short, text, &widths)
     }
 

@@ -6,8 +6,8 @@ use anstyle::{AnsiColor, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::compensation::State;
-use crate::report::Paint;
-use crate::report::visible::{visible, visible_line};
+use crate::report::visible::{is_command, visible, visible_line};
+use crate::report::{Look, Paint};
 
 /// Stands behind a state that the block changed.
 pub(super) const MARK: char = '◄';
@@ -108,6 +108,35 @@ impl<'a> Line<'a> {
 struct Cut {
     length: usize,
     column: usize,
+}
+
+/// Writes a text over as many lines as its words need within a width, all behind an indent.
+pub(super) fn paragraph(
+    out: &mut Vec<u8>,
+    (look, indent): (Look, usize),
+    (style, text): (Style, &str),
+) {
+    let room = look.width.saturating_sub(indent).max(1);
+    let mut line = String::new();
+    let mut lines = Vec::new();
+    for word in visible_line(text).split(' ') {
+        if !line.is_empty() && line.width() + 1 + word.width() > room && !is_command(word) {
+            lines.push(std::mem::take(&mut line));
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    lines.push(line);
+    for text in lines {
+        let mut line = Line::new(out, look.paint);
+        if indent > 0 {
+            line.go_to(indent);
+        }
+        line.styled(style, &text);
+        line.end();
+    }
 }
 
 /// The colour of a state.

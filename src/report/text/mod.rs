@@ -17,7 +17,10 @@ use super::diagnostics::{Look, render, wrap};
 use super::visible::leading;
 use super::{Blocks, Output, Report, View};
 use columns::Columns;
-use line::{BOLD, DIM, Line, MARK, grouped};
+use line::{BOLD, DIM, Line, MARK, grouped, paragraph};
+
+/// Below so many columns diagnostics stand further left.
+const NARROW: usize = 60;
 
 /// Columns of the line number with the gap behind it.
 const GUTTER: usize = 8;
@@ -122,10 +125,8 @@ impl<W: Write> Text<W> {
         self.columns.names(&mut line);
         line.end();
         if let Some(legend) = self.columns.legend() {
-            let mut line = self.line();
-            line.plain("  ");
-            line.styled(DIM, legend);
-            line.end();
+            let look = self.options.look;
+            paragraph(&mut self.output.bytes, (look, 2), (DIM, legend));
         }
     }
 
@@ -242,13 +243,17 @@ impl<W: Write> Text<W> {
     }
 
     fn diagnostic(&mut self, diagnostic: &Diagnostic) {
+        let whole = self.options.look.width;
+        let indent = if whole < NARROW { 2 } else { GUTTER };
         let look = Look {
-            width: self.options.look.width.saturating_sub(GUTTER).max(40),
+            width: whole.saturating_sub(indent),
             ..self.options.look
         };
         for shown in render(diagnostic, look).lines() {
             if !shown.is_empty() {
-                self.output.bytes.extend_from_slice(&[b' '; GUTTER]);
+                self.output
+                    .bytes
+                    .extend_from_slice(&[b' '; GUTTER][..indent]);
                 self.output.bytes.extend_from_slice(shown.as_bytes());
             }
             self.output.bytes.push(b'\n');
@@ -276,12 +281,14 @@ impl<W: Write> Text<W> {
         }
         for repeat in end.repeated {
             let (code, times) = (repeat.code, grouped(repeat.times));
-            let mut line = self.line();
-            line.plain(&format!(
-                "        {code} at {}:{} came true {times} times",
+            let text = format!(
+                "{code} at {}:{} came true {times} times",
                 repeat.file, repeat.line
-            ));
-            line.end();
+            );
+            let look = self.options.look;
+            let indent = if look.width < NARROW { 2 } else { GUTTER };
+            let plain = anstyle::Style::new();
+            paragraph(&mut self.output.bytes, (look, indent), (plain, &text));
         }
         self.line().end();
     }

@@ -1,5 +1,6 @@
 //! The end of the timeline: what happened to each axis and what is left to do.
 
+use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
 use crate::diagnostic::Severity;
@@ -7,23 +8,27 @@ use crate::report::Look;
 use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
-use super::line::{BOLD, DIM, Line, grouped, style};
+use super::line::{BOLD, DIM, Line, grouped, paragraph, style};
+
+/// Columns that what changed an axis must have beside its states, or it stands below them.
+const CHANGED_BY: usize = 24;
+
+/// Columns of `changed by `.
+const CHANGED: usize = 11;
 
 /// Columns of a state in the summary.
 const STATE: usize = 14;
 
 /// Appends the summary of a session whose last program ended so.
 pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
-    let mut line = Line::new(out, look.paint);
-    line.styled(BOLD, "Summary");
-    line.plain(&format!(
-        "  {}, {}, {}, {}",
+    let counts = format!(
+        "Summary  {}, {}, {}, {}",
         count(u64::from(summary.programs), "program"),
         count(summary.blocks, "block"),
         count(summary.count(Severity::Error), "error"),
         count(summary.count(Severity::Warning), "warning"),
-    ));
-    line.end();
+    );
+    paragraph(out, (look, 0), (BOLD, &counts));
     table(out, summary, look);
     opaque(out, summary, look);
     advice(out, summary, by, look);
@@ -40,7 +45,10 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
     let mut line = Line::new(out, look.paint);
     line.go_to(2);
     line.styled(BOLD, "axis");
-    for (at, title) in [(0, "at start"), (1, "at end"), (2, "changed by")] {
+    let column = first + 2 * STATE;
+    let beside = look.width >= column + CHANGED_BY;
+    let titles = [(0, "at start"), (1, "at end"), (2, "changed by")];
+    for (at, title) in titles.into_iter().take(if beside { 3 } else { 2 }) {
         line.go_to(first + at * STATE);
         line.styled(BOLD, title);
     }
@@ -53,10 +61,16 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
         line.styled(style(axis.start), axis.start.word());
         line.go_to(first + STATE);
         line.styled(style(axis.end), axis.end.word());
-        let column = first + 2 * STATE;
-        line.go_to(column);
-        line.plain(&changed_by(axis, look.width.saturating_sub(column)));
+        if beside {
+            line.go_to(column);
+            line.plain(&changed_by(axis, look.width.saturating_sub(column)));
+        }
         line.end();
+        if !beside && axis.changes > 0 {
+            let room = look.width.saturating_sub(4 + CHANGED);
+            let text = format!("changed by {}", changed_by(axis, room));
+            paragraph(out, (look, 4), (Style::new(), &text));
+        }
     }
 }
 
@@ -160,20 +174,13 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
         let Some(text) = axis_advice(axis, name) else {
             continue;
         };
-        let mut line = Line::new(out, look.paint);
-        line.styled(style(axis.end).bold(), name);
-        line.plain(&text);
-        line.end();
+        paragraph(out, (look, 0), (style(axis.end), &format!("{name}{text}")));
     }
     let all_home = summary.state.machine.is_described() && summary.axes.iter().all(is_home);
     if let Some(text) = error_advice(summary.count(Severity::Error), by) {
-        let mut line = Line::new(out, look.paint);
-        line.plain(text);
-        line.end();
+        paragraph(out, (look, 0), (Style::new(), text));
     } else if out.len() == bare && all_home {
-        let mut line = Line::new(out, look.paint);
-        line.styled(DIM, NOTHING_TO_DO);
-        line.end();
+        paragraph(out, (look, 0), (DIM, NOTHING_TO_DO));
     }
     if out.len() == bare {
         out.truncate(before);

@@ -58,7 +58,12 @@ fn render_rows(parameters: &[Parameter], room: usize, out: &mut dyn fmt::Write) 
     let taken = 2 + number + 2 + key + 2 + value + 2;
     if room < taken + MIN_ORIGIN {
         for [n, k, v, origin] in &rows {
-            writeln!(out, "  {n}  {k}")?;
+            let gap = if 4 + columns(n) + columns(k) > room {
+                "\n"
+            } else {
+                ""
+            };
+            writeln!(out, "  {n}{gap}  {k}")?;
             writeln!(
                 out,
                 "    {v}  {}",

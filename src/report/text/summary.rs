@@ -61,12 +61,15 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
         line.styled(style(axis.start), axis.start.word());
         line.go_to(first + STATE);
         line.styled(style(axis.end), axis.end.word());
-        if beside {
+        let room = look.width.saturating_sub(column);
+        let text = changed_by(axis, room);
+        let fits = beside && text.width() <= room;
+        if fits {
             line.go_to(column);
-            line.plain(&changed_by(axis, look.width.saturating_sub(column)));
+            line.plain(&text);
         }
         line.end();
-        if !beside && axis.changes > 0 {
+        if !fits && axis.changes > 0 {
             let room = look.width.saturating_sub(4 + CHANGED);
             let text = format!("changed by {}", changed_by(axis, room));
             paragraph(out, (look, 4), (Style::new(), &text));

@@ -2,13 +2,17 @@
 
 use std::ops::ControlFlow;
 
+use super::at::{At, Shown};
 use super::call::Wanted;
-use super::value::rounded;
+use super::event::{EndedBy, Event, Executed, Observer};
+use super::finder::Finder;
+use super::modal::Group;
+use super::options::StopPolicy;
+use super::run::Interpreter;
+use super::start::{ended_by, stops};
+use super::state::{Departure, Last, Step};
+use super::value::{Value, rounded};
 use super::words::AxisWords;
-use super::{
-    At, Departure, EndedBy, Event, Executed, Finder, Group, Interpreter, Last, Observer, Shown,
-    Step, StopPolicy, Value, ended_by, stops,
-};
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;

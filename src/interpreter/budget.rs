@@ -7,7 +7,9 @@
 //! bound, and one whose blocks do far more than is written in them soon does.
 
 use super::at::At;
-use super::{EntryIndex, Interpreter, State};
+use super::program::EntryIndex;
+use super::run::Interpreter;
+use super::state::State;
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;

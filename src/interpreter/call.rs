@@ -4,12 +4,15 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::at::At;
+use super::finder::{Finder, NoProgram};
+use super::options::StopPolicy;
 use super::program::Index;
+use super::run::Interpreter;
 use super::sequence::Part;
-use super::{
-    At, Finder, Frame, Interpreter, NoProgram, Repeated, RepeatedCall, Request, Step, StopPolicy,
-    Value, after_motion_only,
-};
+use super::start::stops;
+use super::state::{Frame, Repeated, RepeatedCall, Request, Step, after_motion_only};
+use super::value::Value;
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
 use crate::machine::Keeps;
@@ -121,7 +124,7 @@ impl Interpreter {
     ) -> Vec<Request> {
         let mut requests = Vec::new();
         for wanted in calls {
-            let refused = self.work.diagnostics.iter().any(super::stops);
+            let refused = self.work.diagnostics.iter().any(stops);
             if refused && self.options.stop == StopPolicy::FirstError {
                 break;
             }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Interpreter, Value};
+use super::run::Interpreter;
+use super::value::Value;
 use crate::machine::AxisIndex;
 
 /// A declared array without its elements.
@@ -57,7 +58,7 @@ impl Interpreter {
         for (group, names) in &carried.couplings {
             let found = names.iter().filter_map(|name| self.machine.find(name));
             let axes = found.collect();
-            self.state.couplings.define(group.clone(), axes);
+            self.state.couplings.define(group, axes);
         }
         self.state.memory.take_over(carried);
         self.journal.begin_anew();

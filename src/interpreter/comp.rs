@@ -1,6 +1,8 @@
 //! COMP commands and what there is to say about them (chapter 1).
 
-use super::{At, Interpreter, Outcome};
+use super::at::At;
+use super::event::Outcome;
+use super::run::Interpreter;
 use crate::codes::Code;
 use crate::compensation::{CompensationError, State};
 use crate::diagnostic::{Diagnostic, did_you_mean};

@@ -43,17 +43,17 @@ impl Couplings {
     }
 
     /// Defines a group anew; one that is in force stays so with its new axes.
-    pub(super) fn define(&mut self, group: String, axes: Vec<AxisIndex>) {
-        let was_enabled = self.release(&group);
+    pub(super) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) {
+        let was_enabled = self.release(group);
         self.groups.insert(
-            group.clone(),
+            group.to_owned(),
             Group {
                 axes,
                 enabled: None,
             },
         );
         if let Some(turn) = was_enabled {
-            self.enable_at(&group, turn);
+            self.enable_at(group, turn);
         }
     }
 

@@ -10,10 +10,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::coupling::Couplings;
+use super::event::EndedBy;
 use super::expression::Place;
+use super::memory::Memory;
+use super::modal::Modal;
 use super::program::EntryIndex;
 use super::region::Target;
-use super::{EndedBy, Frame, Interpreter, Memory, Modal, Repeated, State, Value};
+use super::run::Interpreter;
+use super::state::{Frame, Repeated, State};
+use super::value::Value;
 use crate::codes::Code;
 use crate::compensation::Compensation;
 use crate::diagnostic::Diagnostic;

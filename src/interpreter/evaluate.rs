@@ -2,9 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use super::at::At;
 use super::event::{Note, NoteKind, Notes};
 use super::expression::{Evaluator, Given, Macros, Place, Scope};
-use super::{At, Interpreter, PositionFrame, Value};
+use super::modal::Frame as PositionFrame;
+use super::run::Interpreter;
+use super::value::Value;
 use crate::compensation::State;
 use crate::machine::AxisIndex;
 use crate::source::Span;

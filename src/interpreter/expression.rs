@@ -7,12 +7,12 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::State;
 use super::budget::ITEM;
 use super::endless::Reads;
 use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
 use super::region::Target;
+use super::state::State;
 use super::value::{Value, rounded};
 use crate::codes::Code;
 use crate::source::Span;

@@ -4,21 +4,21 @@
 //! block number and nothing else; jumps into branches and loops need no care.
 
 use std::ops::ControlFlow;
-use std::rc::Rc;
-use std::sync::Arc;
 
+use super::at::{At, Shown};
+use super::event::{EndedBy, Observer};
 use super::expression::Place as Target;
+use super::finder::Finder;
 use super::functions::finite;
+use super::options::Outlook;
 use super::program::{EntryIndex, LabelName};
-use super::{
-    At, Departure, EndedBy, Finder, Interpreter, MAX_KEPT, Observer, Outlook, Parsed, Seeking,
-    Shown, Step, Value,
-};
+use super::run::Interpreter;
+use super::state::{Departure, Seeking, Step};
+use super::value::Value;
 use crate::codes::Code;
-use crate::diagnostic::Collected;
 use crate::source::Span;
+use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Flow, JumpTarget, Operand};
-use crate::syntax::{Comments, Fault, Stretch};
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
@@ -160,76 +160,6 @@ impl Interpreter {
                 .leave_call(usize::try_from(frame.level).unwrap_or(usize::MAX));
             if let Some(saved) = &frame.restores {
                 self.state.modal.restore(saved);
-            }
-        }
-    }
-
-    /// A parsed block; those that are executed again are kept.
-    fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Rc<Parsed> {
-        let place = entry as usize;
-        let unit = &mut self.units[unit];
-        if let Some(Some(kept)) = unit.kept.get(place) {
-            return Rc::clone(kept);
-        }
-        unit.executed[place] = true;
-        let mut block = Block::default();
-        let mut text = String::new();
-        let mut comments = Comments::Possible;
-        let mut remark = None;
-        if let Some(mut reader) = unit.index.reader(entry)
-            && let Some(raw) = reader.next(&mut block)
-        {
-            debug_assert_eq!(raw.stretch, Stretch::Block);
-            raw.text.clone_into(&mut text);
-            comments = raw.comments;
-            remark = raw.remark.cloned();
-        }
-        let remark = remark.or_else(|| unit.index.remark(entry));
-        let parsed = Rc::new(Parsed {
-            block,
-            file: Arc::clone(unit.index.source.name()),
-            line: unit.index.entries[place].line,
-            text,
-            comments,
-            remark,
-        });
-        let again = entry < unit.high;
-        unit.high = unit.high.max(entry + 1);
-        if again && self.kept < MAX_KEPT {
-            if unit.kept.len() <= place {
-                unit.kept.resize(unit.index.entries.len(), None);
-            }
-            unit.kept[place] = Some(Rc::clone(&parsed));
-            self.kept += 1;
-        }
-        parsed
-    }
-
-    /// Blocks that no run of the program reached, for their syntax.
-    pub(super) fn check_all_unexecuted(&mut self, notes: &mut Collected) {
-        let Some(unit) = self.units.first() else {
-            return;
-        };
-        let file = unit.index.source.name().clone();
-        let mut unread_up_to = 0;
-        for place in 0..unit.index.entries.len() {
-            let entry = Span::new(place, place).start;
-            if unit.executed[place] {
-                // Branches that `#IF` left out are not read at all (R2.73).
-                let decided = !unit.undecided.contains(&entry);
-                let end = unit.index.interpreted_to(entry).filter(|_| decided);
-                unread_up_to = unread_up_to.max(end.unwrap_or_default());
-                continue;
-            }
-            if entry < unread_up_to {
-                continue;
-            }
-            let mut block = Block::default();
-            let Some(mut reader) = unit.index.reader(entry) else {
-                continue;
-            };
-            if let Some(raw) = reader.next(&mut block) {
-                Self::check_unexecuted(&file, (raw.line, raw.text), &block, notes);
             }
         }
     }

@@ -1,11 +1,13 @@
 //! `#` commands (R2.34, R2.47) and axis couplings.
 
+use super::at::{At, Shown};
 use super::block::Intent;
 use super::chain;
 use super::expression::Place;
 use super::implicit::is_file_name;
+use super::run::Interpreter;
+use super::value::Value;
 use super::words::AxisWords;
-use super::{At, Interpreter, Shown, Value};
 use crate::codes::Code;
 use crate::compensation::Coupling;
 use crate::machine::AxisIndex;
@@ -119,7 +121,7 @@ impl Interpreter {
     fn define_coupling(&mut self, (rest, axes): (&str, Vec<AxisIndex>), at: &At<'_>) {
         let group = self.group_of(rest, at);
         self.work.wrote = true;
-        self.state.couplings.define(group, axes);
+        self.state.couplings.define(&group, axes);
         self.mark_coupled();
     }
 

@@ -3,10 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::at::At;
 use super::block::Intent;
 use super::call::Wanted;
+use super::chain;
+use super::run::Interpreter;
 use super::unknown::Scan;
-use super::{At, Interpreter, Value, chain};
+use super::value::Value;
 use crate::codes::Code;
 use crate::source::Span;
 use crate::syntax::Fault;

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use super::AxisWord;
 use super::chain::{self, Step};
+use super::event::AxisWord;
 use super::motion::BlockEnd;
 use crate::machine::AxisIndex;
 

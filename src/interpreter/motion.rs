@@ -4,9 +4,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::modal::Group;
+use super::run::Interpreter;
 use super::value::rounded;
 use super::words::AxisWords;
-use super::{Group, Interpreter};
 use crate::machine::AxisIndex;
 
 /// Whether blocks say what they move.

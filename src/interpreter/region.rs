@@ -20,9 +20,11 @@ use super::event::Notes;
 use super::expression::{unquoted, with_subscripts};
 use super::hash::{declared_name, point_behind};
 use super::implicit::{is_file_name, named_words};
+use super::modal::Group;
 use super::program::{EntryIndex, Section};
+use super::run::Interpreter;
+use super::state::after_motion_only;
 use super::value::rounded;
-use super::{Group, Interpreter, after_motion_only};
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::{

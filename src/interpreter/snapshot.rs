@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::options::{Options, StopPolicy};
 use super::program::{EntryIndex, Index};
-use super::{Interpreter, Options, State, StopPolicy, Unit};
+use super::run::Interpreter;
+use super::state::State;
+use super::unit::Unit;
 use crate::machine::Machine;
 use crate::source::SourceFile;
 

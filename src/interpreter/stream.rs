@@ -7,14 +7,19 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::program::{Index, LabelName, REAL_TIME_LOOP};
+use super::at::{At, Shown};
+use super::builder::REAL_TIME_LOOP;
+use super::event::{EndedBy, Observer};
+use super::finder::Finder;
+use super::options::{Outlook, StopPolicy};
+use super::program::{Index, LabelName};
+use super::run::Interpreter;
+use super::start::one;
+use super::state::Departure;
 use super::value::rounded;
-use super::{
-    At, Departure, EndedBy, Finder, Interpreter, Observer, Outlook, Shown, SourceFile, StopPolicy,
-    one,
-};
 use crate::diagnostic::Collected;
 use crate::source::LineSource;
+use crate::source::SourceFile;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
 use crate::syntax::{BlockReader, RawBlock, Stretch};
 
@@ -112,7 +117,7 @@ impl Interpreter {
                 shown: &shown,
             };
             if let Some(over) = self.over_budget(&at) {
-                return self.ended(EndedBy::Budget, one(over), observer);
+                return self.ended(EndedBy::Budget, &one(over), observer);
             }
             if self.is_skipped(&block) {
                 continue;
@@ -144,7 +149,7 @@ impl Interpreter {
         {
             return outlook;
         }
-        self.end_of_lines(stage, notes, observer)
+        self.end_of_lines(stage, &notes, observer)
     }
 
     /// Whether a block is passed over on the way to the one that M17 returned to.
@@ -176,7 +181,7 @@ impl Interpreter {
         self.enter(0, 0);
         match self.start_program(file, finder) {
             Ok(()) => self.run_called(finder, observer),
-            Err(missing) => Some(self.ended(EndedBy::Error, one(*missing), observer)),
+            Err(missing) => Some(self.ended(EndedBy::Error, &one(*missing), observer)),
         }
     }
 
@@ -195,7 +200,7 @@ impl Interpreter {
             Outlook::Ended(by) => {
                 let mut notes = Collected::default();
                 notes.extend(self.work.over.take());
-                Some(self.ended(by, notes, observer))
+                Some(self.ended(by, &notes, observer))
             }
             Outlook::Paused => Some(Outlook::Paused),
         }
@@ -224,13 +229,13 @@ impl Interpreter {
                     let found = self.block_of((0, 0), &sought.label);
                     match (found, self.state.frames.last_mut()) {
                         (Some(entry), Some(frame)) => frame.next = entry,
-                        _ => return self.ended(EndedBy::Error, one(sought.missing), observer),
+                        _ => return self.ended(EndedBy::Error, &one(sought.missing), observer),
                     }
                 }
                 let outlook = self.run(finder, observer);
                 self.close(outlook, observer)
             }
-            Stage::Beyond(_) => self.end_of_lines(stage, notes, observer),
+            Stage::Beyond(_) => self.end_of_lines(stage, &notes, observer),
         }
     }
 
@@ -238,11 +243,11 @@ impl Interpreter {
     fn end_of_lines(
         &mut self,
         stage: Stage,
-        notes: Collected,
+        notes: &Collected,
         observer: &mut dyn Observer,
     ) -> Outlook {
         if let Some(sought) = self.sought.take() {
-            return self.ended(EndedBy::Error, one(sought.missing), observer);
+            return self.ended(EndedBy::Error, &one(sought.missing), observer);
         }
         let mut said = self.refused();
         let by = if let Stage::Beyond(Some(by)) = stage {
@@ -251,9 +256,9 @@ impl Interpreter {
             said.extend(self.missing_end());
             EndedBy::EndOfFile
         };
-        said.append(&notes);
+        said.append(notes);
         self.check_all_unexecuted(&mut said);
-        self.ended(by, said, observer)
+        self.ended(by, &said, observer)
     }
 }
 

@@ -3,10 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use super::at::At;
 use super::block::{Feed, Intent};
+use super::chain;
+use super::event::{AxisWord, EndedBy};
+use super::modal::Group;
 use super::motion::{BlockEnd, foreign};
+use super::run::Interpreter;
 use super::value::rounded;
-use super::{At, AxisWord, EndedBy, Group, Interpreter, chain};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::machine::AxisIndex;

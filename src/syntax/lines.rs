@@ -197,7 +197,7 @@ impl<S: LineSource> BlockReader<S> {
             }
             Some(word) if word == "#VAR" => self.take_region("#ENDVAR", block),
             Some(word) if word == "#RT CYCLE" || word == "#RT CYCLE DEF" => {
-                self.take_region("#RT CYCLE END", block)
+                self.take_region("#RT CYCLE END", block);
             }
             _ => {}
         }

@@ -1,0 +1,421 @@
+//! How the index of a program is made: control blocks are paired, labels and jumps noted.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::program::{Entry, EntryIndex, Index, LabelName, Links, Section};
+use super::value::rounded;
+use crate::codes::Code;
+use crate::diagnostic::{Collected, Diagnostic};
+use crate::source::{SourceFile, Span, TextLines};
+use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::syntax::{BlockReader, FastPath, Fault, Stretch, is_statement};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    If,
+    Switch,
+    For,
+    While,
+    Do,
+    Repeat,
+    /// `#RT WHILE`, which real time leaves.
+    RealTime,
+}
+
+impl Kind {
+    fn opener(self) -> &'static str {
+        match self {
+            Self::If => "$IF",
+            Self::Switch => "$SWITCH",
+            Self::For => "$FOR",
+            Self::While => "$WHILE",
+            Self::Do => "$DO",
+            Self::Repeat => "$REPEAT",
+            Self::RealTime => REAL_TIME_LOOP,
+        }
+    }
+
+    fn closer(self) -> &'static str {
+        match self {
+            Self::If => "$ENDIF",
+            Self::Switch => "$ENDSWITCH",
+            Self::For => "$ENDFOR",
+            Self::While => "$ENDWHILE",
+            Self::Do => "$ENDDO",
+            Self::Repeat => "$UNTIL",
+            Self::RealTime => REAL_TIME_END,
+        }
+    }
+}
+
+/// The loop of real time and its end (tf5261, 783727499).
+pub(super) const REAL_TIME_LOOP: &str = "#RT WHILE";
+const REAL_TIME_END: &str = "#RT ENDWHILE";
+
+/// A control block that is not closed yet.
+struct Open {
+    kind: Kind,
+    opener: EntryIndex,
+    /// All statements of the control block so far.
+    parts: Vec<EntryIndex>,
+    span: Span,
+    /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
+    sign: Option<char>,
+}
+
+/// A jump whose label is looked up when the section is known.
+struct Jump {
+    section: usize,
+    label: LabelName,
+    span: Span,
+}
+
+impl Index {
+    /// Indexes a text. At most `nesting` control blocks may stand in each other.
+    pub(super) fn new(source: SourceFile, nesting: u32) -> Self {
+        let builder = Builder {
+            index: Self {
+                source,
+                entries: Vec::new(),
+                sections: Vec::new(),
+                links: BTreeMap::new(),
+                loops: Vec::new(),
+                labels: HashMap::new(),
+                locals: HashMap::new(),
+                remarks: HashMap::new(),
+                interpreted: BTreeMap::new(),
+                refused: Collected::default(),
+            },
+            nesting: nesting as usize,
+            open: Vec::new(),
+            jumps: Vec::new(),
+            inner: Vec::new(),
+        };
+        builder.build()
+    }
+}
+
+struct Builder {
+    index: Index,
+    nesting: usize,
+    open: Vec<Open>,
+    jumps: Vec<Jump>,
+    /// `$BREAK` and `$CONTINUE` with the loops that they stand in, by opener.
+    inner: Vec<(EntryIndex, EntryIndex)>,
+}
+
+impl Builder {
+    fn build(mut self) -> Index {
+        let text = self.index.source.shared_text();
+        let first = self.index.source.lines().first();
+        let mut reader = BlockReader::new(TextLines::new(&text), first, FastPath::On);
+        let mut block = Block::default();
+        self.section(None, false);
+        while let Some(raw) = reader.next(&mut block) {
+            match raw.stretch {
+                Stretch::Program { name, local } => {
+                    self.close_section();
+                    self.section(Some(name.of(raw.text).to_owned()), local);
+                }
+                Stretch::Block => {
+                    let entry = Span::new(self.index.entries.len(), raw.offset);
+                    self.index.entries.push(Entry {
+                        offset: entry.end,
+                        line: raw.line,
+                    });
+                    if let Some(remark) = raw.remark {
+                        self.index.remarks.insert(entry.start, remark.clone());
+                    }
+                    self.block(entry.start, &block, raw.text);
+                }
+            }
+        }
+        self.close_section();
+        self.check_jumps();
+        for (statement, opener) in std::mem::take(&mut self.inner) {
+            let end = self.index.links(opener).end;
+            let links = Links {
+                opener,
+                next: end,
+                end,
+            };
+            self.index.links.insert(statement, links);
+        }
+        self.index
+            .refused
+            .said
+            .sort_by_key(|diagnostic| diagnostic.place.start());
+        self.index
+    }
+
+    fn at(&self) -> EntryIndex {
+        Span::new(self.index.entries.len(), self.index.entries.len()).start
+    }
+
+    fn section(&mut self, name: Option<String>, local: bool) {
+        let start = self.at();
+        if let Some(name) = name.as_ref().filter(|_| local) {
+            let number = self.index.sections.len();
+            let locals = &mut self.index.locals;
+            locals.entry(name.clone()).or_insert(number);
+        }
+        self.index.sections.push(Section {
+            name,
+            local,
+            start,
+            end: start,
+        });
+    }
+
+    fn close_section(&mut self) {
+        let end = self.at();
+        if let Some(section) = self.index.sections.last_mut() {
+            section.end = end;
+        }
+        for open in std::mem::take(&mut self.open) {
+            self.refuse_open(&open);
+        }
+    }
+
+    fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
+        let place = self.index.place(entry, fault.span);
+        let mut diagnostic = Diagnostic::new(fault.code, place, fault.message);
+        diagnostic.help = fault.help;
+        self.index.refused.push(diagnostic);
+    }
+
+    /// What is not closed, unless it is misspelt, which the block says itself.
+    fn refuse_open(&mut self, open: &Open) {
+        if let Some(fault) = not_closed(open) {
+            self.refuse(open.opener, fault);
+        }
+    }
+
+    fn refuse_stray(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
+        if is_spelt(kind, span.of(text)) {
+            self.refuse(entry, stray(span, text, kind));
+        }
+    }
+
+    fn block(&mut self, entry: EntryIndex, block: &Block, text: &str) {
+        if let Some(number) = block.number.filter(|number| number.label)
+            && let Operand::Number(value) = number.value
+        {
+            if rounded(value).is_some() {
+                self.label(entry, LabelName::numbered(value), number.span);
+            } else {
+                let shown = number.span.of(text).trim();
+                let message = format!("`{shown}` is larger than any block number");
+                self.refuse(entry, Fault::new(Code::Fc209, number.span, message));
+            }
+        }
+        let jumps = block.jumps();
+        for item in &block.items {
+            match item {
+                Item::Label(span) => {
+                    let name = LabelName::Text(span.of(text).to_owned());
+                    self.label(entry, name, *span);
+                }
+                // `$IF c $GOTO N10` opens nothing.
+                Item::Flow(Flow::If(_), _) if jumps => {}
+                Item::Flow(flow, span) => self.flow(entry, flow, (*span, text)),
+                Item::Hash(hash) if hash.name == REAL_TIME_LOOP => {
+                    self.opens(Kind::RealTime, entry, (hash.span, text));
+                }
+                Item::Hash(hash) if hash.name == REAL_TIME_END => {
+                    self.closes(Kind::RealTime, entry, (hash.span, text));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn label(&mut self, entry: EntryIndex, name: LabelName, span: Span) {
+        let section = self.index.sections.len() - 1;
+        let key = (section, name);
+        if let Some(&first) = self.index.labels.get(&key) {
+            let line = self.index.entries[first as usize].line;
+            let fault = Fault::new(
+                Code::Fc209,
+                span,
+                format!("jump label `{}` stands already in line {line}", key.1),
+            );
+            self.refuse(entry, fault);
+        } else {
+            self.index.labels.insert(key, entry);
+        }
+    }
+
+    fn flow(&mut self, entry: EntryIndex, flow: &Flow, (span, text): (Span, &str)) {
+        match flow {
+            Flow::If(_) => self.opens(Kind::If, entry, (span, text)),
+            Flow::Switch(..) => self.opens(Kind::Switch, entry, (span, text)),
+            Flow::For { .. } => self.opens(Kind::For, entry, (span, text)),
+            Flow::While(_) => self.opens(Kind::While, entry, (span, text)),
+            Flow::Do(_) => self.opens(Kind::Do, entry, (span, text)),
+            Flow::Repeat => self.opens(Kind::Repeat, entry, (span, text)),
+            Flow::ElseIf(_) | Flow::Else => self.branches(Kind::If, entry, (span, text)),
+            Flow::Case(_) | Flow::Default => self.branches(Kind::Switch, entry, (span, text)),
+            Flow::EndIf => self.closes(Kind::If, entry, (span, text)),
+            Flow::EndSwitch => self.closes(Kind::Switch, entry, (span, text)),
+            Flow::EndFor => self.closes(Kind::For, entry, (span, text)),
+            Flow::EndWhile => self.closes(Kind::While, entry, (span, text)),
+            Flow::EndDo(_) => self.closes(Kind::Do, entry, (span, text)),
+            Flow::Until(_) => self.closes(Kind::Repeat, entry, (span, text)),
+            Flow::Break => self.leaves(entry, (span, text), |kind| {
+                !matches!(kind, Kind::If | Kind::RealTime)
+            }),
+            Flow::Continue => {
+                self.leaves(entry, (span, text), |kind| {
+                    !matches!(kind, Kind::If | Kind::Switch | Kind::RealTime)
+                });
+            }
+            Flow::Goto(target) => self.jump(target, (span, text)),
+        }
+    }
+
+    fn opens(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
+        if self.open.len() >= self.nesting {
+            let fault = Fault::new(
+                Code::Fc912,
+                span,
+                format!("control blocks nest more than {} deep", self.nesting),
+            )
+            .with_help("a deeper nesting is allowed with `--max-nesting`");
+            self.refuse(entry, fault);
+        }
+        if !matches!(kind, Kind::If | Kind::Switch) {
+            self.index.loops.push(entry);
+        }
+        self.open.push(Open {
+            kind,
+            opener: entry,
+            parts: vec![entry],
+            span,
+            sign: is_spelt(kind, span.of(text)).then(|| sign(span, text)),
+        });
+    }
+
+    fn branches(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
+        match self.open.last_mut() {
+            Some(open) if open.kind == kind => open.parts.push(entry),
+            _ => self.refuse_stray(kind, entry, (span, text)),
+        }
+    }
+
+    fn closes(&mut self, kind: Kind, entry: EntryIndex, (span, text): (Span, &str)) {
+        let Some(depth) = self.open.iter().rposition(|open| open.kind == kind) else {
+            self.refuse_stray(kind, entry, (span, text));
+            return;
+        };
+        for open in self.open.split_off(depth + 1) {
+            self.refuse_open(&open);
+        }
+        let Some(mut open) = self.open.pop() else {
+            return;
+        };
+        if open.kind == Kind::If && open.sign == Some('#') {
+            self.index.interpreted.insert(open.opener, entry);
+        }
+        open.parts.push(entry);
+        for pair in open.parts.windows(2) {
+            let links = Links {
+                opener: open.opener,
+                next: pair[1],
+                end: entry,
+            };
+            self.index.links.insert(pair[0], links);
+        }
+        let links = Links {
+            opener: open.opener,
+            next: entry,
+            end: entry,
+        };
+        self.index.links.insert(entry, links);
+    }
+
+    fn leaves(&mut self, entry: EntryIndex, (span, text): (Span, &str), left: fn(Kind) -> bool) {
+        if let Some(open) = self.open.iter().rfind(|open| left(open.kind)) {
+            self.inner.push((entry, open.opener));
+        } else {
+            let word = span.of(text).trim();
+            let fault = Fault::new(
+                Code::Fc208,
+                span,
+                format!("`{word}` stands outside any loop that it could leave"),
+            );
+            self.refuse(entry, fault);
+        }
+    }
+
+    fn jump(&mut self, target: &JumpTarget, (span, text): (Span, &str)) {
+        let label = match target {
+            JumpTarget::Number(Operand::Number(number)) => LabelName::numbered(*number),
+            JumpTarget::Label(name) => LabelName::Text(name.of(text).to_owned()),
+            _ => return,
+        };
+        let offset = self.index.entries.last().map_or(0, |entry| entry.offset);
+        self.jumps.push(Jump {
+            section: self.index.sections.len() - 1,
+            label,
+            span: span.shifted(offset),
+        });
+    }
+
+    fn check_jumps(&mut self) {
+        for jump in std::mem::take(&mut self.jumps) {
+            if self.index.label(jump.section, jump.label.clone()).is_none() {
+                let help = match &jump.label {
+                    LabelName::Number(number) => {
+                        format!("write the label with a colon, `N{number}:`, in the same program")
+                    }
+                    LabelName::Text(name) => {
+                        format!("write `[{name}]` at the start of the block to jump to")
+                    }
+                };
+                let diagnostic = Diagnostic::new(
+                    Code::Fc209,
+                    self.index.source.place(jump.span),
+                    format!("jump label `{}` does not exist in this program", jump.label),
+                )
+                .with_help(help);
+                self.index.refused.push(diagnostic);
+            }
+        }
+    }
+}
+
+fn not_closed(open: &Open) -> Option<Fault> {
+    let sign = open.sign?;
+    let (opener, closer) = (open.kind.opener(), open.kind.closer());
+    let shown = |word: &str| word.replace('$', sign.encode_utf8(&mut [0; 4]));
+    let (opener, closer) = (shown(opener), shown(closer));
+    let fault = Fault::new(
+        Code::Fc208,
+        open.span,
+        format!("`{opener}` has no `{closer}`"),
+    );
+    Some(fault.with_help(format!("write `{closer}` in a block of its own")))
+}
+
+/// Whether a statement is one of the language, and not a misspelt one.
+fn is_spelt(kind: Kind, text: &str) -> bool {
+    kind == Kind::RealTime || is_statement(text)
+}
+
+/// What a statement begins with.
+fn sign(span: Span, text: &str) -> char {
+    span.of(text).chars().next().unwrap_or('$')
+}
+
+fn stray(span: Span, text: &str, kind: Kind) -> Fault {
+    let word = span.of(text).split_whitespace().next().unwrap_or_default();
+    let opener = kind
+        .opener()
+        .replace('$', sign(span, text).encode_utf8(&mut [0; 4]));
+    Fault::new(
+        Code::Fc208,
+        span,
+        format!("`{word}` without an open `{opener}`"),
+    )
+}

@@ -1,0 +1,44 @@
+//! How programs are run, and how a run goes on.
+
+use super::budget::Limits;
+use super::event::{EndedBy, Notes};
+use super::motion::Motions;
+use crate::syntax::FastPath;
+
+/// What happens at an error of the control (R9.20).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StopPolicy {
+    /// The first error stops the program and the session, as on the control.
+    #[default]
+    FirstError,
+    /// The failing command is treated as if it were not there.
+    KeepGoing,
+    /// As `KeepGoing`; blocks that are never executed are checked for their syntax too.
+    CheckAll,
+}
+
+/// How programs are run.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Options {
+    /// What happens at an error.
+    pub stop: StopPolicy,
+    /// The levels of blocks that are skipped, bit 1 for `/` and `/1`, up to bit 10 (R2.3).
+    pub skip: u16,
+    /// Budgets.
+    pub limits: Limits,
+    /// Whether plain blocks are parsed by hand.
+    pub fast_path: FastPath,
+    /// Whether notes are taken.
+    pub notes: Notes,
+    /// Whether blocks say what they move.
+    pub motions: Motions,
+}
+
+/// How a run goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outlook {
+    /// The program ended.
+    Ended(EndedBy),
+    /// The observer stopped it; it can be resumed.
+    Paused,
+}

@@ -295,7 +295,7 @@ fn only_axes_that_occur_are_enabled() {
     assert!(said.contains("no program names an axis `x`"), "{said}");
     assert!(said.contains("did you mean `X`?"), "{said}");
     assert!(refused(&bench, &["check", "--enable", "Z", "a.nc"]).contains("they name X, Y"));
-    for names in ["X", "X,Y", "all", "X,AX2"] {
+    for names in ["X", "X,Y", "X,AX2"] {
         assert_eq!(
             bench.status(&["run", "--enable", names, "a.nc"]),
             Some(0),
@@ -306,10 +306,18 @@ fn only_axes_that_occur_are_enabled() {
     assert_eq!(bench.status(&["run", "--enable", "X", "call.nc"]), Some(0));
     let configured = Bench::new(&[("a.nc", LEAVE_OFF)]);
     assert!(refused(&configured, &["run", "--enable", "W", "a.nc"]).contains("no axis `W`"));
-    assert_eq!(
-        configured.status(&["run", "--enable", "all", "a.nc"]),
-        Some(0)
-    );
+    // No word stands for all axes, whatever the programs call.
+    for all in ["all", "ALL", "X,all"] {
+        for program in ["a.nc", "call.nc"] {
+            let said = refused(&bench, &["check", "--enable", all, program]);
+            assert!(said.contains("no program names an axis `"), "{said}");
+        }
+        let said = refused(&bench, &["config", "show", "--enable", all]);
+        assert!(said.contains("is no name of an axis"), "{said}");
+        let said = refused(&configured, &["run", "--enable", all, "a.nc"]);
+        assert!(said.contains("its axes are X"), "{said}");
+    }
+    assert!(refused(&bench, &["run", "--enable", "all", "a.nc"]).contains("they name X, Y"));
 }
 
 #[test]

@@ -12,13 +12,13 @@ use super::finder::Reach;
 use super::grounds::{Elsewhere, Grounds, absolute};
 use super::ledger::Ledger;
 use super::list_files::{Lists, read_list};
-use super::lookahead::AxesAhead;
+use super::lookahead::{AxesAhead, may_be_axis};
 use super::settings::{self, SetVariable};
 use super::severities::SeverityArgs;
 use super::watch::Watch;
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
-use crate::machine::{AxisReport, AxisSet, AxisType, Configuration, Machine, Origin, Setting};
+use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
 use crate::source::SourceFile;
 
 /// The name of the configuration file.
@@ -37,7 +37,7 @@ pub(super) struct MachineArgs {
     /// Take the axes from this start-up list, whatever the configuration says
     #[arg(long, value_name = "LIST")]
     pub(super) startup: Option<PathBuf>,
-    /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes, or for `all`
+    /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
     pub(super) enable: Vec<String>,
     /// Call programs from any folder, and show the text of lists wherever they lie
@@ -182,7 +182,7 @@ impl<'a> Machines<'a> {
             return Ok(Arc::clone(loaded));
         }
         let mut loaded = load_machine(config.as_deref(), self.args, &self.ledger)?;
-        enable_all(&mut loaded, self.args, self.ahead.as_ref())?;
+        enable_axes(&mut loaded, self.args, self.ahead.as_ref())?;
         if let Some(severities) = self.severities {
             severities.apply(&mut loaded.levels);
             severities.sift(&mut loaded.diagnostics);
@@ -340,20 +340,16 @@ fn read_startup(
     Ok(loaded)
 }
 
-/// Assumes friction compensation on the axes that the user names, or on all.
-fn enable_all(
+/// Assumes friction compensation on the axes that the user names.
+fn enable_axes(
     loaded: &mut LoadedMachine,
     args: &MachineArgs,
     ahead: Option<&AxesAhead>,
 ) -> Result<(), Failure> {
-    let mut names: Vec<String> = args.enable.iter().map(|it| it.trim().to_owned()).collect();
-    if names.iter().any(|name| name.eq_ignore_ascii_case("all")) {
-        names = all_axes(&loaded.machine, ahead);
-    }
-    for name in &names {
+    for name in args.enable.iter().map(|name| name.trim()) {
         check_name(name)?;
         if loaded.machine.axis_set == AxisSet::AsTheyOccur {
-            occurs(name, ahead)?;
+            check_occurs(name, ahead)?;
         }
         enable(&mut loaded.machine, name)?;
         assume(&mut loaded.reports, &loaded.machine, name);
@@ -366,26 +362,17 @@ fn enable_all(
     Ok(())
 }
 
-/// What `--enable all` means: the axes of the machine, or those that the programs name.
-fn all_axes(machine: &Machine, ahead: Option<&AxesAhead>) -> Vec<String> {
-    if let (AxisSet::AsTheyOccur, Some(ahead)) = (machine.axis_set, ahead)
-        && ahead.is_complete()
-    {
-        return ahead.names().map(str::to_owned).collect();
-    }
-    let axes = machine.axes.iter();
-    axes.filter(|axis| axis.axis_type != AxisType::Spindle)
-        .map(|axis| axis.name.clone())
-        .collect()
-}
-
-/// Whether a program names an axis, where no machine is described (R9.74).
-fn occurs(name: &str, ahead: Option<&AxesAhead>) -> Result<(), Failure> {
-    let Some(ahead) = ahead.filter(|ahead| !ahead.may_hold(name)) else {
-        return Ok(());
+/// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
+/// pipes may name axes that nobody sees ahead.
+fn check_occurs(name: &str, ahead: Option<&AxesAhead>) -> Result<(), Failure> {
+    let Some(ahead) = ahead else {
+        return may_be_axis(name).then_some(()).ok_or_else(|| no_name(name));
     };
-    let failure = Failure::new(format!("no program names an axis `{name}`"));
+    if ahead.may_hold(name) {
+        return Ok(());
+    }
     let names: Vec<&str> = ahead.names().collect();
+    let failure = Failure::new(format!("no program names an axis `{name}`"));
     Err(match did_you_mean(name, names.iter().copied()) {
         Some(near) => failure.with_help(format!("did you mean `{near}`?")),
         None if names.is_empty() => failure,
@@ -398,11 +385,11 @@ fn check_name(name: &str) -> Result<(), Failure> {
         && name
             .chars()
             .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    if !word {
-        return Err(Failure::new(format!("`{name}` is no name of an axis"))
-            .with_help("write `--enable X,Y`"));
-    }
-    Ok(())
+    if word { Ok(()) } else { Err(no_name(name)) }
+}
+
+fn no_name(name: &str) -> Failure {
+    Failure::new(format!("`{name}` is no name of an axis")).with_help("write `--enable X,Y`")
 }
 
 fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {

@@ -58,12 +58,8 @@ impl AxesAhead {
             .asked
             .iter()
             .any(|(known, found)| known == name && *found);
-        self.is_open || asked || self.found.contains(&name)
-    }
-
-    /// Whether no more axes can occur than were found.
-    pub(super) fn is_complete(&self) -> bool {
-        !self.is_open
+        let unseen = self.is_open && may_be_axis(name);
+        unseen || asked || self.found.contains(&name)
     }
 
     fn read(&mut self, path: &Path) -> io::Result<()> {
@@ -110,7 +106,7 @@ fn holds(text: &[u8], name: &[u8]) -> bool {
     memchr::memmem::find_iter(text, name).any(|at| is_axis_word(text, at, name))
 }
 
-fn is_axis_word(text: &[u8], at: usize, name: &[u8]) -> bool {
+pub(super) fn is_axis_word(text: &[u8], at: usize, name: &[u8]) -> bool {
     let before = at.checked_sub(1).map(|before| text[before]);
     if before.is_some_and(|it| it.is_ascii_alphabetic() || b"_.@[#$'".contains(&it)) {
         return false;
@@ -160,6 +156,11 @@ fn calls(text: &[u8]) -> bool {
     })
 }
 
+/// Whether a program can name an axis so: in capital letters, and `ALL` is no axis.
+pub(super) fn may_be_axis(name: &str) -> bool {
+    name != "ALL" && !name.contains(|letter: char| letter.is_ascii_lowercase())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,7 +168,7 @@ mod tests {
     fn ahead(text: &str) -> (Vec<&'static str>, bool) {
         let mut ahead = AxesAhead::default();
         ahead.look(text.as_bytes());
-        (ahead.names().collect(), ahead.is_complete())
+        (ahead.names().collect(), !ahead.is_open)
     }
 
     #[test]

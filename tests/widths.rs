@@ -7,6 +7,17 @@ use std::process::Command;
 use unicode_width::UnicodeWidthStr;
 
 /// What a command prints on both channels at a width.
+fn said(width: usize, arguments: &[&str]) -> [String; 2] {
+    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+        .args(arguments)
+        .args(["--width", &width.to_string()])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap())
+}
+
+/// What a command prints as its result at a width.
 fn printed(width: usize, arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
         .args(arguments)
@@ -70,4 +81,62 @@ fn states_stand_near_their_blocks() {
     let blanks = row.trim().split("N35 X22 Y33 Z44").nth(1).unwrap();
     let gap = blanks.len() - blanks.trim_start().len();
     assert!(gap <= 62, "{gap} blanks: {row}");
+}
+
+#[test]
+fn tables_and_failures_keep_within_their_width() {
+    // R9.72
+    let commands: [&[&str]; 9] = [
+        &["config", "show", "programs/machines/mill3"],
+        &["codes"],
+        &["circle", "--radius", "5", "--feed", "3000"],
+        &[
+            "tune", "--plant", "stiff", "--radius", "5", "--feeds", "5000",
+        ],
+        &["diff", "programs/demo/friction.nc", "programs/demo/next.nc"],
+        &["golden", "programs/demo"],
+        &["run", "no/such/program.nc"],
+        &[
+            "run",
+            "--enable",
+            "Q",
+            "--isolated",
+            "programs/demo/friction.nc",
+        ],
+        &[
+            "tune", "--plant", "no.toml", "--radius", "5", "--feeds", "1000",
+        ],
+    ];
+    for arguments in commands {
+        for width in [40, 60, 100, 200] {
+            let [stdout, stderr] = said(width, arguments);
+            let failure = stderr.lines().filter(|_| stdout.is_empty());
+            for line in stdout.lines().chain(failure) {
+                let room = width.max(least(line));
+                assert!(line.width() <= room, "{arguments:?} {width}\n{line}");
+            }
+        }
+    }
+}
+
+#[test]
+fn many_axes_stand_below_their_blocks_where_there_is_no_room_beside() {
+    // R9.72
+    let bench = tempfile::tempdir().unwrap();
+    let program = bench.path().join("eight.nc");
+    std::fs::write(
+        &program,
+        "N10 X1 Y1 Z1 A1 B1 C1 U1 V1\nN20 V[COMP ON FRICT]\nN30 V[COMP OFF FRICT]\nN40 M30\n",
+    )
+    .unwrap();
+    let program = program.to_str().unwrap();
+    let arguments = ["run", "--isolated", "--enable", "X,Y,Z,A,B,C,U,V", program];
+    let text = printed(40, &arguments);
+    assert!(text.contains("     3  N30 V[COMP OFF FRICT]\n"), "{text}");
+    assert!(
+        text.contains("        X on   Y on   Z on   A on\n        B on   C on   U on   V off◄\n"),
+        "{text}"
+    );
+    let wide = printed(100, &arguments);
+    assert!(!wide.contains("X on "), "{wide}");
 }

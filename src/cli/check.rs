@@ -112,7 +112,7 @@ fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], (target, console): (&mut 
     let Some(remark) = switched::remark(undescribed) else {
         return;
     };
-    if args.listing.format.is_text() && !args.listing.quiet {
+    if args.listing.format.is_text() && !args.listing.quiet && !args.listing.statistics {
         // A writer that takes no more says so at the next line.
         let _ = writeln!(target.writer, "{}\n", wrap(&remark, target.look.width, 0));
     } else {

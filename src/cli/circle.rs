@@ -18,6 +18,7 @@ use super::recorded;
 use crate::circle::{Circle, CircularTest, Comparison, Job};
 use crate::current::Reading;
 use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
+use crate::report::fitted;
 use crate::report::html::render_circle;
 use crate::report::pictures::circle;
 use crate::report::svg::Frame;
@@ -109,7 +110,7 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         CircleReport::recorded(recorded::read(&args.trace, args.radius)?)
     };
     let text = match args.format {
-        Format::Text => render_text(&report),
+        Format::Text => fitted(&render_text(&report), result.look.width),
         Format::Json => render_json(&report),
         Format::Csv => render_csv(&report),
     };

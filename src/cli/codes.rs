@@ -43,6 +43,7 @@ pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
                     code.title()
                 );
             }
+            output = console.fitted(&output);
         }
         Format::Json => {
             let codes: Vec<_> = Code::ALL

@@ -41,7 +41,7 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();
     append_machine(&mut output, &loaded);
-    console.print_painted(&output, parts)?;
+    console.print_painted(&console.fitted(&output), parts)?;
     let errors: Vec<Diagnostic> = loaded.errors().cloned().collect();
     console.show(&errors);
     if let Some(remark) = loaded.remark() {

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::painted::painted;
 use super::progress::{OverProgress, clear};
 use crate::diagnostic::Diagnostic;
-use crate::report::{Look, Paint, leading, render, visible, visible_line};
+use crate::report::{Look, Paint, fitted, leading, render, visible, wrap};
 
 /// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
 const FALLBACK_WIDTH: usize = 100;
@@ -138,6 +138,12 @@ impl Console {
         self.stdout().text(&visible(text))
     }
 
+    /// A text for people whose lines have room on stdout (R9.72).
+    pub(super) fn fitted(self, text: &str) -> String {
+        let width = self.width(terminal_size::terminal_size_of(io::stdout()));
+        fitted(&visible(text), width)
+    }
+
     /// Writes a text to stdout, with lines in the styles that `style` gives them.
     pub(super) fn print_painted(
         self,
@@ -192,10 +198,10 @@ impl Console {
                 anstyle::AnsiColor::Cyan.on_default(),
             ),
         };
-        let message = visible_line(&failure.message);
+        let message = wrap(&failure.message, look.width, 7).replace('\n', "\n       ");
         let _ = writeln!(writer, "{bold}error{bold:#}: {message}");
         for help in &failure.help {
-            let help = visible_line(help);
+            let help = wrap(help, look.width, 6).replace('\n', "\n      ");
             let _ = writeln!(writer, "{plain}help{plain:#}: {help}");
         }
     }

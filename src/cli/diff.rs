@@ -186,7 +186,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     if let Some(remark) = above.or(above_new) {
         output.insert_str(0, &format!("{remark}\n\n"));
     }
-    if let Printed::Unread = console.print_painted(&output, difference)? {
+    if let Printed::Unread = console.print_painted(&console.fitted(&output), difference)? {
         return Ok(exit::CLEAN);
     }
     Ok(if same && obstacles.is_empty() {

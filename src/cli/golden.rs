@@ -127,7 +127,11 @@ impl Bench<'_> {
                 Ok(Verdict::AsAgreed) => {}
                 Ok(Verdict::Missing(_)) => {
                     missing += 1;
-                    let _ = writeln!(output, "{shown} is missing\n");
+                    let _ = writeln!(
+                        output,
+                        "{}",
+                        console.fitted(&format!("{shown} is missing\n"))
+                    );
                 }
                 Ok(Verdict::Drifted { before, now }) => {
                     drifted += 1;

@@ -1,8 +1,7 @@
 //! `frictcomp init`: a configuration to begin with (R9.73).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::fs::OpenOptions;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -16,6 +15,7 @@ use super::failure::Failure;
 use super::files::read_text;
 use super::grounds::normal;
 use super::list_files::{Lists, read_list};
+use super::unfinished::{UnfinishedFile, take_away_left};
 use super::walk;
 use crate::codes::Code;
 use crate::lists::ListKind;
@@ -163,19 +163,16 @@ fn programs(folder: &Path) -> BTreeMap<String, AxisUse> {
     uses
 }
 
-/// Creates the file; one that came into being meanwhile stays.
+/// Creates the file as a whole; one that came into being meanwhile stays.
 fn write_new(target: &Path, text: &str) -> Result<(), Failure> {
-    let created = OpenOptions::new().write(true).create_new(true).open(target);
-    let mut file = created.map_err(|error| match error.kind() {
+    let written = UnfinishedFile::begin(target).and_then(|mut file| {
+        take_away_left(&file, &mut BTreeSet::new());
+        file.write_all(text.as_bytes())?;
+        file.take_free_place()
+    });
+    written.map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => there(target),
         _ => Failure::writing(target, &error),
-    })?;
-    let written = file
-        .write_all(text.as_bytes())
-        .and_then(|()| file.sync_all());
-    written.map_err(|error| {
-        let _ = std::fs::remove_file(target);
-        Failure::writing(target, &error)
     })
 }
 

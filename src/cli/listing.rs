@@ -35,7 +35,7 @@ pub(super) struct ListingArgs {
     pub(super) quiet: bool,
     /// Count the diagnostics by code, in place of listing them
     #[arg(long)]
-    statistics: bool,
+    pub(super) statistics: bool,
     #[command(flatten)]
     pub(super) severities: SeverityArgs,
 }

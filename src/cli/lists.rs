@@ -62,19 +62,15 @@ impl ListsArgs {
         self.listing.severities.check()
     }
 
-    /// The folders whose lists are shown: the current one and those of the files that are named.
-    fn grounds(&self) -> Grounds {
+    /// The folders whose lists are shown: the current one and those of the files.
+    fn grounds(&self, files: &[PathBuf]) -> Grounds {
         let elsewhere = if self.allow_outside {
             Elsewhere::Allowed
         } else {
             Elsewhere::Kept
         };
-        let named = self.files.iter().filter_map(|path| path.parent());
-        let real: Vec<PathBuf> = self
-            .files
-            .iter()
-            .flat_map(|path| path.canonicalize())
-            .collect();
+        let named = files.iter().filter_map(|path| path.parent());
+        let real: Vec<PathBuf> = files.iter().flat_map(|path| path.canonicalize()).collect();
         let real = real.iter().filter_map(|path| path.parent());
         let grounds = Grounds::new(elsewhere).with(Path::new(""));
         named.chain(real).fold(grounds, Grounds::with)
@@ -153,15 +149,16 @@ fn lacking(missing: usize) -> String {
 
 /// Runs the command.
 pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
-    let grounds = args.grounds();
     let ledger = Ledger::default();
     let console = args.listing.console(console);
     args.check_options()?;
+    let files = args.files()?;
+    let grounds = args.grounds(&files);
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     let mut reports = Vec::new();
     let mut failures = Failures::default();
-    for path in &args.files()? {
+    for path in &files {
         ledger.reads("list", path);
         let mut report = match check(path, args.cnc_build) {
             Ok(report) => report,

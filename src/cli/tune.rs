@@ -157,7 +157,7 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         svg.text(&tuning(&reports).render(Frame::Alone))?;
     }
     console.print(&match args.format {
-        Format::Text => render_text(&reports),
+        Format::Text => console.fitted(&render_text(&reports)),
         Format::Json => render_json(&reports),
     })?;
     outputs.finish()?;

@@ -69,13 +69,25 @@ impl UnfinishedFile {
 
     /// The file takes the old one's place.
     pub(super) fn take_place(&mut self) -> io::Result<()> {
+        self.place(|file, target| file.persist(target))
+    }
+
+    /// The file takes a place where there is none; one that is there by now stays.
+    pub(super) fn take_free_place(&mut self) -> io::Result<()> {
+        self.place(|file, target| file.persist_noclobber(target))
+    }
+
+    fn place(
+        &mut self,
+        persist: fn(TempPath, &Path) -> Result<(), tempfile::PathPersistError>,
+    ) -> io::Result<()> {
         self.sync()?;
         let Stage::Synced(file) = std::mem::replace(&mut self.stage, Stage::Done) else {
             return Ok(());
         };
         let mut unfinished = Unfinished::lock();
         let path = file.to_path_buf();
-        let persisted = file.persist(&self.target);
+        let persisted = persist(file, &self.target);
         unfinished.forget(&path);
         persisted?;
         #[cfg(unix)]

@@ -107,6 +107,37 @@ pub(crate) fn wrap(text: &str, width: usize, indent: usize) -> String {
     wrapped
 }
 
+/// Breaks lines that are wider than a width between words; what follows stands further right.
+pub(crate) fn fitted(text: &str, width: usize) -> String {
+    let mut out = String::with_capacity(text.len() + 64);
+    for line in text.split_inclusive('\n') {
+        let bare = line.trim_end_matches('\n');
+        if bare.width() <= width {
+            out.push_str(line);
+            continue;
+        }
+        let indent = bare.len() - bare.trim_start_matches(' ').len();
+        let mut column = indent;
+        out.push_str(&bare[..indent]);
+        for (at, word) in bare[indent..].split(' ').enumerate() {
+            let columns = word.width();
+            if column + 1 + columns > width && column > indent + 2 && columns > 0 {
+                out.truncate(out.trim_end_matches(' ').len());
+                out.push('\n');
+                out.extend(std::iter::repeat_n(' ', indent + 2));
+                column = indent + 2;
+            } else if at > 0 {
+                out.push(' ');
+                column += 1;
+            }
+            out.push_str(word);
+            column += columns;
+        }
+        out.push_str(&line[bare.len()..]);
+    }
+    out
+}
+
 /// The part of a place's text that is handed to the renderer: all of it, unless a line is so long
 /// that only the surroundings of the span make sense. Hidden characters have pictures.
 struct Shown<'a> {

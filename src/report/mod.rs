@@ -28,8 +28,8 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 pub use csv::Csv;
-pub(crate) use diagnostics::wrap;
 pub use diagnostics::{Look, Paint, render};
+pub(crate) use diagnostics::{fitted, wrap};
 pub use json::Json;
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;

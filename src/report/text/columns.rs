@@ -16,8 +16,8 @@ const LINE_END: usize = 6;
 /// The block text must keep so many columns, or states become symbols.
 const MIN_TEXT: usize = 24;
 
-/// Beside symbols it keeps so many.
-const LEAST_TEXT: usize = 8;
+/// Beside symbols it keeps so many, or the states stand below their block.
+const LEAST_TEXT: usize = 16;
 
 /// The block text takes at most so many columns, so that few axes do not stand far away from it.
 const MAX_TEXT: usize = 72;
@@ -38,6 +38,8 @@ enum Words {
     Full,
     /// `on`, `off`, …
     Short,
+    /// The same below the block, each with the name of its axis.
+    Below,
 }
 
 /// One axis.
@@ -53,6 +55,7 @@ struct Column {
 pub(super) struct Columns {
     words: Words,
     text: usize,
+    width: usize,
     axes: Vec<Column>,
 }
 
@@ -74,16 +77,19 @@ impl Columns {
             .map(|(_, name)| name.width().max(SYMBOL))
             .collect();
         let short: usize = widths.iter().map(|width| width + 1).sum::<usize>() + 1;
-        let text = room
-            .saturating_sub(short)
-            .clamp(LEAST_TEXT, most_text(width).max(LEAST_TEXT));
+        let text = room.saturating_sub(short);
+        if text < LEAST_TEXT {
+            let below = Self::place(state, Words::Below, room, &widths);
+            return Self { width, ..below };
+        }
+        let text = text.min(most_text(width).max(LEAST_TEXT));
         Self::place(state, Words::Short, text, &widths)
     }
 
     fn place(state: StateView<'_>, words: Words, text: usize, widths: &[usize]) -> Self {
         let gap = match words {
             Words::Full => 2,
-            Words::Short => 1,
+            Words::Short | Words::Below => 1,
         };
         let mut start = GUTTER + text + 2;
         let mut columns = Vec::with_capacity(widths.len());
@@ -98,6 +104,7 @@ impl Columns {
         Self {
             words,
             text,
+            width: 0,
             axes: columns,
         }
     }
@@ -109,13 +116,16 @@ impl Columns {
 
     /// What the symbols mean, when there are symbols.
     pub(super) fn legend(&self) -> Option<&'static str> {
-        (self.words == Words::Short).then_some(
+        (self.words != Words::Full).then_some(
             "on active, off inactive, on! ineffective, - unconfigured, ? unknown, ◄ changed",
         )
     }
 
     /// Appends the names of the axes.
     pub(super) fn names(&self, line: &mut Line<'_>) {
+        if self.words == Words::Below {
+            return;
+        }
         for column in &self.axes {
             line.go_to(column.start);
             line.styled(BOLD, &column.name);
@@ -124,15 +134,18 @@ impl Columns {
 
     /// Appends the states.
     pub(super) fn states(&self, line: &mut Line<'_>, state: StateView<'_>, changes: &[Change]) {
+        if self.words == Words::Below {
+            line.next(GUTTER);
+        }
         for column in &self.axes {
-            line.go_to(column.start);
             let now = state.state(column.axis, Kind::Frict);
+            self.go_to(column, line);
             let marked = changes
                 .iter()
                 .any(|change| change.axis == column.axis && change.kind == Kind::Frict);
             let word = match self.words {
                 Words::Full => now.word(),
-                Words::Short => symbol(now),
+                Words::Short | Words::Below => symbol(now),
             };
             if !marked {
                 line.styled(style(now), word);
@@ -147,6 +160,25 @@ impl Columns {
         }
     }
 
+    /// Goes to the place of a state; one below its block is led by its axis.
+    fn go_to(&self, column: &Column, line: &mut Line<'_>) {
+        if self.words != Words::Below {
+            line.go_to(column.start);
+            return;
+        }
+        let needed = column.name.width() + 1 + SYMBOL;
+        if line.column() > GUTTER {
+            let next = GUTTER + (line.column() - GUTTER).next_multiple_of(needed + 1);
+            if next + needed > self.width {
+                line.next(GUTTER);
+            } else {
+                line.go_to(next);
+            }
+        }
+        line.styled(BOLD, &column.name);
+        line.plain(" ");
+    }
+
     /// Appends the line of a block.
     pub(super) fn block(&self, mut line: Line<'_>, row: &Row<'_>) {
         let mut digits = itoa::Buffer::new();
@@ -157,7 +189,10 @@ impl Columns {
         let indent = depth.saturating_mul(2).min(self.text / 2);
         line.go_to(GUTTER + indent);
         line.source(row.text, self.text - indent);
-        self.states(&mut line, row.state, row.changes);
+        // Below a block that changes nothing the states of the one before hold.
+        if self.words != Words::Below || !row.changes.is_empty() {
+            self.states(&mut line, row.state, row.changes);
+        }
         line.end();
     }
 }

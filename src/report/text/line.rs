@@ -38,6 +38,19 @@ impl<'a> Line<'a> {
         self.column += blanks;
     }
 
+    /// Where the next text begins.
+    pub(super) fn column(&self) -> usize {
+        self.column
+    }
+
+    /// Goes on in a line of its own, behind an indent.
+    pub(super) fn next(&mut self, indent: usize) {
+        self.trim();
+        self.out.push(b'\n');
+        self.column = 0;
+        self.go_to(indent);
+    }
+
     /// Appends text without a style.
     pub(super) fn plain(&mut self, text: &str) {
         let text = &*visible_line(text);
@@ -96,11 +109,15 @@ impl<'a> Line<'a> {
     }
 
     /// Ends the line.
-    pub(super) fn end(self) {
+    pub(super) fn end(mut self) {
+        self.trim();
+        self.out.push(b'\n');
+    }
+
+    fn trim(&mut self) {
         while self.out.last() == Some(&b' ') {
             self.out.pop();
         }
-        self.out.push(b'\n');
     }
 }
 

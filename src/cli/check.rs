@@ -27,21 +27,19 @@ use crate::session::{NoteKind, Notes, StopPolicy};
 use crate::source::Position;
 use crate::timeline::{Record, Repeat, Sink};
 
-/// Prints every diagnostic of every program, each run from the start of the control
+/// Print all messages of all programs; each program runs from the start of the control
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// Programs and folders of programs, `-` for standard input, the current folder unless one is
-    /// given
+    /// Programs and folders of programs; `-` is standard input
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    /// List the values that the programs need from the machine, with their places, in place of the
-    /// diagnostics
+    /// Instead of messages, list the values that the programs need from the machine, and where
     #[arg(long, conflicts_with_all = ["opaque", "fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
     unknowns: bool,
-    /// List what was accepted and passed over, with its places, in place of the diagnostics
+    /// Instead of messages, list what was accepted and passed over, and where
     #[arg(long, conflicts_with_all = ["fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
     opaque: bool,
-    /// Check so many programs at once, as many as there are processors unless it is given
+    /// The number of programs to check at once; by default the number of processors
     #[arg(long, short, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     #[command(flatten)]

@@ -24,14 +24,14 @@ use crate::report::pictures::circle;
 use crate::report::svg::Frame;
 use crate::simulation::plant_list;
 
-/// Drives a circle with two simulated axes, with friction compensation off and on
+/// Drive a circle with two simulated axes, with friction compensation off and on
 ///
-/// Gives the figures of ISO 230-4, the glitch at every quadrant, and what they suggest. With
-/// `--trace` the circle is one that was recorded: a CSV file with the columns `x` and `y` in mm (or
-/// `x_um` and `y_um` in µm); give two files for both directions.
+/// Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--trace`
+/// evaluates a recorded circle instead: a CSV file with the columns `x` and `y` in mm (or `x_um`
+/// and `y_um` in µm). Give two files for both directions.
 #[derive(Debug, Args)]
 pub(super) struct CircleArgs {
-    /// Radius in mm; for recorded circles the commanded one
+    /// Radius in mm; for recorded circles the commanded radius
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Feed in mm/min
@@ -48,27 +48,27 @@ pub(super) struct CircleArgs {
     /// The friction model
     #[arg(long, default_value = "lugre")]
     model: Model,
-    /// The compensation value list of both axes; without it that of the plant's own friction
+    /// The compensation value list of both axes; by default the friction curve of the plant
     #[arg(long, value_name = "LIST")]
     value_list: Option<PathBuf>,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
     #[arg(long, value_name = "READING", default_value = "")]
     reading: Reading,
-    /// A recorded circle in place of a simulated one; twice for both directions
+    /// A recorded circle instead of a simulated one; give it twice for both directions
     #[arg(long, value_name = "FILE", conflicts_with_all = ["feed", "plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
     trace: Vec<PathBuf>,
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
-    /// Draw the magnified circle, compensation off and on, into this file
+    /// Draw the circle with magnified deviation, compensation off and on, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Write a report with the picture and the figures into this file
+    /// Write an HTML report with the picture and the figures to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the result into this file
+    /// Write the result to this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -79,7 +79,7 @@ enum Format {
     /// Tables for people.
     #[default]
     Text,
-    /// One document.
+    /// One JSON document.
     Json,
     /// The radial deviation every 0.1°.
     Csv,

@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::painted::severities;
 use crate::codes::Code;
 
-/// Lists every code with its severity and title
+/// List all codes with severity and title
 #[derive(Debug, Args)]
 pub(super) struct CodesArgs {
     /// The format of the list

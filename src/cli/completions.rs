@@ -7,7 +7,7 @@ use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 
-/// Prints the completions for a shell
+/// Print the completions for a shell
 #[derive(Debug, Args)]
 pub(super) struct CompletionsArgs {
     /// The shell

@@ -17,10 +17,10 @@ use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
 use crate::report::visible_line;
 use crate::syntax::Kind;
 
-/// The configuration of the machine
+/// Show the configuration of the machine
 #[derive(Debug, Subcommand)]
 pub(super) enum ConfigCommand {
-    /// Prints the machine that a program in a folder would run on
+    /// Print the machine that a program in a folder would run on
     Show(ShowArgs),
 }
 

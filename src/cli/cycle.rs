@@ -12,7 +12,7 @@ const LONGEST: f64 = 1000.0;
 /// The CNC cycle.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct CycleArgs {
-    /// The CNC cycle in ms, as in `frictcomp.toml`; without it that of the machine, else 1
+    /// The CNC cycle in ms, as in `frictcomp.toml`; by default that of the machine, else 1
     #[arg(long, value_name = "MS", allow_negative_numbers = true)]
     cycle_time_ms: Option<f64>,
     /// The same in seconds

@@ -26,16 +26,16 @@ use crate::session::StopPolicy;
 use crate::syntax::KindSet;
 use crate::timeline::{EndedBy, Record, Row, Sink};
 
-/// Shows which blocks change the compensation state between two versions of a program
+/// Show which compensation changes differ between two versions of a program
 #[derive(Debug, Args)]
 pub(super) struct DiffArgs {
-    /// The version before
+    /// The old version
     #[arg(value_name = "OLD")]
     old: PathBuf,
-    /// The version now
+    /// The new version
     #[arg(value_name = "NEW")]
     new: PathBuf,
-    /// The kinds of compensation that are compared: `FRICT,LEAD` or `all`
+    /// The kinds of compensation to compare: `FRICT,LEAD` or `all`
     #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
     kinds: KindSet,
     #[command(flatten)]

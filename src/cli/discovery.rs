@@ -31,19 +31,19 @@ pub(super) struct MachineArgs {
     /// Use this configuration instead of the nearest `frictcomp.toml`
     #[arg(long, value_name = "FILE", conflicts_with = "isolated")]
     pub(super) config: Option<PathBuf>,
-    /// Look for no configuration
+    /// Ignore any `frictcomp.toml`
     #[arg(long)]
     pub(super) isolated: bool,
-    /// Take the axes from this start-up list, whatever the configuration says
+    /// Take the axes from this start-up list instead of the configuration
     #[arg(long, value_name = "LIST")]
     pub(super) startup: Option<PathBuf>,
     /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes
     #[arg(long, value_name = "AXES", value_delimiter = ',')]
     pub(super) enable: Vec<String>,
-    /// Call programs from any folder, and show the text of lists wherever they lie
+    /// Call programs in any folder, and show the text of lists in any folder
     #[arg(long)]
     pub(super) allow_outside: bool,
-    /// Give a value to a variable that only the machine knows
+    /// Set a variable that only the machine knows
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = settings::parse_setting)]
     pub(super) settings: Vec<SetVariable>,
 }

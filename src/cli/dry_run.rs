@@ -23,30 +23,30 @@ use crate::timeline::Sink;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Execution")]
 pub(super) struct ExecutionArgs {
-    /// Skip blocks behind `/`, by level: `1,3-5` or `all`
+    /// Skip blocks that begin with `/`, by level: `1,3-5` or `all`
     #[arg(long, value_name = "LEVELS", value_parser = settings::parse_levels)]
     skip: Option<SkipLevels>,
-    /// End after so many executed blocks
+    /// The largest number of executed blocks
     #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_blocks: u64,
-    /// Let blocks make so much work beyond what is written in them, through macros, texts that grow
-    /// and regions under conditions that are not known
+    /// The largest amount of work beyond the text of the blocks, caused by macros, growing strings
+    /// and regions under unknown conditions
     #[arg(long, value_name = "N", default_value_t = Limits::default().work)]
     max_work: u64,
-    /// Let a program hold so many values
+    /// The largest number of values that a program may hold
     #[arg(long, value_name = "N", default_value_t = Limits::default().values)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     max_values: u32,
-    /// Let subprograms call each other so deep
+    /// The deepest nesting of subprogram calls
     #[arg(long, value_name = "N", default_value_t = Limits::default().calls)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     max_calls: u32,
-    /// Let `$` control blocks stand in each other so deep
+    /// The deepest nesting of `$` control blocks
     #[arg(long, value_name = "N", default_value_t = Limits::default().nesting)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     max_nesting: u32,
-    /// Let macros expand into each other so deep, at most 64
+    /// The deepest nesting of macros, at most 64
     #[arg(long, value_name = "N", default_value_t = Limits::default().macros)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
     max_macros: u32,

@@ -112,8 +112,8 @@ static EXAMPLES: [Examples; 15] = [
 const FIRST: [&str; 2] = ["frictcomp run mill.nc", "frictcomp check programs"];
 
 /// What the exit status says, below the tool's own help.
-const STATUS: &str = "Exit status: 0 nothing at or above --fail-on, 1 something was, \
-                      2 the tool could not do its work.";
+const STATUS: &str = "Exit status: 0 no message at --fail-on or above, 1 at least one, \
+                      2 frictcomp could not do its work.";
 
 /// The command line with its examples.
 pub(super) fn with_examples(tool: Command) -> Command {

@@ -9,10 +9,11 @@ use super::painted::page as titles;
 use crate::codes::Code;
 use crate::diagnostic::did_you_mean;
 
-/// Prints the page of a diagnostic or a parameter
+/// Explain a message or a parameter
 #[derive(Debug, Args)]
 pub(super) struct ExplainArgs {
-    /// `P-ERR-70495`, `70495`, `FC201`, `P-COMP-00043`, `frict_comp.mode`
+    /// A code or parameter, such as `FC201`, `P-ERR-70495`, `70495`, `P-COMP-00043` or
+    /// `frict_comp.mode`
     code: String,
 }
 

@@ -14,7 +14,7 @@ pub(super) enum FailOn {
     Error,
     /// A warning or an error.
     Warning,
-    /// Anything at all.
+    /// Any message.
     Info,
     /// Nothing.
     Never,

@@ -22,16 +22,16 @@ use crate::session::StopPolicy;
 /// The option that writes timelines.
 const UPDATE: &str = "golden --update";
 
-/// Compares each program's timeline with the `.timeline` file beside it
+/// Compare each program's timeline with the `.timeline` file beside it
 #[derive(Debug, Args)]
 pub(super) struct GoldenArgs {
-    /// Programs and folders of programs, the current folder unless one is given
+    /// Programs and folders of programs
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
     /// Write the timelines instead of comparing them
     #[arg(long)]
     update: bool,
-    /// Say nothing beside the differences
+    /// Print only the differences
     #[arg(long, short)]
     quiet: bool,
     #[command(flatten)]

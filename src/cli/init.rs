@@ -23,16 +23,16 @@ use crate::machine::{Configuration, check_list};
 use crate::source::SourceFile;
 use crate::syntax::{AxisUse, axis_uses};
 
-/// Writes a commented `frictcomp.toml` to begin with
+/// Write a commented `frictcomp.toml` to start from
 ///
-/// The machine is taken from the control's start-up list where one lies in the folder or is given,
-/// else the axes from the programs of the folder. A file that is there stays as it is.
+/// Describes the machine from the control's start-up list if one is given or found in the folder,
+/// otherwise from the axes that the programs in the folder use. An existing file is not changed.
 #[derive(Debug, Args)]
 pub(super) struct InitArgs {
-    /// The folder of the programs
+    /// The folder with the programs
     #[arg(value_name = "FOLDER", default_value = ".")]
     folder: PathBuf,
-    /// The start-up list of the machine, `hochlauf.lis`
+    /// The start-up list of the machine, such as `hochlauf.lis`
     #[arg(long, value_name = "LIST")]
     startup: Option<PathBuf>,
 }

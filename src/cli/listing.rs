@@ -21,19 +21,19 @@ use crate::report::{Listing, ListingFormat, Tally};
 /// How diagnostics are listed.
 #[derive(Debug, Clone, Args)]
 pub(super) struct ListingArgs {
-    /// The format of the diagnostics
+    /// The format of the messages
     #[arg(long, default_value = "text")]
     pub(super) format: Format,
-    /// Write the diagnostics into this file
+    /// Write the messages to this file
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// The severity from which on the exit status is 1
+    /// The lowest severity that gives exit status 1
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     pub(super) fail_on: FailOn,
-    /// Say only what counts for the exit status
+    /// Print only the messages that count for the exit status
     #[arg(long, short)]
     pub(super) quiet: bool,
-    /// Count the diagnostics by code, in place of listing them
+    /// Count the messages by code instead of listing them
     #[arg(long)]
     pub(super) statistics: bool,
     #[command(flatten)]
@@ -46,13 +46,13 @@ pub(super) enum Format {
     /// Source lines with carets, for people.
     #[default]
     Text,
-    /// One line a diagnostic.
+    /// One line per message.
     Concise,
     /// One JSON document.
     Json,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Ndjson,
-    /// Workflow commands of GitHub.
+    /// GitHub workflow commands.
     Github,
     /// SARIF 2.1.0.
     Sarif,

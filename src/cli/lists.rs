@@ -22,29 +22,29 @@ use crate::report::pictures::value_curves;
 use crate::report::svg::Frame;
 use crate::source::SourceFile;
 
-/// Reads and checks axis, value, channel and start-up lists
+/// Read and check axis, value, channel and start-up lists
 ///
-/// A start-up list and a `frictcomp.toml` are checked with every list that they name, any other
-/// list by itself.
+/// A start-up list or a `frictcomp.toml` is checked together with every list that it names, any
+/// other list by itself.
 #[derive(Debug, Args)]
 pub(super) struct ListsArgs {
-    /// The lists, or the `frictcomp.toml` that names them; without any the nearest `frictcomp.toml`
-    /// from the current folder upwards
+    /// The lists, or the `frictcomp.toml` that names them; by default the nearest `frictcomp.toml`
+    /// in the current folder or above
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Print the effective parameters of every axis and where each came from
+    /// Print the effective parameters of every axis and where each comes from
     #[arg(long)]
     show: bool,
-    /// Draw the value lists that the control would take into this file
+    /// Draw the value lists that the control would accept to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// The CNC build that the lists are for, `3.1.3132.0`
+    /// The CNC build that the lists are for, such as `3.1.3132.0`
     #[arg(long, value_name = "BUILD")]
     cnc_build: Option<CncBuild>,
-    /// Take warnings about documented ranges (FC132) as errors
+    /// Treat values outside the documented range (FC132) as errors
     #[arg(long)]
     strict: bool,
-    /// Show the text of lists outside the folders of these and the current one, too
+    /// Also show the text of lists outside the current folder and the folders of the files named
     #[arg(long)]
     allow_outside: bool,
     #[command(flatten)]

@@ -11,10 +11,10 @@ use super::failure::Failure;
 use super::ledger::Ledger;
 use super::outputs::Outputs;
 
-/// Prints the manual page, or writes one for each command
+/// Print the manual page, or write one for each command
 #[derive(Debug, Args)]
 pub(super) struct ManArgs {
-    /// Write the pages of the tool and of each of its commands into this folder
+    /// Write the pages of the tool and of each command to this folder
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
 }

@@ -63,15 +63,15 @@ use failure::Failure;
 
 use crate::report::{visible, visible_line};
 
-/// Dry-runs ISG and TwinCAT CNC programs and shows, block by block, which axis has friction
+/// Dry-run ISG and TwinCAT CNC programs and show, block by block, which axes have friction
 /// compensation active.
 #[derive(Debug, Parser)]
 #[command(name = "frictcomp", version, max_term_width = 100)]
 struct Arguments {
-    /// When output is coloured
+    /// When to colour the output
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     color: Color,
-    /// Columns of text; without it those of the terminal, else `COLUMNS`, else 100
+    /// Width of text in columns; by default that of the terminal, else `COLUMNS`, else 100
     #[arg(long, global = true, value_name = "N", value_parser = settings::parse_width)]
     width: Option<usize>,
     #[command(subcommand)]

@@ -13,12 +13,12 @@ use clap::ValueEnum;
 /// A friction model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(super) enum Model {
-    /// One bristle.
+    /// LuGre, a single bristle.
     #[default]
     Lugre,
-    /// Elements that stick and slip.
+    /// Generalized Maxwell-slip, elements that stick and slip.
     Gms,
-    /// The static curve.
+    /// The static Stribeck curve.
     Stribeck,
 }
 

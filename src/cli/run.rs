@@ -32,10 +32,9 @@ use crate::session::{Session, StopPolicy, undescribed};
 use crate::syntax::KindSet;
 use crate::timeline::{Record, Sink};
 
-/// Runs programs one after the other in one controller session and prints the activation
-/// timeline
+/// Run programs one after the other in one session of the control and print the timeline
 ///
-/// The state that one program leaves is the state that the next one starts with.
+/// Each program starts with the state that the one before it leaves.
 #[derive(Debug, Args)]
 // Each is a switch of its own on the command line.
 #[allow(clippy::struct_excessive_bools)]
@@ -43,37 +42,37 @@ pub(super) struct RunArgs {
     /// The programs, `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Start with the state that this file holds, and save the state in it at the end
+    /// Start with the state saved in this file, and save the state to it at the end
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Treat a failing command as if it were not there, and go on
+    /// Treat a failing command as if it were not there, and continue
     #[arg(long)]
     keep_going: bool,
-    /// Print only blocks with a change or a diagnostic
+    /// Print only blocks with a change or a message
     #[arg(long, conflicts_with = "full")]
     changes: bool,
-    /// Do not fold runs of blocks without a change
+    /// Show all blocks; do not fold those without a change
     #[arg(long)]
     full: bool,
-    /// Print only the diagnostics that count for the exit status
+    /// Print only the messages that count for the exit status
     #[arg(long, short, conflicts_with_all = ["changes", "full", "format", "columns"])]
     quiet: bool,
-    /// The kinds of compensation whose changes are shown: `FRICT,LEAD` or `all`
+    /// The kinds of compensation to show: `FRICT,LEAD` or `all`
     #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
     kinds: KindSet,
     /// The format of the timeline
     #[arg(long, default_value = "text")]
     format: Format,
-    /// More columns of the CSV timeline
+    /// Additional columns for the CSV timeline
     #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
     columns: Vec<Column>,
-    /// Write the timeline into this file
+    /// Write the timeline to this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write a report with charts and the annotated source into this file, beside the timeline
+    /// Also write an HTML report with charts and the annotated source to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// The severity from which on the exit status is 1
+    /// The lowest severity that gives exit status 1
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     fail_on: FailOn,
     #[command(flatten)]
@@ -90,18 +89,18 @@ enum Format {
     /// For people.
     #[default]
     Text,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Ndjson,
     /// One JSON document.
     Json,
-    /// One row a block.
+    /// One row per block.
     Csv,
 }
 
 /// Columns that a CSV timeline has only where they are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Column {
-    /// Where each axis stands after the block.
+    /// The position of each axis after the block.
     Position,
 }
 

@@ -10,14 +10,14 @@ use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Messages")]
 pub(super) struct SeverityArgs {
-    /// Leave these codes out
+    /// Do not report these codes
     #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = parse_ours)]
     ignore: Vec<Code>,
-    /// Leave out all codes but these and those of the control
+    /// Report only these codes, and those of the control
     #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = parse_code)]
     #[arg(conflicts_with = "ignore")]
     select: Vec<Code>,
-    /// Give a code another severity: `info`, `warning`, `error`
+    /// Change the severity of a code: `info`, `warning`, `error`
     #[arg(long, value_name = "CODE=LEVEL", value_delimiter = ',', value_parser = parse_severity)]
     severity: Vec<(Code, Severity)>,
 }

@@ -28,14 +28,14 @@ const MAX_FEEDS: usize = 16;
 /// Plants at most.
 const MAX_PLANTS: usize = 16;
 
-/// Searches the parameters of a value list that leave the smallest glitch on a simulated machine
+/// Find the value list parameters with the smallest glitch on a simulated machine
 ///
-/// `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` are searched within
-/// their documented ranges, so that the worst glitch of all feeds is as small as possible. The
-/// table is the friction curve of the plant.
+/// Searches `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` within
+/// their documented ranges for the smallest worst glitch over all feeds. The table is the friction
+/// curve of the plant.
 #[derive(Debug, Args)]
 pub(super) struct TuneArgs {
-    /// The machine: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one by one
+    /// The machine: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one after the other
     #[arg(
         long,
         value_name = "PLANT",
@@ -52,7 +52,7 @@ pub(super) struct TuneArgs {
         allow_negative_numbers = true
     )]
     feeds: Vec<f64>,
-    /// A parameter that may leave its documented range
+    /// Search this parameter beyond its documented range
     #[arg(long, value_name = "PARAMETER", value_delimiter = ',')]
     free: Vec<Free>,
     /// Radius in mm
@@ -68,20 +68,20 @@ pub(super) struct TuneArgs {
     model: Model,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
     #[arg(long, value_name = "READING", default_value = "")]
     reading: Reading,
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
-    /// Draw the glitch over the feed, before and after, into this file
+    /// Draw the glitch over the feed, before and after tuning, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// The CNC build that the value list is for, `3.1.3132.0`; outputs are whole numbers unless it
-    /// reads real ones
+    /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
+    /// unless the build accepts fractions
     #[arg(long, value_name = "BUILD")]
     cnc_build: Option<CncBuild>,
-    /// Write the value list of the first plant into this file
+    /// Write the value list of the first plant to this file
     #[arg(long, short, value_name = "LIST")]
     output: Option<PathBuf>,
 }
@@ -103,7 +103,7 @@ enum Format {
     /// A table for people.
     #[default]
     Text,
-    /// One document.
+    /// One JSON document.
     Json,
 }
 

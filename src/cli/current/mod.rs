@@ -25,12 +25,12 @@ use crate::report::pictures::{AxisPlot, CurrentPlot};
 use crate::report::svg::Frame;
 use crate::source::SourceFile;
 
-/// Computes the additive current of a program or of a recorded trace, cycle by cycle
+/// Compute the additive current of a program or a recorded trace, cycle by cycle
 ///
-/// A program is run as `run` does it, and its path is followed in CNC cycles; the current of each
-/// axis follows its compensation state. A trace is a CSV file with a header: `t` in s, `x` in
-/// 0.1 µm or 0.0001°, `v` in µm/s or 0.001°/s, one row a CNC cycle. Either `x` or `v` may be
-/// missing. A column `comp` with `on` and `off` switches as COMP would.
+/// A program runs as in `run`, and its path is followed in CNC cycles; the current of each axis
+/// depends on its compensation state. A trace is a CSV file with a header: `t` in s, `x` in 0.1 µm
+/// or 0.0001°, `v` in µm/s or 0.001°/s, one row per CNC cycle. Either `x` or `v` may be missing. A
+/// column `comp` with `on` and `off` switches compensation as COMP would.
 #[derive(Debug, Args)]
 pub(super) struct CurrentArgs {
     /// The program, `-` for standard input
@@ -40,7 +40,7 @@ pub(super) struct CurrentArgs {
         requires = "axes"
     )]
     program: Option<PathBuf>,
-    /// The axes of the program whose current is computed
+    /// The axes of the program to compute the current for
     #[arg(
         long = "axis",
         value_name = "AXIS",
@@ -48,22 +48,22 @@ pub(super) struct CurrentArgs {
         conflicts_with = "trace"
     )]
     axes: Vec<String>,
-    /// A commanded trace in place of a program
+    /// A recorded commanded trace instead of a program
     #[arg(long, value_name = "FILE", requires = "value_list")]
     #[arg(conflicts_with_all = OF_PROGRAMS)]
     trace: Option<PathBuf>,
-    /// The compensation value list; for a program in place of what the configuration names
+    /// The compensation value list; for a program, replaces the one in the configuration
     #[arg(long, value_name = "LIST")]
     value_list: Option<PathBuf>,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// How the documents are read: `standstill=zero,below=origin,delay=reversal`
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
     #[arg(long, value_name = "READING", default_value = "")]
     reading: Reading,
     /// The format of the result
     #[arg(long, default_value = "csv")]
     format: Format,
-    /// More columns for a program: `comp` is the state of the compensation, `line` the block
+    /// Additional columns for a program
     #[arg(
         long,
         value_name = "COLUMNS",
@@ -71,14 +71,14 @@ pub(super) struct CurrentArgs {
         conflicts_with = "trace"
     )]
     columns: Vec<Column>,
-    /// End the trace of a program after so many CNC cycles
+    /// End the trace of a program after N CNC cycles
     #[arg(long, value_name = "N", default_value_t = PlannerOptions::default().max_cycles)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     max_cycles: u64,
-    /// Draw currents, velocities, weights and states of compensation over time into this file
+    /// Draw currents, velocities, weights and compensation states over time to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Write the result into this file
+    /// Write the result to this file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -108,7 +108,7 @@ const OF_PROGRAMS: [&str; 14] = [
 /// A format of the currents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 enum Format {
-    /// One row a cycle.
+    /// One row per cycle.
     #[default]
     Csv,
 }
@@ -116,9 +116,9 @@ enum Format {
 /// Columns that the currents of a program have only where they are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Column {
-    /// The state of the compensation.
+    /// The compensation state.
     Comp,
-    /// The line of the block that is followed.
+    /// The line of the block being executed.
     Line,
 }
 

@@ -94,6 +94,7 @@ codes! {
     Fc314 "FC314" Warning "machine data written by the program";
     Fc315 "FC315" Warning "program end inside a subprogram";
     Fc316 "FC316" Warning "circle by radius without an end point of its own";
+    Fc317 "FC317" Warning "return over more programs than are called";
     Fc320 "FC320" Error "called program not found or not readable";
     Fc321 "FC321" Error "called program outside its folders";
     Fc401 "FC401" Warning "left away from home past program end";

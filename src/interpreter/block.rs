@@ -73,6 +73,7 @@ impl Interpreter {
         if self.work.again != 0 {
             self.refuse_repeated_axes(intent.axis_words, at);
         }
+        self.move_around(intent.axis_words);
         let goes_on = !self.work.diagnostics.iter().any(stops);
         if (goes_on || self.options.stop != StopPolicy::FirstError)
             && self.state.described.is_none()

@@ -17,7 +17,7 @@ use super::modal::Modal;
 use super::program::EntryIndex;
 use super::region::Target;
 use super::run::Interpreter;
-use super::state::{Frame, Repeated, State};
+use super::state::{Description, Frame, Repeated, State};
 use super::value::Value;
 use crate::codes::Code;
 use crate::compensation::Compensation;
@@ -69,7 +69,7 @@ struct Mark {
     refused: BTreeSet<usize>,
     ending: Option<EndedBy>,
     named: BTreeMap<String, Value>,
-    described: Option<Box<Modal>>,
+    described: Option<Box<Description>>,
 }
 
 /// What was read since a loop was looked at.

@@ -6,10 +6,12 @@ use super::chain;
 use super::expression::Place;
 use super::implicit::is_file_name;
 use super::run::Interpreter;
+use super::state::Description;
 use super::value::Value;
 use super::words::AxisWords;
 use crate::codes::Code;
 use crate::compensation::Coupling;
+use crate::diagnostic::Diagnostic;
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::Fault;
@@ -56,16 +58,10 @@ impl Interpreter {
             "#RETAIN CYCLE CHANGES" => self.retain_cycle_changes(),
             "#COMMENT END" | "#ENDVAR" => {}
             name if is_file_name(name) => self.name_programs(hash, at),
-            // The blocks up to the end say what a cycle shall cut (tf5293, 717505035).
-            "#CONTOUR BEGIN" => {
-                let before = &self.state.modal;
-                self.state
-                    .described
-                    .get_or_insert_with(|| Box::new(before.clone()));
-            }
-            "#CONTOUR END" => {
-                if let Some(before) = self.state.described.take() {
-                    self.state.modal.end_description(&before);
+            opener if description_end(opener).is_some() => self.describe(hash, at),
+            end if self.ends_description(end) => {
+                if let Some(description) = self.state.described.take() {
+                    self.state.modal.end_description(&description.before);
                 }
             }
             "#RT WHILE" => self.real_time_loop(hash.span, at, intent),
@@ -99,6 +95,32 @@ impl Interpreter {
             }
         }
         Ok(())
+    }
+
+    /// The blocks up to the end describe geometry.
+    fn describe(&mut self, hash: &Hash, at: &At<'_>) {
+        if self.state.described.is_none() {
+            self.state.described = Some(Box::new(Description {
+                opener: hash.name.clone(),
+                place: at.place(hash.span),
+                before: self.state.modal.clone(),
+            }));
+        }
+    }
+
+    /// Whether a command ends the description that is open.
+    fn ends_description(&self, name: &str) -> bool {
+        let open = self.state.described.as_ref();
+        open.is_some_and(|open| description_end(&open.opener) == Some(name))
+    }
+
+    /// FC208: the program ends inside a description.
+    pub(super) fn open_description(&mut self) -> Option<Diagnostic> {
+        let open = self.state.described.take()?;
+        let end = description_end(&open.opener)?;
+        let message = format!("`{}` has no `{end}`", open.opener);
+        let help = format!("write `{end}` in a block of its own");
+        Some(Diagnostic::new(Code::Fc208, open.place, message).with_help(help))
     }
 
     /// `#RT WHILE` runs as long as a variable of real time says so (tf5261, 783727499).
@@ -327,4 +349,18 @@ fn element(name: &str, dimensions: &[u32], place: usize) -> String {
         element.push(']');
     }
     element
+}
+
+/// The commands between which blocks describe geometry and do not move: what a cycle shall cut
+/// (tf5293, 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
+const DESCRIPTIONS: [(&str, &str); 3] = [
+    ("#CONTOUR BEGIN", "#CONTOUR END"),
+    ("#STROKE DEF BEGIN", "#STROKE DEF END"),
+    ("#CONTROL AREA BEGIN", "#CONTROL AREA END"),
+];
+
+/// What ends the description that a command opens.
+fn description_end(opener: &str) -> Option<&'static str> {
+    let row = DESCRIPTIONS.iter().find(|(begin, _)| *begin == opener);
+    row.map(|(_, end)| *end)
 }

@@ -4,11 +4,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::event::AxisWord;
 use super::modal::Group;
 use super::run::Interpreter;
 use super::value::rounded;
 use super::words::AxisWords;
 use crate::machine::AxisIndex;
+use crate::source::Span;
 
 /// Whether blocks say what they move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -120,6 +122,10 @@ pub(super) struct Geometry {
     /// The seconds of `G04 2.5` and `#TIME 2.5`.
     pub(super) dwell: Given,
     pub(super) end: BlockEnd,
+    /// Where the first of I, J, K and R stands.
+    span: Option<Span>,
+    /// How many axes move along the circle without a word of their own.
+    around: usize,
     /// A G function that makes the block's motion something else.
     pub(super) foreign: Option<&'static str>,
 }
@@ -143,16 +149,64 @@ impl Interpreter {
     }
 
     /// I, J, K or R of a circle.
-    pub(super) fn circle_word(&mut self, letter: u8, value: Option<f64>) {
+    pub(super) fn circle_word(&mut self, letter: u8, (value, span): (Option<f64>, Span)) {
         let metric = self.state.modal.is_known(Group::Unit);
         let inch = self.state.modal.inch;
         let value = value.filter(|_| metric);
         let value = value.map(|value| if inch { value * 25.4 } else { value });
         let geometry = self.geometry();
+        geometry.span.get_or_insert(span);
         match letter {
             b'R' => geometry.radius = Some(value),
             _ => geometry.centre[usize::from(letter.saturating_sub(b'I')).min(2)] = Some(value),
         }
+    }
+
+    /// A circle moves both axes of its plane, also those that have no word: `G2 I5` goes all the way
+    /// round (R2.46). They end where they stand.
+    #[inline]
+    pub(super) fn move_around(&mut self, words: AxisWords) {
+        let turns = matches!(self.state.modal.motion, 2 | 3);
+        if (turns || self.work.geometry.is_some()) && words == AxisWords::Motion {
+            self.move_around_in_plane(turns);
+        }
+    }
+
+    fn move_around_in_plane(&mut self, turns: bool) {
+        let letters = [b'X', b'Y'].map(|letter| self.main_axis(letter));
+        let plane = letters.into_iter().flatten();
+        let geometry = self.work.geometry.as_ref();
+        let centred = geometry.is_some_and(|it| it.centre.iter().any(Option::is_some));
+        let is_circle = turns || !self.state.modal.is_known(Group::Motion);
+        let own = self.work.moved.len();
+        let word = self.work.moved.iter();
+        let word = word.filter(|word| letters.contains(&Some(word.axis)));
+        let word = word.map(|word| word.span).next();
+        let along = geometry.and_then(|it| it.span);
+        let Some(span) = along.filter(|_| centred).or(word) else {
+            return;
+        };
+        if !is_circle || (!turns && !centred) || self.work.dwells {
+            return;
+        }
+        for axis in plane {
+            if self.work.moved[..own].iter().all(|word| word.axis != axis) {
+                self.see(axis);
+                let value = None;
+                self.work.moved.push(AxisWord { axis, span, value });
+            }
+        }
+        let around = self.work.moved.len() - own;
+        if around > 0 {
+            self.geometry().around = around;
+        }
+    }
+
+    /// The words of the block that say where axes go.
+    #[inline]
+    pub(super) fn coordinates(&self) -> usize {
+        let around = self.work.geometry.as_ref().map_or(0, |it| it.around);
+        self.work.moved.len() - around
     }
 
     /// `G04 P1`: the parameter holds the seconds (PM/206132747).

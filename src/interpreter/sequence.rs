@@ -317,7 +317,9 @@ impl Interpreter {
                         "`JUMPS` is a number of programs, 1 or more",
                     )));
                 };
-                here.saturating_sub(u32::try_from(number).unwrap_or(u32::MAX))
+                let number = u32::try_from(number).unwrap_or(u32::MAX);
+                self.warn_too_many_jumps((number, here), back.span, at);
+                here.saturating_sub(number)
             }
         };
         if here == 0 {
@@ -357,6 +359,21 @@ impl Interpreter {
         };
         intent.step = Some(Step::ReturnTo(Destination { level, entry }));
         Ok(())
+    }
+
+    /// FC317: the control warns and goes back to the main program (PM/206781707). A subprogram that
+    /// is run by itself is none.
+    fn warn_too_many_jumps(&mut self, (number, here): (u32, u32), span: Span, at: &At<'_>) {
+        if here == 0 || number <= here {
+            return;
+        }
+        let programs = if here == 1 { "program" } else { "programs" };
+        let message = format!(
+            "`JUMPS` returns over {number} programs, but only {here} {programs} can be left here; the main program goes on"
+        );
+        let fault = Fault::new(Code::Fc317, span, message)
+            .with_help("`M17 [MAIN]` says that the main program is meant");
+        self.work.diagnostics.push(at.diagnostic(fault));
     }
 
     /// Leaves programs down to the one that is returned to.

@@ -1,5 +1,6 @@
 //! The beginning and the end of a program.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -206,6 +207,12 @@ impl Interpreter {
         notes: &Collected,
         observer: &mut dyn Observer,
     ) -> Outlook {
+        let mut notes = Cow::Borrowed(notes);
+        if let Some(open) = self.open_description()
+            && matches!(by, EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
+        {
+            notes.to_mut().push(open);
+        }
         let changes = self.state.compensation.program_end();
         if !changes.is_empty() {
             self.version += 1;

@@ -57,7 +57,17 @@ pub(super) struct State {
     /// What `#FILE NAME` says that a word calls, until the program ends.
     pub(super) named: BTreeMap<String, Value>,
     /// G functions and positions before a contour description, inside it.
-    pub(super) described: Option<Box<Modal>>,
+    pub(super) described: Option<Box<Description>>,
+}
+
+/// A description of geometry whose blocks do not move (R2.81).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Description {
+    /// What opened it, `#CONTOUR BEGIN`.
+    pub(super) opener: String,
+    pub(super) place: Place,
+    /// What was in force before it.
+    pub(super) before: Modal,
 }
 
 /// One level of the call stack: where a program or subprogram stands.

@@ -242,9 +242,9 @@ impl Interpreter {
             }
             (b'R', _) => {
                 intent.radius = Some(at.in_block(word.span));
-                self.circle_word(letter, number);
+                self.circle_word(letter, (number, word.span));
             }
-            (b'I' | b'J' | b'K', _) => self.circle_word(letter, number),
+            (b'I' | b'J' | b'K', _) => self.circle_word(letter, (number, word.span)),
             (b'P', _) if self.work.dwells => self.dwell_parameter(number),
             (b'H' | b'E' | b'S' | b'N', _) => {}
             _ if !is_letter(letter) => self.unread_word(word.span, at),
@@ -324,9 +324,10 @@ impl Interpreter {
         }
         let start = self.stand();
         let before = intent.radius.map(|_| self.ends());
+        let coordinates = self.coordinates();
         let modal = &mut self.state.modal;
         match intent.axis_words {
-            AxisWords::Motion => modal.move_axes(&self.work.moved),
+            AxisWords::Motion => modal.move_axes(&self.work.moved[..coordinates]),
             AxisWords::Homing | AxisWords::Measuring => {
                 for word in &self.work.moved {
                     modal.forget_position(word.axis);
@@ -346,7 +347,7 @@ impl Interpreter {
 
     /// Where the axes of the block's words stand, as far as that is known.
     fn ends(&self) -> Vec<Option<f64>> {
-        let words = self.work.moved.iter();
+        let words = self.work.moved[..self.coordinates()].iter();
         words
             .map(|word| self.state.modal.position(word.axis).value)
             .collect()

@@ -157,6 +157,7 @@ fn where_a_subprogram_returns_to_must_be_there() {
         ("M17 [MAIN [NONE]]", "FC209"),
         ("M17 [MAIN N99]", "FC209"),
         ("M17 [JUMPS=0]", "FC312"),
+        ("M17 [JUMPS=2]", "FC317"),
         ("M17 [JUMPS=V.E.N]", "FC902"),
         ("M29 [MAIN N V.E.N]", "FC902"),
     ] {

@@ -148,9 +148,71 @@ fn a_contour_description_moves_nothing() {
         "X[COMP OFF FRICT]\n#CONTOUR BEGIN [ID1]\nG1 X1\n#CONTOUR END\nX[COMP ON FRICT]\nM30";
     let said = Bench::on(toml).said(program);
     assert!(!said.contains("70435"), "{said}");
-    // A description that a program leaves open ends with it.
-    let transcript = Bench::new().run(&["#CONTOUR BEGIN\nX1\nM30", "X1\nM30"]);
-    assert!(!transcript.contains("error"), "{transcript}");
+}
+
+#[test]
+fn every_description_of_geometry_moves_nothing() {
+    // R2.81
+    for (begin, end) in [
+        ("#CONTOUR BEGIN [ID1]", "#CONTOUR END"),
+        ("#STROKE DEF BEGIN", "#STROKE DEF END"),
+        ("#CONTROL AREA BEGIN [ID1 POLY EXCL]", "#CONTROL AREA END"),
+    ] {
+        let text = positions(&format!("X1\n{begin}\nX125\n{end}\nX2\nM30"));
+        assert!(text.contains("X125 X:1"), "{text}");
+        assert!(text.contains("X2 X:?") || text.contains("X2 X:2"), "{text}");
+        // One that a program leaves open is said where it opens, and ends with the program.
+        let said = Bench::new().said_in_session(&[&format!("G1 X1\n{begin}\nX1\nM30"), "X1\nM30"]);
+        let opener = begin.split(" [").next().unwrap();
+        assert!(
+            said.contains(&format!("FC208 2:1 `{opener}` has no `{end}`")),
+            "{said}"
+        );
+        assert_eq!(said.matches("FC208").count(), 1, "{said}");
+    }
+    // What ends another description ends nothing.
+    let text = positions("X1\n#STROKE DEF BEGIN\n#CONTOUR END\nX125\n#STROKE DEF END\nX2\nM30");
+    assert!(text.contains("X125 X:1"), "{text}");
+}
+
+#[test]
+fn a_circle_by_its_centre_moves_both_axes_of_its_plane() {
+    // R2.46
+    assert_snapshot!(positions("G1 X1 Y2 F100\nG2 I5\nX3 I1\nG18 G3 K5\nM30"), @"
+    G1 X1 Y2 F100 X:1 Y:2
+    G2 I5 X:1 Y:2
+    X3 I1 X:3 Y:2
+    G18 G3 K5 X:3 Y:2
+    M30 X:3 Y:2
+    ");
+    let required = "[[axis]]\nname = \"X\"\nfrict_comp = true\nrequired = [\"FRICT\"]\nvalue = { mode = 3, table = [[0, 1]] }\n[[axis]]\nname = \"Y\"\nfrict_comp = true\nrequired = [\"FRICT\"]\nvalue = { mode = 3, table = [[0, 1]] }\n[[axis]]\nname = \"Z\"\n";
+    let bench = Bench::on(required);
+    let moved = |program: &str| {
+        let said = bench.said(program);
+        ["X", "Y", "Z"]
+            .map(|axis| said.contains("70435") && said.contains(&format!("`{axis}` moves")))
+    };
+    for (program, axes) in [
+        ("G2 I5", [true, true, false]),
+        ("G3 J5", [true, true, false]),
+        ("G2 X5 R5", [true, true, false]),
+        ("G2 Z5 I5", [true, true, false]),
+        ("G1 I5", [false; 3]),
+        ("G4 X5", [false; 3]),
+        ("G18 G2 K5", [true, false, false]),
+        ("G2 G4 X5", [false; 3]),
+        ("G2 F100", [false; 3]),
+    ] {
+        let whole = format!("X[COMP OFF FRICT] Y[COMP OFF FRICT]\n{program}\nM30");
+        assert_eq!(moved(&whole), axes, "{program}");
+    }
+    // The lints on motion see it.
+    let said = Bench::new().said("G2 I5 F100\nX[COMP OFF FRICT]\nM30");
+    assert!(said.contains("FC407 2:1"), "{said}");
+    let said = Bench::new().said_in_session(&["Y[COMP OFF FRICT]\nM30", "G17 G2 I5 F100\nM30"]);
+    assert!(said.contains("FC403 1:"), "{said}");
+    let said = Bench::new().said("G2 I5 X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30");
+    assert!(said.contains("FC405"), "{said}");
 }
 
 #[test]

@@ -1,0 +1,9 @@
+%L RETRACT
+N10 G00 Z100
+; wrong: one program can be left here, not two
+N20 M17 [JUMPS=2]
+%POCKET
+N30 G01 X50 F1500
+N40 LL RETRACT
+N50 G01 X0
+N60 M30

@@ -358,7 +358,7 @@ impl Builder {
         self.jumps.push(Jump {
             section: self.index.sections.len() - 1,
             label,
-            span: span.shifted(offset),
+            span: self.index.source.span_of_block(offset, span),
         });
     }
 

@@ -164,7 +164,7 @@ impl Index {
             .entries
             .get(entry as usize)
             .map_or(0, |entry| entry.offset);
-        self.source.place(span.shifted(offset))
+        self.source.place(self.source.span_of_block(offset, span))
     }
 
     /// The place of a whole block's first line.

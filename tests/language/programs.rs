@@ -276,7 +276,6 @@ fn configured_programs_at_start_and_end() {
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 N1 level 1
-        FC402 1:4-20 in start.nc
       2 line 2 - level 1
       3 line 1 N10 X:active>inactive
       4 line 2 N20
@@ -285,7 +284,6 @@ fn configured_programs_at_start_and_end() {
       end 6 M30 X:active Y:active Z:unconfigured B:ineffective
     b.nc -
       1 line 1 N1 level 1
-        FC402 1:4-20 in start.nc
       2 line 2 - level 1
       3 line 1 -
       4 line 1 N9 level 1

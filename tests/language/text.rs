@@ -69,7 +69,6 @@ fn blocks_are_skipped_by_level() {
     a.nc -
       1 line 2 N20 Y:active>inactive
       2 line 3 N30
-        FC402 3:8-24
       3 line 5 -
         FC401 2:8-25
       end 3 M30 X:active Y:inactive Z:unconfigured B:ineffective

@@ -22,7 +22,7 @@ fn axis_names() {
       3 line 3 -
         P-ERR-21947 3:1-17
       4 line 4 -
-        FC401 2:1-33
+        FC407 2:1-33
       end 4 M30 X:unconfigured X_LONG_NAME_1234:inactive Q1:unconfigured
     ");
     let mut bench = Bench::new().keep_going();

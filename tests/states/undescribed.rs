@@ -80,9 +80,7 @@ fn all_axes_are_proposed_once_and_first() {
     ] {
         let mut all = arguments.to_vec();
         all.push("--isolated");
-        if arguments[0] == "run" {
-            all.extend(["--width", "200"]);
-        }
+        all.extend(["--width", "200"]);
         let shown = bench.stdout(&all);
         let first = shown.lines().next().unwrap_or_default();
         assert!(first.starts_with("no machine is described"), "{shown}");

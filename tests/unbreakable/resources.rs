@@ -149,11 +149,14 @@ fn a_state_is_no_pipe() {
         .arg(bench.folder().join("pipe"))
         .status();
     assert!(made.expect("mkfifo is there").success());
-    for place in ["pipe", "."] {
+    for (place, why) in [
+        ("pipe", "is no file to keep a state in"),
+        (".", "it is a folder"),
+    ] {
         let output = bench.call(&["run", "--state", place, "a.nc"]);
         assert_eq!(output.status.code(), Some(2));
         let said = said(&output);
-        assert!(said.contains("is no file to keep a state in"), "{said}");
+        assert!(said.contains(why), "{said}");
     }
 }
 
@@ -273,8 +276,9 @@ fn a_closed_pipe_is_quiet_in_every_format() {
     let bench = Bench::new(&[("a.nc", &"X[COMP ON FRICT]\nG01 X1\n".repeat(5_000))]);
     let mut calls = Vec::new();
     for format in FORMATS {
-        calls.push(vec!["run", "--full", "--format", format, "a.nc"]);
+        calls.push(vec!["run", "--format", format, "a.nc"]);
     }
+    calls.push(vec!["run", "--full", "a.nc"]);
     for format in LISTINGS {
         calls.push(vec!["check", "--format", format, "a.nc"]);
     }

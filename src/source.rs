@@ -175,22 +175,6 @@ impl SourceFile {
         &self.lines
     }
 
-    /// The bytes of this file that a span of a block means. The block starts at an offset; in its text
-    /// each line end is one byte, in the file it may be CR LF.
-    pub(crate) fn span_of_block(&self, offset: u32, span: Span) -> Span {
-        let bytes = self.text.as_bytes();
-        let in_file = |end: u32| {
-            (0..end).fold(offset, |at, _| {
-                let line_end = bytes.get(at as usize..).unwrap_or_default();
-                at + if line_end.starts_with(b"\r\n") { 2 } else { 1 }
-            })
-        };
-        Span {
-            start: in_file(span.start),
-            end: in_file(span.end),
-        }
-    }
-
     /// The place of a span in this file, showing the lines that it touches.
     pub fn place(&self, span: Span) -> crate::diagnostic::Place {
         let first_line = self.lines.line(span.start);
@@ -199,17 +183,11 @@ impl SourceFile {
             .lines
             .line_span(&self.text, first_line)
             .to(self.lines.line_span(&self.text, last_line));
-        // A span that goes on after the end of its last line ends with it. Lines are joined by one
-        // character, whatever ends them in the file.
-        let shown = lines.of(&self.text);
-        let inside = |offset: u32| {
-            let within = offset.clamp(lines.start, lines.end) - lines.start;
-            let before = shown.get(..within as usize).unwrap_or(shown);
-            u32::try_from(before.replace("\r\n", "\n").len()).unwrap_or(within)
-        };
+        // A span that goes on behind the end of its last line ends with it.
+        let inside = |offset: u32| offset.clamp(lines.start, lines.end) - lines.start;
         crate::diagnostic::Place {
             file: self.name.clone(),
-            text: shown.replace("\r\n", "\n").into(),
+            text: lines.of(&self.text).into(),
             first_line,
             span: Span {
                 start: inside(span.start),

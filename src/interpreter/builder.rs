@@ -67,6 +67,7 @@ struct Open {
 struct Jump {
     section: usize,
     label: LabelName,
+    entry: EntryIndex,
     span: Span,
 }
 
@@ -270,7 +271,7 @@ impl Builder {
                     !matches!(kind, Kind::If | Kind::Switch | Kind::RealTime)
                 });
             }
-            Flow::Goto(target) => self.jump(target, (span, text)),
+            Flow::Goto(target) => self.jump(entry, target, (span, text)),
         }
     }
 
@@ -348,17 +349,17 @@ impl Builder {
         }
     }
 
-    fn jump(&mut self, target: &JumpTarget, (span, text): (Span, &str)) {
+    fn jump(&mut self, entry: EntryIndex, target: &JumpTarget, (span, text): (Span, &str)) {
         let label = match target {
             JumpTarget::Number(Operand::Number(number)) => LabelName::numbered(*number),
             JumpTarget::Label(name) => LabelName::Text(name.of(text).to_owned()),
             _ => return,
         };
-        let offset = self.index.entries.last().map_or(0, |entry| entry.offset);
         self.jumps.push(Jump {
             section: self.index.sections.len() - 1,
             label,
-            span: self.index.source.span_of_block(offset, span),
+            entry,
+            span,
         });
     }
 
@@ -375,7 +376,7 @@ impl Builder {
                 };
                 let diagnostic = Diagnostic::new(
                     Code::Fc209,
-                    self.index.source.place(jump.span),
+                    self.index.place(jump.entry, jump.span),
                     format!("jump label `{}` does not exist in this program", jump.label),
                 )
                 .with_help(help);

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::value::rounded;
-use crate::diagnostic::Collected;
+use crate::diagnostic::{Collected, Place};
 use crate::source::{SourceFile, Span, TextLines};
 use crate::syntax::ast::{Block, Operand};
 use crate::syntax::{BlockReader, FastPath, Remark, Stretch};
@@ -158,17 +158,25 @@ impl Index {
         numbers
     }
 
-    /// The span of a block's first line in the file's text, shifted to a span in the block.
-    pub(super) fn place(&self, entry: EntryIndex, span: Span) -> crate::diagnostic::Place {
-        let offset = self
-            .entries
-            .get(entry as usize)
-            .map_or(0, |entry| entry.offset);
-        self.source.place(self.source.span_of_block(offset, span))
+    /// The place of a span in the text of a block.
+    pub(super) fn place(&self, entry: EntryIndex, span: Span) -> Place {
+        let mut block = Block::default();
+        let Some(mut reader) = self.reader(entry) else {
+            return self.block_place(entry);
+        };
+        reader.next(&mut block).map_or_else(
+            || self.block_place(entry),
+            |raw| Place {
+                file: self.source.name().clone(),
+                text: raw.text.into(),
+                first_line: raw.line,
+                span,
+            },
+        )
     }
 
     /// The place of a whole block's first line.
-    pub(super) fn block_place(&self, entry: EntryIndex) -> crate::diagnostic::Place {
+    pub(super) fn block_place(&self, entry: EntryIndex) -> Place {
         let line = self
             .entries
             .get(entry as usize)

@@ -67,7 +67,7 @@ impl Points {
 /// };
 /// let text = write_value_list(&list, Points::Whole, &["X, measured in May"]);
 /// assert!(text.starts_with("# X, measured in May\n"));
-/// assert!(text.contains("frict_comp.table[0].out        103\n"));
+/// assert!(text.contains("frict_comp.table[0].out         103\n"));
 /// ```
 pub fn write_value_list(list: &FrictionList, points: Points, remarks: &[&str]) -> String {
     let mut out = String::new();

@@ -540,3 +540,41 @@ fn every_command_has_a_manual_page() {
         "{page}"
     );
 }
+
+/// A text as UTF-16 with its byte order mark.
+fn utf16(text: &str, order: fn(u16) -> [u8; 2]) -> Vec<u8> {
+    let units = std::iter::once(0xfeff).chain(text.encode_utf16());
+    units.flat_map(order).collect()
+}
+
+#[test]
+fn texts_in_utf_16_are_read() {
+    // R2.1
+    let list = "kopf.achs_nr 1\n";
+    let program = "N10 G1 X1 F100 (größe)\nN20 X[COMP OFF FRICT]\nN30 $IF 1 == 1\nN40 X2\nN50 $ENDIF\nN60 M30\n";
+    let straight = "N10 X1\nN20 X[COMP OFF FRICT]\nN30 M30\n";
+    let bench = Bench::new(&[
+        ("a.nc", program),
+        ("b.nc", straight),
+        ("call.nc", "L a.nc\nM30\n"),
+    ]);
+    let outputs = |bench: &Bench| {
+        let calls = [
+            ["run", "a.nc"],
+            ["run", "b.nc"],
+            ["run", "call.nc"],
+            ["lists", "x.lis"],
+        ];
+        calls.map(|call| bench.stdout(&call))
+    };
+    let write =
+        |name: &str, bytes: &[u8]| fs::write(bench.folder().join(name), bytes).expect("written");
+    write("x.lis", list.as_bytes());
+    let plain = outputs(&bench);
+    for order in [u16::to_le_bytes, u16::to_be_bytes] {
+        write("a.nc", &utf16(program, order));
+        write("b.nc", &utf16(straight, order));
+        write("x.lis", &utf16(list, order));
+        assert_eq!(outputs(&bench), plain);
+    }
+}

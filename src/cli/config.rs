@@ -76,6 +76,10 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     for folder in &loaded.reach.program_dirs {
         let _ = writeln!(output, "programs in    {}", shown(folder));
     }
+    let harmless: Vec<String> = machine.harmless.words().collect();
+    if !harmless.is_empty() {
+        let _ = writeln!(output, "harmless       {}", harmless.join(", "));
+    }
     let _ = writeln!(
         output,
         "\naxis      type  at start      P-AXIS-00522  value list"

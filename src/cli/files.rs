@@ -161,7 +161,7 @@ fn open_file<'a>(
         return Ok(arriving(file, before_waiting));
     }
     let mut lines = LineReader::of_length(Steady::new(file, &metadata), metadata.len());
-    if !lines.scan()?.needs_whole_text() {
+    if !lines.is_wide() && !lines.scan()?.needs_whole_text() {
         return Ok(Opened::Lines(lines.boxed()));
     }
     let mut file = lines.into_reader();
@@ -186,12 +186,15 @@ fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
 
 /// Lines that are given out as they arrive.
 fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
-    Opened::Lines(LineReader::new(Box::new(Waiting { reader, before })))
+    Opened::Lines(LineReader::new(Box::new(Waiting { reader, before }) as Box<dyn Read>).narrow())
 }
 
 /// The text of a file, decoded as a stream of its lines is. A byte order mark at its start is passed
 /// over.
 pub(super) fn decode(bytes: Vec<u8>) -> String {
+    if let Some(text) = decode_wide(&bytes) {
+        return text;
+    }
     let mut text = match String::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => {
@@ -204,6 +207,18 @@ pub(super) fn decode(bytes: Vec<u8>) -> String {
         text.drain(..'\u{feff}'.len_utf8());
     }
     text
+}
+
+/// The text of bytes whose byte order mark says UTF-16, as some editors of Windows save.
+fn decode_wide(bytes: &[u8]) -> Option<String> {
+    let (encoding, mark) = encoding_rs::Encoding::for_bom(bytes)?;
+    let is_wide = encoding != encoding_rs::UTF_8;
+    is_wide.then(|| {
+        encoding
+            .decode_without_bom_handling(&bytes[mark..])
+            .0
+            .into_owned()
+    })
 }
 
 /// Opens what is a file and nothing else: a pipe would be waited for, a device has no end.

@@ -94,6 +94,23 @@ impl<R: Read> LineReader<R> {
         lines
     }
 
+    /// Whether the text begins with a byte order mark of UTF-16.
+    pub(super) fn is_wide(&self) -> bool {
+        let first = &self.buffer[self.unread.clone()];
+        first.starts_with(b"\xff\xfe") || first.starts_with(b"\xfe\xff")
+    }
+
+    /// The same lines, of which those of a text that cannot be given out as it comes are an error.
+    pub(super) fn narrow(mut self) -> Self {
+        if self.is_wide() {
+            let reason = "it is UTF-16, which is not read from a pipe; save it as UTF-8";
+            self.failure = Some(io::Error::other(reason));
+            self.unread = 0..0;
+            self.at_end = true;
+        }
+        self
+    }
+
     /// The reader, wherever it stands.
     pub(super) fn into_reader(self) -> R {
         self.reader

@@ -11,12 +11,14 @@ use super::options::StopPolicy;
 use super::run::Interpreter;
 use super::start::{ended_by, stops};
 use super::state::{Departure, Last, Step};
+use super::unit::is_harmless;
 use super::value::{Value, rounded};
 use super::words::AxisWords;
 use crate::codes::Code;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{Block, CallScope, Flow, Item, Operand};
+use crate::syntax::hash_name;
 use crate::syntax::{FastPath, Fault};
 
 /// Messages about one block that are said one by one (R2.85).
@@ -178,10 +180,11 @@ impl Interpreter {
         } else {
             u32::MAX
         };
+        let harmless = &self.machine.harmless;
         for fault in block
             .faults
             .iter()
-            .filter(|fault| fault.span.start <= limit)
+            .filter(|fault| fault.span.start <= limit && !is_harmless(harmless, fault, at.text))
         {
             self.work.diagnostics.push(at.diagnostic(fault.clone()));
         }
@@ -368,6 +371,11 @@ impl Interpreter {
                 Ok(())
             }
             Item::MacroUse(span) => self.expand(*span, at, intent),
+            Item::Unread(_, span) if self.machine.harmless.has_command(span.of(at.text)) => {
+                let (name, _) = hash_name(span.of(at.text));
+                self.pass_over(&name, *span, at);
+                Ok(())
+            }
             Item::Unread(effect, span) => {
                 self.forget_unread(*effect, &span.of(at.text).into());
                 Ok(())

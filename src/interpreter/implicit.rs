@@ -61,7 +61,8 @@ impl Interpreter {
             match number {
                 None => return self.unknown_word("M", (span, at)),
                 Some(number) if !chain::is_named_m(number) => {
-                    if !self.call_word(b'M', Some(number), (span, at), intent) {
+                    let called = self.call_word(b'M', Some(number), (span, at), intent);
+                    if !called && !self.machine.harmless.has_function(number) {
                         self.state.modal.note_transformed(&format!("M{number}"));
                     }
                     return;

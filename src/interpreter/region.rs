@@ -311,7 +311,11 @@ impl Gathering<'_> {
                     self.macros.push((name.to_owned(), at.in_block(*span)));
                 }
             }
-            Item::Unread(Unread::Everything, _) => self.effect(Effect::All),
+            Item::Unread(Unread::Everything, span) => {
+                if !self.run.machine.harmless.has_command(span.of(at.text)) {
+                    self.effect(Effect::All);
+                }
+            }
             Item::Unread(Unread::Parameters, _) => self.writes(Target::Parameters),
             Item::Unread(Unread::Spindle, _)
             | Item::MacroDefinition(..)

@@ -88,7 +88,7 @@ impl Interpreter {
                 continue;
             }
             if let Stage::Beyond(_) = stage {
-                Self::check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
+                self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
                 continue;
             }
             if !matches!(stage, Stage::Running) {

@@ -7,10 +7,12 @@ use std::sync::Arc;
 use super::at::{At, Shown};
 use super::program::{EntryIndex, Index};
 use super::run::Interpreter;
+use crate::codes::Code;
 use crate::diagnostic::Collected;
+use crate::machine::HarmlessWords;
 use crate::source::Span;
 use crate::syntax::ast::Block;
-use crate::syntax::{Comments, Remark, Stretch};
+use crate::syntax::{Comments, Fault, Remark, Stretch};
 
 /// A file of the run.
 pub(super) struct Unit {
@@ -116,12 +118,13 @@ impl Interpreter {
                 continue;
             };
             if let Some(raw) = reader.next(&mut block) {
-                Self::check_unexecuted(&file, (raw.line, raw.text), &block, notes);
+                self.check_unexecuted(&file, (raw.line, raw.text), &block, notes);
             }
         }
     }
 
     pub(super) fn check_unexecuted(
+        &self,
         file: &Arc<str>,
         (line, text): (u32, &str),
         block: &Block,
@@ -144,7 +147,13 @@ impl Interpreter {
             block
                 .faults
                 .iter()
+                .filter(|fault| !is_harmless(&self.machine.harmless, fault, text))
                 .map(|fault| at.diagnostic(fault.clone())),
         );
     }
+}
+
+/// Whether a fault is about a word that the user declares harmless.
+pub(super) fn is_harmless(words: &HarmlessWords, fault: &Fault, text: &str) -> bool {
+    fault.code == Code::Fc210 && words.has_command(fault.span.of(text))
 }

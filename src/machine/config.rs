@@ -119,6 +119,13 @@ impl Configuration {
         let dirs = section.strings("program_dirs")?;
         self.program_dirs = dirs.into_iter().map(|dir| dir.value).collect();
         self.read_programs(section)?;
+        for given in section.strings("harmless")? {
+            if !self.machine.harmless.add(&given.value) {
+                let message = format!("`{}` is no `#` command and no M function", given.value);
+                return Err(ConfigError::at(&given, message)
+                    .with_help("write `harmless = [\"#MYCMD\", \"M100\"]`"));
+            }
+        }
         if section
             .truth("keep_parameters")?
             .is_some_and(|given| given.value)
@@ -209,6 +216,7 @@ const MACHINE: Shape = Shape {
         "programs",
         "external",
         "external_keeps",
+        "harmless",
     ]),
 };
 

@@ -7,6 +7,7 @@ mod check;
 #[cfg(feature = "toml")]
 mod config;
 mod described;
+mod harmless;
 mod load;
 mod programs;
 mod resolve;
@@ -21,6 +22,7 @@ pub use assemble::AxisReport;
 pub use check::{AcceptedList, ListsReport, check_list};
 #[cfg(feature = "toml")]
 pub use config::ConfigError;
+pub use harmless::HarmlessWords;
 pub(crate) use programs::canonical_word;
 pub use programs::{ConfiguredPrograms, Keeps};
 pub use resolve::{ListFiles, NoList, NoLists};
@@ -196,6 +198,8 @@ pub struct Machine {
     pub build: Option<CncBuild>,
     /// Programs that run by themselves or stand behind a word.
     pub programs: ConfiguredPrograms,
+    /// Words of the shop that change nothing that is followed here.
+    pub harmless: HarmlessWords,
     /// What a program start does to P parameters.
     pub parameters: Parameters,
 }

@@ -383,3 +383,35 @@ fn what_the_user_says_stands_for_what_no_program_wrote() {
     );
     assert_eq!(bench.values("P1=8", &["P1"]).trim(), "P1 -> 8");
 }
+
+#[test]
+fn what_the_user_declares_harmless_is_passed_over() {
+    // R2.70
+    let machine = "[machine]\nharmless = [\"#mycmd\", \"#SHOP  LAMP\", \"M100\"]\n[[axis]]\nname = \"X\"\nfrict_comp = true\nvalue = { mode = 3, table = [[0, 1]] }\n";
+    let bench = Bench::on(machine);
+    for (line, silent) in [
+        ("#MYCMD", true),
+        ("#MYCMD ON [ID=1]", true),
+        ("#MyCmd [X]", true),
+        ("#SHOP LAMP ON", true),
+        ("#MYCMDS", false),
+        ("#SHOP", false),
+        ("#OTHER", false),
+    ] {
+        let program = format!("P1=1\n{line}\n$IF P1==1\nX1\n$ENDIF\nX[COMP ON FRICT]\nM30");
+        let said = bench.said(&program);
+        assert_eq!(!said.contains("FC210"), silent, "{line}: {said}");
+        assert_eq!(!said.contains("FC901"), silent, "{line}: {said}");
+        let region = format!("$IF V.E.A\n{line}\n$ENDIF\nX1\nM30");
+        let known = bench.run(&[&region]).contains("M30 X:active");
+        assert_eq!(known, silent, "{line}");
+    }
+    let positions = bench.positions("X1\nM100\nM101\nM30");
+    assert!(positions.contains("M100 X:1\nM101 X:1*"), "{positions}");
+    // Nothing else can be declared so.
+    for wrong in ["COMP", "M", "#", "X[COMP ON FRICT]", "#MYCMD [1]", "G54"] {
+        let text = format!("[machine]\nharmless = [\"{wrong}\"]\n");
+        let refused = frictcomp::machine::Machine::from_toml(&text);
+        assert!(refused.is_err(), "{wrong}");
+    }
+}

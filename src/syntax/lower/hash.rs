@@ -52,6 +52,9 @@ impl Lowering<'_> {
         if let Some(near) = did_you_mean(name, hash_commands()) {
             fault = fault.with_help(format!("did you mean `{near}`?"));
         }
+        fault = fault.with_help(format!(
+            "if it changes none of what is followed here, `harmless = [\"{name}\"]` in `[machine]` of frictcomp.toml says so"
+        ));
         self.block.faults.push(fault);
         self.block
             .items

@@ -75,7 +75,7 @@ codes! {
     Fc138 "FC138" Warning "friction values on a spindle";
     Fc201 "FC201" Error "incomplete COMP command";
     Fc202 "FC202" Error "unknown compensation kind";
-    Fc203 "FC203" Error "kind behind OFF_ALL";
+    Fc203 "FC203" Error "kind after OFF_ALL";
     Fc204 "FC204" Error "more than one selection in a bracket";
     Fc205 "FC205" Error "bracket not closed";
     Fc206 "FC206" Error "block too long";
@@ -93,11 +93,11 @@ codes! {
     Fc313 "FC313" Error "two words of one G group or axis";
     Fc314 "FC314" Warning "machine data written by the program";
     Fc315 "FC315" Warning "program end inside a subprogram";
-    Fc316 "FC316" Warning "circle by radius without an end point of its own";
+    Fc316 "FC316" Warning "circle by radius that ends where it starts";
     Fc317 "FC317" Warning "return over more programs than are called";
     Fc320 "FC320" Error "called program not found or not readable";
-    Fc321 "FC321" Error "called program outside its folders";
-    Fc401 "FC401" Warning "left away from home past program end";
+    Fc321 "FC321" Error "called program outside the project folders";
+    Fc401 "FC401" Warning "left away from home after program end";
     Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Info "depends on the program before";
     Fc404 "FC404" Info "lower-case keyword";

@@ -112,7 +112,7 @@ fn a_missing_configuration_is_said_before_anything_runs() {
     let said = refused(&["run", "--config", "missing.toml", &program]);
     assert!(said.contains("`missing.toml`"), "{said}");
     let said = refused(&["run", "--isolated", "--enable", "X[", &program]);
-    assert!(said.contains("no name of an axis"), "{said}");
+    assert!(said.contains("is not an axis name"), "{said}");
 }
 
 #[test]

@@ -130,8 +130,8 @@ fn every_command_that_runs_programs_can_be_allowed_more() {
     fs::write(&path, "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM17\n").expect("written");
     bench.write("main.nc", &format!("L \"{path}\"\nG0 X1\nM30\n"));
     let said = everything(&bench, &["--allow-outside"]);
-    assert!(!said.contains("lies outside the folders"), "{said}");
-    assert!(everything(&bench, &[]).contains("lies outside the folders"));
+    assert!(!said.contains("is outside the folders"), "{said}");
+    assert!(everything(&bench, &[]).contains("is outside the folders"));
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn what_is_no_file_to_call_is_said_as_what_it_is() {
     for (name, what) in [
         ("folder.nc", "is a folder"),
         ("a.nc", "cannot be read"),
-        ("pipe.nc", "is no regular file"),
+        ("pipe.nc", "is not a regular file"),
         ("big.nc", "more than 1 GiB"),
         ("not-there.nc", "is not found"),
     ] {

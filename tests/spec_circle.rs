@@ -558,8 +558,8 @@ fn a_plant_file_overrides_what_it_names() {
         ("Fs = 100", "`Fs` is 100 N and less than `Fc`"),
         ("Kv = \"fast\"", "`Kv` is a number"),
         ("sigma0 = 1e12", "too stiff"),
-        ("k_I = 5\nrated_force = 5000", "two ways"),
-        ("gms = [[0.5, 1e9]]", "make 0.5 together"),
+        ("k_I = 5\nrated_force = 5000", "mean the same"),
+        ("gms = [[0.5, 1e9]]", "add up to 0.5"),
         ("m = [", ""),
     ] {
         let error = plant(text).expect_err(text);

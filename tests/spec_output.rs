@@ -208,7 +208,7 @@ fn a_remark_in_a_loop_is_made_once_and_counted() {
     let bench = Bench::new(&[("a.nc", program)]);
     let text = bench.stdout(&["run", "a.nc"]);
     assert_eq!(text.matches("info[FC402]").count(), 1, "{text}");
-    assert!(text.contains("FC402 at a.nc:3 came true 4 times"), "{text}");
+    assert!(text.contains("FC402 at a.nc:3 occurred 4 times"), "{text}");
     let records = bench.records(&["a.nc"]);
     let end = records.iter().find(|record| record.contains("\"end\""));
     let repeated = json(end.expect("an end"))["repeated"].clone();

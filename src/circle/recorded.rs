@@ -51,14 +51,14 @@ pub enum RecordedError {
     #[error("{0} points are too few for a circle, {MIN_POINTS} are needed")]
     TooFew(usize),
     /// A straight line, or a point.
-    #[error("the points lie on no circle")]
+    #[error("the points are not on a circle")]
     NoCircle,
     /// A quarter of a circle.
     #[error("the points cover {0:.0}\u{b0} of the circle, a full turn is needed")]
     NotATurn(f64),
     /// A circle of which a part was not recorded.
     #[error(
-        "points are missing: {0:.0}\u{b0} of the circle lie in gaps of more than {WIDEST_GAP}\u{b0}"
+        "points are missing: {0:.0}\u{b0} of the circle are in gaps of more than {WIDEST_GAP}\u{b0}"
     )]
     Gaps(f64),
     /// Two counter-clockwise circles.

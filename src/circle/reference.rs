@@ -44,14 +44,14 @@ impl Default for Circle {
 #[non_exhaustive]
 pub enum CircleError {
     /// `--radius 0`
-    #[error("a radius of {} mm is not possible, it lies between 0.1 and 100000 mm", Shown(*.0))]
+    #[error("a radius of {} mm is not possible, it must be between 0.1 and 100000 mm", Shown(*.0))]
     Radius(f64),
     /// `--feed 0`
-    #[error("a feed of {} mm/min is not possible, it lies between 0.1 and 1000000 mm/min", Shown(*.0))]
+    #[error("a feed of {} mm/min is not possible, it must be between 0.1 and 1000000 mm/min", Shown(*.0))]
     Feed(f64),
     /// `--cycle-time-ms 0.1`
     #[error(
-        "a CNC cycle of {} ms is not possible, it is a whole multiple of 0.25 ms, the cycle of \
+        "a CNC cycle of {} ms is not possible, it must be a whole multiple of 0.25 ms, the cycle of \
          the position loop, up to 100 ms",
         Shown(.0 * 1000.0)
     )]
@@ -87,7 +87,7 @@ pub enum CircleError {
     },
     /// A plant whose loops do not settle.
     #[error(
-        "the drive of {axis} is unstable: it left the circle {angle_deg:.0}\u{b0} behind the start"
+        "the drive of {axis} is unstable: it left the circle {angle_deg:.0}\u{b0} after the start"
     )]
     Unstable {
         /// `X` or `Y`.

@@ -157,7 +157,7 @@ impl CheckArgs {
         if more > 0 {
             let (name, listed) = (input.name(Naming::AsGiven), session.notes(kind).count());
             Console::talk(&format!(
-                "{name}: {listed} places are listed; something else came up {more} times"
+                "{name}: {listed} places are listed; further ones occurred {more} times"
             ));
         }
         Ok(())

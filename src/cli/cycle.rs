@@ -41,7 +41,7 @@ pub(super) fn checked(seconds: f64) -> Result<f64, Failure> {
         return Ok(seconds);
     }
     Err(Failure::new(format!(
-        "a CNC cycle of {} ms is not possible, it lies between {SHORTEST} and {LONGEST} ms",
+        "a CNC cycle of {} ms is not possible, it must be between {SHORTEST} and {LONGEST} ms",
         Shown(milliseconds)
     ))
     .with_help("write the milliseconds of a cycle, `--cycle-time-ms 1`"))

@@ -389,7 +389,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
 }
 
 fn no_name(name: &str) -> Failure {
-    Failure::new(format!("`{name}` is no name of an axis")).with_help("write `--enable X,Y`")
+    Failure::new(format!("`{name}` is not an axis name")).with_help("write `--enable X,Y`")
 }
 
 fn enable(machine: &mut Machine, name: &str) -> Result<(), Failure> {

@@ -44,8 +44,10 @@ impl Failure {
         match error.kind() {
             io::ErrorKind::NotFound => Self::new(format!("there is no file `{shown}`"))
                 .with_help("check the path; it is taken from the current folder"),
-            io::ErrorKind::PermissionDenied => Self::new(format!("`{shown}` may not be read"))
-                .with_help("give yourself the right to read it"),
+            io::ErrorKind::PermissionDenied => {
+                Self::new(format!("`{shown}` cannot be read: permission denied"))
+                    .with_help("check your permission to read it")
+            }
             io::ErrorKind::IsADirectory => Self::directory(path),
             _ => Self::new(format!("`{shown}` cannot be read: {error}")),
         }
@@ -66,11 +68,11 @@ impl Failure {
             io::ErrorKind::NotFound => Self::new(format!(
                 "`{shown}` cannot be written: its folder does not exist"
             ))
-            .with_help("make the folder, or name another file"),
-            io::ErrorKind::PermissionDenied => Self::new(format!(
-                "`{shown}` cannot be written: you may not write there"
-            ))
-            .with_help("give yourself the right to write there, or name another file"),
+            .with_help("create the folder, or name another file"),
+            io::ErrorKind::PermissionDenied => {
+                Self::new(format!("`{shown}` cannot be written: permission denied"))
+                    .with_help("check your permission to write there, or name another file")
+            }
             io::ErrorKind::IsADirectory => {
                 Self::new(format!("`{shown}` cannot be written: it is a folder"))
                     .with_help("name a file in it")

@@ -230,14 +230,14 @@ fn special(metadata: &Metadata) -> String {
     if metadata.is_dir() {
         "is a folder".to_owned()
     } else {
-        "is no regular file".to_owned()
+        "is not a regular file".to_owned()
     }
 }
 
 fn unusable(error: &io::Error) -> NoProgram {
     NoProgram::Unusable(match error.kind() {
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => return NoProgram::Absent,
-        io::ErrorKind::PermissionDenied => "may not be read".to_owned(),
+        io::ErrorKind::PermissionDenied => "cannot be read: permission denied".to_owned(),
         io::ErrorKind::IsADirectory => "is a folder".to_owned(),
         io::ErrorKind::InvalidInput => "has a name that no file can have".to_owned(),
         _ => format!("cannot be read: {error}"),

@@ -251,7 +251,7 @@ impl Bench<'_> {
             return Err(Failure::new(format!(
                 "`{shown}` is a link that leads out of the folders that were named"
             ))
-            .with_help("put the timeline itself there, or name the folder that it lies in"));
+            .with_help("put the timeline itself there, or name its folder"));
         }
         Ok(())
     }

@@ -66,16 +66,16 @@ pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
     };
     write_new(&target, &render(&known))?;
     Console::talk(&format!("wrote `{}`: {}", target.display(), told(&known)));
-    Console::talk("next: `frictcomp config show` says what it makes of the machine");
+    Console::talk("next: `frictcomp config show` shows the machine that it describes");
     Ok(exit::CLEAN)
 }
 
 fn there(target: &Path) -> Failure {
     Failure::new(format!(
-        "`{}` is there already, it stays as it is",
+        "`{}` exists already and is not changed",
         target.display()
     ))
-    .with_help("`frictcomp config show` says what it makes of the machine")
+    .with_help("`frictcomp config show` shows the machine that it describes")
 }
 
 /// How deep below the folder a start-up list is looked for.
@@ -204,7 +204,7 @@ fn in_order(uses: &BTreeMap<String, AxisUse>) -> impl Iterator<Item = (&String, 
 fn render(known: &Known) -> String {
     let mut text = String::from(
         "# The machine that the programs in this folder and below run on.\n\
-         # `frictcomp config show` says what it makes of it; the documentation\n\
+         # `frictcomp config show` shows what it describes; the documentation\n\
          # (docs/configuration.md) has every key.\n\n[machine]\n",
     );
     match known {
@@ -225,11 +225,11 @@ fn render(known: &Known) -> String {
     text.push_str(
         "# cycle_time_ms = 1.0              # the CNC cycle\n\
          # cnc_build = \"3.1.3132.0\"         # the version of the control's kernel\n\
-         # program_dirs = [\"cycles\"]        # where called programs are looked for, too\n\n",
+         # program_dirs = [\"cycles\"]        # further folders with called programs\n\n",
     );
     match known {
         Known::Startup(_) => text.push_str(
-            "# What stands here overrides the lists:\n\
+            "# Entries here override the lists:\n\
              # [[axis]]\n# name = \"X\"\n# frict_comp = true                # P-AXIS-00522\n\n",
         ),
         Known::Uses(uses) => axes(&mut text, uses),
@@ -245,7 +245,7 @@ fn render(known: &Known) -> String {
 fn axes(text: &mut String, uses: &BTreeMap<String, AxisUse>) {
     text.push_str(
         "# All axes of the machine, in its order; any other name is an error. `enable` stands for a\n\
-         # value list that nobody has named yet: replace it by `frict_comp = true` and\n\
+         # value list that is not known yet: replace it with `frict_comp = true` and\n\
          # `value_list = \"lists/comp_x.lis\"`.\n",
     );
     if uses.is_empty() {

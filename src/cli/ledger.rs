@@ -54,7 +54,7 @@ impl Ledger {
                     let (one, two) = (other.get().shown(), output.shown());
                     return Err(
                         Failure::new(format!("`{one}` and `{two}` are the same file"))
-                            .with_help("give each output a file of its own"),
+                            .with_help("give each output its own file"),
                     );
                 }
             }

@@ -98,7 +98,7 @@ fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
     }
     if build.is_some() {
         let message = format!(
-            "the build of `{}` stands in the file itself",
+            "the build of `{}` is given in the file itself",
             path.display()
         );
         return Err(Failure::new(message).with_help("leave `--cnc-build` out"));
@@ -131,7 +131,7 @@ fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
     let accepted: Vec<&AcceptedList> = reports.iter().flat_map(|it| &it.accepted).collect();
     if accepted.is_empty() {
         return Err(Failure::new(
-            "there is no value list to draw: the control would take none of these",
+            "there is no value list to draw: the control would accept none of these",
         )
         .with_help("leave `--svg` out to see why"));
     }

@@ -27,7 +27,7 @@ pub(super) fn read(paths: &[PathBuf], radius: Option<f64>) -> Result<Recording, 
         && !(0.001..=1e6).contains(&radius)
     {
         let message = format!(
-            "a radius of {} mm is not possible, it lies between 0.001 and 1000000 mm",
+            "a radius of {} mm is not possible, it must be between 0.001 and 1000000 mm",
             Shown(radius)
         );
         return Err(Failure::new(message).with_help("write the commanded radius, `--radius 100`"));
@@ -84,7 +84,7 @@ fn points(path: &Path) -> Result<Vec<[f64; 2]>, Failure> {
                 .map(|number| number * column.millimetres)
                 .ok_or_else(|| {
                     Failure::new(format!(
-                        "{}:{line}: column `{}` holds `{text}`, which is no number",
+                        "{}:{line}: column `{}` holds `{text}`, which is not a number",
                         path.display(),
                         column.name
                     ))

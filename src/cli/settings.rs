@@ -27,7 +27,7 @@ pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
     let (name, value) = (name.trim(), value.trim());
     if !is_variable(name) {
         return Err(format!(
-            "`{name}` is no variable; variables are `V.E.PART`, `P5` and `@P5`, for instance"
+            "`{name}` is not a variable; variables are `V.E.PART`, `P5` and `@P5`, for instance"
         ));
     }
     if value.is_empty() {
@@ -90,7 +90,9 @@ fn parse_level(text: &str) -> Result<u16, String> {
     let level = text.trim().parse().ok();
     level
         .filter(|level| (1..=LEVELS).contains(level))
-        .ok_or_else(|| format!("`{text}` is no level from 1 to {LEVELS}; write `1,3-5` or `all`"))
+        .ok_or_else(|| {
+            format!("`{text}` is not a level from 1 to {LEVELS}; write `1,3-5` or `all`")
+        })
 }
 
 /// Parses `FRICT,LEAD` or `all`.
@@ -104,8 +106,8 @@ pub(super) fn parse_kinds(text: &str) -> Result<KindSet, String> {
             Kind::from_keyword(word).ok_or_else(|| {
                 let near = did_you_mean(word, Kind::ALL.map(Kind::keyword));
                 match near {
-                    Some(near) => format!("`{word}` is no kind, did you mean `{near}`?"),
-                    None => format!("`{word}` is no kind; write `FRICT,LEAD` or `all`"),
+                    Some(near) => format!("`{word}` is not a kind, did you mean `{near}`?"),
+                    None => format!("`{word}` is not a kind; write `FRICT,LEAD` or `all`"),
                 }
             })
         })

@@ -28,9 +28,9 @@ impl SeverityArgs {
         let without_effect = self.severity.iter().find(|(code, _)| !self.keeps(*code));
         match without_effect {
             Some((code, _)) => Err(Failure::new(format!(
-                "`--severity {code}` has no effect: the code is left out"
+                "`--severity {code}` has no effect: the code is not reported"
             ))
-            .with_help("take it out of `--ignore`, or add it to `--select`")),
+            .with_help("remove it from `--ignore`, or add it to `--select`")),
             None => Ok(()),
         }
     }
@@ -81,7 +81,7 @@ fn parse_ours(text: &str) -> Result<Code, String> {
     let code = parse_code(text)?;
     if code.is_controller() {
         return Err(format!(
-            "{code} is an error of the control, it is always said"
+            "{code} is an error of the control, it is always reported"
         ));
     }
     Ok(code)
@@ -98,7 +98,7 @@ fn parse_severity(text: &str) -> Result<(Code, Severity), String> {
         "error" => Ok((code, Severity::Error)),
         "off" => Err(format!("write `--ignore {code}` to leave it out")),
         other => Err(format!(
-            "`{other}` is no severity; write `info`, `warning` or `error`"
+            "`{other}` is not a severity; write `info`, `warning` or `error`"
         )),
     }
 }
@@ -136,7 +136,7 @@ mod tests {
         assert!(
             parse_ours("P-ERR-70495")
                 .unwrap_err()
-                .contains("always said")
+                .contains("always reported")
         );
         assert_eq!(
             parse_severity("FC402=error"),

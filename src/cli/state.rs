@@ -52,7 +52,7 @@ impl StateFile {
         for path in [&path, &beside] {
             if path.exists() && !path.is_file() {
                 return Err(Failure::new(format!(
-                    "`{}` is no file to keep a state in, it is not a regular file",
+                    "`{}` cannot hold a state, it is not a regular file",
                     path.display()
                 )));
             }
@@ -108,7 +108,7 @@ impl StateFile {
             "the state file `{}` cannot be used: {reason}",
             self.path.display()
         ))
-        .with_help("name another file, or remove this one to begin at a start of the control")
+        .with_help("name another file, or remove this one to begin from a start of the control")
     }
 
     /// Replaces the state when the outputs take their place. Whenever the tool is killed, the old or

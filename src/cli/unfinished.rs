@@ -167,7 +167,7 @@ fn create(folder: &Path) -> io::Result<NamedTempFile> {
             return Ok(file);
         }
     }
-    Err(io::Error::other("other runs take every new file away"))
+    Err(io::Error::other("other runs delete every new file"))
 }
 
 /// Takes away what killed runs of the same user left in the folder of a file. An unfinished file of a

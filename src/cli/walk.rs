@@ -59,7 +59,7 @@ impl Found {
                 Ok(entry) => entry,
                 Err(error) => {
                     let shown = folder.display();
-                    let message = format!("`{shown}` cannot be walked in full: {error}");
+                    let message = format!("`{shown}` cannot be searched completely: {error}");
                     self.failures.push(Failure::new(message));
                     continue;
                 }

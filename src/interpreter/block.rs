@@ -340,7 +340,7 @@ impl Interpreter {
                 Err(Box::new(Fault::new(
                     Code::Fc207,
                     *span,
-                    format!("`{found}` stands without an address"),
+                    format!("`{found}` has no address"),
                 )))
             }
             Item::Assign(assignment) => self.assign(*assignment, block, at),
@@ -390,7 +390,7 @@ impl Interpreter {
         let Some(code) = self.state.memory.macro_code(name).map(str::to_owned) else {
             let fault = Fault::new(Code::Fc207, span, format!("macro `{name}` is not defined"));
             return Err(Box::new(fault.with_help(format!(
-                "define it before, with `\"{name}\" = \"code\"`"
+                "define it first, with `\"{name}\" = \"code\"`"
             ))));
         };
         let macros = self.with_evaluator(&Block::default(), at, |evaluator| {

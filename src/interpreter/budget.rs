@@ -131,9 +131,9 @@ impl Interpreter {
         let fault = Fault::new(
             Code::Fc919,
             Span::new(0, at.text.len()),
-            format!("this block made more than {budget} units of work beyond what is written in it"),
+            format!("this block made more than {budget} units of work beyond its own text"),
         )
-        .with_help("look for macros that use each other, for texts that grow, and for long regions under a condition that is not known; or raise the budget with `--max-work`");
+        .with_help("look for macros that use each other, strings that grow, and long regions under an unknown condition, or raise the budget with `--max-work`");
         let diagnostic = at.diagnostic(fault);
         match self.state.frames.last() {
             Some(frame) => self.with_loop(diagnostic, frame.unit, frame.next.saturating_sub(1)),
@@ -153,7 +153,7 @@ impl Interpreter {
             Some(opener) => {
                 let place = index.block_place(opener);
                 let passes = match self.passes(unit, opener) {
-                    Some(passes) => format!("in this loop, which came round {passes} times"),
+                    Some(passes) => format!("in this loop, after {passes} passes"),
                     None => "in this loop".to_owned(),
                 };
                 diagnostic.with_label(place, passes)
@@ -183,8 +183,8 @@ fn too_many_values(limit: usize, at: &At<'_>) -> Diagnostic {
         Fault::new(
             Code::Fc918,
             Span::new(0, at.text.len()),
-            format!("the program holds more than {limit} values; a text counts once more for every 32 bytes"),
+            format!("the program holds more than {limit} values; a string counts once more for every 32 bytes"),
         )
-        .with_help("look for a loop that writes ever more variables, or raise the budget with `--max-values`"),
+        .with_help("look for a loop that keeps creating variables, or raise the budget with `--max-values`"),
     )
 }

@@ -239,7 +239,7 @@ impl Builder {
             let fault = Fault::new(
                 Code::Fc209,
                 span,
-                format!("jump label `{}` stands already in line {line}", key.1),
+                format!("jump label `{}` already exists on line {line}", key.1),
             );
             self.refuse(entry, fault);
         } else {
@@ -280,9 +280,12 @@ impl Builder {
             let fault = Fault::new(
                 Code::Fc912,
                 span,
-                format!("control blocks nest more than {} deep", self.nesting),
+                format!(
+                    "control blocks are nested more than {} levels deep",
+                    self.nesting
+                ),
             )
-            .with_help("a deeper nesting is allowed with `--max-nesting`");
+            .with_help("allow deeper nesting with `--max-nesting`");
             self.refuse(entry, fault);
         }
         if !matches!(kind, Kind::If | Kind::Switch) {
@@ -343,7 +346,7 @@ impl Builder {
             let fault = Fault::new(
                 Code::Fc208,
                 span,
-                format!("`{word}` stands outside any loop that it could leave"),
+                format!("`{word}` is outside any loop that it could leave"),
             );
             self.refuse(entry, fault);
         }

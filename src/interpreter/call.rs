@@ -110,7 +110,7 @@ impl Interpreter {
             Value::Number(_) => Err(Box::new(Fault::new(
                 Code::Fc312,
                 call.span,
-                "a number is no program name",
+                "a number is not a program name",
             ))),
         }
     }
@@ -180,7 +180,7 @@ impl Interpreter {
                 Code::Fc911,
                 wanted.span,
                 format!(
-                    "subprograms call each other more than {} deep",
+                    "subprogram calls are nested more than {} levels deep",
                     self.options.limits.calls
                 ),
             )
@@ -220,7 +220,7 @@ impl Interpreter {
                 Code::Fc902,
                 wanted.span,
                 format!(
-                    "the program `{name}` is on the machine only; the call is passed over, {what}"
+                    "the program `{name}` is only on the machine; the call is passed over, {what}"
                 ),
             )
             .with_help("if it leaves them as they are, say so in `[machine.external_keeps]`");
@@ -358,7 +358,8 @@ impl Interpreter {
                     Code::Fc320,
                     wanted.span,
                     format!(
-                        "the called program `{name}` holds local subprograms and nothing to call"
+                        "the called program `{name}` contains only local subprograms, nothing to \
+                         call"
                     ),
                 )
                 .with_help("a program to call begins with `%NAME`, or without any `%`"),
@@ -484,12 +485,12 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
             Fault::new(Code::Fc320, wanted.span, "the name of the called program is empty")
         }
         NoProgram::Absent => fault(Code::Fc320, "is not found")
-            .with_help("it is looked for beside the calling file, then in `program_dirs` of the configuration")
+            .with_help("it was searched for beside the calling file, then in `program_dirs` of the configuration")
             .with_help(on_machine_only(name)),
         NoProgram::Unusable(what) => fault(Code::Fc320, what)
-            .with_help("a called program is a file of at most 1 GiB that may be read"),
-        NoProgram::Outside => fault(Code::Fc321, "lies outside the folders that programs are called from")
-            .with_help("these are the caller's folder, that of `frictcomp.toml` (the current one without), `program_dirs`, and all below them; a file of the same name is looked for there, too")
+            .with_help("a called program must be a readable file of at most 1 GiB"),
+        NoProgram::Outside => fault(Code::Fc321, "is outside the folders that programs may be called from")
+            .with_help("these are the caller's folder, that of `frictcomp.toml` (the current folder if there is none), `program_dirs`, and everything below them; a file of the same name is also searched for there")
             .with_help("add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"),
     })
 }

@@ -75,7 +75,7 @@ impl Interpreter {
             let diagnostic = at
                 .diagnostic(fault)
                 .with_axis(name.clone())
-                .with_label(at.place(first), "the opposite stands here");
+                .with_label(at.place(first), "the opposite command is here");
             self.work.diagnostics.push(diagnostic);
         }
     }
@@ -165,7 +165,7 @@ impl Interpreter {
                 });
                 if described {
                     diagnostic = diagnostic.with_help(format!(
-                        "to go on as if it were set, run with `--enable {name}`"
+                        "to continue as if it were set, run with `--enable {name}`"
                     ));
                 }
             }
@@ -174,7 +174,7 @@ impl Interpreter {
             }
             CompensationError::Coupled { .. } => {
                 diagnostic =
-                    diagnostic.with_help("release the coupling before, with `#DISABLE AX LINK`");
+                    diagnostic.with_help("release the coupling first, with `#DISABLE AX LINK`");
             }
             CompensationError::Spindle { .. } => {}
         }
@@ -205,7 +205,7 @@ impl Interpreter {
             diagnostic = diagnostic.with_help(format!("the configuration lists all axes: {all}"));
         } else {
             diagnostic.message = format!(
-                "no machine is described, and `{name}` is none of the axes that are taken without one"
+                "no machine is described, and `{name}` is not one of the axes assumed without one"
             );
         }
         let entry = format!("`[[axis]]` with `name = \"{name}\"` in `frictcomp.toml`");

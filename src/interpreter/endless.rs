@@ -225,15 +225,15 @@ impl Interpreter {
             "nothing changes any more".to_owned()
         } else {
             format!(
-                "nothing changes any more but {}, which nothing reads",
+                "nothing changes any more except {}, which nothing reads",
                 names.join(", ")
             )
         };
         let message =
             format!("this loop never ends: after {passes} passes {but}; the dry run ends here");
         Diagnostic::new(Code::Fc910, index.block_place(opener), message)
-            .with_help("what stands after the loop is not run; to look at it, take the loop out or give it an end")
-            .with_help("if only the machine knows when it ends, let its condition ask for a variable of the machine, and give that with `--set`")
+            .with_help("nothing after the loop runs; to see it, remove the loop or give it an end")
+            .with_help("if a value of the machine ends the loop, test it in the condition and give it with `--set`")
     }
 
     /// How often the loop that begins at a block came round.

@@ -71,13 +71,10 @@ impl Macros<'_> {
         let expansions = self.expansions.get() + 1;
         self.expansions.set(expansions);
         if self.depth >= self.limit {
-            let message = format!(
-                "macros expand into each other more than {} deep",
-                self.limit
-            );
+            let message = format!("macros are nested more than {} levels deep", self.limit);
             return Err(Box::new(
                 Fault::new(Code::Fc914, span, message)
-                    .with_help("a deeper expansion is allowed with `--max-macros`"),
+                    .with_help("allow deeper nesting with `--max-macros`"),
             ));
         }
         if expansions > MAX_EXPANSIONS {
@@ -131,7 +128,7 @@ impl Evaluator<'_> {
             let span = self.block.spans[at];
             let slot = match self.block.nodes[at] {
                 Node::Number(number) if !number.is_finite() => {
-                    Err(fault(Code::Fc312, span, "this is no number"))
+                    Err(fault(Code::Fc312, span, "this is not a number"))
                 }
                 Node::Number(number) => Ok(Value::Number(number)),
                 Node::Text => self.text(span),
@@ -155,7 +152,7 @@ impl Evaluator<'_> {
                 }
                 Node::Negate => pop(stack).and_then(|value| match value {
                     Value::Number(number) => Ok(Value::Number(-number)),
-                    Value::Text(_) => Err(wrong_type(span, "a text has no sign")),
+                    Value::Text(_) => Err(wrong_type(span, "a string has no sign")),
                     unknown @ Value::Unknown(_) => Ok(unknown),
                 }),
                 Node::Binary(operator) => {
@@ -194,7 +191,7 @@ impl Evaluator<'_> {
         if let Ok(Value::Text(text)) = &slot {
             self.state.charge(text.len());
             if text.len() > MAX_LINE && text.chars().count() > MAX_LINE {
-                let message = format!("the text has more than {MAX_LINE} characters");
+                let message = format!("the string has more than {MAX_LINE} characters");
                 return Err(fault(Code::Fc312, span, message));
             }
         }
@@ -378,7 +375,10 @@ impl Evaluator<'_> {
         match self.scope.memory.dimensions(name) {
             Some(dimensions) => match dimensions.get(place) {
                 Some(size) => Ok(Value::Number(f64::from(*size))),
-                None => Err(wrong_type(span, "the array has not so many dimensions")),
+                None => Err(wrong_type(
+                    span,
+                    "the array does not have that many dimensions",
+                )),
             },
             None if is_program_variable(name) => Err(never_written(span, self.text)),
             None => {
@@ -505,10 +505,10 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
         Fault::new(
             Code::Fc311,
             span,
-            format!("`{name}` is read, but was never written"),
+            format!("`{name}` is read but was never written"),
         )
         .with_help(format!(
-            "write `{name} = …` before, or `--set {name}=VALUE` for a value from elsewhere"
+            "assign it first, `{name} = …`, or give it with `--set {name}=VALUE`"
         )),
     )
 }

@@ -499,7 +499,7 @@ fn same_case(wanted: &Value, value: &Value) -> bool {
 }
 
 fn no_condition(span: Span) -> Box<Fault> {
-    Box::new(Fault::new(Code::Fc312, span, "a text is no condition"))
+    Box::new(Fault::new(Code::Fc312, span, "a string is not a condition"))
 }
 
 fn flow_span(block: &Block) -> Span {
@@ -535,7 +535,7 @@ fn is_settable(name: &str) -> bool {
 /// How a user makes a value known.
 pub(super) fn how_to_set(name: &str) -> String {
     if !is_settable(name) {
-        return format!("FC210 or FC207 says where `{name}` stands first");
+        return format!("FC210 or FC207 shows where `{name}` first occurs");
     }
-    format!("make it known with `--set {name}=VALUE` or in `[variables]` of frictcomp.toml")
+    format!("give it with `--set {name}=VALUE` or in `[variables]` of frictcomp.toml")
 }

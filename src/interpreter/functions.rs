@@ -27,9 +27,9 @@ pub(super) fn binary(operator: BinaryOperator, left: Slot, right: Slot, span: Sp
             BinaryOperator::Add => Ok(Value::Text(format!("{left}{right}").into())),
             BinaryOperator::Equal => Ok((left == right).into()),
             BinaryOperator::NotEqual => Ok((left != right).into()),
-            _ => Err(wrong_type(span, "this operator does not take texts")),
+            _ => Err(wrong_type(span, "this operator does not take strings")),
         },
-        _ => Err(wrong_type(span, "a text and a number cannot be combined")),
+        _ => Err(wrong_type(span, "a string and a number cannot be combined")),
     }
 }
 
@@ -46,7 +46,7 @@ fn logic(operator: BinaryOperator, left: Slot, right: Slot, span: Span) -> Slot 
     }
     match (left, right?) {
         (Value::Text(_), _) | (_, Value::Text(_)) => {
-            Err(wrong_type(span, "a text is neither true nor false"))
+            Err(wrong_type(span, "a string is neither true nor false"))
         }
         (unknown @ Value::Unknown(_), _) | (_, unknown @ Value::Unknown(_)) => Ok(unknown),
         (Value::Number(_), Value::Number(_)) => Ok((!deciding).into()),
@@ -87,13 +87,13 @@ pub(super) fn finite(value: f64, span: Span) -> Slot {
     if value.is_finite() {
         Ok(Value::Number(value))
     } else {
-        Err(fault(Code::Fc312, span, "the result is no number"))
+        Err(fault(Code::Fc312, span, "the result is not a number"))
     }
 }
 
 fn bitwise(operator: BinaryOperator, left: f64, right: f64, span: Span) -> Slot {
     let (Some(left), Some(right)) = (rounded(left), rounded(right)) else {
-        return Err(wrong_type(span, "bits exist in whole numbers only"));
+        return Err(wrong_type(span, "bit operators need whole numbers"));
     };
     let bits = match operator {
         BinaryOperator::BitAnd => left & right,
@@ -219,7 +219,7 @@ fn number_function(function: Function, x: f64, span: Span) -> Slot {
         Function::Not => f64::from(u8::from(!is_true(x))),
         Function::Inv => {
             let Some(bits) = rounded(x).and_then(|bits| u32::try_from(bits).ok()) else {
-                return domain("bits exist in whole numbers from 0 to 4294967295 only");
+                return domain("bit operators need whole numbers from 0 to 4294967295");
             };
             f64::from(!bits)
         }
@@ -244,7 +244,12 @@ fn degrees(x: f64, function: fn(f64) -> f64) -> f64 {
 }
 
 fn text_function(function: Function, values: &[Value], span: Span) -> Slot {
-    let wrong = || wrong_type(span, "this function takes a text first, then whole numbers");
+    let wrong = || {
+        wrong_type(
+            span,
+            "this function takes a string first, then whole numbers",
+        )
+    };
     let count = |value: Option<&Value>| -> Result<usize, Box<Fault>> {
         let number = value
             .and_then(Value::number)
@@ -296,7 +301,7 @@ fn text_function(function: Function, values: &[Value], span: Span) -> Slot {
             match number {
                 Ok(number) if function == Function::StrToInt => finite(number.trunc(), span),
                 Ok(number) => finite(number, span),
-                Err(_) => Err(wrong_type(span, "the text is no number")),
+                Err(_) => Err(wrong_type(span, "the string is not a number")),
             }
         }
         _ => {
@@ -308,7 +313,7 @@ fn text_function(function: Function, values: &[Value], span: Span) -> Slot {
                 Some(character) => Ok(Value::Number(f64::from(u32::from(character)))),
                 None => Err(wrong_type(
                     span,
-                    "the text has no character at this position",
+                    "the string has no character at this position",
                 )),
             }
         }

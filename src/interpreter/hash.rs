@@ -89,7 +89,7 @@ impl Interpreter {
                             hash.span,
                             "the program writes friction parameters into the machine data",
                         )
-                        .with_help("from here on the machine may differ from its lists; this run goes on with the lists"),
+                        .with_help("from here on the machine may differ from its lists; this run continues with the lists"),
                     ));
                 }
             }

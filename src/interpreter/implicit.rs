@@ -110,7 +110,8 @@ impl Interpreter {
             Code::Fc902,
             at.in_block(span),
             format!(
-                "which {letter} function this is only the machine knows; it is passed over, everything that a program could change becomes unknown"
+                "only the machine knows which {letter} function this is; it is passed over, \
+                 everything that a program could change becomes unknown"
             ),
         );
         self.work.diagnostics.push(at.diagnostic(fault));

@@ -135,7 +135,7 @@ pub(super) fn foreign(number: u32) -> Option<&'static str> {
     Some(match number {
         33 => "G33 follows a spindle",
         63 => "G63 follows a spindle",
-        100..=102 | 106 | 108 => "a measuring motion ends where the probe says",
+        100..=102 | 106 | 108 => "a measuring motion ends where the probe triggers",
         301 | 302 => "G301 and G302 insert a contour",
         303 => "G303 is an arc in space",
         _ => return None,
@@ -274,7 +274,7 @@ impl Interpreter {
             return Form::Unknown(reason);
         }
         if !modal.is_known(Group::Motion) {
-            return Form::Unknown("whether G00, G01, G02 or G03 is in force is not known");
+            return Form::Unknown("it is not known whether G00, G01, G02 or G03 is active");
         }
         match modal.motion {
             0 => Form::Rapid,
@@ -287,7 +287,7 @@ impl Interpreter {
         let modal = &self.state.modal;
         let letters = [b'X', b'Y'].map(|letter| modal.main_axis(letter));
         let [Some(first), Some(second)] = letters else {
-            return Form::Unknown("which plane is in force is not known");
+            return Form::Unknown("the active plane is not known");
         };
         let axes = [first, second].map(|letter| self.letters[usize::from(letter - b'A')]);
         let [Some(one), Some(two)] = axes else {
@@ -298,7 +298,7 @@ impl Interpreter {
             let at = |axis: AxisIndex, letter| self.centre_of(axis, offset(letter), from);
             match (at(one, first), at(two, second)) {
                 (Some(a), Some(b)) => Centre::Point([a, b]),
-                _ => return Form::Unknown("where the centre of the circle lies is not known"),
+                _ => return Form::Unknown("the centre of the circle is not known"),
             }
         } else {
             match modal.radius {
@@ -339,14 +339,14 @@ impl Interpreter {
     fn path_feed(&self) -> PathFeed {
         let modal = &self.state.modal;
         if !modal.is_known(Group::Feed) {
-            return PathFeed::Unknown("which of G93, G94 and G95 is in force is not known");
+            return PathFeed::Unknown("it is not known whether G93, G94 or G95 is active");
         }
         match (modal.feed_mode, modal.feeds) {
             (93, [Some(seconds), ..]) => PathFeed::Seconds(seconds),
             (94, [_, Some(feed), _]) => PathFeed::PerMinute(feed),
             (95, _) => PathFeed::Unknown("G95 needs the speed of a spindle"),
             (194, _) => PathFeed::Unknown("G194 weights feeds of the machine"),
-            _ => PathFeed::Unknown("no F is known"),
+            _ => PathFeed::Unknown("F is not known"),
         }
     }
 }

@@ -89,7 +89,7 @@ impl Interpreter {
                     return Err(Box::new(Fault::new(
                         Code::Fc312,
                         span,
-                        "a number is no program name",
+                        "a number is not a program name",
                     )));
                 }
             },
@@ -274,7 +274,7 @@ impl Interpreter {
             Fault::new(
                 Code::Fc902,
                 span,
-                format!("`{name}` stands in a part of the program that was read line by line and is not kept; the call is passed over, every axis becomes unknown"),
+                format!("`{name}` is in a part of the program that was read line by line and is not kept; the call is passed over, every axis becomes unknown"),
             )
             .with_help("give the program as a file")
         } else {

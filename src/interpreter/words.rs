@@ -169,9 +169,9 @@ impl Interpreter {
                 word.span,
                 format!("axis `{name}` has a second coordinate in this block"),
             )
-            .with_help("give an axis one coordinate a block; only those of G91 add up");
+            .with_help("give an axis one coordinate per block; several add up only with G91");
             let diagnostic = at.diagnostic(fault).with_axis(name.clone());
-            diagnostics.push(diagnostic.with_label(at.place(earlier), "the first stands here"));
+            diagnostics.push(diagnostic.with_label(at.place(earlier), "the first one is here"));
             false
         });
     }
@@ -201,7 +201,7 @@ impl Interpreter {
                 format!("axis `{name}` moves without `{keyword}`, which P-AXIS-00465 requires"),
             )
             .with_help(format!(
-                "switch it on before, with `{name}[COMP ON {keyword}]`"
+                "switch it on first, with `{name}[COMP ON {keyword}]`"
             ));
             let diagnostic = at.diagnostic(fault).with_axis(name.clone());
             self.work.diagnostics.push(diagnostic);
@@ -362,7 +362,7 @@ impl Interpreter {
             let fault = Fault::new(
                 Code::Fc316,
                 span,
-                "a circle by its radius ends where it starts; `R` cannot make a full circle",
+                "a circle by its radius ends where it starts; `R` cannot describe a full circle",
             )
             .with_help("give the centre of a full circle with `I`, `J`, `K`");
             self.work.diagnostics.push(at.diagnostic(fault));

@@ -215,7 +215,7 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
                 Code::Fc124,
                 word.place(),
                 format!(
-                    "`{}` is no kind of compensation, the words from here on are passed over",
+                    "`{}` is not a kind of compensation, the words from here on are passed over",
                     word.value
                 ),
             );

@@ -18,7 +18,7 @@ impl CncBuild {
 
 /// A text that is no CNC build.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{0}` is no CNC build; write it like `3.1.3132.0`")]
+#[error("`{0}` is not a CNC build; write it like `3.1.3132.0`")]
 pub struct NoBuild(String);
 
 impl CncBuild {

@@ -158,7 +158,7 @@ impl Check<'_> {
                     Code::Fc130,
                     given.place(),
                     format!(
-                        "`frict_comp.{}` is {}, which is no value of type {}",
+                        "`frict_comp.{}` is {}, which is not a value of type {}",
                         field.name(),
                         quoted(&given.value.text),
                         field.type_name()
@@ -189,7 +189,7 @@ impl Check<'_> {
             .with_help(if field.floors(value) {
                 "a negative value counts as 0"
             } else {
-                "the value is used as it is given"
+                "the value is used as given"
             });
             self.diagnostics.push(diagnostic);
         }
@@ -331,13 +331,13 @@ impl Check<'_> {
             Code::Fc130,
             given.place(),
             format!(
-                "`frict_comp.table[{index}].{name}` is {}, which is no value of type {types}",
+                "`frict_comp.table[{index}].{name}` is {}, which is not a value of type {types}",
                 quoted(&given.value.text)
             ),
         );
         if let (Some(build), Some(Number::Real(_))) = (self.conditions.build, given.value.number) {
             diagnostic = diagnostic.with_help(format!(
-                "real numbers are read since V3.1.3132.0 and V4.29.0, this machine has {build}"
+                "real numbers are accepted since V3.1.3132.0 and V4.29.0, this machine has {build}"
             ));
         }
         self.diagnostics.push(diagnostic);
@@ -350,9 +350,9 @@ impl Check<'_> {
         for (index, point) in (0_u32..).zip(points) {
             let input = point.input;
             let why = match before {
-                _ if input < 0.0 => "velocities are not negative".to_owned(),
+                _ if input < 0.0 => "but velocities must not be negative".to_owned(),
                 Some(before) if input <= before => {
-                    format!("which is not above the {before} of the point before")
+                    format!("which is not above the {before} of the previous point")
                 }
                 _ => {
                     before = Some(input);
@@ -367,7 +367,9 @@ impl Check<'_> {
                         given.place(),
                         format!("`frict_comp.table[{index}].in` is {input}, {why}"),
                     )
-                    .with_help("write the points with ascending velocities, the first from 0 on"),
+                    .with_help(
+                        "write the points with ascending velocities, starting at 0 or above",
+                    ),
                 );
             }
             return false;
@@ -402,7 +404,7 @@ impl Check<'_> {
                     Code::Fc136,
                     given.place(),
                     format!(
-                        "the current comes too late at reversals: the first point is (0, 0), and \
+                        "the current comes too late after reversals: the first point is (0, 0), and \
                          the axis needs {time_ms:.0} ms to reach the second at {} \u{b5}m/s on a \
                          circle of {RADIUS_MM} mm radius at {feed} mm/min",
                         second.input
@@ -433,7 +435,7 @@ impl Check<'_> {
                     given.place(),
                     format!(
                         "`frict_comp.table[{index}].out` gives {current} after scaling, a 16-bit \
-                         torque object carries at most 32767"
+                         torque object holds at most 32767"
                     ),
                 )
                 .with_help("the drive gets the limit instead"),

@@ -23,7 +23,7 @@ pub(super) fn no_toml(source: &SourceFile, error: &toml::de::Error) -> ConfigErr
     } else if line.contains('=') && !line.contains(['"', '\'']) {
         refused.with_help("texts stand in quotes: `startup = \"lists/hochlauf.lis\"`")
     } else {
-        refused.with_help("`frictcomp init` writes a configuration to begin with")
+        refused.with_help("`frictcomp init` writes a configuration to start from")
     }
 }
 

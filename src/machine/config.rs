@@ -290,7 +290,7 @@ fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
         if is_one {
             return Ok(text);
         }
-        let message = format!("`{}` is no extension of files", given.value);
+        let message = format!("`{}` is not a file extension", given.value);
         Err(ConfigError::at(&given, message).with_help("write `extensions = [\"nc\", \"spf\"]`"))
     };
     let given = check.strings("extensions")?;
@@ -358,7 +358,7 @@ fn levels(root: &Section<'_>) -> Result<Levels, ConfigError> {
             "warning" => Some(Severity::Warning),
             "error" => Some(Severity::Error),
             other => {
-                let message = format!("`{other}` is no severity");
+                let message = format!("`{other}` is not a severity");
                 return Err(ConfigError::at(&word, message)
                     .with_near(other, ["off", "info", "warning", "error"])
                     .with_help("write `off`, `info`, `warning` or `error`"));
@@ -380,12 +380,12 @@ fn axis_name(section: &Section<'_>, named: &[Given<String>]) -> Result<Given<Str
         return Err(ConfigError::at(&section.whole(), message).with_help("add `name = \"X\"`"));
     };
     if !is_axis_name(&name.value) {
-        let message = format!("`{}` is no name of an axis", name.value);
+        let message = format!("`{}` is not an axis name", name.value);
         return Err(ConfigError::at(&name, message).with_help(AXIS_NAME_HELP));
     }
     if let Some(other) = named.iter().find(|other| other.value == name.value) {
         let message = format!("there are two axes `{}`", name.value);
-        let mut error = ConfigError::at(&name, message).with_help("leave one of them out");
+        let mut error = ConfigError::at(&name, message).with_help("remove one of them");
         let label = Label {
             place: other.place(),
             text: "the first one".to_owned(),
@@ -420,7 +420,7 @@ fn read_axis(
     if let Some(letter) = section.string("type")? {
         let axis_type = AxisType::from_letter(&letter.value);
         let axis_type = axis_type.ok_or_else(|| {
-            ConfigError::at(&letter, format!("`{}` is no type of axis", letter.value))
+            ConfigError::at(&letter, format!("`{}` is not an axis type", letter.value))
                 .with_help("write `T` for linear, `R` for rotary, `S` for a spindle")
         })?;
         values.axis_type = Some(letter.with(axis_type));
@@ -467,7 +467,7 @@ fn kinds(section: &Section<'_>, key: &str) -> Result<Vec<(Kind, Given<String>)>,
     let mut found = Vec::new();
     for word in section.strings(key)? {
         let kind = Kind::from_keyword(&word.value).ok_or_else(|| {
-            let message = format!("`{}` is no kind of compensation", word.value);
+            let message = format!("`{}` is not a kind of compensation", word.value);
             ConfigError::at(&word, message).with_near(&word.value, Kind::ALL.map(Kind::keyword))
         })?;
         found.push((kind, word));

@@ -194,7 +194,7 @@ impl<'f> Loader<'f> {
                 return true;
             }
             let place = axis.values.name.as_ref().map(Given::place);
-            let message = format!("`{}` is no name of an axis, it is left out", axis.name);
+            let message = format!("`{}` is not an axis name, it is left out", axis.name);
             let diagnostic = place.map(|place| Diagnostic::new(Code::Fc124, place, message));
             let advised = diagnostic.map(|it| it.with_help(AXIS_NAME_HELP));
             self.diagnostics.extend(advised);
@@ -254,7 +254,7 @@ impl<'f> Loader<'f> {
                 "`{}` is for axis number {}, which no axis list has",
                 named.path.value, number.value
             ),
-            None => format!("`{}` does not say for which axis it is", named.path.value),
+            None => format!("`{}` does not say which axis it is for", named.path.value),
         };
         self.diagnostics
             .push(Diagnostic::new(Code::Fc135, place, message).with_help("the list has no effect"));

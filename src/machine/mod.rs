@@ -146,8 +146,8 @@ impl Axis {
             None => String::new(),
         };
         let message = format!(
-            "`{}` reserves {} points for axis `{}`{number}, at start-up it was {earlier}: the \
-             list is not taken, the earlier one stays",
+            "`{}` reserves {} points for axis `{}`{number}, at the start of the control it was \
+             {earlier}: the list is not loaded, the earlier one remains in force",
             place.file, self.max_points, self.name
         );
         Some(

@@ -116,7 +116,7 @@ impl Loader<'_> {
         if let Some((path, why)) = unreadable {
             return Err(Box::new(
                 diagnostic(format!("{named}, cannot be read: {why}"))
-                    .with_help(format!("give yourself the right to read `{path}`")),
+                    .with_help(format!("check your permission to read `{path}`")),
             ));
         }
         let looked = if is_absolute(&asked.value) {

@@ -155,8 +155,8 @@ impl TrajectoryPlanner {
                 text: &std::mem::take(&mut self.text),
                 line: self.line,
             };
-            let help = "ask for more with `--max-cycles`";
-            let message = "the trace is longer than its bound and ends here";
+            let help = "raise the budget with `--max-cycles`";
+            let message = "the trace is longer than its budget and ends here";
             self.say(&at, (Code::Fc915, message), help);
         }
     }
@@ -192,7 +192,7 @@ impl TrajectoryPlanner {
             Err(Obstacle::Start) => {
                 return self.lose(
                     row,
-                    "where the axes stand before this motion is not known",
+                    "the position of the axes before this motion is not known",
                     sink,
                 );
             }
@@ -206,11 +206,11 @@ impl TrajectoryPlanner {
         };
         if !row.modal.transformed.is_empty() {
             let message = "from here on the trace is that of the program, not of the machine: a \
-                           transformation is in force";
+                           transformation is active";
             self.say(
                 &At::of(row),
                 (Code::Fc904, message),
-                "the axes of the machine move in another way",
+                "the axes of the machine move differently",
             );
         }
         let jumped = self.stand.iter().zip(&travel.from);
@@ -246,8 +246,8 @@ impl TrajectoryPlanner {
                 let cause = self.cause(row);
                 self.look_ahead.rest(seconds, &cause, sink)
             }
-            Some(_) => self.lose(row, "a dwell time below 0 is none", sink),
-            None => self.lose(row, "how long the axes dwell is not known", sink),
+            Some(_) => self.lose(row, "a dwell time must not be negative", sink),
+            None => self.lose(row, "the dwell time is not known", sink),
         }
     }
 
@@ -260,7 +260,7 @@ impl TrajectoryPlanner {
     ) -> ControlFlow<()> {
         let message = format!("the trace leaves this motion out: {reason}");
         let help = "write what is missing into the program (`F`, absolute positions), or give \
-                    values with `--set`; the trace begins anew behind it";
+                    values with `--set`; the trace restarts after it";
         self.say(&At::of(row), (Code::Fc903, &message), help);
         self.running = Running::No;
         self.look_ahead.stop(sink)
@@ -289,7 +289,7 @@ impl TrajectoryPlanner {
             let (start, end) = match ends {
                 (Some(start), Some(end)) => (*start, *end),
                 (Some(_), None) => {
-                    return Err(Obstacle::Reason("where it ends is not known"));
+                    return Err(Obstacle::Reason("its end is not known"));
                 }
                 // It does not move: where it stands does not matter.
                 (None, _) => (0.0, 0.0),
@@ -322,7 +322,7 @@ impl TrajectoryPlanner {
             return Ok(None);
         };
         if !segment.length.is_finite() {
-            return Err(Obstacle::Reason("it is longer than numbers can say"));
+            return Err(Obstacle::Reason("it is too long to compute"));
         }
         segment.feed = match feed {
             PathFeed::PerMinute(feed) => feed / 60.0,

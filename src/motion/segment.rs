@@ -244,12 +244,12 @@ impl Circle {
                     centre[1] - astray * chord[1] / distance,
                 ]
             }
-            Centre::Radius(_) if full => return Err("`R` cannot make a full circle"),
+            Centre::Radius(_) if full => return Err("`R` cannot describe a full circle"),
             Centre::Radius(radius) => {
                 let height = radius * radius - distance * distance / 4.0;
                 // A radius that rounding made too small gives half a circle.
                 if height < -1e-3 * radius * radius {
-                    return Err("the radius is less than half the distance of the ends");
+                    return Err("the radius is less than half the distance between the ends");
                 }
                 let height = height.max(0.0).sqrt() * radius.signum();
                 // The short arc against the clock has its centre on the left.

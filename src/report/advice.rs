@@ -32,10 +32,10 @@ pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static 
             Some("Stopped by an error: these are the states at the stop, the rest did not run.")
         }
         Some(EndedBy::Budget) => {
-            Some("Stopped at a bound: these are the states at the stop, the rest did not run.")
+            Some("Stopped by a budget: these are the states at the stop, the rest did not run.")
         }
         _ if errors > 0 => {
-            Some("The control stops at the first error: mend it, then look at the states again.")
+            Some("The control stops at the first error: correct it, then look at the states again.")
         }
         _ => None,
     }

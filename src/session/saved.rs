@@ -128,7 +128,7 @@ impl SavedState {
                 return damaged(format!("axis `{name}` is missing"));
             };
             if entries.next().is_some() {
-                return damaged(format!("axis `{name}` stands twice"));
+                return damaged(format!("axis `{name}` occurs twice"));
             }
             let kinds = entry.selected.iter().chain(entry.unknown.iter());
             let mut surplus = kinds.filter(|kind| !axis.configured.contains(*kind));

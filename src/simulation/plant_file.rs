@@ -96,9 +96,9 @@ fn overridden(
         if number(keys::FORCE_PER_UNIT).is_some() {
             return Err(ConfigError::at(
                 &table.given_or_whole(keys::FORCE_PER_UNIT),
-                "`k_I` and `rated_force` are two ways to say the same",
+                "`k_I` and `rated_force` mean the same",
             )
-            .with_help("`k_I` is `rated_force` / 1000; leave one of them out"));
+            .with_help("`k_I` is `rated_force` / 1000; remove one of them"));
         }
     }
     if let Some(stiffness) = number(keys::STIFFNESS) {
@@ -213,7 +213,7 @@ fn checked(
         "" => String::new(),
         unit => format!(" {unit}"),
     };
-    let message = format!("`{key}` is {shown}{unit}, it lies between {least} and {most}");
+    let message = format!("`{key}` is {shown}{unit}, it must be between {least} and {most}");
     Err(ConfigError::at(place, message).with_help("all values are in SI units: kg, N, m, s"))
 }
 
@@ -249,7 +249,7 @@ fn elements(table: &Section<'_>) -> Result<Option<Vec<GmsElement>>, ConfigError>
     }
     let sum: f64 = elements.iter().map(|element| element.share).sum();
     if (sum - 1.0).abs() > 1e-6 {
-        let message = format!("the shares of `gms` make {sum} together");
+        let message = format!("the shares of `gms` add up to {sum}");
         return Err(ConfigError::at(&place, message).with_help("they make 1"));
     }
     Ok(Some(elements))

@@ -62,7 +62,7 @@ pub(crate) fn allowed(text: &str) -> Allowance {
         let speaks_of_code = words.peek().is_some_and(|word| looks_like_code(word.text));
         if near || speaks_of_code {
             let message = format!(
-                "`{}` is no word of this tool, the code is not allowed",
+                "`{}` is not a word that frictcomp knows, so the code is not allowed",
                 first.text
             );
             allowance.fault = Some(first.fault(message, format!("did you mean `{ALLOW}`?")));
@@ -111,7 +111,7 @@ fn looks_like_code(word: &str) -> bool {
 }
 
 fn unknown(word: &Word<'_>) -> AllowFault {
-    let message = format!("`{}` is no code, it allows nothing", word.text);
+    let message = format!("`{}` is not a code, so it allows nothing", word.text);
     let codes = Code::ALL.iter().map(|code| code.text());
     let help = match did_you_mean(word.text, codes) {
         Some(near) => format!("did you mean `{near}`?"),

@@ -236,7 +236,7 @@ impl CompWords<'_> {
                         return None;
                     }
                     if !kinds.is_empty() {
-                        faults.push(self.incomplete("a kind stands in front of `ON` or `OFF`"));
+                        faults.push(self.incomplete("a kind comes before `ON` or `OFF`"));
                         return None;
                     }
                     selection = Some((span, word));
@@ -263,16 +263,16 @@ impl CompWords<'_> {
         }
         let selection = match selection {
             None if kinds.is_empty() => {
-                faults.push(self.incomplete("nothing stands behind `COMP`"));
+                faults.push(self.incomplete("nothing follows `COMP`"));
                 return None;
             }
             None => {
-                faults.push(self.incomplete("neither `ON` nor `OFF` stands behind `COMP`"));
+                faults.push(self.incomplete("neither `ON` nor `OFF` follows `COMP`"));
                 return None;
             }
             Some((_, by)) if by.eq_ignore_ascii_case("OFF_ALL") => Selection::OffAll,
             Some((_, by)) if kinds.is_empty() => {
-                let found = format!("no kind stands behind `{by}`");
+                let found = format!("no kind follows `{by}`");
                 faults.push(self.incomplete(&found));
                 return None;
             }
@@ -327,9 +327,9 @@ fn second_selection(span: Span, word: &str, first: &str) -> Fault {
     Fault::new(
         Code::Fc204,
         span,
-        format!("`{word}` behind `{first}`: a bracket has one selection"),
+        format!("`{word}` after `{first}`: a bracket has one selection"),
     )
-    .with_help("give each selection a bracket of its own, `X[COMP ON FRICT] X[COMP OFF LEAD]`")
+    .with_help("give each selection its own bracket, `X[COMP ON FRICT] X[COMP OFF LEAD]`")
 }
 
 fn kind_behind_off_all(span: Span, kind: Kind) -> Fault {
@@ -337,7 +337,7 @@ fn kind_behind_off_all(span: Span, kind: Kind) -> Fault {
     Fault::new(
         Code::Fc203,
         span,
-        format!("kind `{keyword}` behind `OFF_ALL`, which takes none"),
+        format!("kind `{keyword}` after `OFF_ALL`, which takes no kind"),
     )
     .with_help(format!(
         "write `OFF {keyword}` for this kind alone, `OFF_ALL` alone for every kind"

@@ -208,7 +208,7 @@ impl<S: LineSource> BlockReader<S> {
                     Span::new(0, self.text.len().min(MAX_LINE)),
                     format!("a block has at most {MAX_LINE} characters"),
                 )
-                .with_help("divide the block, or continue it on the next line with `\\`"),
+                .with_help("split the block, or continue it on the next line with `\\`"),
             );
             return Some(Stretch::Block);
         }
@@ -220,11 +220,11 @@ impl<S: LineSource> BlockReader<S> {
                 |letter| format!("U+{:04X}", u32::from(letter)),
             );
             let message = format!(
-                "`{shown}` is outside ASCII; programs are ASCII except in comments and texts"
+                "`{shown}` is outside ASCII; programs are ASCII except in comments and strings"
             );
             let mut fault = Fault::new(Code::Fc101, span, message);
             if blank.is_some() {
-                fault = fault.with_help("it looks like a blank and is none: write a blank");
+                fault = fault.with_help("it looks like a blank but is not one: type a blank");
             }
             block.faults.push(fault);
         }
@@ -332,7 +332,7 @@ impl<S: LineSource> BlockReader<S> {
                 opener,
                 format!("the region from `{name}` to `{end}` has more than {MAX_REGION} bytes"),
             )
-            .with_help("divide it into several")
+            .with_help("split it into several")
         } else {
             Fault::new(Code::Fc208, opener, format!("`{name}` has no `{end}`"))
                 .with_help(format!("write `{end}` in a block of its own"))

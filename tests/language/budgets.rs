@@ -120,7 +120,7 @@ fn what_only_counts_does_not_keep_a_loop_from_repeating() {
         run("P1=0\nV.P.N=5\n$WHILE 1\nP1 = P1 + 1\nV.P.N = V.P.N - 2\nX1\n$ENDWHILE\nM30");
     let said = ran_through.message("FC910");
     assert!(
-        said.contains("but `P1`, `V.P.N`, which nothing reads"),
+        said.contains("except `P1`, `V.P.N`, which nothing reads"),
         "{said}"
     );
     assert!(ran_through.blocks < 500);
@@ -224,7 +224,7 @@ fn texts_have_a_length() {
     assert_eq!(stopped.by, EndedBy::Error);
     assert_eq!(
         stopped.message("FC312"),
-        "the text has more than 4000 characters"
+        "the string has more than 4000 characters"
     );
     let went_on = ran(text, going_on());
     assert_eq!(went_on.by, EndedBy::Budget);
@@ -238,7 +238,7 @@ fn texts_have_a_length() {
         let ran = run(&text);
         assert_eq!(
             ran.message("FC312"),
-            "the text has more than 4000 characters",
+            "the string has more than 4000 characters",
             "{grows}"
         );
     }
@@ -290,7 +290,7 @@ fn a_number_that_is_none_is_said_where_it_arises() {
         );
     }
     let counted = run("$FOR V.S.A=17*10**307,18*10**307,10**307\nX1\n$ENDFOR\nM30");
-    assert_eq!(counted.message("FC312"), "the result is no number");
+    assert_eq!(counted.message("FC312"), "the result is not a number");
 }
 
 #[test]

@@ -74,9 +74,9 @@ fn a_repeat_is_one_of_the_same_program() {
     ]), @"
     P-ERR-70495 1:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
       help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
-      help: to go on as if it were set, run with `--enable Z`
+      help: to continue as if it were set, run with `--enable Z`
     FC901 4:1 this control block depends on `V.E.A`, which only the machine knows; what it could change is unknown from here
-      help: make it known with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
+      help: give it with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
     ");
     // In a loop and from a subprogram.
     assert_snapshot!(said(&[
@@ -110,7 +110,7 @@ fn who_made_it_so_is_named() {
     // The state that a region may have changed is not known.
     assert_snapshot!(said(&["$IF V.E.A\nX[COMP OFF FRICT]\n$ENDIF\nX1\nM30", "X1\nM30"]), @"
     FC901 1:1 this control block depends on `V.E.A`, which only the machine knows; what it could change is unknown from here
-      help: make it known with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
+      help: give it with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
     b.nc
     FC403 1:1 axis `X` moves in an unknown state of friction compensation, left so by `$IF V.E.A` at a.nc:1
       help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
@@ -166,6 +166,6 @@ fn an_error_ends_without_blame() {
     assert_snapshot!(bench.said_in_session(&["X1\nX[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30"]), @"
     P-ERR-70495 3:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
       help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
-      help: to go on as if it were set, run with `--enable Z`
+      help: to continue as if it were set, run with `--enable Z`
     ");
 }

@@ -60,7 +60,7 @@ fn axes_are_matched_by_name() {
     let said = refusal(|saved| drop(saved.axes.pop()));
     assert_eq!(said, "it is damaged (axis `B` is missing)");
     let said = refusal(|saved| saved.axes[1].axis = "X".to_owned());
-    assert_eq!(said, "it is damaged (axis `X` stands twice)");
+    assert_eq!(said, "it is damaged (axis `X` occurs twice)");
     let said = refusal(|saved| {
         let mut surplus = saved.axes[2].clone();
         surplus.axis = "C".to_owned();

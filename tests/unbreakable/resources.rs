@@ -150,7 +150,7 @@ fn a_state_is_no_pipe() {
         .status();
     assert!(made.expect("mkfifo is there").success());
     for (place, why) in [
-        ("pipe", "is no file to keep a state in"),
+        ("pipe", "cannot hold a state"),
         (".", "it is a folder"),
     ] {
         let output = bench.call(&["run", "--state", place, "a.nc"]);

@@ -428,14 +428,14 @@ impl Told<'_> {
     fn nothing(&self) -> String {
         let names = self.names.join(", ");
         format!(
-            "no cycle: no motion is known whose start is known too; where {names} and the axes \
-             that move with it stand, the first absolute positions say"
+            "no cycle: there is no motion whose start and end are known; program absolute \
+             positions for {names} and the axes that move with it first"
         )
     }
 
     fn say_all(&self, args: &CurrentArgs) {
         for (at, (time, line)) in self.table.begins.iter().enumerate() {
-            let anew = if at == 0 { "begins" } else { "begins anew" };
+            let anew = if at == 0 { "begins" } else { "restarts" };
             Console::talk(&format!("the trace {anew} with line {line}, at {time} s"));
         }
         for (name, states) in self.names.iter().zip(&self.table.seen) {

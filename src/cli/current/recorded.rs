@@ -188,7 +188,7 @@ fn parse_number(path: &Path, row: u64, column: &str, text: Option<&str>) -> Resu
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| {
         Failure::new(format!(
-            "{}:{row}: column `{column}` holds `{text}`, which is no number",
+            "{}:{row}: column `{column}` holds `{text}`, which is not a number",
             path.display()
         ))
         .with_help("write numbers with a decimal point")

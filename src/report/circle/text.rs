@@ -293,7 +293,7 @@ pub fn words(finding: Finding) -> &'static str {
     match finding {
         Finding::Friction => "a peak that decays: friction at the reversal",
         Finding::TooWeak => {
-            "a peak outwards is left: too weak, raise scaling_factor or the outputs"
+            "a peak outwards remains: too weak, raise scaling_factor or the outputs"
         }
         Finding::WrongSign => {
             "larger than without compensation: it pushes the wrong way, change the sign of the \
@@ -308,13 +308,13 @@ pub fn words(finding: Finding) -> &'static str {
             "outwards, then inwards: too late, lower position_delay or delay_cycles, or raise \
              reversal_lookahead"
         }
-        Finding::Backlash => "a step that stays: backlash, compensate it as such",
+        Finding::Backlash => "a step that remains: backlash, compensate it as such",
         Finding::GainMismatch => {
             "an ellipse at 45° that turns with the direction: the position loops of the axes \
              differ, make Kv and feed forward equal"
         }
         Finding::Squareness => {
-            "an ellipse at 45° that stays with the direction: the axes are not square"
+            "an ellipse at 45° that does not turn with the direction: the axes are not square"
         }
         Finding::ScaleMismatch => "an ellipse along the axes: their scales differ",
     }

@@ -68,7 +68,8 @@ pub(super) fn render(page: &mut Page<'_>, said: &BTreeSet<Code>, axes: AxisSet) 
     };
     let columns = ["rule", "assumption", "what it changes", "how it shows"];
     page.paragraph(
-        "The documents of the control leave things open. These readings this run rests on or met:",
+        "The documents of the control leave things open. This run depends on or met these \
+         assumptions:",
     );
     page.open_table("Assumptions of this run", &columns);
     for used in assumptions().filter(made) {

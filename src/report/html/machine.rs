@@ -57,7 +57,7 @@ pub(super) fn render_curves(page: &mut Page<'_>, story: &RunStory) {
         page.figure(&value_curve(accepted).render(Frame::Inside(&name)));
     }
     if story.accepted.is_empty() {
-        page.paragraph("No axis has a value list that the control would take.");
+        page.paragraph("No axis has a value list that the control would accept.");
     }
 }
 

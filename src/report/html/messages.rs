@@ -10,7 +10,7 @@ use crate::report::markup::escaped;
 /// Writes the table of all messages, in the order in which they were said.
 pub(super) fn render(page: &mut Page<'_>, story: &RunStory) -> std::io::Result<()> {
     if story.messages.is_empty() {
-        page.paragraph("There is nothing to say about these programs.");
+        page.paragraph("There are no messages about these programs.");
         return Ok(());
     }
     page.open_table("Messages", &["code", "severity", "where", "what"]);

@@ -177,7 +177,7 @@ impl<'a> Page<'a> {
         self.raw(concat!(
             "</main>\n<footer><p>Made by frictcomp ",
             env!("CARGO_PKG_VERSION"),
-            ", without a machine. Where your control behaves otherwise, the control is right.</p>",
+            ", without a machine. If your control behaves differently, the control is right.</p>",
             "</footer>\n</body>\n</html>\n"
         ));
         self.out.write_all(self.buffer.as_bytes())?;

@@ -121,7 +121,7 @@ fn lead(story: &RunStory) -> String {
 
 fn counts(story: &RunStory) -> String {
     let Some(summary) = &story.summary else {
-        return "The session did not come to its end.".to_owned();
+        return "The session did not run to its end.".to_owned();
     };
     let count = |severity| summary.counts.get(&severity).copied().unwrap_or_default();
     format!(
@@ -140,11 +140,11 @@ fn counted(number: u64, noun: &str) -> String {
 
 fn render_left(page: &mut Page<'_>, story: &RunStory) {
     let Some(summary) = &story.summary else {
-        page.paragraph("The session did not come to its end.");
+        page.paragraph("The session did not run to its end.");
         return;
     };
     page.paragraph("Friction compensation (FRICT) by axis, after the last program. Home is the state after a start \
-         of the control; \u{25b2} marks what is away from home and stays so.");
+         of the control; \u{25b2} marks what is away from home and remains so.");
     page.open_table(
         "What is left",
         &["axis", "at start", "at end", "changed by"],
@@ -241,7 +241,7 @@ fn changed_by(story: &RunStory, blocks: &[ChangedBy], total: u64) -> String {
 
 fn render_states(page: &mut Page<'_>, story: &RunStory) -> io::Result<()> {
     page.paragraph(
-        "Each bar is a state over the executed blocks and leads to the line that made it so. Striped \
+        "Each bar is a state over the executed blocks and links to the line that caused it. Striped \
          bars are away from home, the state after a start of the control.",
     );
     let charted = story

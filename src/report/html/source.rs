@@ -50,8 +50,8 @@ pub(super) fn render(
     sources: &mut dyn Sources,
 ) -> io::Result<()> {
     page.paragraph(
-        "The number in front is the line, the one behind it how often the line was executed. \
-         Lines that changed a state or have a message stand open; the others can be unfolded.",
+        "The first number is the line, the second how often the line was executed. Lines that \
+         changed a state or have a message are shown; unfold the others to see them.",
     );
     let mut room = MAX_LINES;
     for (number, file) in story.files.iter().enumerate() {
@@ -71,7 +71,7 @@ pub(super) fn render(
     }
     if story.more_events > 0 {
         page.paragraph(&format!(
-            "{} more changes and messages are not marked at their lines: so many cannot be read.",
+            "{} more changes and messages are not marked at their lines: there are too many.",
             story.more_events
         ));
     }
@@ -83,8 +83,8 @@ impl Listing<'_, '_> {
         let again = sources.open(&file.name);
         if again.is_none() {
             self.page.paragraph(
-                "The file cannot be read a second time: only the lines with something to say are \
-                 shown.",
+                "The file cannot be read a second time: only the lines with something to report \
+                 are shown.",
             );
         }
         self.page
@@ -104,7 +104,7 @@ impl Listing<'_, '_> {
         if self.left_out > 0 {
             let left_out = self.left_out;
             self.page.paragraph(&format!(
-                "{left_out} more lines without anything to say are left out; a report holds \
+                "{left_out} more lines with nothing to report are left out; a report holds \
                  {MAX_LINES} of them."
             ));
         }

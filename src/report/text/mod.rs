@@ -282,7 +282,7 @@ impl<W: Write> Text<W> {
         for repeat in end.repeated {
             let (code, times) = (repeat.code, grouped(repeat.times));
             let text = format!(
-                "{code} at {}:{} came true {times} times",
+                "{code} at {}:{} occurred {times} times",
                 repeat.file, repeat.line
             );
             let look = self.options.look;

@@ -71,7 +71,7 @@ impl Lowering<'_> {
                 Fault::new(
                     Code::PErr21301,
                     span,
-                    "no keyword stands in the bracket of an axis",
+                    "the bracket of the axis contains no keyword",
                 )
                 .with_help("write `X[COMP ON FRICT]`, or an expression for a position"),
                 span,
@@ -135,6 +135,6 @@ fn invalid_keyword(span: Span, word: &str) -> Fault {
     );
     match did_you_mean(word, known) {
         Some(near) => fault.with_help(format!("did you mean `{near}`?")),
-        None => fault.with_help("the friction compensation is switched with `COMP ON FRICT`"),
+        None => fault.with_help("friction compensation is switched with `COMP ON FRICT`"),
     }
 }

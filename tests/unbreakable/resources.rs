@@ -149,10 +149,7 @@ fn a_state_is_no_pipe() {
         .arg(bench.folder().join("pipe"))
         .status();
     assert!(made.expect("mkfifo is there").success());
-    for (place, why) in [
-        ("pipe", "cannot hold a state"),
-        (".", "it is a folder"),
-    ] {
+    for (place, why) in [("pipe", "cannot hold a state"), (".", "it is a folder")] {
         let output = bench.call(&["run", "--state", place, "a.nc"]);
         assert_eq!(output.status.code(), Some(2));
         let said = said(&output);

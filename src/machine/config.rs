@@ -121,7 +121,10 @@ impl Configuration {
         self.read_programs(section)?;
         for given in section.strings("harmless")? {
             if !self.machine.harmless.add(&given.value) {
-                let message = format!("`{}` is no `#` command and no M function", given.value);
+                let message = format!(
+                    "`{}` is neither a `#` command nor an M function",
+                    given.value
+                );
                 return Err(ConfigError::at(&given, message)
                     .with_help("write `harmless = [\"#MYCMD\", \"M100\"]`"));
             }

@@ -53,7 +53,7 @@ impl Lowering<'_> {
             fault = fault.with_help(format!("did you mean `{near}`?"));
         }
         fault = fault.with_help(format!(
-            "if it changes none of what is followed here, `harmless = [\"{name}\"]` in `[machine]` of frictcomp.toml says so"
+            "if it affects nothing that frictcomp follows, add `harmless = [\"{name}\"]` to `[machine]` in frictcomp.toml"
         ));
         self.block.faults.push(fault);
         self.block

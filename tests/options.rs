@@ -578,3 +578,32 @@ fn texts_in_utf_16_are_read() {
         assert_eq!(outputs(&bench), plain);
     }
 }
+
+#[test]
+fn configured_programs_and_harmless_words_are_shown() {
+    // R2.75 R2.70
+    let bench = Bench::new(&[("a.nc", "N10 X1\nN20 M30\n"), ("begin.nc", "M17\n")]);
+    bench.write(
+        "frictcomp.toml",
+        "[machine]\nstart_program = \"begin.nc\"\nharmless = [\"#mycmd on\", \"M100\"]\n[machine.programs]\nM6 = \"change.nc\"\n[[axis]]\nname = \"X\"\n",
+    );
+    let shown = bench.stdout(&["config", "show"]);
+    for part in [
+        "harmless       #MYCMD ON, M100",
+        "P-CHAN-00119",
+        "begin.nc",
+        "programs.M6",
+        "change.nc",
+    ] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
+    bench.call(&["run", "a.nc", "--html", "report.html"]);
+    let page = bench.read("report.html");
+    for part in [
+        "Programs and macros of the machine",
+        "begin.nc",
+        "programs.M6",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+}

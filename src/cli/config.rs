@@ -14,6 +14,7 @@ use super::painted::parts;
 use crate::compensation::Compensation;
 use crate::diagnostic::Diagnostic;
 use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
+use crate::report::lists::render_parameters;
 use crate::report::visible_line;
 use crate::syntax::Kind;
 
@@ -41,6 +42,12 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();
     append_machine(&mut output, &loaded);
+    if !loaded.programs.is_empty() {
+        output.push('\n');
+        let width = console.stdout().look.width;
+        render_parameters(&[], &loaded.programs, width, &mut output)
+            .map_err(|_| Failure::new("the table of the programs cannot be written"))?;
+    }
     console.print_painted(&console.fitted(&output), parts)?;
     let errors: Vec<Diagnostic> = loaded.errors().cloned().collect();
     console.show(&errors);

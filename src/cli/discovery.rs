@@ -18,6 +18,7 @@ use super::severities::SeverityArgs;
 use super::watch::Watch;
 use crate::codes::Code;
 use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
+use crate::lists::Parameter;
 use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
 use crate::source::SourceFile;
 
@@ -63,6 +64,8 @@ pub(super) struct LoadedMachine {
     pub(super) diagnostics: Vec<Diagnostic>,
     /// The effective parameters, by axis.
     pub(super) reports: Vec<AxisReport>,
+    /// The programs and macros that the configuration names, and where.
+    pub(super) programs: Vec<Parameter>,
     /// The configuration or the start-up list that was read.
     pub(super) origin: Option<PathBuf>,
     /// How many lists were read, and how many are named and are not there.
@@ -94,6 +97,7 @@ impl LoadedMachine {
             },
             diagnostics: configuration.diagnostics,
             reports: configuration.reports,
+            programs: configuration.programs,
             origin: Some(path.to_owned()),
             lists: (configuration.files.len(), configuration.missing),
             extensions: match configuration.extensions {
@@ -248,6 +252,7 @@ fn load_machine(
         loaded.machine = axes.machine;
         loaded.diagnostics = axes.diagnostics;
         loaded.reports = axes.reports;
+        loaded.programs = axes.programs;
         loaded.origin = axes.origin;
         loaded.lists = axes.lists;
     }

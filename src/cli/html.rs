@@ -1,12 +1,14 @@
 //! The HTML report of `run`: the story of the session, and its sources read once more.
 
 use std::fs::File;
+use std::io;
 use std::path::Path;
 
+use super::discovery::LoadedMachine;
 use super::failure::Failure;
+use super::files::read_text;
 use super::lines::LineReader;
 use super::outputs::OutputFile;
-use crate::machine::AxisReport;
 use crate::report::html::{Given, RunStory, Sources, render_run};
 use crate::source::LineSource;
 use crate::syntax::KindSet;
@@ -35,11 +37,12 @@ impl HtmlFile {
     pub(super) fn write(
         mut self,
         settings: &[(String, String)],
-        parameters: &[AxisReport],
+        loaded: &LoadedMachine,
     ) -> Result<(), Failure> {
         let given = Given {
             settings,
-            parameters,
+            parameters: &loaded.reports,
+            programs: &loaded.programs,
         };
         render_run(&self.story, &given, &mut Files, &mut self.file)
             .map_err(|error| Failure::output(&error))
@@ -55,7 +58,11 @@ impl Sources for Files {
         if !path.is_file() {
             return None;
         }
-        let file = File::open(path).ok()?;
-        Some(Box::new(LineReader::new(file)))
+        let lines = LineReader::new(File::open(path).ok()?);
+        if lines.is_wide() {
+            let text = read_text(path).ok()?;
+            return Some(Box::new(LineReader::new(io::Cursor::new(text))));
+        }
+        Some(Box::new(lines))
     }
 }

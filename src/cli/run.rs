@@ -277,7 +277,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         return Ok(super::exit::CLEAN);
     }
     if let Some(html) = html {
-        html.write(&given, &loaded.reports)?;
+        html.write(&given, &loaded)?;
     }
     if let (Played::Whole, Some(file)) = (played, &start.state) {
         file.save(&start.session.save(), &mut outputs)?;

@@ -4,8 +4,8 @@ use super::page::{Page, state_word};
 use super::run::Given;
 use super::story::RunStory;
 use crate::compensation::Change;
-use crate::lists::{AxisType, Origin};
-use crate::machine::{AxisReport, AxisSet, Parameterisation};
+use crate::lists::{AxisType, Origin, Parameter};
+use crate::machine::{AxisSet, Parameterisation};
 use crate::report::lists::cells;
 use crate::report::markup::escaped;
 use crate::report::pictures::value_curve;
@@ -46,8 +46,10 @@ pub(super) fn render(page: &mut Page<'_>, story: &RunStory, given: &Given<'_>) {
     }
     page.close_table();
     for report in given.parameters {
-        parameters(page, report);
+        let caption = format!("Parameters of axis {}", report.axis);
+        parameters(page, &caption, &report.parameters);
     }
+    parameters(page, "Programs and macros of the machine", given.programs);
 }
 
 /// Writes the curve of each axis with an accepted value list.
@@ -61,13 +63,12 @@ pub(super) fn render_curves(page: &mut Page<'_>, story: &RunStory) {
     }
 }
 
-fn parameters(page: &mut Page<'_>, report: &AxisReport) {
-    if report.parameters.is_empty() {
+fn parameters(page: &mut Page<'_>, caption: &str, rows: &[Parameter]) {
+    if rows.is_empty() {
         return;
     }
-    let caption = format!("Parameters of axis {}", report.axis);
-    page.open_table(&caption, &["number", "key", "#value", "origin"]);
-    for parameter in &report.parameters {
+    page.open_table(caption, &["number", "key", "#value", "origin"]);
+    for parameter in rows {
         let [number, key, value, origin] = cells(parameter);
         let key = format!("<code>{}</code>", escaped(&key));
         page.row(&number, &[key, escaped(&value), escaped(&origin)]);

@@ -11,6 +11,7 @@ use super::story::{ProgramStory, RunStory, SummaryStory};
 use super::track::{Stretch, Track};
 use super::{assumptions, machine, messages};
 use crate::diagnostic::Severity;
+use crate::lists::Parameter;
 use crate::machine::AxisReport;
 use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
 use crate::report::markup::escaped;
@@ -25,6 +26,8 @@ pub struct Given<'a> {
     pub settings: &'a [(String, String)],
     /// The parameters in effect, by axis.
     pub parameters: &'a [AxisReport],
+    /// The programs and macros that the configuration names.
+    pub programs: &'a [Parameter],
 }
 
 const LEFT: Part = Part {

@@ -607,3 +607,21 @@ fn configured_programs_and_harmless_words_are_shown() {
         assert!(page.contains(part), "{part}");
     }
 }
+
+#[test]
+fn statistics_hold_counts_only_and_lists_show_the_folder_of_their_configuration() {
+    // R1.37 R9.72
+    let bench = bare(&[("a.nc", "N10 X[COMP ON FRICT]\nN20 M30\n")]);
+    let output = bench.call(&["check", "--statistics", "a.nc"]);
+    let counts = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(counts.trim_start().starts_with("1  error"), "{counts}");
+    assert!(stderr(&output).contains("no machine is described"));
+    bench.write("frictcomp.toml", "[machine]\nstartup = \"x.lis\"\n");
+    bench.write("x.lis", "kanal_anzahl foo\n");
+    fs::create_dir(bench.folder().join("below")).expect("a folder");
+    let mut lists = bench.command(&["lists"]);
+    let output = lists.current_dir(bench.folder().join("below")).output();
+    let text = output.expect("a run").stdout;
+    let text = String::from_utf8_lossy(&text);
+    assert!(text.contains("1 | kanal_anzahl foo"), "{text}");
+}

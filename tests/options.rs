@@ -274,7 +274,7 @@ fn axes_are_known_from_the_first_line() {
         .find(|line| line.contains("line  block"))
         .expect("a header");
     assert!(
-        header.contains("X") && header.contains("C") && !header.contains("Y"),
+        header.contains('X') && header.contains('C') && !header.contains('Y'),
         "{text}"
     );
     let records = bench.records(&["a.nc"]);
@@ -504,7 +504,13 @@ fn example_folder() -> Bench {
         let mut text = "x,y\n".to_owned();
         for step in 0..1440 {
             let angle = turn * f64::from(step) * std::f64::consts::PI / 360.0;
-            text += &format!("{},{}\n", 50.0 * angle.cos(), 50.0 * angle.sin());
+            let (x, y) = (50.0 * angle.cos(), 50.0 * angle.sin());
+            text.extend([
+                x.to_string(),
+                ",".to_owned(),
+                y.to_string(),
+                "\n".to_owned(),
+            ]);
         }
         bench.write(name, &text);
     }

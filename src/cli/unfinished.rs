@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fs::{File, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tempfile::{NamedTempFile, TempPath};
 
@@ -19,6 +20,32 @@ const LETTERS: usize = 16;
 /// How often a new file is tried where another run takes it for one that was left.
 const TRIES: u32 = 8;
 
+/// How many files that wait for others stay open and locked; a process may open some hundreds.
+const MOST_HELD: usize = 200;
+
+static HELD: AtomicUsize = AtomicUsize::new(0);
+
+/// A locked file that is written to its end. As long as it is open, other runs do not take what it
+/// locks for something that was left.
+#[derive(Debug)]
+struct Held(#[allow(dead_code, reason = "it is there to be dropped")] File);
+
+impl Held {
+    fn keep(file: File) -> Option<Self> {
+        if HELD.fetch_add(1, Ordering::SeqCst) < MOST_HELD {
+            return Some(Self(file));
+        }
+        HELD.fetch_sub(1, Ordering::SeqCst);
+        None
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        HELD.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
 /// A file that is written beside the old one. Dropped before [`take_place`](Self::take_place), it
 /// leaves the old one as it was.
 #[derive(Debug)]
@@ -31,8 +58,8 @@ pub(super) struct UnfinishedFile {
 enum Stage {
     /// More may come. The file is locked, so that other runs know that somebody writes it.
     Open(NamedTempFile),
-    /// It lies on the disk and is closed: many may wait for each other.
-    Synced(TempPath),
+    /// It lies on the disk, and many may wait for each other: most of them are locked still.
+    Synced(TempPath, Option<Held>),
     /// It has taken its place.
     Done,
 }
@@ -61,7 +88,10 @@ impl UnfinishedFile {
             file.as_file().sync_all()?;
         }
         self.stage = match std::mem::replace(&mut self.stage, Stage::Done) {
-            Stage::Open(file) => Stage::Synced(file.into_temp_path()),
+            Stage::Open(file) => {
+                let (file, path) = file.into_parts();
+                Stage::Synced(path, Held::keep(file))
+            }
             stage => stage,
         };
         Ok(())
@@ -82,7 +112,7 @@ impl UnfinishedFile {
         persist: fn(TempPath, &Path) -> Result<(), tempfile::PathPersistError>,
     ) -> io::Result<()> {
         self.sync()?;
-        let Stage::Synced(file) = std::mem::replace(&mut self.stage, Stage::Done) else {
+        let Stage::Synced(file, _held) = std::mem::replace(&mut self.stage, Stage::Done) else {
             return Ok(());
         };
         let mut unfinished = Unfinished::lock();
@@ -100,14 +130,14 @@ impl Write for UnfinishedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.stage {
             Stage::Open(file) => file.write(bytes),
-            Stage::Synced(_) | Stage::Done => Err(io::Error::other("it is whole already")),
+            Stage::Synced(..) | Stage::Done => Err(io::Error::other("it is whole already")),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match &mut self.stage {
             Stage::Open(file) => file.flush(),
-            Stage::Synced(_) | Stage::Done => Ok(()),
+            Stage::Synced(..) | Stage::Done => Ok(()),
         }
     }
 }
@@ -116,7 +146,7 @@ impl Drop for UnfinishedFile {
     fn drop(&mut self) {
         let path = match &self.stage {
             Stage::Open(file) => file.path().to_owned(),
-            Stage::Synced(path) => path.to_path_buf(),
+            Stage::Synced(path, _) => path.to_path_buf(),
             Stage::Done => return,
         };
         let mut unfinished = Unfinished::lock();
@@ -276,6 +306,10 @@ mod tests {
         assert!(!path(left).exists());
         assert!(others.iter().all(|name| path(name).exists()));
         for mut file in [alive, mine] {
+            // What waits for others to be whole lives, too.
+            file.sync().unwrap();
+            let other = UnfinishedFile::begin(&path("other")).unwrap();
+            take_away_left(&other, &mut BTreeSet::new());
             file.take_place().unwrap();
         }
         assert!(path("st").exists() && path("st-2").exists());

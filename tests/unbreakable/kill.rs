@@ -113,3 +113,53 @@ fn a_run_waits_for_the_other_and_then_says_so() {
     let said = String::from_utf8(output.stderr).expect("text");
     assert!(said.contains("another run uses the state file"), "{said}");
 }
+
+/// Two processes that run again and again on the same state and on the same output, neither of them
+/// killed: each run is counted once, whatever the other does meanwhile.
+#[test]
+fn two_processes_take_turns() {
+    // R9.31, R9.70
+    const RUNS: u32 = 25;
+    let bench = Bench::new(&[
+        ("a.nc", COUNT),
+        ("zero.nc", "V.S.RUNS = 0\nM30\n"),
+        ("s.json-2.nc", COUNT),
+    ]);
+    assert_eq!(
+        bench.status(&["run", "--state", "s.json", "zero.nc"]),
+        Some(0)
+    );
+    // The names begin alike: what one process has not finished is not taken for the other's.
+    let commands: [&[&str]; 2] = [
+        &["run", "--state", "s.json", "a.nc", "-o", "s.json-out"],
+        &[
+            "run",
+            "--state",
+            "s.json",
+            "s.json-2.nc",
+            "-o",
+            "s.json-out",
+        ],
+    ];
+    thread::scope(|scope| {
+        for command in commands {
+            let bench = &bench;
+            scope.spawn(move || {
+                for _ in 0..RUNS {
+                    assert_eq!(bench.status(command), Some(0));
+                    let shown = bench.read("s.json-out");
+                    assert!(
+                        shown.contains("Summary") && shown.ends_with('\n'),
+                        "{shown}"
+                    );
+                }
+            });
+        }
+    });
+    assert_eq!(counted(&bench), u64::from(2 * RUNS));
+    let files = std::fs::read_dir(bench.folder()).expect("a folder").count();
+    assert_eq!(
+        files, 7,
+        "three programs, a machine, the state and its lock, the output"
+    );
+}

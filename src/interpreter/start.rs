@@ -143,6 +143,16 @@ impl Interpreter {
         unit
     }
 
+    /// The main program takes the place that was kept for it. The programs that were called so far
+    /// stay where they are: a modal cycle and the calls that were found name them by their places.
+    pub(super) fn hold_first(&mut self, index: Index) {
+        self.unit_names.retain(|_, unit| *unit != 0);
+        let held = self.hold(index);
+        let name = self.units[held].index.source.name().clone();
+        self.units.swap_remove(0);
+        self.unit_names.insert(name, 0);
+    }
+
     pub(super) fn announce(
         &mut self,
         name: Option<&str>,

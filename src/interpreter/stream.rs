@@ -87,27 +87,35 @@ impl Interpreter {
                 }
                 continue;
             }
-            match stage {
-                Stage::Running => {}
-                Stage::Beyond(_) => {
-                    self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
-                    continue;
+            if let Stage::Beyond(_) = stage {
+                self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
+                continue;
+            }
+            if !matches!(stage, Stage::Running) {
+                if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
+                    return Outlook::Paused;
                 }
-                Stage::Before | Stage::Announced => {
-                    if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
-                        return Outlook::Paused;
-                    }
-                    stage = Stage::Running;
-                    if let Some(outlook) = self.begin_lines(&file, finder, observer) {
-                        return outlook;
-                    }
+                stage = Stage::Running;
+                if let Some(outlook) = self.begin_lines(&file, finder, observer) {
+                    return outlook;
                 }
             }
             if self.is_on_the_way(&block) {
                 continue;
             }
             let shown = Shown::default();
-            let at = At::in_main_program(&file, &raw, &shown);
+            let at = At {
+                file: &file,
+                text: raw.text,
+                line: raw.line,
+                comments: raw.comments,
+                remark: raw.remark,
+                level: 0,
+                called_from: None,
+                macro_depth: 0,
+                used: None,
+                shown: &shown,
+            };
             if let Some(over) = self.over_budget(&at) {
                 return self.ended(EndedBy::Budget, &one(over), observer);
             }
@@ -210,9 +218,7 @@ impl Interpreter {
             return self.whole(rest, finder, observer);
         }
         // The blocks so far stood in front of the first one of the index, and so does the frame.
-        self.units.clear();
-        self.unit_names.clear();
-        self.hold(Index::new(rest, self.options.limits.nesting));
+        self.hold_first(Index::new(rest, self.options.limits.nesting));
         match stage {
             Stage::Before | Stage::Announced => self.begin(Some(0), finder, observer),
             Stage::Running if self.is_refused() => self.refuse(observer),

@@ -311,6 +311,7 @@ fn programs_that_come_line_by_line_call_the_same_programs() {
             .file("end.nc", "N9 X[COMP ON FRICT]\nM30")
             .file("sub.nc", "X1\nM17")
             .file("open.nc", "X1\n$IF 1\nM17")
+            .file("other.nc", "%L D\nX9\nM17\n%MAIN\nY[COMP OFF FRICT]\nM17")
             .handed(handed)
     };
     for main in ["", "%MAIN\n", "%MAIN\n%NEXT\n", "(a)\n%MAIN\n(b)\n"] {
@@ -319,6 +320,8 @@ fn programs_that_come_line_by_line_call_the_same_programs() {
             "L sub.nc\nX1",
             "L open.nc\nM30",
             "L missing.nc\nM30",
+            "L sub.nc\nL other.nc\n$IF 1\nL other.nc\nL sub.nc\n$ENDIF\nM30",
+            "L CYCLE [NAME=other.nc MODAL_MOVE @P1=1]\nX1\nN1: X2\nX3\nM30",
             "",
         ] {
             let program = format!("{main}{body}");
@@ -422,13 +425,6 @@ fn a_file_without_a_program_of_its_own() {
     assert!(region.contains("M30 X:unknown"), "{region}");
 }
 
-struct Nothing;
-impl frictcomp::timeline::Sink for Nothing {
-    fn record(&mut self, _: &frictcomp::timeline::Record<'_>) -> std::ops::ControlFlow<()> {
-        std::ops::ControlFlow::Continue(())
-    }
-}
-
 #[test]
 fn a_start_program_is_looked_for_beside_the_main_program() {
     // R2.15: and does not run when it is refused
@@ -444,10 +440,7 @@ fn a_start_program_is_looked_for_beside_the_main_program() {
         );
         let mut asked = Vec::new();
         let machine = frictcomp::machine::Machine::from_toml(&machine).expect("a machine");
-        let mut session = frictcomp::session::Session::new(
-            machine,
-            frictcomp::session::SessionOptions::default(),
-        );
+        let mut session = frictcomp::session::Session::new(machine, Default::default());
         let mut find = |_: &str, caller: &str| {
             asked.push(caller.to_owned());
             Some(frictcomp::source::SourceFile::new("start.nc", "M17"))
@@ -459,6 +452,12 @@ fn a_start_program_is_looked_for_beside_the_main_program() {
             ),
             Handed::LineByLine => frictcomp::session::Program::Lines(&mut lines),
         };
+        struct Nothing;
+        impl frictcomp::timeline::Sink for Nothing {
+            fn record(&mut self, _: &frictcomp::timeline::Record<'_>) -> std::ops::ControlFlow<()> {
+                std::ops::ControlFlow::Continue(())
+            }
+        }
         let _ = session.program("dir/main.nc", program, &mut find, &mut Nothing);
         assert_eq!(asked, ["dir/main.nc"]);
     }

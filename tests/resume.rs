@@ -7,9 +7,12 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use frictcomp::compensation::Compensation;
-use frictcomp::interpreter::{Event, Interpreter, Options, Outlook, Snapshot, StopPolicy};
+use frictcomp::interpreter::{
+    Event, Interpreter, Options, Outlook, ResumeError, Snapshot, StopPolicy,
+};
 use frictcomp::machine::Machine;
 use frictcomp::source::SourceFile;
+use serde_json::json;
 use support::MACHINE;
 
 /// Nested loops, branches, calls with own parameters, cycles, macros, jumps, unknown values,
@@ -195,4 +198,53 @@ fn a_run_is_resumed_after_every_block() {
         });
     }
     assert_eq!(said, whole);
+}
+
+/// A snapshot of the run with another value at each of the places, as JSON pointers.
+fn damaged(places: &[(&str, serde_json::Value)]) -> Result<Interpreter, ResumeError> {
+    let mut left = 40;
+    let (run, _) = start(&mut |_| {
+        left -= 1;
+        if left == 0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    let mut snapshot = serde_json::to_value(run.snapshot()).expect("a snapshot is JSON");
+    for (place, value) in places {
+        *snapshot.pointer_mut(place).expect(place) = value.clone();
+    }
+    let snapshot: Snapshot = serde_json::from_value(snapshot).expect("the right shape");
+    Interpreter::resume(machine(), options(), snapshot, &mut file)
+}
+
+#[test]
+fn a_damaged_snapshot_is_refused() {
+    assert!(damaged(&[]).is_ok());
+    for (place, value) in [
+        ("/state/frames/0/unit", json!(9)),
+        ("/state/frames/0/section", json!(9)),
+        ("/state/frames/0/next", json!(4_000_000)),
+        ("/state/frames/0/level", json!(4_000_000_000_u32)),
+        ("/state/seq", json!(u64::MAX)),
+        ("/state/blocks", json!(u64::MAX)),
+        ("/state/level", json!(u64::MAX)),
+        ("/state/occurred", json!([true])),
+        ("/state/modal/positions", json!([])),
+        ("/state/modal/references", json!([1.0])),
+        ("/state/modal/suspended", json!([1.0])),
+        ("/state/compensation/names", json!(["X"])),
+        ("/state/compensation/spindles", json!([])),
+        ("/state/couplings/holding", json!({"900": 1})),
+        ("/state/parked", json!({"Jump": 4_000_000})),
+        ("/files", json!([])),
+    ] {
+        let refused = damaged(&[(place, value)]);
+        assert!(
+            matches!(refused, Err(ResumeError::Damaged(_))),
+            "{place}: {:?}",
+            refused.err()
+        );
+    }
 }

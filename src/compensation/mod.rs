@@ -201,6 +201,18 @@ impl Compensation {
         }
     }
 
+    /// Whether it is one of a machine.
+    pub(crate) fn fits(&self, machine: &Machine) -> bool {
+        let axes = machine.axes.iter();
+        self.axes.len() == machine.axes.len()
+            && self.names.iter().eq(axes.clone().map(|axis| &axis.name))
+            && self
+                .spindles
+                .iter()
+                .copied()
+                .eq(axes.map(crate::machine::Axis::is_spindle))
+    }
+
     /// The state of one kind on one axis.
     pub fn state(&self, axis: AxisIndex, kind: Kind) -> State {
         self.axes[axis.get()].state(kind)

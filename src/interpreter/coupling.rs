@@ -57,6 +57,14 @@ impl Couplings {
         }
     }
 
+    /// Whether it names no other axes than so many.
+    pub(super) fn fits(&self, axes: usize) -> bool {
+        let members = self.groups.values().flat_map(|group| &group.axes);
+        members
+            .chain(self.holding.keys())
+            .all(|axis| axis.get() < axes)
+    }
+
     /// Puts a group into force; whether it is defined.
     pub(super) fn enable(&mut self, group: &str) -> bool {
         if !self.groups.contains_key(group) {

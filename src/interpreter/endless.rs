@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use super::call::Found;
 use super::coupling::Couplings;
 use super::event::EndedBy;
 use super::expression::Place;
@@ -90,6 +91,22 @@ impl Reads {
 
     fn has(&self, target: &Target) -> bool {
         self.too_many || self.targets.contains(target)
+    }
+}
+
+impl Loop {
+    /// The section that it stands in.
+    pub(super) fn place(&self) -> Found {
+        Found {
+            unit: self.unit,
+            section: self.section,
+        }
+    }
+
+    /// Whether its counters are below a bound.
+    pub(super) fn fits(&self, bound: u64) -> bool {
+        let marked = self.mark.as_ref().map_or(0, |mark| mark.pass);
+        self.passes.max(marked) < bound
     }
 }
 

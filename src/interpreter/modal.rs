@@ -216,6 +216,12 @@ impl Modal {
         }
     }
 
+    /// Whether it speaks of so many axes.
+    pub(super) fn fits(&self, axes: usize) -> bool {
+        let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
+        [self.positions.len(), self.references.len(), suspended] == [axes; 3]
+    }
+
     /// Whether it is known which G function of a group is in force.
     pub fn is_known(&self, group: Group) -> bool {
         !self.unknown.contains(group)

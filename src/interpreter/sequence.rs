@@ -54,6 +54,13 @@ pub(super) struct Sought {
     pub(super) missing: Diagnostic,
 }
 
+impl Destination {
+    /// The block, where it is not the one behind the call.
+    pub(super) fn entry(&self) -> Option<EntryIndex> {
+        self.entry
+    }
+}
+
 impl Passage {
     /// The start of the next pass, when there is one. A pass of blocks that are all skipped is the
     /// last one.
@@ -137,7 +144,7 @@ impl Interpreter {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
                 let name = super::expression::unquoted(span.of(at.text));
-                Value::Text(self.state.memory.macro_code(name).unwrap_or(name).into())
+                self.state.memory.macro_or_text(name)
             }
             CallName::Variable(place) => {
                 self.value(crate::syntax::ast::Operand::Expression(place), block, at)?

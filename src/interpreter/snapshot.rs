@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::call::Found;
 use super::options::{Options, StopPolicy};
 use super::program::{EntryIndex, Index};
 use super::run::Interpreter;
-use super::state::State;
+use super::state::{Frame, RepeatedCall, Request, State, Step};
 use super::unit::Unit;
 use crate::machine::Machine;
 use crate::source::SourceFile;
@@ -34,7 +35,13 @@ pub enum ResumeError {
     /// The machine has other axes.
     #[error("the snapshot belongs to a machine with other axes")]
     OtherMachine,
+    /// It names what is not there.
+    #[error("the snapshot is damaged, or its files have changed: {0}")]
+    Damaged(&'static str),
 }
+
+/// Counters of a run stay below this for centuries, and a damaged one above it would run over.
+const MOST_COUNTED: u64 = 1 << 60;
 
 impl Interpreter {
     /// The state of the run between two blocks. Programs that are streamed have none.
@@ -57,7 +64,8 @@ impl Interpreter {
     /// An interpreter in the state of a snapshot. `source` gives the text of each file of the run.
     ///
     /// # Errors
-    /// The name of a file that `source` does not give, or of a machine with other axes.
+    /// The name of a file that `source` does not give, a machine with other axes, or places that the
+    /// files do not have.
     pub fn resume(
         machine: impl Into<Arc<Machine>>,
         options: Options,
@@ -75,10 +83,112 @@ impl Interpreter {
             };
             resumed.hold(Index::new(text, options.limits.nesting));
         }
+        resumed.check_places()?;
         for (unit, executed) in resumed.units.iter_mut().zip(snapshot.executed) {
             unit.mark_executed(&executed);
         }
         Ok(resumed)
+    }
+}
+
+impl Interpreter {
+    /// Whether everything that the state names is there: a snapshot comes from outside, and what it
+    /// says is looked up without a further question afterwards.
+    fn check_places(&self) -> Result<(), ResumeError> {
+        let holds = |is: bool, what| {
+            if is {
+                Ok(())
+            } else {
+                Err(ResumeError::Damaged(what))
+            }
+        };
+        let (state, axes) = (&self.state, self.machine.axes.len());
+        let sets = [
+            state.occurred.len() == axes,
+            state.compensation.fits(&self.machine),
+        ];
+        holds(sets == [true; 2], "it has other axes")?;
+        let described = state.described.iter().map(|described| &described.before);
+        let mut modals = described.chain([&state.modal]);
+        holds(
+            modals.all(|modal| modal.fits(axes)),
+            "positions of other axes",
+        )?;
+        holds(state.couplings.fits(axes), "a coupling of other axes")?;
+        let counted = [
+            state.seq,
+            state.blocks,
+            state.spent.get(),
+            state.level.get(),
+        ];
+        let counted = counted.iter().all(|count| *count < MOST_COUNTED);
+        holds(counted, "a counter that is too large")?;
+        let mut loops = state.loops.iter();
+        let loops = loops.all(|known| known.fits(MOST_COUNTED) && self.has(known.place()));
+        holds(loops, "a loop in a program that is not there")?;
+        let frames = state.frames.iter().all(|frame| self.has_frame(frame));
+        holds(frames, "a block that is not there")?;
+        let repeated = match &state.repeated {
+            Some(repeated) => match &repeated.call {
+                RepeatedCall::Program(found) | RepeatedCall::Perhaps(found) => self.has(*found),
+                RepeatedCall::External(_) => true,
+            },
+            None => true,
+        };
+        holds(repeated, "a cycle that is not there")?;
+        let parked = match &state.parked {
+            Some(Step::Jump(entry)) => state.frames.last().is_some_and(|frame| {
+                let found = Found {
+                    unit: frame.unit,
+                    section: frame.section,
+                };
+                self.has_block(found, *entry)
+            }),
+            Some(Step::Call(requests)) => requests.iter().all(|request| self.has_request(request)),
+            Some(Step::ReturnTo(back)) => back.entry().is_none_or(|entry| {
+                let has = |unit: &Unit| unit.index.has_block(entry);
+                self.units.iter().any(has)
+            }),
+            Some(Step::Begin | Step::Return | Step::End(_)) | None => true,
+        };
+        holds(parked, "a step to a block that is not there")?;
+        let begins = !self.units.is_empty() || (state.frames.is_empty() && state.parked.is_none());
+        holds(begins, "a run without a file")
+    }
+
+    fn has(&self, found: Found) -> bool {
+        let unit = self.units.get(found.unit);
+        unit.is_some_and(|unit| found.section < unit.index.sections.len())
+    }
+
+    /// Whether a block stands in a section, or the section ends there.
+    fn has_block(&self, found: Found, entry: EntryIndex) -> bool {
+        let unit = self.units.get(found.unit);
+        let section = unit.and_then(|unit| unit.index.sections.get(found.section));
+        section.is_some_and(|section| (section.start..=section.end).contains(&entry))
+    }
+
+    fn has_frame(&self, frame: &Frame) -> bool {
+        let found = Found {
+            unit: frame.unit,
+            section: frame.section,
+        };
+        let calls =
+            usize::try_from(frame.level).is_ok_and(|level| level <= self.state.frames.len());
+        calls
+            && self.has_block(found, frame.next)
+            && frame
+                .waiting
+                .iter()
+                .all(|request| self.has_request(request))
+            && frame
+                .passage
+                .is_none_or(|passage| self.has_block(found, passage.first))
+    }
+
+    fn has_request(&self, request: &Request) -> bool {
+        let first = request.passage.map(|passage| passage.first);
+        self.has(request.found) && first.is_none_or(|first| self.has_block(request.found, first))
     }
 }
 

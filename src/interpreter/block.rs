@@ -1,6 +1,7 @@
 //! One block: its words from left to right, then what it does as a whole.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use super::at::{At, Shown};
 use super::call::Wanted;
@@ -10,7 +11,7 @@ use super::modal::Group;
 use super::options::StopPolicy;
 use super::run::Interpreter;
 use super::start::{ended_by, stops};
-use super::state::{Departure, Last, Request, Step};
+use super::state::{Departure, Last, Step};
 use super::unit::is_harmless;
 use super::value::{Value, rounded};
 use super::words::AxisWords;
@@ -57,13 +58,6 @@ pub(super) struct Intent {
     condition: Option<bool>,
 }
 
-impl Intent {
-    /// Whether nothing in the block itself leads elsewhere than to the next one.
-    fn goes_on(&self) -> bool {
-        self.end.is_none() && !self.returns && self.step.is_none()
-    }
-}
-
 impl Interpreter {
     /// Executes a block and tells the observer. `Continue` where the next block follows.
     pub(super) fn execute(
@@ -83,20 +77,17 @@ impl Interpreter {
             self.refuse_repeated_axes(intent.axis_words, at);
         }
         self.move_around(intent.axis_words);
-        if self.any_required && self.state.described.is_none() {
-            let goes_on = !self.work.diagnostics.iter().any(stops);
-            if goes_on || self.options.stop != StopPolicy::FirstError {
-                self.check_required(intent.axis_words, at);
-            }
+        let goes_on = !self.work.diagnostics.iter().any(stops);
+        if (goes_on || self.options.stop != StopPolicy::FirstError)
+            && self.state.described.is_none()
+        {
+            self.check_required(intent.axis_words, at);
         }
         if !self.pending.is_empty() {
             self.forget_called(finder);
         }
-        let calls = if intent.calls.is_empty() {
-            Vec::new()
-        } else {
-            self.resolve_all(std::mem::take(&mut intent.calls), at, finder)
-        };
+        let calls = std::mem::take(&mut intent.calls);
+        let calls = self.resolve_all(calls, at, finder);
         let refused = self.work.diagnostics.iter().any(stops);
         let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
         if !block.faults.is_empty() {
@@ -119,10 +110,12 @@ impl Interpreter {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
             Some(Step::End(ended_by(&self.work.diagnostics)))
-        } else if calls.is_empty() && intent.goes_on() && self.state.repeated.is_none() {
-            None
         } else {
-            self.step(intent, calls, at, finder)
+            let moved = !self.work.moved.is_empty();
+            if !calls.is_empty() {
+                intent.step = Some(Step::Call(calls));
+            }
+            self.step(&mut intent, moved, at, finder)
         };
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
@@ -205,13 +198,13 @@ impl Interpreter {
         intent: &mut Intent,
         limit: Option<u32>,
     ) {
-        let limit = limit.unwrap_or(u32::MAX);
-        let is_reached = |span: Span| span.start < limit;
+        let is_reached = |span: Span| limit.is_none_or(|limit| span.start < limit);
         for word in &block.words {
             if !is_reached(word.span) {
                 return;
             }
-            if self.plain_word(word, intent) {
+            if let Some((axis, value)) = self.coordinate(word) {
+                self.axis_word(axis, word.span, Some(value));
                 continue;
             }
             let done = self.word(word, block, at, intent);
@@ -279,18 +272,13 @@ impl Interpreter {
     }
 
     /// What the control does next, where that is not the next block.
-    #[inline(never)]
     fn step(
         &mut self,
-        mut intent: Intent,
-        calls: Vec<Request>,
+        intent: &mut Intent,
+        moved: bool,
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
-        let moved = !self.work.moved.is_empty();
-        if !calls.is_empty() {
-            intent.step = Some(Step::Call(calls));
-        }
         if let Some(by) = intent.end {
             if at.level > 0 && self.state.ending.is_none() {
                 let fault = Fault::new(
@@ -321,7 +309,6 @@ impl Interpreter {
         step
     }
 
-    #[inline(never)]
     fn item(
         &mut self,
         item: &Item,
@@ -401,11 +388,18 @@ impl Interpreter {
     /// A macro in place of words: its code is a block of its own, executed here (R2.35).
     fn expand(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) -> Result<(), Box<Fault>> {
         let name = unquoted(span, at);
-        let Some(code) = self.state.memory.macro_code(name).map(str::to_owned) else {
-            let fault = Fault::new(Code::Fc207, span, format!("macro `{name}` is not defined"));
-            return Err(Box::new(fault.with_help(format!(
-                "define it first, with `\"{name}\" = \"code\"`"
-            ))));
+        let code = match self.state.memory.macro_code(name) {
+            Some(Value::Text(code)) => Arc::clone(code),
+            Some(Value::Unknown(cause)) => {
+                let cause = Arc::clone(cause);
+                return Err(self.lost_macro(span, name, &cause));
+            }
+            Some(Value::Number(_)) | None => {
+                let fault = Fault::new(Code::Fc207, span, format!("macro `{name}` is not defined"));
+                return Err(Box::new(fault.with_help(format!(
+                    "define it first, with `\"{name}\" = \"code\"`"
+                ))));
+            }
         };
         let macros = self.with_evaluator(&Block::default(), at, |evaluator| {
             let macros = evaluator.macros.expand(&code, evaluator.state, span);
@@ -441,6 +435,17 @@ impl Interpreter {
             note.place = at.place(span);
         }
         Ok(())
+    }
+
+    /// A macro of which nobody knows the code may do anything (R2.51).
+    fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
+        self.forget_all(cause);
+        let what = super::flow::unknown_value(cause);
+        let message = format!(
+            "what macro `{name}` does depends on {what}; what it could change is unknown from here"
+        );
+        let fault = Fault::new(Code::Fc901, span, message);
+        Box::new(fault.with_help(super::flow::how_to_set(cause)))
     }
 
     fn block_number(&mut self, block: &Block, at: &At<'_>) -> Option<i64> {

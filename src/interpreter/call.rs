@@ -72,7 +72,7 @@ impl Interpreter {
             CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
                 let name = super::expression::unquoted(span.of(at.text));
-                Value::Text(self.state.memory.macro_code(name).unwrap_or(name).into())
+                self.state.memory.macro_or_text(name)
             }
             CallName::Variable(place) => self.value(Operand::Expression(place), block, at)?,
         };
@@ -116,7 +116,6 @@ impl Interpreter {
     }
 
     /// Looks for the programs that a block calls.
-    #[inline(never)]
     pub(super) fn resolve_all(
         &mut self,
         calls: Vec<Wanted>,

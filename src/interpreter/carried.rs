@@ -36,6 +36,8 @@ pub struct Carried {
     pub lost_parameters: Option<Arc<str>>,
     /// Macros with their code.
     pub macros: BTreeMap<String, String>,
+    /// Macros that may have been defined anew, with the value that made it so.
+    pub lost_macros: BTreeMap<String, Arc<str>>,
     /// The coupling groups that `#SET AX LINK` defined, with the names of their axes.
     pub couplings: BTreeMap<String, Vec<String>>,
 }

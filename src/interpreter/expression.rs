@@ -240,8 +240,10 @@ impl Evaluator<'_> {
     fn text(&self, span: Span) -> Slot {
         let name = unquoted(span.of(self.text));
         let plain = || Ok(Value::Text(name.replace("\\\"", "\"").into()));
-        let Some(code) = self.scope.memory.macro_code(name) else {
-            return plain();
+        let code = match self.scope.memory.macro_code(name) {
+            Some(Value::Text(code)) => &**code,
+            Some(unknown @ Value::Unknown(_)) => return Ok(unknown.clone()),
+            Some(Value::Number(_)) | None => return plain(),
         };
         let macros = self.macros.expand(code, self.state, span)?;
         let mut block = Block::default();

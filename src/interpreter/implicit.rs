@@ -230,6 +230,7 @@ impl Interpreter {
                     call: Wanted::program(CallScope::Global, name, Span::default()),
                     cause: cause.clone(),
                     unit,
+                    region: None,
                 }),
             }
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::carried::Carried;
-use super::names::{Array, Names, WEIGHT, Weight, compare, parts, weight};
+use super::names::{Array, Names, Weight, compare, parts, weight};
 use super::region::Target;
 use super::value::Value;
 use crate::machine::Parameters;
@@ -30,7 +30,8 @@ pub(super) struct Memory {
     unknown_names: Option<Arc<str>>,
     /// `V.L.` of each call level.
     locals: Vec<Names>,
-    macros: HashMap<String, String>,
+    /// The code of each, or why nobody knows it.
+    macros: HashMap<String, Value>,
     /// Rises with every change of the macros.
     macro_version: u64,
     /// The weight of parameters beyond the direct ones, and of macros.
@@ -276,28 +277,58 @@ impl Memory {
     }
 
     pub(super) fn define_macro(&mut self, name: &str, code: &str) {
-        self.hold_macro(name.trim(), code.replace("\\\"", "\""));
+        self.hold_macro(name.trim(), Value::Text(unescaped(code).into()));
     }
 
-    fn hold_macro(&mut self, name: &str, code: String) {
+    fn hold_macro(&mut self, name: &str, code: Value) {
         self.macro_version = self.macro_version.wrapping_add(1);
-        self.weight.add(1 + (name.len() + code.len()) / WEIGHT);
+        self.weight.add(weight(name, &code));
         if let Some(before) = self.macros.insert(name.to_owned(), code) {
-            self.weight.take(1 + (name.len() + before.len()) / WEIGHT);
+            self.weight.take(weight(name, &before));
+        }
+    }
+
+    /// A macro may have been defined, or defined anew (R2.51).
+    pub(super) fn forget_macro(&mut self, name: &str, cause: &Arc<str>) {
+        if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
+            self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
+        }
+    }
+
+    /// Any of the macros may have been taken away, or defined anew, except for those that `stays`
+    /// names with their code.
+    pub(super) fn forget_macros(&mut self, cause: &Arc<str>, stays: impl Fn(&str, &str) -> bool) {
+        let goes = |(name, code): &(&String, &Value)| match code {
+            Value::Text(code) => !stays(name, code),
+            Value::Number(_) | Value::Unknown(_) => false,
+        };
+        let names = self
+            .macros
+            .iter()
+            .filter(goes)
+            .map(|(name, _)| name.clone());
+        for name in names.collect::<Vec<String>>() {
+            self.forget_macro(&name, cause);
         }
     }
 
     /// `#INIT MACRO TAB`
     pub(super) fn clear_macros(&mut self) {
         self.macro_version = self.macro_version.wrapping_add(1);
-        let weight = |(name, code): (&String, &String)| 1 + (name.len() + code.len()) / WEIGHT;
-        self.weight
-            .take(self.macros.iter().map(weight).sum::<usize>());
+        let weights = self.macros.iter().map(|(name, code)| weight(name, code));
+        self.weight.take(weights.sum::<usize>());
         self.macros.clear();
     }
 
-    pub(super) fn macro_code(&self, name: &str) -> Option<&str> {
-        self.macros.get(name.trim()).map(String::as_str)
+    /// The code of a macro, which may be unknown.
+    pub(super) fn macro_code(&self, name: &str) -> Option<&Value> {
+        self.macros.get(name.trim())
+    }
+
+    /// What a quoted name means: the code of its macro, or itself.
+    pub(super) fn macro_or_text(&self, name: &str) -> Value {
+        let code = self.macro_code(name).cloned();
+        code.unwrap_or_else(|| Value::Text(name.into()))
     }
 
     /// Rises with every change of the macros.
@@ -307,10 +338,18 @@ impl Memory {
 
     /// What a program start leaves (R9.32).
     pub(super) fn carried(&self, parameters: Parameters) -> Carried {
-        let mut carried = Carried {
-            macros: self.macros.clone().into_iter().collect(),
-            ..Carried::default()
-        };
+        let mut carried = Carried::default();
+        for (name, code) in &self.macros {
+            match code {
+                Value::Text(code) => {
+                    carried.macros.insert(name.clone(), code.to_string());
+                }
+                Value::Unknown(cause) => {
+                    carried.lost_macros.insert(name.clone(), cause.clone());
+                }
+                Value::Number(_) => {}
+            }
+        }
         if parameters == Parameters::Kept {
             let direct = (0..).zip(&self.direct);
             let direct = direct.filter_map(|(at, value)| Some((at, value.clone()?)));
@@ -342,7 +381,10 @@ impl Memory {
             self.set_parameter(index, value);
         }
         for (name, code) in carried.macros {
-            self.hold_macro(&name, code);
+            self.hold_macro(&name, Value::Text(code.into()));
+        }
+        for (name, cause) in carried.lost_macros {
+            self.hold_macro(&name, Value::Unknown(cause));
         }
     }
 
@@ -361,6 +403,11 @@ impl Memory {
         }
         all
     }
+}
+
+/// The code of a macro as it is used.
+pub(super) fn unescaped(code: &str) -> String {
+    code.replace("\\\"", "\"")
 }
 
 /// Whether a program start leaves a variable or array.

@@ -24,7 +24,7 @@ use super::modal::Group;
 use super::program::{EntryIndex, Section};
 use super::run::Interpreter;
 use super::state::after_motion_only;
-use super::value::rounded;
+use super::value::{Value, rounded};
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -56,6 +56,8 @@ pub(super) enum Effect {
     Declaration(String),
     /// A G, M, T or D word, which may call a program.
     Function(u8, Option<i64>),
+    /// A macro is defined.
+    Macro(String),
     /// A word gets another program by `#FILE NAME`.
     FileName(String),
     /// Everything, through a call of nobody knows what.
@@ -93,7 +95,7 @@ pub(super) struct Region {
     written: HashSet<Target>,
     pub(super) calls: Vec<Wanted>,
     /// The macros that it was looked through with.
-    macro_version: u64,
+    pub(super) macro_version: u64,
 }
 
 impl Region {
@@ -236,8 +238,13 @@ impl Gathering<'_> {
     /// other would be looked through without end.
     fn expand(&mut self, at: &At<'_>) {
         while let Some((name, used)) = self.macros.pop() {
-            let Some(code) = self.run.state.memory.macro_code(&name) else {
-                continue;
+            let code = match self.run.state.memory.macro_code(&name) {
+                Some(Value::Text(code)) => &**code,
+                Some(Value::Unknown(_)) => {
+                    self.effect(Effect::All);
+                    continue;
+                }
+                Some(Value::Number(_)) | None => continue,
             };
             self.run.state.charge(ITEM + code.len());
             let block = crate::syntax::parse_block(code);
@@ -291,8 +298,11 @@ impl Gathering<'_> {
                 Some(CallName::Variable(_)) => self.effect(Effect::All),
                 Some(CallName::Literal(name) | CallName::Quoted(name)) => {
                     let name = unquoted(name.of(at.text));
+                    let Value::Text(name) = self.run.state.memory.macro_or_text(name) else {
+                        return self.effect(Effect::All);
+                    };
                     let span = at.in_block(sequence.span);
-                    self.calls(Wanted::program(CallScope::Global, name.to_owned(), span));
+                    self.calls(Wanted::program(CallScope::Global, name.to_string(), span));
                 }
             },
             Item::GCall(call) => {
@@ -311,6 +321,10 @@ impl Gathering<'_> {
                     self.macros.push((name.to_owned(), at.in_block(*span)));
                 }
             }
+            Item::MacroDefinition(name, _) => {
+                let name = unquoted(name.of(at.text)).trim();
+                self.effect(Effect::Macro(name.to_owned()));
+            }
             Item::Unread(Unread::Everything, span) => {
                 if !self.run.machine.harmless.has_command(span.of(at.text)) {
                     self.effect(Effect::All);
@@ -318,7 +332,6 @@ impl Gathering<'_> {
             }
             Item::Unread(Unread::Parameters, _) => self.writes(Target::Parameters),
             Item::Unread(Unread::Spindle, _)
-            | Item::MacroDefinition(..)
             | Item::BadCommand(_)
             | Item::Bracket { .. }
             | Item::BareNumber(..)
@@ -330,15 +343,18 @@ impl Gathering<'_> {
 
     fn call(&mut self, call: &Call, at: &At<'_>) {
         let name = match call.name {
-            CallName::Literal(span) => span.of(at.text),
+            CallName::Literal(span) => Value::Text(span.of(at.text).into()),
             CallName::Quoted(span) => {
                 let name = unquoted(span.of(at.text));
-                self.run.state.memory.macro_code(name).unwrap_or(name)
+                self.run.state.memory.macro_or_text(name)
             }
             CallName::Variable(_) => return self.effect(Effect::All),
         };
+        let Value::Text(name) = name else {
+            return self.effect(Effect::All);
+        };
         let span = at.in_block(call.span);
-        let wanted = Wanted::program(call.scope, name.to_owned(), span);
+        let wanted = Wanted::program(call.scope, name.to_string(), span);
         self.calls(Wanted {
             repeat: after_motion_only(call),
             ..wanted

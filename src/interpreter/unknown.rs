@@ -11,6 +11,7 @@ use super::budget::ITEM;
 use super::call::Wanted;
 use super::expression::Place;
 use super::finder::Finder;
+use super::memory::unescaped;
 use super::program::EntryIndex;
 use super::region::{Effect, Region, Target};
 use super::run::Interpreter;
@@ -29,6 +30,8 @@ pub(super) struct Scan {
     pub(super) cause: Arc<str>,
     /// The file that holds the call.
     pub(super) unit: usize,
+    /// The region that holds it, where it is written there.
+    pub(super) region: Option<RegionKey>,
 }
 
 /// What was written since regions were made unknown last: a loop that comes back to a region need
@@ -121,8 +124,20 @@ impl Interpreter {
         range: Range<EntryIndex>,
         cause: &Arc<str>,
     ) {
+        let version = self.state.memory.macro_version();
+        self.forget_blocks(unit, range.clone(), cause);
+        // What it defines it may use as well, before or after: the second look finds such macros
+        // unknown, and no third one is needed.
+        if self.state.memory.macro_version() != version {
+            self.forget_blocks(unit, range, cause);
+        }
+    }
+
+    fn forget_blocks(&mut self, unit: usize, range: Range<EntryIndex>, cause: &Arc<str>) {
         let key = (unit, range.start, range.end);
-        let is_new = !self.regions.contains_key(&key);
+        let version = self.state.memory.macro_version();
+        let known = self.regions.get(&key);
+        let is_new = known.is_none_or(|known| known.macro_version != version);
         let region = self.region(unit, range);
         self.state
             .charge(ITEM * (region.effects.len() + region.calls.len()));
@@ -151,6 +166,7 @@ impl Interpreter {
             call: call.clone(),
             cause: cause.clone(),
             unit,
+            region: Some(key),
         });
         self.pending.extend(calls);
     }
@@ -179,6 +195,11 @@ impl Interpreter {
                 self.see(*axis);
             }
             Effect::Hash(name) if name == "#DISABLE MODAL CYCLE" => self.doubt_repetition(),
+            Effect::Hash(name) if name == "#INIT MACRO TAB" => self.doubt_macros(cause),
+            Effect::Macro(name) => {
+                self.state.memory.forget_macro(name, cause);
+                self.work.wrote = true;
+            }
             Effect::Hash(name) => modal.forget_hash(name),
             Effect::Function(letter, number) => {
                 self.forget_function((*letter, *number), unit, cause);
@@ -233,6 +254,7 @@ impl Interpreter {
         self.journal.begin_anew();
         self.work.wrote = true;
         self.state.memory.forget_all(cause);
+        self.state.memory.forget_macros(cause, |_, _| false);
         self.state.modal.forget_g(None);
         self.state.modal.feeds = [None; 3];
         self.state.modal.radius = None;
@@ -249,6 +271,16 @@ impl Interpreter {
         }
     }
 
+    /// The macros of programs may be gone; those of the machine are what it says, now as before.
+    fn doubt_macros(&mut self, cause: &Arc<str>) {
+        let machine = &self.machine.programs.macros;
+        let stays = |name: &str, code: &str| {
+            let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
+            last.is_some_and(|(_, own)| unescaped(own) == code)
+        };
+        self.state.memory.forget_macros(cause, stays);
+    }
+
     /// The modal cycle may or may not have been switched off.
     fn doubt_repetition(&mut self) {
         if let Some(repeated) = &mut self.state.repeated
@@ -262,10 +294,19 @@ impl Interpreter {
     pub(super) fn forget_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
         let mut seen = HashSet::new();
-        while let Some(Scan { call, cause, unit }) = pending.pop() {
+        let version = self.state.memory.macro_version();
+        let mut callers = BTreeMap::new();
+        while let Some(Scan {
+            call,
+            cause,
+            unit,
+            region,
+        }) = pending.pop()
+        {
             if self.is_worn_out() {
                 return;
             }
+            callers.extend(region.map(|region| (region, cause.clone())));
             if self.is_external(&call) {
                 self.leave_to_machine(&call.name);
                 let name = call.name.clone();
@@ -291,6 +332,13 @@ impl Interpreter {
             let region = section.start..section.end;
             self.forget_region(found.unit, region, &cause);
             pending.append(&mut self.pending);
+        }
+        // Macros that a called program may define are used where it was called from.
+        if self.state.memory.macro_version() != version {
+            for ((unit, from, to), cause) in callers {
+                self.forget_blocks(unit, from..to, &cause);
+            }
+            self.pending.clear();
         }
     }
 

@@ -335,6 +335,7 @@ impl Session {
             arrays: carried.arrays,
             parameters: carried.parameters,
             macros: carried.macros,
+            lost_macros: carried.lost_macros,
             couplings: carried.couplings,
             lost: carried.lost,
             lost_parameters: carried.lost_parameters,

@@ -60,6 +60,9 @@ pub struct SavedState {
     /// Macros with their code.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub macros: BTreeMap<String, String>,
+    /// Macros that may have been defined anew, and nobody knows how.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub lost_macros: BTreeMap<String, Arc<str>>,
     /// Coupling groups with the names of their axes.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub couplings: BTreeMap<String, Vec<String>>,
@@ -150,6 +153,7 @@ impl SavedState {
             arrays: self.arrays,
             parameters: self.parameters,
             macros: self.macros,
+            lost_macros: self.lost_macros,
             couplings: self.couplings,
             lost: self.lost,
             lost_parameters: self.lost_parameters,

@@ -215,3 +215,65 @@ fn values_that_the_user_gives_are_known() {
       end 4 M30 X:inactive Y:active Z:unconfigured B:ineffective
     ");
 }
+
+/// The state of X and Y behind a program, as far as it is not at home.
+fn at_the_end(files: &[&str]) -> [bool; 2] {
+    let said = Bench::new().run(files);
+    ["X", "Y"].map(|axis| said.contains(&format!("{axis}:active>unknown")))
+}
+
+#[test]
+fn a_macro_that_may_have_been_defined_anew_may_do_anything() {
+    // R2.51
+    let define = "\"A\"=\"X[COMP ON FRICT]\"\n";
+    let again = "\"A\"=\"Y[COMP OFF FRICT]\"\n";
+    let unknown = |body: &str| format!("$IF V.E.A\n{body}$ENDIF\n");
+    // Defined in the region, used behind it, in it, or in a program that it calls.
+    for program in [
+        format!("{define}{}\"A\"\nM30", unknown(again)),
+        format!("{define}{}M30", unknown(&format!("{again}\"A\"\n"))),
+        format!("{define}{}M30", unknown(&format!("\"A\"\n{again}"))),
+        format!(
+            "%L D\n{again}M17\n%MAIN\n{define}{}M30",
+            unknown("LL D\n\"A\"\n")
+        ),
+        format!(
+            "%L D\n\"A\"\nM17\n%MAIN\n{define}{}M30",
+            unknown(&format!("LL D\n{again}"))
+        ),
+        format!("{define}{}\"A\"\nM30", unknown("#INIT MACRO TAB\n")),
+        format!("{}\"A\"\nM30", unknown(again)),
+    ] {
+        assert_eq!(at_the_end(&[&program]), [true; 2], "{program}");
+    }
+    // Defined again, it is known again; one that is only used was known all along.
+    let known = format!("{define}{}{define}\"A\"\nM30", unknown(again));
+    assert_eq!(at_the_end(&[&known]), [false; 2]);
+    let used = format!("{define}{}\"A\"\nM30", unknown("\"A\"\n"));
+    assert_eq!(at_the_end(&[&used]), [true, false]);
+    let cleared = format!(
+        "{define}{}#INIT MACRO TAB\n{define}\"A\"\nM30",
+        unknown(again)
+    );
+    assert_eq!(at_the_end(&[&cleared]), [false; 2]);
+}
+
+#[test]
+fn a_macro_that_is_not_known_has_no_value_and_names_no_program() {
+    // R2.51
+    let bench = Bench::new();
+    let before = "\"A\"=\"P2+1\"\nP2=1\n$IF V.E.A\n\"A\"=\"7\"\n$ENDIF\n";
+    assert_eq!(
+        bench.values(before, &["\"A\""]),
+        "\"A\" -> unknown: V.E.A\n"
+    );
+    let called = format!("{before}L \"A\"\nM30");
+    assert_eq!(at_the_end(&[&called]), [true; 2]);
+}
+
+#[test]
+fn a_region_is_looked_through_anew_where_its_macros_do_something_else() {
+    // R2.51: the second pass may write P1, which was written before the first one.
+    let program = "P1=1 P2=0\n\"A\"=\"P2=1\"\n$FOR P3=1,2,1\n$IF V.E.A\n\"A\"\n$ENDIF\n\"A\"=\"P1=2\"\n$ENDFOR\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
+    assert_eq!(at_the_end(&[program]), [true, false]);
+}

@@ -4,10 +4,14 @@
 use frictcomp::source::{Span, TextLines};
 use frictcomp::syntax::ast::Block;
 use frictcomp::syntax::{BlockReader, FastPath, RawBlock};
+use frictcomp_fuzz::{Theme, text_of};
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| {
-    let reader = |path| BlockReader::new(TextLines::new(text), 1, path);
+fuzz_target!(|input: &[u8]| {
+    let Some(text) = text_of(input, Theme::Any) else {
+        return;
+    };
+    let reader = |path| BlockReader::new(TextLines::new(&text), 1, path);
     let (mut fast, mut grammar) = (reader(FastPath::On), reader(FastPath::Off));
     let (mut one, mut other) = (Block::default(), Block::default());
     loop {

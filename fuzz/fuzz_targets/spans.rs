@@ -7,7 +7,7 @@ use frictcomp::diagnostic::Diagnostic;
 use frictcomp::report::{Listing, ListingFormat, Look, Paint, render};
 use frictcomp::session::{Session, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
-use frictcomp_fuzz::{Bench, Files, machine};
+use frictcomp_fuzz::{Bench, Files, Theme, machine, text_of};
 use libfuzzer_sys::fuzz_target;
 
 struct Places<'a>(Files<'a>);
@@ -45,9 +45,12 @@ impl Sink for Places<'_> {
     }
 }
 
-fuzz_target!(|input: &str| {
+fuzz_target!(|input: &[u8]| {
+    let Some(text) = text_of(input, Theme::Any) else {
+        return;
+    };
     let bench = Bench {
-        files: Files::new(input),
+        files: Files::new(&text),
         stop: StopPolicy::CheckAll,
     };
     let mut session = Session::new(machine(), bench.options());

@@ -1,6 +1,6 @@
 //! A session with small budgets, so that an input costs milliseconds.
 
-use frictcomp::machine::{Axis, Machine};
+use frictcomp::machine::Machine;
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::source::TextLines;
 use frictcomp::timeline::Sink;
@@ -14,11 +14,9 @@ pub const POLICIES: [StopPolicy; 3] = [
     StopPolicy::CheckAll,
 ];
 
-/// Two axes that may be switched, one that may not.
+/// Two axes that may be switched, and others that may not.
 pub fn machine() -> Machine {
-    let mut machine = Machine::enabled(["X", "Y"]);
-    machine.axes.push(Axis::new("Z"));
-    machine
+    Machine::enabled(["X", "Y"])
 }
 
 /// Programs and how they run.
@@ -35,6 +33,8 @@ impl Bench<'_> {
             skip: 0b10,
             limits: Limits {
                 blocks: 100,
+                work: 50_000,
+                values: 1000,
                 calls: 5,
                 nesting: 8,
                 macros: 4,

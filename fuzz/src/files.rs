@@ -9,7 +9,7 @@ use frictcomp::source::{LineSource, SourceFile, TextLines};
 pub const MAIN: &str = "main";
 
 /// Stands in an input between the two files.
-const SEPARATOR: char = '\u{1e}';
+pub(crate) const SEPARATOR: char = '\u{1e}';
 
 /// The file that is run or read, and the one that stands behind every other name.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +22,16 @@ impl<'a> Files<'a> {
     pub fn new(input: &'a str) -> Self {
         let (main, other) = input.split_once(SEPARATOR).unwrap_or((input, ""));
         Self { main, other }
+    }
+
+    /// The bytes of both files.
+    pub fn len(self) -> usize {
+        self.main.len() + self.other.len()
+    }
+
+    /// The text behind every other name.
+    pub fn other_text(self) -> Option<&'a str> {
+        (!self.other.is_empty()).then_some(self.other)
     }
 
     pub fn source(self) -> SourceFile {

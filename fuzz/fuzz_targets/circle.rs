@@ -1,0 +1,7 @@
+//! Circular tests on valid plants: figures, or a drive that is said to be unstable.
+#![no_main]
+
+use frictcomp_fuzz::{Dice, check_circle};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|input: &[u8]| check_circle(&mut Dice::new(input)));

@@ -1,0 +1,13 @@
+//! Saved states: whatever a run saves, the next one reads, and starts with exactly that.
+#![no_main]
+
+use frictcomp_fuzz::{Files, Theme, check_saved, text_of};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|input: &[u8]| {
+    if let Some(text) = text_of(input, Theme::Any) {
+        for way in 0..3 {
+            check_saved(Files::new(&text), way);
+        }
+    }
+});

@@ -1,0 +1,85 @@
+//! What must hold of every run, whatever the program is.
+
+use std::io::sink;
+
+use frictcomp::report::{Csv, Ndjson, Report, Text, TextOptions, View};
+use frictcomp::session::{SavedState, Session};
+
+use crate::{Bench, Files, POLICIES, machine};
+
+/// Runs a program in one way of several, into one format of several; `way` chooses.
+pub fn check_run(files: Files<'_>, way: usize) {
+    let stop = POLICIES[way % 3];
+    let bench = Bench { files, stop };
+    let mut session = Session::new(machine(), bench.options());
+    let mut report: Box<dyn Report> = match way / 3 % 3 {
+        0 => Box::new(Text::new(sink(), TextOptions::default())),
+        1 => Box::new(Ndjson::new(sink(), View::default())),
+        _ => Box::new(Csv::new(sink(), View::default()).with_positions()),
+    };
+    let _ = session.begin(&[], &mut *report);
+    if way / 9 % 2 == 0 {
+        bench.whole(&mut session, &mut *report);
+    } else {
+        bench.streamed(&mut session, &mut *report);
+    }
+    let _ = session.finish(&mut *report);
+    report.finish().expect("a sink takes everything");
+    check_work(&session, files);
+}
+
+/// Whatever a run saves, the next run reads, and starts with exactly that.
+pub fn check_saved(files: Files<'_>, way: usize) {
+    let bench = Bench {
+        files,
+        stop: POLICIES[way % 3],
+    };
+    let mut nothing = Ndjson::new(sink(), View::default());
+    let mut session = Session::new(machine(), bench.options());
+    bench.session(&mut session, &mut nothing);
+    let left = session.save();
+    let text = serde_json::to_string(&left).expect("a state is JSON");
+    let read: SavedState = serde_json::from_str(&text).expect("what was saved is read");
+    assert_eq!(read, left, "{text}");
+    let (mut next, _) = Session::resume(machine(), bench.options(), read)
+        .unwrap_or_else(|error| panic!("the own state is refused: {error}\n{text}"));
+    let again = serde_json::to_string(&next.save()).expect("a state is JSON");
+    assert_eq!(again, text, "a state that nobody touched is another one");
+    bench.whole(&mut next, &mut nothing);
+}
+
+/// Runs a program that grows: the budget of work ends it, and what it holds stays small.
+pub fn check_growth(files: Files<'_>, way: usize) {
+    let bench = Bench {
+        files,
+        stop: POLICIES[way % 3],
+    };
+    let mut nothing = Ndjson::new(sink(), View::default());
+    let mut session = Session::new(machine(), bench.options());
+    bench.session(&mut session, &mut nothing);
+    check_work(&session, files);
+    // Lengths are all that grows in a state; a text counts once more for every 32 bytes.
+    let held = serde_json::to_string(&session.save()).expect("a state is JSON");
+    let values = usize::try_from(bench.options().limits.values).expect("a small number");
+    let most = 200 * (values + files.len()) + 10_000;
+    assert!(
+        held.len() <= most,
+        "the run holds {} bytes, {most} are allowed",
+        held.len()
+    );
+}
+
+/// The work of a run is bounded by its budgets and its texts.
+fn check_work(session: &Session, files: Files<'_>) {
+    let bench = Bench {
+        files,
+        stop: POLICIES[0],
+    };
+    let limits = bench.options().limits;
+    let bytes = u64::try_from(files.len()).expect("a small number");
+    // Both passes hold both files, each executed block brings its share, and the block that goes
+    // over the bound is finished.
+    let bound = 4 * (limits.work + 16 * bytes + limits.blocks * (500 + 4 * bytes));
+    let work = session.interpreter().work();
+    assert!(work <= bound, "{work} units of work, {bound} are allowed");
+}

@@ -1,0 +1,138 @@
+//! Circles on plants that are valid: what was refused would prove nothing.
+
+use std::fmt::Write as _;
+
+use frictcomp::circle::{Circle, CircleError, CircularTest, Comparison, Job, Lap, MIN_CYCLES};
+use frictcomp::current::Reading;
+use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp::simulation::{FrictionModel, Plant, STEP_S, plant_list};
+use frictcomp::source::SourceFile;
+
+use crate::Dice;
+
+/// Simulates a circle on a plant, both of which have values out of the whole range that is accepted.
+pub fn check_circle(dice: &mut Dice<'_>) {
+    let text = plant(dice);
+    let plant = Plant::from_toml(SourceFile::new("plant.toml", text.as_str()))
+        .unwrap_or_else(|error| panic!("a valid plant is refused: {error}\n{text}"));
+    let circle = circle(dice);
+    circle.check().expect("a valid circle");
+    let test = CircularTest {
+        circle,
+        lists: [list(dice, plant_list(&plant.x)), plant_list(&plant.y)],
+        model: [FrictionModel::Lugre, FrictionModel::Gms][dice.below(2)],
+        plant,
+        reading: Reading::default(),
+    };
+    let mut laps: Vec<Lap> = Vec::new();
+    for job in Job::ALL {
+        match test.run(job) {
+            Ok(lap) => {
+                let deviations = lap.profile.deviations_m();
+                assert!(deviations.iter().all(|it| it.is_finite()), "{test:?}");
+                laps.push(lap);
+            }
+            Err(CircleError::Unstable { angle_deg, .. }) => {
+                assert!(angle_deg.is_finite(), "{test:?}");
+                return;
+            }
+            Err(error) => panic!("a valid circle is refused: {error}"),
+        }
+    }
+    let comparison = Comparison::of(laps);
+    let figures = serde_json::to_string(&comparison.off.figures).expect("figures are JSON");
+    let minus = figures.contains("\"g_b\":-") || figures.contains("\"h\":-");
+    assert!(!minus, "a width is less than zero: {figures}\n{test:?}");
+    assert!(!figures.contains("\"g_b\":null"), "{figures}\n{test:?}");
+}
+
+/// From the lower to the upper end, in equal steps of magnitude.
+fn between(dice: &mut Dice<'_>, [least, most]: [f64; 2]) -> f64 {
+    least * (most / least).powf(dice.share())
+}
+
+fn circle(dice: &mut Dice<'_>) -> Circle {
+    let cycle_time_s = 0.000_25 * [1.0, 4.0, 8.0, 40.0][dice.below(4)];
+    let radius_mm = between(dice, [0.1, 1e5]);
+    // So many cycles in a turn.
+    let cycles = between(dice, [MIN_CYCLES * 1.01, 600.0]);
+    let turn_s = cycles * cycle_time_s;
+    let feed = std::f64::consts::TAU * radius_mm / turn_s * 60.0;
+    let feed_mm_per_min = feed.clamp(0.1, 1e6);
+    // A feed at the end of its range needs another radius.
+    let radius_mm = feed_mm_per_min / 60.0 * turn_s / std::f64::consts::TAU;
+    Circle {
+        radius_mm,
+        feed_mm_per_min,
+        cycle_time_s,
+    }
+}
+
+fn list(dice: &mut Dice<'_>, mut list: FrictionList) -> FrictionList {
+    list.position_delay = [0, 1, 9, 10][dice.below(4)];
+    list.reversal_lookahead = [0, 1, 2, 4][dice.below(4)];
+    list.delay_cycles = [0, 1, 7, 248][dice.below(4)];
+    list.scaling_factor = [1000, 0, -32766, 32766][dice.below(4)];
+    match dice.below(4) {
+        0 => list.table.truncate(1),
+        1 => {
+            list.table = vec![
+                TablePoint {
+                    input: 0.0,
+                    output: -32768.0,
+                },
+                TablePoint {
+                    input: 1.0,
+                    output: 32767.0,
+                },
+            ];
+        }
+        _ => {}
+    }
+    list
+}
+
+/// A plant file. What depends on each other is chosen so that it fits.
+fn plant(dice: &mut Dice<'_>) -> String {
+    let mut text = String::new();
+    let mass = between(dice, [0.01, 1e6]);
+    let coulomb = [0.0, between(dice, [0.001, 1e6])][dice.below(2)];
+    let breakaway = coulomb * between(dice, [1.0, 10.0]);
+    let stiffness = between(dice, [1e3, 1e12_f64.min(mass / (STEP_S * STEP_S))]);
+    let strongest = mass / STEP_S;
+    let damping = 0.4 * strongest * dice.share();
+    let viscous = (0.4 * strongest * dice.share() * dice.share()).min(1e8);
+    let mut number = |key: &str, value: f64| {
+        writeln!(text, "{key} = {value:e}").expect("a text takes everything");
+    };
+    number("m", mass);
+    number("Fc", coulomb);
+    number("Fs", breakaway.min(1e7));
+    number(
+        "sigma0",
+        stiffness.min(0.99 * mass / (STEP_S * STEP_S)).max(1e3),
+    );
+    number("sigma1", damping.min(1e10));
+    number("fv", viscous);
+    for (key, range) in [
+        ("Kv", [0.1, 2000.0]),
+        ("Ti", [1e-4, 1e6]),
+        ("Tt", [1e-5, 0.1]),
+        ("k_ff", [1e-3, 2.0]),
+        ("k_a", [1e-3, 2.0]),
+        ("rated_force", [0.01, 1e7]),
+        ("vs", [1e-6, 1.0]),
+        ("delta", [0.1, 10.0]),
+        ("vd", [1e-6, 10.0]),
+        ("gms_C", [1.0, 1e12]),
+    ] {
+        // Plants as they are in one value more often than not are stable ones more often.
+        if dice.below(3) == 0 {
+            number(key, between(dice, range));
+        }
+    }
+    if dice.below(3) == 0 {
+        number("Kp", between(dice, [0.1, 1e10]));
+    }
+    text
+}

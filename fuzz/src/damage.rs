@@ -1,0 +1,104 @@
+//! JSON that was right until somebody touched it.
+
+use serde_json::{Map, Number, Value, json};
+
+use crate::Dice;
+
+/// Changes some places of a document, each into something of the same kind more often than not: what
+/// has the right shape gets further.
+pub(crate) fn damage(document: &mut Value, dice: &mut Dice<'_>) {
+    for _ in 0..1 + dice.below(3) {
+        let mut place = &mut *document;
+        loop {
+            let children = match place {
+                Value::Array(items) => items.len(),
+                Value::Object(fields) => fields.len(),
+                _ => 0,
+            };
+            // A member is gone into far more often than it is touched.
+            if children == 0 || dice.below(12) == 1 {
+                break;
+            }
+            let chosen = dice.below(children.min(256));
+            place = match place {
+                Value::Array(items) => &mut items[chosen],
+                Value::Object(fields) => {
+                    fields.values_mut().nth(chosen).expect("there are as many")
+                }
+                _ => return,
+            };
+        }
+        touch(place, dice);
+    }
+}
+
+fn touch(value: &mut Value, dice: &mut Dice<'_>) {
+    match value {
+        Value::Number(_) => *value = Value::Number(number(dice)),
+        Value::String(text) => match dice.below(4) {
+            0 => text.clear(),
+            1 => text.push('\u{202e}'),
+            2 => {
+                *text = dice
+                    .one_of(&["X", "Program", "other", "P1", "V.S.A", "On", "N10"])
+                    .to_owned()
+            }
+            _ => *text = text.repeat(3),
+        },
+        Value::Array(items) => match dice.below(3) {
+            0 => items.clear(),
+            1 => items.extend(items.clone()),
+            _ => drop(items.pop()),
+        },
+        Value::Object(fields) => rename(fields, dice),
+        Value::Bool(is) => *is = !*is,
+        Value::Null => {
+            *value = match dice.below(5) {
+                0 => json!(0),
+                1 => json!(""),
+                2 => json!([0, 0]),
+                3 => json!({}),
+                _ => json!("Program"),
+            }
+        }
+    }
+}
+
+fn rename(fields: &mut Map<String, Value>, dice: &mut Dice<'_>) {
+    let Some(name) = fields
+        .keys()
+        .nth(dice.below(256) % fields.len().max(1))
+        .cloned()
+    else {
+        return;
+    };
+    let Some(value) = fields.remove(&name) else {
+        return;
+    };
+    let other = dice.one_of(&["", "0", "X", "-1", "4294967295", "V.S.A", "\u{7f}"]);
+    if dice.below(2) == 0 {
+        fields.insert(other.to_owned(), value);
+    }
+}
+
+fn number(dice: &mut Dice<'_>) -> Number {
+    let whole = [
+        0_i64,
+        1,
+        2,
+        3,
+        7,
+        100,
+        -1,
+        255,
+        65_535,
+        4_294_967_295,
+        i64::MAX,
+        i64::MIN,
+    ];
+    match dice.below(whole.len() + 2) {
+        12 => Number::from(u64::MAX),
+        13 => Number::from_f64(1e300).expect("a finite number"),
+        place => Number::from(whole[place]),
+    }
+}

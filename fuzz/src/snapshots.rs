@@ -1,0 +1,81 @@
+//! A run is stopped, saved, damaged and resumed.
+
+use std::ops::ControlFlow;
+
+use frictcomp::compensation::Compensation;
+use frictcomp::interpreter::{Event, Interpreter, Options, Outlook, Snapshot};
+use frictcomp::source::SourceFile;
+
+use crate::damage::damage;
+use crate::{Bench, Dice, Files, MAIN, POLICIES, machine};
+
+/// Runs a program up to some block, and resumes it from what was saved there: as it was, which goes
+/// to the same end, and damaged, which is refused or goes to some end.
+pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
+    let bench = Bench {
+        files,
+        stop: POLICIES[dice.below(3)],
+    };
+    let session = bench.options();
+    let options = Options {
+        stop: session.stop,
+        skip: session.skip,
+        limits: session.limits,
+        ..Options::default()
+    };
+    let machine = machine();
+    let compensation = Compensation::at_startup(&machine);
+    let mut run = Interpreter::new(machine.clone(), compensation, options);
+    let mut left = 1 + dice.below(20);
+    let outlook = run.program(files.source(), &mut { files }, &mut |_: Event<'_>| {
+        left -= 1;
+        if left == 0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    if outlook != Outlook::Paused {
+        return;
+    }
+    let saved = run.snapshot();
+    let mut document = serde_json::to_value(&saved).expect("a snapshot is JSON");
+    let text = serde_json::to_string(&document).expect("a document is JSON");
+    let read: Snapshot = serde_json::from_str(&text).expect("what was saved is read");
+    assert_eq!(
+        serde_json::to_value(&read).expect("a snapshot is JSON"),
+        document
+    );
+    let mut source = |name: &str| {
+        let text = if name == MAIN {
+            Some(files.main)
+        } else {
+            files.other_text()
+        };
+        text.map(|text| SourceFile::new(name, text))
+    };
+    let mut same = Interpreter::resume(machine.clone(), options, read, &mut source)
+        .unwrap_or_else(|error| panic!("the own snapshot is refused: {error}\n{text}"));
+    let mut ends = [String::new(), String::new()];
+    for (run, end) in [&mut run, &mut same].into_iter().zip(&mut ends) {
+        run.go_on(&mut { files }, &mut |event: Event<'_>| {
+            if let Event::Ended(ended) = event {
+                *end = format!("{} {:?} {:?}", ended.seq, ended.by, ended.changes);
+            }
+            ControlFlow::Continue(())
+        });
+    }
+    assert_eq!(ends[0], ends[1], "what was resumed ends in another way");
+
+    damage(&mut document, dice);
+    let Ok(damaged) = serde_json::from_value::<Snapshot>(document) else {
+        return;
+    };
+    let Ok(mut run) = Interpreter::resume(machine, options, damaged, &mut source) else {
+        return;
+    };
+    run.go_on(
+        &mut { files },
+        &mut |_: Event<'_>| ControlFlow::Continue(()),
+    );
+}

@@ -126,12 +126,12 @@ fn cost(text: &str) -> Cost {
         ..SessionOptions::default()
     };
     let source = SourceFile::new("a.nc", text);
-    let faults: usize = text
+    let wanted: usize = text
         .lines()
         .next()
         .and_then(|line| line.strip_prefix("; faults "))
         .map_or(0, |faults| faults.parse().expect("a number"));
-    let faulty = "$ENDIF\n".repeat(faults) + "M17";
+    let faulty = "$ENDIF\n".repeat(wanted) + "M17";
     let mut finder =
         |name: &str, _: &str| (name == "faulty.nc").then(|| SourceFile::new(name, faulty.as_str()));
     let mut work = 0;
@@ -153,6 +153,7 @@ fn growth(once: u64, twice: u64, anyway: u64) -> f64 {
 }
 
 #[test]
+#[allow(clippy::print_stdout, reason = "the table is shown with `--nocapture`")]
 fn twice_the_program_needs_twice_the_time_and_memory() {
     // R2.60, R2.85
     let mut table = String::new();
@@ -170,7 +171,6 @@ fn twice_the_program_needs_twice_the_time_and_memory() {
             too_fast.push(format!("{shape}: {once:?} {twice:?}"));
         }
     }
-    // Shown with `--nocapture`.
     println!("{table}");
     assert!(too_fast.is_empty(), "{}", too_fast.join("\n"));
 }

@@ -274,7 +274,7 @@ fn axes_are_known_from_the_first_line() {
         .find(|line| line.contains("line  block"))
         .expect("a header");
     assert!(
-        header.contains("X") && header.contains("C") && !header.contains("Y"),
+        header.contains('X') && header.contains('C') && !header.contains('Y'),
         "{text}"
     );
     let records = bench.records(&["a.nc"]);
@@ -504,7 +504,13 @@ fn example_folder() -> Bench {
         let mut text = "x,y\n".to_owned();
         for step in 0..1440 {
             let angle = turn * f64::from(step) * std::f64::consts::PI / 360.0;
-            text += &format!("{},{}\n", 50.0 * angle.cos(), 50.0 * angle.sin());
+            let (x, y) = (50.0 * angle.cos(), 50.0 * angle.sin());
+            text.extend([
+                x.to_string(),
+                ",".to_owned(),
+                y.to_string(),
+                "\n".to_owned(),
+            ]);
         }
         bench.write(name, &text);
     }
@@ -606,4 +612,22 @@ fn configured_programs_and_harmless_words_are_shown() {
     ] {
         assert!(page.contains(part), "{part}");
     }
+}
+
+#[test]
+fn statistics_hold_counts_only_and_lists_show_the_folder_of_their_configuration() {
+    // R1.37 R9.72
+    let bench = bare(&[("a.nc", "N10 X[COMP ON FRICT]\nN20 M30\n")]);
+    let output = bench.call(&["check", "--statistics", "a.nc"]);
+    let counts = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(counts.trim_start().starts_with("1  error"), "{counts}");
+    assert!(stderr(&output).contains("no machine is described"));
+    bench.write("frictcomp.toml", "[machine]\nstartup = \"x.lis\"\n");
+    bench.write("x.lis", "kanal_anzahl foo\n");
+    fs::create_dir(bench.folder().join("below")).expect("a folder");
+    let mut lists = bench.command(&["lists"]);
+    let output = lists.current_dir(bench.folder().join("below")).output();
+    let text = output.expect("a run").stdout;
+    let text = String::from_utf8_lossy(&text);
+    assert!(text.contains("1 | kanal_anzahl foo"), "{text}");
 }

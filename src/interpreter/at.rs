@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Place};
 use crate::source::Span;
-use crate::syntax::{Comments, Fault, Remark};
+use crate::syntax::{Comments, Fault, RawBlock, Remark};
 
 /// Where a block stands and what is known about it beside its tree.
 pub(super) struct At<'a> {
@@ -75,6 +75,29 @@ impl Shown {
             text: lines.text.clone(),
             first_line: lines.number,
             span: Span::new(start - lines.from, end - lines.from),
+        }
+    }
+}
+
+impl<'a> At<'a> {
+    /// A block of the main program.
+    #[inline]
+    pub(super) fn in_main_program(
+        file: &'a Arc<str>,
+        raw: &RawBlock<'a>,
+        shown: &'a Shown,
+    ) -> Self {
+        Self {
+            file,
+            text: raw.text,
+            line: raw.line,
+            comments: raw.comments,
+            remark: raw.remark,
+            level: 0,
+            called_from: None,
+            macro_depth: 0,
+            used: None,
+            shown,
         }
     }
 }

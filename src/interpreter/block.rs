@@ -11,7 +11,7 @@ use super::modal::Group;
 use super::options::StopPolicy;
 use super::run::Interpreter;
 use super::start::{ended_by, stops};
-use super::state::{Departure, Last, Step};
+use super::state::{Departure, Last, Request, Step};
 use super::unit::is_harmless;
 use super::value::{Value, rounded};
 use super::words::AxisWords;
@@ -58,6 +58,13 @@ pub(super) struct Intent {
     condition: Option<bool>,
 }
 
+impl Intent {
+    /// Whether nothing in the block itself leads elsewhere than to the next one.
+    fn goes_on(&self) -> bool {
+        self.end.is_none() && !self.returns && self.step.is_none()
+    }
+}
+
 impl Interpreter {
     /// Executes a block and tells the observer. `Continue` where the next block follows.
     pub(super) fn execute(
@@ -77,17 +84,20 @@ impl Interpreter {
             self.refuse_repeated_axes(intent.axis_words, at);
         }
         self.move_around(intent.axis_words);
-        let goes_on = !self.work.diagnostics.iter().any(stops);
-        if (goes_on || self.options.stop != StopPolicy::FirstError)
-            && self.state.described.is_none()
-        {
-            self.check_required(intent.axis_words, at);
+        if self.any_required && self.state.described.is_none() {
+            let goes_on = !self.work.diagnostics.iter().any(stops);
+            if goes_on || self.options.stop != StopPolicy::FirstError {
+                self.check_required(intent.axis_words, at);
+            }
         }
         if !self.pending.is_empty() {
             self.forget_called(finder);
         }
-        let calls = std::mem::take(&mut intent.calls);
-        let calls = self.resolve_all(calls, at, finder);
+        let calls = if intent.calls.is_empty() {
+            Vec::new()
+        } else {
+            self.resolve_all(std::mem::take(&mut intent.calls), at, finder)
+        };
         let refused = self.work.diagnostics.iter().any(stops);
         let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
         if !block.faults.is_empty() {
@@ -110,12 +120,10 @@ impl Interpreter {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
             Some(Step::End(ended_by(&self.work.diagnostics)))
+        } else if calls.is_empty() && intent.goes_on() && self.state.repeated.is_none() {
+            None
         } else {
-            let moved = !self.work.moved.is_empty();
-            if !calls.is_empty() {
-                intent.step = Some(Step::Call(calls));
-            }
-            self.step(&mut intent, moved, at, finder)
+            self.step(intent, calls, at, finder)
         };
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
@@ -198,13 +206,13 @@ impl Interpreter {
         intent: &mut Intent,
         limit: Option<u32>,
     ) {
-        let is_reached = |span: Span| limit.is_none_or(|limit| span.start < limit);
+        let limit = limit.unwrap_or(u32::MAX);
+        let is_reached = |span: Span| span.start < limit;
         for word in &block.words {
             if !is_reached(word.span) {
                 return;
             }
-            if let Some((axis, value)) = self.coordinate(word) {
-                self.axis_word(axis, word.span, Some(value));
+            if self.plain_word(word, intent) {
                 continue;
             }
             let done = self.word(word, block, at, intent);
@@ -272,13 +280,18 @@ impl Interpreter {
     }
 
     /// What the control does next, where that is not the next block.
+    #[inline(never)]
     fn step(
         &mut self,
-        intent: &mut Intent,
-        moved: bool,
+        mut intent: Intent,
+        calls: Vec<Request>,
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
+        let moved = !self.work.moved.is_empty();
+        if !calls.is_empty() {
+            intent.step = Some(Step::Call(calls));
+        }
         if let Some(by) = intent.end {
             if at.level > 0 && self.state.ending.is_none() {
                 let fault = Fault::new(
@@ -309,6 +322,7 @@ impl Interpreter {
         step
     }
 
+    #[inline(never)]
     fn item(
         &mut self,
         item: &Item,

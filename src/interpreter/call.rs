@@ -116,6 +116,7 @@ impl Interpreter {
     }
 
     /// Looks for the programs that a block calls.
+    #[inline(never)]
     pub(super) fn resolve_all(
         &mut self,
         calls: Vec<Wanted>,

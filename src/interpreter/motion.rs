@@ -220,11 +220,12 @@ impl Interpreter {
     }
 
     /// Where every axis stands, for a block that may move.
-    pub(super) fn stand(&self) -> Option<Vec<Option<f64>>> {
-        (self.options.motions == Motions::Taken).then(|| self.state.modal.positions().to_vec())
+    pub(super) fn stand(&self) -> Vec<Option<f64>> {
+        self.state.modal.positions().to_vec()
     }
 
     /// Makes the motion of the block, which started at `from`.
+    #[inline(never)]
     pub(super) fn take_motion(&mut self, from: Option<Vec<Option<f64>>>, words: AxisWords) {
         let geometry = self.work.geometry.take();
         if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {

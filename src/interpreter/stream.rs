@@ -87,35 +87,27 @@ impl Interpreter {
                 }
                 continue;
             }
-            if let Stage::Beyond(_) = stage {
-                self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
-                continue;
-            }
-            if !matches!(stage, Stage::Running) {
-                if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
-                    return Outlook::Paused;
+            match stage {
+                Stage::Running => {}
+                Stage::Beyond(_) => {
+                    self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
+                    continue;
                 }
-                stage = Stage::Running;
-                if let Some(outlook) = self.begin_lines(&file, finder, observer) {
-                    return outlook;
+                Stage::Before | Stage::Announced => {
+                    if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
+                        return Outlook::Paused;
+                    }
+                    stage = Stage::Running;
+                    if let Some(outlook) = self.begin_lines(&file, finder, observer) {
+                        return outlook;
+                    }
                 }
             }
             if self.is_on_the_way(&block) {
                 continue;
             }
             let shown = Shown::default();
-            let at = At {
-                file: &file,
-                text: raw.text,
-                line: raw.line,
-                comments: raw.comments,
-                remark: raw.remark,
-                level: 0,
-                called_from: None,
-                macro_depth: 0,
-                used: None,
-                shown: &shown,
-            };
+            let at = At::in_main_program(&file, &raw, &shown);
             if let Some(over) = self.over_budget(&at) {
                 return self.ended(EndedBy::Budget, &one(over), observer);
             }

@@ -56,6 +56,16 @@ impl From<&crate::machine::Setting> for Value {
     }
 }
 
+/// A number that is a whole one from 0 on.
+#[inline]
+pub(super) fn exact(number: f64) -> Option<u32> {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // compared below
+    let whole = number as u32;
+    #[allow(clippy::float_cmp)] // whole numbers are exact
+    let is_whole = f64::from(whole) == number;
+    is_whole.then_some(whole)
+}
+
 /// A number as a whole one, rounded half away from zero; out of range is `None`.
 pub(super) fn rounded(number: f64) -> Option<i64> {
     // 2^53: beyond it a number of the language is no whole number any more.

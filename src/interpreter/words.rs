@@ -8,9 +8,9 @@ use super::block::{Feed, Intent};
 use super::chain;
 use super::event::{AxisWord, EndedBy};
 use super::modal::Group;
-use super::motion::{BlockEnd, foreign};
+use super::motion::{BlockEnd, Motions, foreign};
 use super::run::Interpreter;
-use super::value::rounded;
+use super::value::{exact, rounded};
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::machine::AxisIndex;
@@ -124,16 +124,42 @@ impl Interpreter {
         self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
-    /// The axis and the value of a word that is an axis letter with a plain number, as most are.
+    /// Takes a word that most blocks are made of and that nothing can be said about: a coordinate, a
+    /// feed, a G function of a group, each with a plain number. Any other is left to [`Self::word`].
     #[inline]
-    pub(super) fn coordinate(&self, word: &Word) -> Option<(AxisIndex, f64)> {
-        match (&word.address, &word.value) {
-            (Address::Letter(letter @ b'A'..=b'Z'), Some(Operand::Number(number))) => {
-                let axis = self.letters[usize::from(letter - b'A')]?;
-                Some((axis, *number))
-            }
-            _ => None,
+    pub(super) fn plain_word(&mut self, word: &Word, intent: &mut Intent) -> bool {
+        let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
+            return false;
+        };
+        let Some(Operand::Number(number)) = word.value else {
+            return false;
+        };
+        if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+            self.axis_word(axis, word.span, Some(number));
+            return true;
         }
+        match letter {
+            b'F' => intent.feed = Feed::Given(Some(number)),
+            b'G' => return self.modal_word(number, intent),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Puts a G function of a group into force, unless the block has another one of the group.
+    #[inline]
+    fn modal_word(&mut self, number: f64, intent: &mut Intent) -> bool {
+        let Some(number) = exact(number) else {
+            return false;
+        };
+        let Some(group) = Group::of(number) else {
+            return false;
+        };
+        if *intent.groups[group as usize].get_or_insert(number) != number {
+            return false;
+        }
+        self.state.modal.set(group, number);
+        true
     }
 
     #[inline]
@@ -322,7 +348,7 @@ impl Interpreter {
             self.work.geometry = None;
             return;
         }
-        let start = self.stand();
+        let start = (self.options.motions == Motions::Taken).then(|| self.stand());
         let before = intent.radius.map(|_| self.ends());
         let coordinates = self.coordinates();
         let modal = &mut self.state.modal;
@@ -339,7 +365,9 @@ impl Interpreter {
         if let (Some(span), Some(before)) = (intent.radius, before) {
             self.warn_full_circle(span, &before, at);
         }
-        self.take_motion(start, intent.axis_words);
+        if start.is_some() || self.work.geometry.is_some() {
+            self.take_motion(start, intent.axis_words);
+        }
         if matches!(intent.axis_words, AxisWords::Reference | AxisWords::Other) {
             self.work.moved.clear();
         }

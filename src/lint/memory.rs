@@ -140,6 +140,12 @@ impl Memory {
         }
     }
 
+    /// Whether an axis has moved.
+    #[inline]
+    pub(super) fn has_moved(&self, axis: AxisIndex) -> bool {
+        self.axes[axis.get()].moved.is_some()
+    }
+
     /// An axis word that moves. Says whether it is the first of its axis.
     pub(super) fn moved(&mut self, word: &AxisWord, executed: &Executed<'_>) -> bool {
         let memory = &mut self.axes[word.axis.get()];

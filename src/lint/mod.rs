@@ -16,7 +16,7 @@ pub(crate) use history::{History, Told};
 
 use crate::compensation::Compensation;
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::{EndedBy, Executed, Outcome};
+use crate::interpreter::{AxisWord, EndedBy, Executed, Outcome};
 use crate::machine::{AxisIndex, Machine};
 use crate::syntax::Kind;
 use memory::Memory;
@@ -73,6 +73,12 @@ impl<'m> Linter<'m> {
     /// The program has a name.
     pub(crate) fn named(&mut self, name: &str) {
         name.clone_into(&mut self.program);
+    }
+
+    /// Whether every axis that a block moves has moved before, so that this is nothing new.
+    #[inline]
+    pub(crate) fn knows(&self, moved: &[AxisWord]) -> bool {
+        moved.iter().all(|word| self.memory.has_moved(word.axis))
     }
 
     /// Looks at an executed block and appends what there is to say.

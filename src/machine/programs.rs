@@ -70,7 +70,7 @@ impl ConfiguredPrograms {
         }
     }
 
-    /// The program that a word calls, which is written as [`canonical_word`] writes it.
+    /// The program that a word calls, which is written in its canonical form, such as `M6`.
     pub fn word(&self, word: &str) -> Option<&str> {
         let found = self
             .words

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::codes::Code;
 use crate::compensation::State;
 use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
-use crate::interpreter::{Ended, Event, Executed, NoteKind};
+use crate::interpreter::{Ended, Event, Executed, Note, NoteKind};
 use crate::lint::{Linter, Told};
 use crate::machine::{AxisIndex, Machine};
 use crate::source::{Position, Span};
@@ -108,35 +108,12 @@ impl Desk<'_> {
 
     fn executed(&mut self, executed: &Executed<'_>) -> ControlFlow<()> {
         self.tally.blocks += 1;
-        for note in executed.notes {
-            let place = &note.place;
-            let key = (
-                note.kind,
-                note.name.clone(),
-                Arc::clone(&place.file),
-                place.start(),
-            );
-            let known = &mut self.notes.notes;
-            if known.len() < MAX_NOTES || known.contains_key(&key) {
-                known.entry(key).or_insert_with(|| place.clone());
-            } else {
-                self.notes.more += 1;
-            }
+        if !executed.notes.is_empty() {
+            self.take_notes(executed.notes);
         }
         self.said.clear();
-        self.said.extend_from_slice(executed.diagnostics);
-        self.linter.block(executed, &mut self.said);
-        self.note_allows(executed);
-        if !self.said.is_empty() {
-            self.filter(executed.line);
-        }
-        for change in executed.changes {
-            if change.kind == Kind::Frict {
-                self.note_change(executed, change.axis, change.to);
-            }
-        }
-        for diagnostic in &self.said {
-            self.tally.count(diagnostic);
+        if !self.is_quiet(executed) {
+            self.judge(executed);
         }
         self.sink.record(&Record::Block(Row {
             program: self.program,
@@ -157,6 +134,56 @@ impl Desk<'_> {
             motion: executed.motion,
             diagnostics: &self.said,
         }))
+    }
+
+    /// Whether a block is one of the many that only move on: nothing is to be said about it,
+    /// nothing to be remembered of it, and no comment in it can allow anything.
+    #[inline]
+    fn is_quiet(&self, executed: &Executed<'_>) -> bool {
+        executed.diagnostics.is_empty()
+            && executed.outcomes.is_empty()
+            && executed.changes.is_empty()
+            && executed.comments == Comments::Absent
+            && executed.remark.is_none()
+            && self.linter.knows(executed.moved)
+    }
+
+    #[inline(never)]
+    fn take_notes(&mut self, notes: &[Note]) {
+        for note in notes {
+            let place = &note.place;
+            let key = (
+                note.kind,
+                note.name.clone(),
+                Arc::clone(&place.file),
+                place.start(),
+            );
+            let known = &mut self.notes.notes;
+            if known.len() < MAX_NOTES || known.contains_key(&key) {
+                known.entry(key).or_insert_with(|| place.clone());
+            } else {
+                self.notes.more += 1;
+            }
+        }
+    }
+
+    /// Gathers what there is to say about a block, and counts it.
+    #[inline(never)]
+    fn judge(&mut self, executed: &Executed<'_>) {
+        self.said.extend_from_slice(executed.diagnostics);
+        self.linter.block(executed, &mut self.said);
+        self.note_allows(executed);
+        if !self.said.is_empty() {
+            self.filter(executed.line);
+        }
+        for change in executed.changes {
+            if change.kind == Kind::Frict {
+                self.note_change(executed, change.axis, change.to);
+            }
+        }
+        for diagnostic in &self.said {
+            self.tally.count(diagnostic);
+        }
     }
 
     /// Applies the user's severities and `allow` comments, keeps messages once a place, and sorts.
@@ -236,6 +263,7 @@ impl Desk<'_> {
         }
     }
 
+    #[inline(never)]
     fn ended(&mut self, ended: &Ended<'_>) -> ControlFlow<()> {
         let mut notes: Vec<EndNote> = ended
             .diagnostics

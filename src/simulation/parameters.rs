@@ -49,6 +49,8 @@ pub struct DriveParameters {
     pub friction: Friction,
 }
 
+/// What a plant file changes.
+#[cfg(feature = "toml")]
 impl DriveParameters {
     /// Changes the mass to `kg`, and the gain of the speed loop and the damping of the contact,
     /// which follow from it.
@@ -72,7 +74,9 @@ impl DriveParameters {
         self.friction.damping_n_s_per_m = damping(n_per_m, self.mass_kg);
         self.friction.elements = elements(n_per_m);
     }
+}
 
+impl DriveParameters {
     /// The default axis with a contact of this stiffness in N/m.
     pub(super) fn with_stiffness(stiffness: f64) -> Self {
         let mass = 1300.0;

@@ -445,7 +445,10 @@ fn different_messages_at_one_place_are_each_said() {
 #[test]
 fn a_file_says_ten_thousand_messages_and_counts_the_rest() {
     // R2.85
-    let executed: String = (0..12_000).map(|n| format!("P1=P{}\n", n + 10)).collect();
+    let executed = (0..12_000)
+        .map(|n| format!("P1=P{}\n", n + 10))
+        .collect::<Vec<_>>()
+        .concat();
     let heard_of = heard(&format!("{executed}M30"), StopPolicy::KeepGoing);
     assert_eq!(
         (heard_of.count("FC311"), heard_of.count("FC905")),
@@ -456,10 +459,16 @@ fn a_file_says_ten_thousand_messages_and_counts_the_rest() {
         heard_of.message("FC905"),
         "10000 messages about this file are shown; 2000 more messages, from here on, are only counted"
     );
-    let never_run: String = (0..12_000).map(|n| format!("X1 ?{n}\n")).collect();
+    let never_run = (0..12_000)
+        .map(|n| format!("X1 ?{n}\n"))
+        .collect::<Vec<_>>()
+        .concat();
     let heard_of = heard(&format!("M30\n{never_run}"), StopPolicy::CheckAll);
     assert_eq!((heard_of.said.len(), heard_of.errors), (10_001, 12_000));
-    let labels: String = (0..12_000).map(|n| format!("$GOTO N{n}\n")).collect();
+    let labels = (0..12_000)
+        .map(|n| format!("$GOTO N{n}\n"))
+        .collect::<Vec<_>>()
+        .concat();
     let heard_of = heard(&format!("{labels}M30"), StopPolicy::CheckAll);
     assert_eq!((heard_of.said.len(), heard_of.errors), (10_001, 12_000));
 }
@@ -515,7 +524,10 @@ fn a_region_of_declarations_is_read_to_its_end() {
 #[test]
 fn words_that_were_passed_over_are_counted_together_beyond_a_thousand() {
     // R2.85
-    let text: String = (0..1500).map(|word| format!("Q{word}=1\n")).collect();
+    let text = (0..1500)
+        .map(|word| format!("Q{word}=1\n"))
+        .collect::<Vec<_>>()
+        .concat();
     let heard = heard(&format!("{text}M30"), StopPolicy::KeepGoing);
     assert_eq!(heard.opaque.len(), 1001);
     let others = heard.opaque.iter().find(|(word, _)| word == "other words");

@@ -425,6 +425,13 @@ fn a_file_without_a_program_of_its_own() {
     assert!(region.contains("M30 X:unknown"), "{region}");
 }
 
+struct Nothing;
+impl frictcomp::timeline::Sink for Nothing {
+    fn record(&mut self, _: &frictcomp::timeline::Record<'_>) -> std::ops::ControlFlow<()> {
+        std::ops::ControlFlow::Continue(())
+    }
+}
+
 #[test]
 fn a_start_program_is_looked_for_beside_the_main_program() {
     // R2.15: and does not run when it is refused
@@ -440,7 +447,10 @@ fn a_start_program_is_looked_for_beside_the_main_program() {
         );
         let mut asked = Vec::new();
         let machine = frictcomp::machine::Machine::from_toml(&machine).expect("a machine");
-        let mut session = frictcomp::session::Session::new(machine, Default::default());
+        let mut session = frictcomp::session::Session::new(
+            machine,
+            frictcomp::session::SessionOptions::default(),
+        );
         let mut find = |_: &str, caller: &str| {
             asked.push(caller.to_owned());
             Some(frictcomp::source::SourceFile::new("start.nc", "M17"))
@@ -452,12 +462,6 @@ fn a_start_program_is_looked_for_beside_the_main_program() {
             ),
             Handed::LineByLine => frictcomp::session::Program::Lines(&mut lines),
         };
-        struct Nothing;
-        impl frictcomp::timeline::Sink for Nothing {
-            fn record(&mut self, _: &frictcomp::timeline::Record<'_>) -> std::ops::ControlFlow<()> {
-                std::ops::ControlFlow::Continue(())
-            }
-        }
         let _ = session.program("dir/main.nc", program, &mut find, &mut Nothing);
         assert_eq!(asked, ["dir/main.nc"]);
     }

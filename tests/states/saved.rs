@@ -20,7 +20,7 @@ impl Sink for Nobody {
 }
 
 fn left_off() -> Session {
-    let mut session = Session::new(Machine::from_toml(MACHINE).unwrap(), options());
+    let mut session = Session::new(Machine::from_toml(MACHINE).expect("a machine"), options());
     let program = "%FRICTION\nN10 X[COMP OFF FRICT] ; known\nY[COMP OFF FRICT]\nM30\n";
     play(&mut session, ("friction.nc", program), &mut Nobody);
     session
@@ -41,7 +41,7 @@ fn it_says_who_made_a_state() {
 fn refusal(change: impl FnOnce(&mut SavedState)) -> String {
     let mut saved = left_off().save();
     change(&mut saved);
-    let machine = Machine::from_toml(MACHINE).unwrap();
+    let machine = Machine::from_toml(MACHINE).expect("a machine");
     match Session::resume(machine, options(), saved) {
         Ok(_) => String::new(),
         Err(error @ (StateError::Damaged { .. } | StateError::OtherMachine { .. })) => {
@@ -76,7 +76,7 @@ fn axes_are_matched_by_name() {
     let mut saved = left_off().save();
     saved.axes.swap(0, 1);
     saved.axes[0].selected = saved.axes[3].selected;
-    let machine = Machine::from_toml(MACHINE).unwrap();
+    let machine = Machine::from_toml(MACHINE).expect("a machine");
     let (session, _) = Session::resume(machine, options(), saved).unwrap();
     let text = serde_json::to_string(&session.save().axes).unwrap();
     assert!(text.find("\"X\"") < text.find("\"Y\""), "{text}");
@@ -96,7 +96,7 @@ fn a_damaged_file_stays_as_it_is() {
     assert_eq!(bench.status(&run), Some(0));
     let good = bench.read("s.json");
     let mut swapped = json(&good);
-    swapped["axes"].as_array_mut().unwrap().swap(0, 1);
+    swapped["axes"].as_array_mut().expect("a list").swap(0, 1);
     bench.write("s.json", &swapped.to_string());
     assert_eq!(
         bench.records(&["--state", "s.json", "a.nc"])[0],
@@ -104,14 +104,14 @@ fn a_damaged_file_stays_as_it_is() {
     );
     for damage in ["missing", "doubled", "surplus"] {
         let mut state = json(&good);
-        let axes = state["axes"].as_array_mut().unwrap();
+        let axes = state["axes"].as_array_mut().expect("a list");
         match damage {
             "missing" => drop(axes.remove(1)),
             "doubled" => axes.push(axes[0].clone()),
             _ => axes.push({
-                let mut axis = axes[0].clone();
-                axis["axis"] = "Q".into();
-                axis
+                let mut other = axes[0].clone();
+                other["axis"] = "Q".into();
+                other
             }),
         }
         let text = state.to_string();
@@ -131,7 +131,7 @@ fn a_file_of_schema_1_is_read_with_nobody_known() {
     assert_eq!(bench.status(&["run", "--state", "s.json", "a.nc"]), Some(0));
     let mut old = json(&bench.read("s.json"));
     old["schema"] = 1.into();
-    for axis in old["axes"].as_array_mut().unwrap() {
+    for axis in old["axes"].as_array_mut().expect("a list") {
         axis.as_object_mut().unwrap().retain(|key, _| {
             ["axis", "selected", "unknown", "max_points", "friction"].contains(&key.as_str())
         });
@@ -182,7 +182,7 @@ fn whatever_is_saved_is_read() {
             };
             settings.settings.push((format!("V.S.N{at}"), value));
         }
-        let machine = || Machine::from_toml(MACHINE).unwrap();
+        let machine = || Machine::from_toml(MACHINE).expect("a machine");
         let mut session = Session::new(machine(), settings);
         let program = "V.S.B = V.S.N0\nV.S.U = V.E.X\n#VAR\nV.S.A[2,3]\n#ENDVAR\nV.S.A[1,1] = 2\nX1e300\nM30\n";
         play(&mut session, ("a.nc", program), &mut Nobody);

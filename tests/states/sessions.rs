@@ -195,10 +195,10 @@ fn the_recommended_style_is_silent_in_every_order() {
         let (mut first, mut last) = (String::from("%PART\n"), String::new());
         for axis in ["X", "Y", "B"] {
             match rng.u8(..3) {
-                0 => first.push_str(&format!("{axis}[COMP ON FRICT]\n")),
+                0 => first.extend([axis, "[COMP ON FRICT]\n"]),
                 1 => {
-                    first.push_str(&format!("{axis}[COMP OFF FRICT]\n"));
-                    last.push_str(&format!("{axis}[COMP ON FRICT]\n"));
+                    first.extend([axis, "[COMP OFF FRICT]\n"]);
+                    last.extend([axis, "[COMP ON FRICT]\n"]);
                 }
                 _ => {}
             }

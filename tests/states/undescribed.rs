@@ -6,7 +6,7 @@ const OFF: &str = "X[COMP OFF FRICT]\nX1\nX[COMP OFF FRICT]\nY[COMP OFF_ALL]\nM3
 
 fn bench(program: &str) -> Bench {
     let bench = Bench::new(&[("a.nc", program)]);
-    std::fs::remove_file(bench.folder().join("frictcomp.toml")).unwrap();
+    std::fs::remove_file(bench.folder().join("frictcomp.toml")).expect("removed");
     bench
 }
 

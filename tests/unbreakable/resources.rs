@@ -187,7 +187,7 @@ fn budgets_end_what_does_not_end_by_itself() {
         let output = bench.call(&call);
         let text = String::from_utf8(output.stdout).expect("text");
         // A loop without an end may be meant: FC910 is a warning (R2.84).
-        let status = if code == "FC910" { 0 } else { 1 };
+        let status = i32::from(code != "FC910");
         assert_eq!(output.status.code(), Some(status), "{code}: {text}");
         assert!(
             text.contains(code) && text.contains(option),

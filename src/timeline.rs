@@ -14,7 +14,7 @@ pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
 use crate::machine::{AxisIndex, Machine};
 use crate::source::Position;
-use crate::syntax::Kind;
+use crate::syntax::{Kind, KindSet};
 
 /// The number of the record format.
 pub const SCHEMA: u32 = 1;
@@ -92,7 +92,7 @@ pub struct Repeat {
     pub code: Code,
     /// The file.
     pub file: String,
-    /// The line of the block.
+    /// The line of the remark.
     pub line: u32,
     /// How many executed blocks it came true in.
     pub times: u64,
@@ -124,6 +124,8 @@ pub struct End<'a> {
 /// What the text summary says about one axis.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AxisSummary {
+    /// Kinds other than friction compensation that are not as at the start of the control.
+    pub others_away: KindSet,
     /// The axis.
     pub axis: AxisIndex,
     /// Friction compensation when the session began.

@@ -302,6 +302,14 @@ fn only_axes_that_occur_are_enabled() {
             "{names}"
         );
     }
+    // A later run with the same state may name it, and one run may assume more than the last.
+    let open = ["run", "--state", "s", "--enable"];
+    let run = |names, file| bench.status(&[&open[..], &[names, file]].concat());
+    assert_eq!(run("X", "a.nc"), Some(0));
+    assert_eq!(run("X,Z", "a.nc"), Some(0));
+    let mistyped = [&open[..], &["x", "a.nc"]].concat();
+    assert!(refused(&bench, &mistyped).contains("did you mean `X`?"));
+    assert!(bench.read("s").contains("axis Z number - type"));
     // What is called may have more axes.
     assert_eq!(bench.status(&["run", "--enable", "X", "call.nc"]), Some(0));
     let configured = Bench::new(&[("a.nc", LEAVE_OFF)]);

@@ -214,6 +214,13 @@ impl<'a> Machines<'a> {
         }
     }
 
+    /// Programs of other runs name the usual axes, and those that an earlier run left.
+    pub(super) fn expect_more(&mut self, left: Vec<String>) {
+        if let Some(ahead) = &mut self.ahead {
+            ahead.expect_more(left);
+        }
+    }
+
     /// The extensions of programs below a folder, where its configuration names them.
     pub(super) fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
         let loaded = self.for_folder(folder).ok()?;

@@ -19,6 +19,8 @@ pub(super) struct AxesAhead {
     found: Vec<&'static str>,
     /// Names that were asked for, and whether they are there.
     asked: Vec<(String, bool)>,
+    /// Names that programs of other runs may have.
+    elsewhere: Vec<String>,
     /// Whether there may be more: in what is called, or comes through a pipe.
     is_open: bool,
 }
@@ -52,6 +54,12 @@ impl AxesAhead {
         LETTERS.into_iter().filter(|name| self.found.contains(name))
     }
 
+    /// Other runs name the usual axes, and those of an earlier one.
+    pub(super) fn expect_more(&mut self, left: Vec<String>) {
+        let usual = LETTERS.into_iter().map(str::to_owned);
+        self.elsewhere = usual.chain(left).collect();
+    }
+
     /// Whether an axis may occur.
     pub(super) fn may_hold(&self, name: &str) -> bool {
         let asked = self
@@ -59,7 +67,8 @@ impl AxesAhead {
             .iter()
             .any(|(known, found)| known == name && *found);
         let unseen = self.is_open && may_be_axis(name);
-        unseen || asked || self.found.contains(&name)
+        let elsewhere = self.elsewhere.iter().any(|known| known == name);
+        unseen || asked || elsewhere || self.found.contains(&name)
     }
 
     fn read(&mut self, path: &Path) -> io::Result<()> {

@@ -219,6 +219,10 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let mut machines = Machines::new(&args.machine, &ledger);
     machines.weigh(&args.severities)?;
     machines.look_ahead(&inputs);
+    if let Some(path) = args.state.as_deref() {
+        // Another run of the same machine may bring the programs that name the others.
+        machines.expect_more(StateFile::axes(path));
+    }
     let loaded = machines.for_folder(inputs[0].folder())?;
     if let Some(remark) = loaded.remark() {
         console.remark(&remark);
@@ -355,14 +359,17 @@ impl Start<'_> {
             flow = self.session.finish(sink);
             if left > 0 {
                 let programs = if left == 1 { "program" } else { "programs" };
-                let why = if self.session.counts().contains_key(&Severity::Error) {
-                    "the error stopped the session"
+                let failed = self.session.counts().contains_key(&Severity::Error);
+                Console::talk(&if failed {
+                    format!(
+                        "the error stopped the session: {left} more {programs} did not run \
+                         (`--keep-going` runs on after errors)"
+                    )
                 } else {
-                    "the budget ended the session"
-                };
-                Console::talk(&format!(
-                    "{why}: {left} more {programs} did not run (`--keep-going` runs on after errors)"
-                ));
+                    format!(
+                        "the last program did not come to its end: {left} more {programs} did not run"
+                    )
+                });
             }
             self.unrun = left;
         }

@@ -82,6 +82,15 @@ impl StateFile {
         }
     }
 
+    /// The axes that the last run left; none where the file cannot be read, which is said when it
+    /// is loaded.
+    pub(super) fn axes(path: &Path) -> Vec<String> {
+        let text = read_bytes(path).unwrap_or_default();
+        let saved: Option<SavedState> = serde_json::from_slice(&text).ok();
+        let axes = saved.map(|saved| saved.axes).unwrap_or_default();
+        axes.into_iter().map(|axis| axis.axis).collect()
+    }
+
     /// What the last run left; `None` before the first.
     pub(super) fn load(&self) -> Result<Option<SavedState>, Failure> {
         let text = match read_bytes(&self.path) {

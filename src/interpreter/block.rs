@@ -77,6 +77,9 @@ impl Interpreter {
         self.work.clear();
         self.state.seq += 1;
         self.state.blocks += 1;
+        if self.state.ways.has_targets() {
+            self.arrive(finder);
+        }
         let mut intent = Intent::default();
         let limit = self.first_refusal(block);
         self.items(block, at, &mut intent, limit);
@@ -92,6 +95,12 @@ impl Interpreter {
         }
         if !self.pending.is_empty() {
             self.forget_called(finder);
+        }
+        if !self.work.doubted.is_empty() {
+            self.name_doubted();
+        }
+        if !self.departing.is_empty() {
+            self.depart(finder, at);
         }
         let calls = if intent.calls.is_empty() {
             Vec::new()
@@ -137,6 +146,7 @@ impl Interpreter {
             block,
             outcomes: &self.work.outcomes,
             changes: &self.work.changes,
+            doubted: &self.work.doubted,
             moved: if stopped { &[] } else { &self.work.moved },
             motion: self.work.motion.as_ref(),
             notes: &self.work.notes.borrow(),
@@ -149,6 +159,7 @@ impl Interpreter {
         }));
         // They are said; what is left at program end belongs to no executed block.
         self.work.diagnostics.clear();
+        self.work.changes.clear();
         match step {
             step if flow.is_break() => {
                 self.state.parked = step;
@@ -293,6 +304,9 @@ impl Interpreter {
             intent.step = Some(Step::Call(calls));
         }
         if let Some(by) = intent.end {
+            if self.state.ending.is_none() {
+                self.meet_at_end(finder);
+            }
             if at.level > 0 && self.state.ending.is_none() {
                 let fault = Fault::new(
                     Code::Fc315,
@@ -375,14 +389,26 @@ impl Interpreter {
                 Ok(())
             }
             Item::Flow(flow, span) => {
-                if let Some(condition) = self.one_line_condition(flow, block, at)? {
-                    intent.condition = Some(condition);
+                let condition = self.one_line_condition(flow, block, at);
+                let condition = condition.or_else(|fault| {
+                    let cause = cause_of(&fault, at);
+                    self.undecidable(*fault, at)?;
+                    self.pass_jump(block, &cause, at);
+                    Ok::<_, Box<Fault>>(Some(false))
+                })?;
+                if condition.is_some() {
+                    intent.condition = condition;
                     return Ok(());
                 }
                 if intent.condition == Some(false) {
                     return Ok(());
                 }
-                intent.step = self.flow(flow, *span, block, at)?;
+                let step = self.flow(flow, *span, block, at);
+                intent.step = step.or_else(|fault| {
+                    let cause = cause_of(&fault, at);
+                    self.undecidable(*fault, at)?;
+                    Ok::<_, Box<Fault>>(self.undecided(flow, &cause, *span, at))
+                })?;
                 Ok(())
             }
             Item::MacroUse(span) => self.expand(*span, at, intent),
@@ -397,6 +423,17 @@ impl Interpreter {
             }
             Item::Label(_) | Item::BadCommand(_) => Ok(()),
         }
+    }
+
+    /// A condition that cannot be computed: what hangs on it is not known, and is not said again
+    /// (R2.51, R2.71).
+    fn undecidable(&mut self, fault: Fault, at: &At<'_>) -> Result<(), Box<Fault>> {
+        if self.options.stop == StopPolicy::FirstError {
+            return Err(Box::new(fault));
+        }
+        self.complain(fault, at);
+        self.work.unread.set(true);
+        Ok(())
     }
 
     /// A macro in place of words: its code is a block of its own, executed here (R2.35).
@@ -494,6 +531,11 @@ impl Interpreter {
             }
         }
     }
+}
+
+/// What a fault is about.
+fn cause_of(fault: &Fault, at: &At<'_>) -> Arc<str> {
+    fault.span.of(at.text).trim().into()
 }
 
 fn unquoted<'a>(span: Span, at: &At<'a>) -> &'a str {

@@ -16,7 +16,6 @@ impl Interpreter {
         let axis = self.find_axis(command);
         let result = axis.and_then(|axis| {
             self.see(axis);
-            self.warn_opposite(command, axis, at);
             self.state
                 .compensation
                 .switch(axis, command.selection, &mut self.work.changes)
@@ -24,6 +23,7 @@ impl Interpreter {
         });
         match &result {
             Ok(axis) => {
+                self.warn_opposite(command, *axis, at);
                 self.warn_build(command, at);
                 self.warn_ineffective(command, *axis, at);
             }

@@ -191,6 +191,9 @@ impl Interpreter {
     pub(super) fn write(&mut self, place: Place, value: Value) {
         self.work.wrote = true;
         self.journal.write(&place, &value);
+        if self.state.ways.is_open() {
+            self.state.ways.write(&place, self.state.seq);
+        }
         match place {
             Place::Parameter(Owner::Program, index) => {
                 self.state.memory.set_parameter(index, value);

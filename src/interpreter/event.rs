@@ -14,7 +14,7 @@ use crate::diagnostic::{Diagnostic, Place};
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::Block;
-use crate::syntax::{Comments, CompCommand, Remark};
+use crate::syntax::{Comments, CompCommand, KindSet, Remark};
 
 /// Why a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -121,6 +121,8 @@ pub struct Executed<'a> {
     pub outcomes: &'a [Outcome],
     /// What it changed.
     pub changes: &'a [Change],
+    /// What it leaves unknown, though no command of it names that (R2.51).
+    pub doubted: &'a [(AxisIndex, KindSet)],
     /// The axes that it moves.
     pub moved: &'a [AxisWord],
     /// What it makes the machine do, where motions are taken.
@@ -148,6 +150,8 @@ pub struct Ended<'a> {
     pub seq: u64,
     /// Why.
     pub by: EndedBy,
+    /// Whether it would run until a reset ends it: its state repeats (R2.84).
+    pub endless: bool,
     /// What program end changed itself.
     pub changes: &'a [Change],
     /// What is to be said about the program and belongs to no executed block.

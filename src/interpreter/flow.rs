@@ -4,6 +4,7 @@
 //! block number and nothing else; jumps into branches and loops need no care.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use super::at::{At, Shown};
 use super::event::{EndedBy, Observer};
@@ -12,13 +13,14 @@ use super::finder::Finder;
 use super::functions::finite;
 use super::options::Outlook;
 use super::program::{EntryIndex, LabelName};
+use super::region::Exit;
 use super::run::Interpreter;
 use super::state::{Departure, Seeking, Step};
 use super::value::Value;
 use crate::codes::Code;
 use crate::source::Span;
 use crate::syntax::Fault;
-use crate::syntax::ast::{Block, Flow, JumpTarget, Operand};
+use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
@@ -35,6 +37,7 @@ impl Interpreter {
             let is_past = next >= self.units[unit].index.sections[section].end;
             if is_past || frame.passage.is_some_and(|passage| next > passage.last) {
                 if frame.level == 0 {
+                    self.meet_at_end(finder);
                     return Outlook::Ended(EndedBy::EndOfFile);
                 }
                 self.end_of_pass();
@@ -82,6 +85,9 @@ impl Interpreter {
                 ControlFlow::Break(Departure::Paused) => return Outlook::Paused,
             };
             if let ControlFlow::Break(by) = self.follow(step) {
+                if by != EndedBy::Error {
+                    self.meet_at_end(finder);
+                }
                 return Outlook::Ended(by);
             }
         }
@@ -98,6 +104,7 @@ impl Interpreter {
                     && let Some(endless) = self.come_round(entry, next - 1)
                 {
                     self.work.over = Some(endless);
+                    self.work.endless = true;
                     return ControlFlow::Break(EndedBy::Budget);
                 }
                 if let Some(frame) = self.state.frames.last_mut() {
@@ -161,6 +168,9 @@ impl Interpreter {
             if let Some(saved) = &frame.restores {
                 self.state.modal.restore(saved);
             }
+            if self.state.ways.has_targets() {
+                self.leave_ways(&frame);
+            }
         }
     }
 
@@ -180,6 +190,7 @@ impl Interpreter {
         let value = self.value(*condition, block, at)?;
         if let Value::Unknown(cause) = &value {
             self.assume_no_jump("whether this jump is taken", (cause, flow_span(block)), at);
+            self.pass_jump(block, cause, at);
             return Ok(Some(false));
         }
         let truth = value.truth();
@@ -395,7 +406,7 @@ impl Interpreter {
         };
         let block = &parsed.block;
         let statement = block.items.iter().find_map(|item| match item {
-            crate::syntax::ast::Item::Flow(
+            Item::Flow(
                 Flow::For {
                     counter, end, step, ..
                 },
@@ -450,6 +461,7 @@ impl Interpreter {
             Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
             Value::Unknown(cause) => {
                 self.assume_no_jump("where this jump goes", (cause, span), at);
+                self.note_jump(&Exit::AnyLabel, cause);
                 return Ok(None);
             }
         };
@@ -476,6 +488,58 @@ impl Interpreter {
                 format!("jump label `{label}` does not exist in this program"),
             ))),
         }
+    }
+
+    /// Passes over the jump of a block, which may be taken.
+    pub(super) fn pass_jump(&mut self, block: &Block, cause: &Arc<str>, at: &At<'_>) {
+        for item in &block.items {
+            if let Item::Flow(Flow::Goto(target), _) = item {
+                let exit = self.exit(target, block, at).unwrap_or(Exit::AnyLabel);
+                self.note_jump(&exit, cause);
+            }
+        }
+    }
+
+    /// Passes over what a statement decides whose operands cannot be computed.
+    pub(super) fn undecided(
+        &mut self,
+        flow: &Flow,
+        cause: &Arc<str>,
+        span: Span,
+        at: &At<'_>,
+    ) -> Option<Step> {
+        let (entry, end) = self.current_block();
+        let region = match flow {
+            Flow::Goto(_) => {
+                self.note_jump(&Exit::AnyLabel, cause);
+                return None;
+            }
+            Flow::EndFor | Flow::EndDo(_) | Flow::Until(_) => {
+                let frame = self.state.frames.last()?;
+                (self.units[frame.unit].index.links(entry).opener, entry)
+            }
+            _ => (entry, end),
+        };
+        self.skip_unknown(region, cause, span, at)
+    }
+
+    /// Where a jump goes that is not taken.
+    fn exit(
+        &mut self,
+        target: &JumpTarget,
+        block: &Block,
+        at: &At<'_>,
+    ) -> Result<Exit, Box<Fault>> {
+        let value = match target {
+            JumpTarget::Label(name) => return Ok(Exit::label(name.of(at.text))),
+            JumpTarget::Number(operand) => self.value(*operand, block, at)?,
+            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), block, at)?,
+        };
+        Ok(match value {
+            Value::Number(number) => Exit::Label(LabelName::numbered(number)),
+            Value::Text(name) => Exit::label(&name),
+            Value::Unknown(_) => Exit::AnyLabel,
+        })
     }
 
     /// FC902: a jump that is not known offline is not taken (R2.52).
@@ -507,7 +571,7 @@ fn flow_span(block: &Block) -> Span {
         .items
         .iter()
         .find_map(|item| match item {
-            crate::syntax::ast::Item::Flow(_, span) => Some(*span),
+            Item::Flow(_, span) => Some(*span),
             _ => None,
         })
         .unwrap_or_default()

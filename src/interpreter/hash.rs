@@ -229,8 +229,14 @@ impl Interpreter {
                 continue;
             };
             match self.target_place(place, block, at)? {
-                Place::Parameter(_, index) => self.state.memory.delete_parameter(index),
-                Place::Variable(name) => self.state.memory.delete(&name),
+                Place::Parameter(_, index) => {
+                    self.state.ways.write_anything(self.state.seq);
+                    self.state.memory.delete_parameter(index);
+                }
+                Place::Variable(name) => {
+                    self.state.ways.write_anything(self.state.seq);
+                    self.state.memory.delete(&name);
+                }
                 unknown @ (Place::Elements(_, _) | Place::Parameters(_)) => {
                     self.write(unknown, Value::Number(0.0));
                 }
@@ -247,6 +253,7 @@ impl Interpreter {
         at: &At<'_>,
     ) -> Result<(), Box<Fault>> {
         self.journal.begin_anew();
+        self.state.ways.write_anything(self.state.seq);
         for declaration in declarations {
             let mut stack = std::mem::take(&mut self.work.stack);
             let dimensions = self.with_evaluator(block, at, |evaluator| {

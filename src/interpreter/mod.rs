@@ -43,6 +43,7 @@ mod stream;
 mod unit;
 mod unknown;
 mod value;
+mod ways;
 mod words;
 mod work;
 

@@ -473,6 +473,46 @@ impl Modal {
         }
     }
 
+    /// What may also have been another state becomes unknown.
+    pub(super) fn doubt(&mut self, other: &Self) {
+        let differs = |group: Group| match group {
+            Group::Motion => self.motion != other.motion,
+            Group::Plane => self.plane != other.plane,
+            Group::Unit => self.inch != other.inch,
+            Group::Distance => self.absolute != other.absolute,
+            Group::Feed => self.feed_mode != other.feed_mode,
+            Group::Offset => self.offset != other.offset,
+            Group::CutterRadius => {
+                self.transformed.contains("G41") != other.transformed.contains("G41")
+            }
+            Group::CircleCentre => self.centre_absolute != other.centre_absolute,
+            Group::ExactStop => self.block_end != other.block_end,
+        };
+        let groups = Group::ALL.into_iter();
+        let unknown = groups.filter(|&group| {
+            differs(group) || self.unknown.contains(group) || other.unknown.contains(group)
+        });
+        self.unknown = unknown.collect();
+        let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {
+            if mine != theirs {
+                *mine = None;
+            }
+        };
+        unless_same(&mut self.radius, &other.radius);
+        let mut pairs: Vec<(&mut Option<f64>, &Option<f64>)> = Vec::new();
+        pairs.extend(self.feeds.iter_mut().zip(&other.feeds));
+        pairs.extend(self.positions.iter_mut().zip(&other.positions));
+        pairs.extend(self.references.iter_mut().zip(&other.references));
+        for (mine, theirs) in pairs {
+            unless_same(mine, theirs);
+        }
+        self.transformed.extend(other.transformed.iter().cloned());
+        if self.suspended != other.suspended {
+            self.suspended = None;
+            self.references.fill(None);
+        }
+    }
+
     /// A feed word in mm/min, or the unit of the mode in force.
     pub fn set_feed(&mut self, value: Option<f64>) {
         match self.feed_mode {

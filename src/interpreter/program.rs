@@ -137,6 +137,18 @@ impl Index {
         self.labels.get(&(section, label)).copied()
     }
 
+    /// The blocks of a section that have jump labels.
+    pub(super) fn labels(&self, section: usize) -> impl Iterator<Item = EntryIndex> {
+        let mut found: Vec<EntryIndex> = self
+            .labels
+            .iter()
+            .filter(|((of, _), _)| *of == section)
+            .map(|(_, entry)| *entry)
+            .collect();
+        found.sort_unstable();
+        found.into_iter()
+    }
+
     /// The blocks of a section by their numbers; of a number given twice the first one.
     pub(super) fn numbers(&self, section: usize) -> HashMap<i64, EntryIndex> {
         let mut numbers = HashMap::new();

@@ -21,7 +21,7 @@ use super::expression::{unquoted, with_subscripts};
 use super::hash::{declared_name, point_behind};
 use super::implicit::{is_file_name, named_words};
 use super::modal::Group;
-use super::program::{EntryIndex, Section};
+use super::program::{EntryIndex, LabelName, Section};
 use super::run::Interpreter;
 use super::state::after_motion_only;
 use super::value::{Value, rounded};
@@ -29,7 +29,7 @@ use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::{
     Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
-    Hash as HashCommand, Item, Node, Operand, Owner, Word,
+    Hash as HashCommand, Item, JumpTarget, Levels, Node, Operand, Owner, Word,
 };
 use crate::syntax::{Comments, KindSet, Stretch, is_letter};
 
@@ -86,6 +86,23 @@ impl fmt::Display for Target {
     }
 }
 
+/// How a region may be left other than at its end.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum Exit {
+    /// A jump of the same program.
+    Label(LabelName),
+    /// A jump to nobody knows where.
+    AnyLabel,
+    /// `$BREAK`, `$CONTINUE`.
+    Block(EntryIndex),
+    /// M17, M29.
+    Return,
+    /// The same over programs or to a label.
+    Far,
+    /// M02, M30.
+    End,
+}
+
 /// What a region could change.
 #[derive(Debug, Default)]
 pub(super) struct Region {
@@ -94,6 +111,7 @@ pub(super) struct Region {
     /// The targets, to ask whether something is one.
     written: HashSet<Target>,
     pub(super) calls: Vec<Wanted>,
+    pub(super) exits: Vec<Exit>,
     /// The macros that it was looked through with.
     pub(super) macro_version: u64,
 }
@@ -129,6 +147,8 @@ impl Interpreter {
             },
             effects: HashSet::new(),
             calls: HashSet::new(),
+            exits: HashSet::new(),
+            place: (unit, range.start),
             macros: Vec::new(),
             expanded: HashSet::new(),
             whole: false,
@@ -181,6 +201,9 @@ struct Gathering<'a> {
     region: Region,
     effects: HashSet<Effect>,
     calls: HashSet<(bool, Option<bool>, String)>,
+    exits: HashSet<Exit>,
+    /// The block that is looked at.
+    place: (usize, EntryIndex),
     /// Macros of the region whose code was not looked through yet.
     macros: Vec<(String, Span)>,
     expanded: HashSet<String>,
@@ -197,6 +220,7 @@ impl Gathering<'_> {
         };
         let mut block = Block::default();
         let mut left = range.len();
+        self.place = (unit, range.start);
         while left > 0 && !self.run.is_worn_out() {
             let Some(raw) = reader.next(&mut block) else {
                 return;
@@ -219,8 +243,12 @@ impl Gathering<'_> {
                 used: None,
                 shown: &shown,
             };
-            self.block(&block, &at);
-            self.expand(&at);
+            // Blocks that are skipped change nothing (R2.3).
+            if !self.run.is_skipped(&block) {
+                self.block(&block, &at);
+                self.expand(&at);
+            }
+            self.place.1 += 1;
         }
     }
 
@@ -331,13 +359,42 @@ impl Gathering<'_> {
                 }
             }
             Item::Unread(Unread::Parameters, _) => self.writes(Target::Parameters),
+            Item::Flow(flow, _) => self.flow(flow, at),
+            Item::Return(back) if back.levels != Levels::One || back.target.is_some() => {
+                self.exit(Exit::Far);
+            }
+            Item::Return(_) => self.exit(Exit::Return),
             Item::Unread(Unread::Spindle, _)
             | Item::BadCommand(_)
             | Item::Bracket { .. }
             | Item::BareNumber(..)
-            | Item::Label(_)
-            | Item::Return(_)
-            | Item::Flow(..) => {}
+            | Item::Label(_) => {}
+        }
+    }
+
+    fn flow(&mut self, flow: &Flow, at: &At<'_>) {
+        let (unit, entry) = self.place;
+        let index = &self.run.units[unit].index;
+        match flow {
+            Flow::Goto(JumpTarget::Label(name)) => self.exit(Exit::label(name.of(at.text))),
+            Flow::Goto(JumpTarget::Number(Operand::Number(number))) => {
+                self.exit(Exit::Label(LabelName::numbered(*number)));
+            }
+            Flow::Goto(_) => self.exit(Exit::AnyLabel),
+            Flow::Break if index.is_linked(entry) => {
+                self.exit(Exit::Block(index.links(entry).end + 1));
+            }
+            Flow::Continue if index.is_linked(entry) => {
+                self.exit(Exit::Block(index.links(entry).end));
+            }
+            _ => {}
+        }
+    }
+
+    fn exit(&mut self, exit: Exit) {
+        if !self.exits.contains(&exit) {
+            self.exits.insert(exit.clone());
+            self.region.exits.push(exit);
         }
     }
 
@@ -443,6 +500,11 @@ impl Gathering<'_> {
             Some(Operand::Number(number)) => rounded(number),
             _ => None,
         };
+        match (word.address, number) {
+            (Address::Letter(b'M'), Some(2 | 30)) => self.exit(Exit::End),
+            (Address::Letter(b'M'), Some(17 | 29)) => self.exit(Exit::Return),
+            _ => {}
+        }
         match word.address {
             Address::Letter(b'G') => self.g(number),
             Address::Letter(b'F') => self.effect(Effect::Feeds),

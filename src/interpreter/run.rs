@@ -15,6 +15,7 @@ use super::state::State;
 use super::unit::Unit;
 use super::unknown::{Journal, Regions, Scan};
 use super::value::Value;
+use super::ways::{Departing, Ways};
 use super::work::Work;
 use crate::compensation::Compensation;
 use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
@@ -61,6 +62,8 @@ pub struct Interpreter {
     pub(super) unit_names: HashMap<Arc<str>, usize>,
     /// Calls in regions that may or may not be executed.
     pub(super) pending: Vec<Scan>,
+    /// Ways that leave at the block that is executed.
+    pub(super) departing: Vec<Departing>,
     pub(super) regions: Regions,
     pub(super) journal: Journal,
     pub(super) kept: usize,
@@ -110,6 +113,7 @@ impl Interpreter {
             parked: None,
             named: BTreeMap::new(),
             described: None,
+            ways: Ways::default(),
         };
         let mut interpreter = Self::with_state(machine, options, state);
         interpreter.define_machine_macros();
@@ -141,6 +145,7 @@ impl Interpreter {
             missing: BTreeMap::new(),
             unit_names: HashMap::new(),
             pending: Vec::new(),
+            departing: Vec::new(),
             regions: Regions::new(),
             journal: Journal::default(),
             kept: 0,

@@ -12,6 +12,7 @@ use super::program::Index;
 use super::run::Interpreter;
 use super::state::{Frame, Step};
 use super::unit::Unit;
+use super::ways::Ways;
 use crate::codes::Code;
 use crate::diagnostic::{Collected, Diagnostic, Place, Severity};
 use crate::source::{SourceFile, Span};
@@ -120,12 +121,15 @@ impl Interpreter {
         self.state.parked = None;
         self.state.named.clear();
         self.state.described = None;
+        self.state.ways = Ways::default();
         self.units.clear();
         self.found.clear();
         self.missing.clear();
         self.unit_names.clear();
         self.compared = 0;
         self.pending.clear();
+        self.departing.clear();
+        self.work.changes.clear();
         self.regions.clear();
         self.journal.begin_anew();
         self.kept = 0;
@@ -223,7 +227,8 @@ impl Interpreter {
         {
             notes.to_mut().push(open);
         }
-        let changes = self.state.compensation.program_end();
+        let mut changes = std::mem::take(&mut self.work.changes);
+        changes.extend(self.state.compensation.program_end());
         if !changes.is_empty() {
             self.version += 1;
         }
@@ -233,6 +238,7 @@ impl Interpreter {
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,
             by,
+            endless: std::mem::take(&mut self.work.endless),
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,

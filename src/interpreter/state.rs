@@ -15,6 +15,7 @@ use super::modal::{self, Modal};
 use super::program::EntryIndex;
 use super::sequence::{Destination, Passage};
 use super::value::Value;
+use super::ways::Ways;
 use crate::compensation::Compensation;
 use crate::diagnostic::Place;
 use crate::syntax::ast::{Call, CallForm, Repetition};
@@ -58,6 +59,8 @@ pub(super) struct State {
     pub(super) named: BTreeMap<String, Value>,
     /// G functions and positions before a contour description, inside it.
     pub(super) described: Option<Box<Description>>,
+    /// Where the control may have gone instead (R2.52).
+    pub(super) ways: Ways,
 }
 
 /// A description of geometry whose blocks do not move (R2.81).

@@ -90,7 +90,9 @@ impl Interpreter {
             match stage {
                 Stage::Running => {}
                 Stage::Beyond(_) => {
-                    self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
+                    if !self.is_skipped(&block) {
+                        self.check_unexecuted(&file, (raw.line, raw.text), &block, &mut notes);
+                    }
                     continue;
                 }
                 Stage::Before | Stage::Announced => {

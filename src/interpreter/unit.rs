@@ -117,7 +117,10 @@ impl Interpreter {
             let Some(mut reader) = unit.index.reader(entry) else {
                 continue;
             };
-            if let Some(raw) = reader.next(&mut block) {
+            // What is skipped is passed over on the way, too.
+            if let Some(raw) = reader.next(&mut block)
+                && !self.is_skipped(&block)
+            {
                 self.check_unexecuted(&file, (raw.line, raw.text), &block, notes);
             }
         }

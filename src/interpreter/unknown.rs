@@ -18,10 +18,11 @@ use super::run::Interpreter;
 use super::state::{Repeated, RepeatedCall, Step};
 use super::value::Value;
 use crate::codes::Code;
+use crate::diagnostic::Diagnostic;
 use crate::machine::AxisIndex;
 use crate::source::Span;
 use crate::syntax::ast::Effect as Unread;
-use crate::syntax::{Fault, KindSet};
+use crate::syntax::{Fault, Kind, KindSet};
 
 /// A call found in a region that may or may not be executed.
 #[derive(Debug, Clone)]
@@ -47,6 +48,9 @@ pub(super) struct Journal {
 
 /// A file and a range of its blocks.
 pub(super) type RegionKey = (usize, EntryIndex, EntryIndex);
+
+/// How many axes a message names.
+const MAX_NAMED: usize = 8;
 
 /// How long the list may become.
 const MAX_WRITTEN: usize = 4096;
@@ -112,7 +116,8 @@ impl Interpreter {
         }
         let unit = self.state.frames.last()?.unit;
         self.units[unit].undecided.insert(from);
-        self.forget_region(unit, from..to, cause);
+        let region = self.forget_region(unit, from..to, cause);
+        self.note_exits(&region, (from, to + 1), (cause, Some(span)));
         Some(Step::Jump(to + 1))
     }
 
@@ -123,17 +128,23 @@ impl Interpreter {
         unit: usize,
         range: Range<EntryIndex>,
         cause: &Arc<str>,
-    ) {
+    ) -> Rc<Region> {
         let version = self.state.memory.macro_version();
-        self.forget_blocks(unit, range.clone(), cause);
+        let region = self.forget_blocks(unit, range.clone(), cause);
         // What it defines it may use as well, before or after: the second look finds such macros
         // unknown, and no third one is needed.
         if self.state.memory.macro_version() != version {
-            self.forget_blocks(unit, range, cause);
+            return self.forget_blocks(unit, range, cause);
         }
+        region
     }
 
-    fn forget_blocks(&mut self, unit: usize, range: Range<EntryIndex>, cause: &Arc<str>) {
+    fn forget_blocks(
+        &mut self,
+        unit: usize,
+        range: Range<EntryIndex>,
+        cause: &Arc<str>,
+    ) -> Rc<Region> {
         let key = (unit, range.start, range.end);
         let version = self.state.memory.macro_version();
         let known = self.regions.get(&key);
@@ -169,6 +180,7 @@ impl Interpreter {
             region: Some(key),
         });
         self.pending.extend(calls);
+        region
     }
 
     /// Something of the state may have changed.
@@ -178,8 +190,7 @@ impl Interpreter {
             Effect::Compensation(axis, kinds) => {
                 if let Ok(axis) = self.state.compensation.resolve(axis) {
                     self.see(axis);
-                    let changes = &mut self.work.changes;
-                    self.state.compensation.forget(axis, *kinds, changes);
+                    self.doubt(axis, *kinds);
                 }
             }
             Effect::G(number) => modal.forget_g(*number),
@@ -220,7 +231,7 @@ impl Interpreter {
     }
 
     /// A value may have been written.
-    fn lose(&mut self, target: &Target, cause: &Arc<str>) {
+    pub(super) fn lose(&mut self, target: &Target, cause: &Arc<str>) {
         let unknown = || Value::Unknown(cause.clone());
         match target {
             Target::Parameter(owner, index) => {
@@ -251,14 +262,19 @@ impl Interpreter {
     /// Everything that a program could change becomes unknown: every kind of every axis, positions and
     /// modal words, parameters and variables (R2.52).
     pub(super) fn forget_all(&mut self, cause: &Arc<str>) {
-        self.journal.begin_anew();
-        self.work.wrote = true;
-        self.state.memory.forget_all(cause);
+        self.forget_memory(cause);
         self.state.memory.forget_macros(cause, |_, _| false);
         self.state.modal.forget_g(None);
         self.state.modal.feeds = [None; 3];
         self.state.modal.radius = None;
         self.forget_compensation();
+    }
+
+    /// Every parameter and variable becomes unknown.
+    pub(super) fn forget_memory(&mut self, cause: &Arc<str>) {
+        self.journal.begin_anew();
+        self.work.wrote = true;
+        self.state.memory.forget_all(cause);
     }
 
     /// Every kind of every axis becomes unknown.
@@ -272,13 +288,59 @@ impl Interpreter {
     }
 
     /// The macros of programs may be gone; those of the machine are what it says, now as before.
-    fn doubt_macros(&mut self, cause: &Arc<str>) {
+    pub(super) fn doubt_macros(&mut self, cause: &Arc<str>) {
         let machine = &self.machine.programs.macros;
         let stays = |name: &str, code: &str| {
             let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
             last.is_some_and(|(_, own)| unescaped(own) == code)
         };
         self.state.memory.forget_macros(cause, stays);
+    }
+
+    /// Kinds of an axis become unknown.
+    pub(super) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
+        let compensation = &mut self.state.compensation;
+        compensation.forget(axis, kinds, &mut self.work.changes);
+        let doubted = compensation.unknown(axis).intersection(kinds);
+        if !doubted.is_empty() {
+            self.work.doubted.push((axis, doubted));
+        }
+    }
+
+    /// Names the kinds that a control block makes unknown, as soon as the programs are known that it
+    /// may call.
+    #[cold]
+    pub(super) fn name_doubted(&mut self) {
+        let is_block = |said: &Diagnostic| said.code == Code::Fc901;
+        if !self.work.diagnostics.iter().any(is_block) {
+            return;
+        }
+        let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
+        for (axis, doubted) in &self.work.doubted {
+            for kind in doubted.iter() {
+                let names = kinds.entry(kind).or_default();
+                let name = self.machine.axis(*axis).name.as_str();
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+        }
+        let named = kinds.iter().map(|(kind, axes)| {
+            let shown: Vec<String> = axes
+                .iter()
+                .take(MAX_NAMED)
+                .map(|it| format!("`{it}`"))
+                .collect();
+            let more = if axes.len() > MAX_NAMED { " …" } else { "" };
+            format!("`{}` of {}{more}", kind.keyword(), shown.join(" "))
+        });
+        let named: Vec<String> = named.collect();
+        let said = self.work.diagnostics.iter_mut();
+        for said in said.filter(|said| is_block(said)) {
+            said.message.push_str(", ");
+            said.message.push_str(&named.join(", "));
+            said.message.push_str(" too");
+        }
     }
 
     /// The modal cycle may or may not have been switched off.
@@ -330,7 +392,8 @@ impl Interpreter {
             }
             let section = &self.units[found.unit].index.sections[found.section];
             let region = section.start..section.end;
-            self.forget_region(found.unit, region, &cause);
+            let region = self.forget_region(found.unit, region, &cause);
+            self.note_far_exits(&region, &cause);
             pending.append(&mut self.pending);
         }
         // Macros that a called program may define are used where it was called from.

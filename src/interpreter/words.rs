@@ -210,16 +210,26 @@ impl Interpreter {
         }
         let machine = std::sync::Arc::clone(&self.machine);
         for &AxisWord { axis, span, .. } in &self.work.moved {
-            let missing = machine.axis(axis).required.iter().find(|kind| {
-                !matches!(
-                    self.state.compensation.state(axis, *kind),
-                    State::Active | State::Unknown
-                )
-            });
+            let state = |kind| self.state.compensation.state(axis, kind);
+            let required = machine.axis(axis).required;
+            let missing = required
+                .iter()
+                .find(|kind| !matches!(state(*kind), State::Active | State::Unknown));
+            let name = &machine.axis(axis).name;
             let Some(kind) = missing else {
+                if let Some(kind) = required.iter().find(|kind| state(*kind) == State::Unknown) {
+                    let keyword = kind.keyword();
+                    let message = format!(
+                        "whether axis `{name}` moves with `{keyword}`, which P-AXIS-00465 requires, \
+                         is not known offline; the rest assumes that it does"
+                    );
+                    let help = format!("set it before, with `{name}[COMP ON {keyword}]`");
+                    let fault = Fault::new(Code::Fc902, span, message).with_help(help);
+                    let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+                    self.work.diagnostics.push(diagnostic);
+                }
                 continue;
             };
-            let name = &machine.axis(axis).name;
             let keyword = kind.keyword();
             let fault = Fault::new(
                 Code::PErr70435,

@@ -7,9 +7,10 @@ use super::motion::{self, Motion};
 use super::value::Value;
 use crate::compensation::Change;
 use crate::diagnostic::Diagnostic;
+use crate::machine::AxisIndex;
 use crate::source::Span;
-use crate::syntax::Fault;
 use crate::syntax::ast::Block;
+use crate::syntax::{Fault, KindSet};
 
 /// Buffers that are used again for each block.
 #[derive(Default)]
@@ -17,6 +18,8 @@ pub(super) struct Work {
     pub(super) block: Block,
     pub(super) outcomes: Vec<Outcome>,
     pub(super) changes: Vec<Change>,
+    /// What may or may not have been switched.
+    pub(super) doubted: Vec<(AxisIndex, KindSet)>,
     /// Its axis words.
     pub(super) moved: Vec<AxisWord>,
     /// The axes that have a word, and those that may have another, a bit each.
@@ -40,6 +43,8 @@ pub(super) struct Work {
     pub(super) expansions: Cell<u32>,
     /// The budget that ended the run.
     pub(super) over: Option<Diagnostic>,
+    /// Whether that is a loop that never ends.
+    pub(super) endless: bool,
     /// Whether an axis occurred for the first time.
     pub(super) new_axes: bool,
     /// Whether a value was written.
@@ -50,6 +55,7 @@ impl Work {
     pub(super) fn clear(&mut self) {
         self.outcomes.clear();
         self.changes.clear();
+        self.doubted.clear();
         self.moved.clear();
         self.seen = 0;
         self.again = 0;

@@ -9,23 +9,31 @@ use crate::diagnostic::Diagnostic;
 use crate::machine::AxisIndex;
 use crate::syntax::Kind;
 
-pub(super) fn lint(linter: &Linter<'_>, left: &Compensation) -> Vec<LeftAway> {
+pub(super) fn lint(linter: &Linter<'_>, left: &Compensation, past: &str) -> Vec<LeftAway> {
     let mut found = Vec::new();
     for axis in (0..left.len()).map(AxisIndex::new) {
         for kind in Kind::ALL {
             let end = left.state(axis, kind);
-            if end == State::Unknown || end == linter.history.home(axis, kind) {
+            if end == linter.history.home(axis, kind) {
                 continue;
             }
             let did = linter.memory.axis(axis).kind(kind);
-            if let Some((Deed::On | Deed::Off, site)) = &did.last {
+            let is_told = |deed: Deed| match deed {
+                Deed::On | Deed::Off => end != State::Unknown,
+                Deed::Unknown => end == State::Unknown,
+                // FC902 has said it of every axis.
+                Deed::Lost => false,
+            };
+            if let Some((_, site)) = did.last.as_ref().filter(|(deed, _)| is_told(*deed)) {
                 let subject = Subject {
                     linter,
                     axis,
                     kind,
                     end,
+                    past,
                 };
                 let diagnostic = match moved_before(linter, axis, did) {
+                    _ if end == State::Unknown => subject.may_be_left(site),
                     Some(moved) => subject.second_run_differs(site, moved),
                     None => subject.left_changed(site),
                 };
@@ -54,19 +62,43 @@ struct Subject<'a> {
     axis: AxisIndex,
     kind: Kind,
     end: State,
+    /// What ends the program.
+    past: &'a str,
 }
 
 impl Subject<'_> {
     fn left_changed(&self, site: &Site) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
         let message = format!(
-            "`{keyword}` of axis `{name}` is left {} past program end; the control starts with it {}",
+            "`{keyword}` of axis `{name}` is left {} past {}; the control starts with it {}",
             self.end.word(),
+            self.past,
             self.linter.history.home(self.axis, self.kind).word()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
             .with_help(format!("bring it home before M30: `{}`", self.way_home()))
+    }
+
+    /// What hangs on a value that only the machine knows may be left away as well.
+    fn may_be_left(&self, site: &Site) -> Diagnostic {
+        let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
+        let home = self.linter.history.home(self.axis, self.kind);
+        let (away, way) = match home {
+            State::Inactive => (State::Active, "OFF"),
+            _ => (State::Inactive, "ON"),
+        };
+        let message = format!(
+            "`{keyword}` of axis `{name}` may be left {} past {}, which is not known offline; the \
+             control starts with it {}",
+            away.word(),
+            self.past,
+            home.word()
+        );
+        let help = format!("bring it home before M30: `{name}[COMP {way} {keyword}]`");
+        Diagnostic::new(Code::Fc401, site.place.clone(), message)
+            .with_axis(name)
+            .with_help(help)
     }
 
     fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {

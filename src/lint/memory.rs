@@ -56,6 +56,8 @@ pub(super) enum Deed {
     Off,
     /// A region that may or may not be executed could have switched it (R2.51).
     Unknown,
+    /// A call of nobody knows what could have switched everything (R2.52).
+    Lost,
 }
 
 impl From<Selection> for Deed {
@@ -127,16 +129,16 @@ impl Memory {
         memory.note(selection.kinds(), selection.into(), &site);
     }
 
-    /// The states that no command made unknown, but a region in whose place this block stands.
+    /// The states that no command made unknown, but what stands in this block.
     pub(super) fn forgotten(&mut self, executed: &Executed<'_>) {
+        let site = Arc::new(Site::new(executed, Span::new(0, executed.text.len())));
         let lost = |change: &&Change| change.to == State::Unknown;
-        let mut site = None;
         for change in executed.changes.iter().filter(lost) {
-            let site = site.get_or_insert_with(|| {
-                Arc::new(Site::new(executed, Span::new(0, executed.text.len())))
-            });
             let kinds = KindSet::from_iter([change.kind]);
-            self.axes[change.axis.get()].note(kinds, Deed::Unknown, site);
+            self.axes[change.axis.get()].note(kinds, Deed::Lost, &site);
+        }
+        for &(axis, kinds) in executed.doubted {
+            self.axes[axis.get()].note(kinds, Deed::Unknown, &site);
         }
     }
 

@@ -14,9 +14,9 @@ mod undescribed;
 pub use history::Maker;
 pub(crate) use history::{History, Told};
 
-use crate::compensation::Compensation;
+use crate::compensation::{Compensation, State};
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::{AxisWord, EndedBy, Executed, Outcome};
+use crate::interpreter::{AxisWord, Ended, EndedBy, Executed, Outcome};
 use crate::machine::{AxisIndex, Machine};
 use crate::syntax::Kind;
 use memory::Memory;
@@ -57,6 +57,8 @@ pub(crate) struct Linter<'m> {
     /// The name of the program behind `%`, or else its file.
     program: String,
     memory: Memory,
+    /// The states of friction compensation that the program found, by axis.
+    found: Vec<State>,
 }
 
 impl<'m> Linter<'m> {
@@ -67,7 +69,20 @@ impl<'m> Linter<'m> {
             machine,
             history,
             program: file.to_owned(),
+            found: Vec::new(),
         }
+    }
+
+    /// The program starts with these states.
+    pub(crate) fn starts(&mut self, with: &Compensation) {
+        let axes = (0..with.len()).map(AxisIndex::new);
+        self.found = axes.map(|axis| with.state(axis, Kind::Frict)).collect();
+    }
+
+    /// The state of friction compensation that the program found.
+    fn found(&self, axis: AxisIndex) -> State {
+        let home = || self.history.home(axis, Kind::Frict);
+        self.found.get(axis.get()).copied().unwrap_or_else(home)
     }
 
     /// The program has a name.
@@ -86,7 +101,7 @@ impl<'m> Linter<'m> {
         if !executed.outcomes.is_empty() {
             self.commands(executed, said);
         }
-        if !executed.changes.is_empty() {
+        if !(executed.changes.is_empty() && executed.doubted.is_empty()) {
             self.memory.forgotten(executed);
         }
         // The commands of a block act before its motion (R1.9).
@@ -115,13 +130,20 @@ impl<'m> Linter<'m> {
 
     /// Looks at the state that an ended program leaves, and remembers who made it. A program that
     /// an error or a budget stopped is not blamed for what it did not come to.
-    pub(crate) fn end(&mut self, by: EndedBy, left: &Compensation) -> Vec<LeftAway> {
+    /// One that a loop keeps for ever is ended by a reset, which keeps the state (R1.28).
+    pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
+        let left = ended.compensation;
         self.history
             .program_ended(&self.program, &self.memory, left);
-        if matches!(by, EndedBy::Error | EndedBy::Budget) {
-            return Vec::new();
+        match ended.by {
+            EndedBy::Budget if ended.endless => {
+                left_away::lint(self, left, "the reset that ends it")
+            }
+            EndedBy::Error | EndedBy::Budget => Vec::new(),
+            EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile => {
+                left_away::lint(self, left, "program end")
+            }
         }
-        left_away::lint(self, left)
     }
 
     /// What became of a note that [`end`](Self::end) gave.

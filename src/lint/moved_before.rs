@@ -18,14 +18,19 @@ pub(super) fn lint(
 ) -> Option<Diagnostic> {
     let memory = linter.memory.axis(axis);
     let state = executed.compensation.state(axis, Kind::Frict);
-    let own = memory.kind(Kind::Frict).last.is_some();
-    if own || state == linter.history.home(axis, Kind::Frict) {
+    let found = linter.found(axis);
+    let own = memory.kind(Kind::Frict).first.is_some();
+    if own || found == linter.history.home(axis, Kind::Frict) {
         return None;
     }
     let name = linter.name(axis);
-    let how = match state {
-        State::Unknown => "in an unknown state of friction compensation".to_owned(),
-        known => format!("with friction compensation {}", known.word()),
+    let how = match (found, state) {
+        (State::Unknown, _) => "moves in an unknown state of friction compensation".to_owned(),
+        // A region that may or may not be executed could have switched it (R2.51).
+        (found, State::Unknown) => {
+            format!("may move with friction compensation {}", found.word())
+        }
+        (_, known) => format!("moves with friction compensation {}", known.word()),
     };
     let who = match linter.history.maker(axis, Kind::Frict) {
         Some(maker) => named(maker),
@@ -36,7 +41,7 @@ pub(super) fn lint(
         Diagnostic::new(
             Code::Fc403,
             place,
-            format!("axis `{name}` moves {how}, left so by {who}"),
+            format!("axis `{name}` {how}, left so by {who}"),
         )
         .with_axis(name)
         .with_help(format!(

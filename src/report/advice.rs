@@ -43,7 +43,7 @@ pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static 
 
 /// Whether an axis is known to be as at the start of the control.
 pub(super) fn is_home(axis: &AxisSummary) -> bool {
-    axis.end == axis.home
+    axis.end == axis.home && axis.others_away.is_empty()
 }
 
 /// Said where there is nothing else to say, every axis is at home and the machine is described
@@ -61,6 +61,7 @@ mod tests {
         // R1.27
         let advice = |home, end| {
             let axis = AxisSummary {
+                others_away: crate::syntax::KindSet::NONE,
                 axis: AxisIndex::new(0),
                 start: home,
                 end,

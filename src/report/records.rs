@@ -286,6 +286,8 @@ fn repeats(out: &mut Vec<u8>, repeated: &[Repeat]) {
         string(out, &repeat.file);
         out.extend_from_slice(b",\"line\":");
         integer(out, repeat.line);
+        out.extend_from_slice(b",\"column\":");
+        integer(out, repeat.start.column);
         out.extend_from_slice(b",\"times\":");
         integer(out, repeat.times);
         out.push(b'}');

@@ -13,7 +13,7 @@ use crate::lint::{Linter, Told};
 use crate::machine::{AxisIndex, Machine};
 use crate::source::{Position, Span};
 use crate::syntax::{Comments, Kind, allow};
-use crate::timeline::{ChangedBy, End, EndNote, Record, Row, Sink, StateView};
+use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Record, Row, Sink, StateView};
 
 use super::said::{Said, Verdict};
 
@@ -87,6 +87,7 @@ impl Desk<'_> {
                 if let Some(name) = name {
                     self.linter.named(name);
                 }
+                self.linter.starts(compensation);
                 self.sink.record(&Record::Program {
                     program: self.program,
                     file: self.file,
@@ -199,7 +200,7 @@ impl Desk<'_> {
             if is_allowed(allows, diagnostic, line) || allowed {
                 return false;
             }
-            match before.take(diagnostic, line) {
+            match before.take(diagnostic) {
                 Verdict::Say => true,
                 Verdict::Repeated => false,
                 Verdict::TooMany => {
@@ -273,7 +274,7 @@ impl Desk<'_> {
                 diagnostic: diagnostic.clone(),
             })
             .collect();
-        let left = self.linter.end(ended.by, ended.compensation);
+        let left = self.linter.end(ended);
         let (levels, allows) = (self.levels, &mut self.allows);
         let mut judge = |note: &mut EndNote| {
             let Some(severity) = levels.severity(note.diagnostic.code) else {
@@ -295,6 +296,14 @@ impl Desk<'_> {
                 notes.push(left.note);
             }
         }
+        // Who never came to program end was not judged there.
+        let judged = match ended.by {
+            EndedBy::Error => false,
+            EndedBy::Budget => ended.endless,
+            EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile => true,
+        };
+        let of_end = |code: Code| matches!(code, Code::Fc401 | Code::Fc403 | Code::Fc407);
+        allows.retain(|(.., code), _| judged || !of_end(*code));
         let mut unused = unused_allows(allows);
         unused.retain_mut(|note| match levels.severity(note.diagnostic.code) {
             Some(severity) => {

@@ -169,19 +169,21 @@ impl Session {
             }
         }
         let mut session = Self::new(machine, options);
-        for saved in &saved.axes {
-            session.restore(saved);
+        for axis in &saved.axes {
+            session.restore(axis, &saved);
         }
         session.interpreter.set_compensation(session.start.clone());
         session.interpreter.take_over(saved.into_carried());
         Ok((session, said))
     }
 
-    fn restore(&mut self, saved: &SavedAxis) {
+    fn restore(&mut self, saved: &SavedAxis, state: &SavedState) {
         let Some(axis) = self.machine.find(&saved.axis) else {
             return;
         };
-        self.start.restore(axis, saved.selected, saved.unknown);
+        if !state.is_assumed_anew(self.machine.axis(axis), &self.machine) {
+            self.start.restore(axis, saved.selected, saved.unknown);
+        }
         for away in &saved.away {
             if let Some(maker) = &away.by {
                 self.history.restore(axis, away.kind, maker.clone());
@@ -300,6 +302,11 @@ impl Session {
     pub fn finish(&mut self, sink: &mut dyn Sink) -> ControlFlow<()> {
         let state = self.state();
         let axes = state.axes().map(|(axis, _)| AxisSummary {
+            others_away: Kind::ALL
+                .into_iter()
+                .filter(|kind| *kind != Kind::Frict)
+                .filter(|kind| state.state(axis, *kind) != self.history.home(axis, *kind))
+                .collect(),
             axis,
             start: self.start.state(axis, Kind::Frict),
             end: state.state(axis, Kind::Frict),

@@ -33,8 +33,6 @@ struct Saying {
     times: u64,
     /// Its text, from the second time on.
     message: String,
-    /// The line of its block.
-    line: u32,
 }
 
 /// What one file said.
@@ -54,8 +52,8 @@ pub(super) struct Said {
 }
 
 impl Said {
-    /// Takes a message about the block that starts on a line.
-    pub(super) fn take(&mut self, diagnostic: &Diagnostic, line: u32) -> Verdict {
+    /// Takes a message about an executed block.
+    pub(super) fn take(&mut self, diagnostic: &Diagnostic) -> Verdict {
         let place = &diagnostic.place;
         let start = place.start();
         let mut hasher = DefaultHasher::new();
@@ -82,7 +80,6 @@ impl Said {
             hash,
             times: 1,
             message: String::new(),
-            line,
         });
         Verdict::Say
     }
@@ -121,7 +118,7 @@ impl Said {
                 repeated.push(Repeat {
                     code: *code,
                     file: file.to_string(),
-                    line: saying.line,
+                    line: start.line,
                     times: saying.times,
                     start: *start,
                     message: saying.message.clone(),

@@ -10,7 +10,7 @@ use thiserror::Error;
 use crate::interpreter::{ArrayShape, Carried, Value};
 use crate::lint::Maker;
 use crate::lists::FrictionList;
-use crate::machine::Machine;
+use crate::machine::{Axis, AxisSet, Machine, Origin};
 use crate::syntax::{Kind, KindSet};
 
 /// The number of the format that is written.
@@ -120,7 +120,13 @@ impl SavedState {
         if !(1..=STATE_SCHEMA).contains(&self.schema) {
             return Err(StateError::Schema { found: self.schema });
         }
-        if let Some(difference) = difference(&self.machine, &fingerprint(machine)) {
+        let mut here = fingerprint(machine);
+        for (axis, line) in machine.axes.iter().zip(&mut here) {
+            if self.is_assumed_anew(axis, machine) {
+                *line = fingerprint_of(axis, KindSet::NONE);
+            }
+        }
+        if let Some(difference) = difference(&self.machine, &here) {
             return Err(StateError::OtherMachine { difference });
         }
         let damaged = |reason: String| Err(StateError::Damaged { reason });
@@ -145,6 +151,14 @@ impl SavedState {
             Some(entry) => damaged(format!("the machine has no axis `{}`", entry.axis)),
             None => Ok(()),
         }
+    }
+
+    /// Whether nothing but an assumption about an axis is new: where no machine is described,
+    /// `--enable` names the axes that the programs of each run need.
+    pub(super) fn is_assumed_anew(&self, axis: &Axis, machine: &Machine) -> bool {
+        machine.axis_set == AxisSet::AsTheyOccur
+            && axis.frict_comp_origin == Origin::Assumed
+            && self.machine.contains(&fingerprint_of(axis, KindSet::NONE))
     }
 
     pub(super) fn into_carried(self) -> Carried {
@@ -175,6 +189,13 @@ pub(super) fn storable((name, value): (String, Value)) -> (String, Value) {
 /// One line an axis with what only a start of the control reads. Value lists may be loaded anew
 /// while the control runs and are no part of it.
 pub(super) fn fingerprint(machine: &Machine) -> Vec<String> {
+    let lines = machine.axes.iter();
+    lines
+        .map(|axis| fingerprint_of(axis, axis.configured))
+        .collect()
+}
+
+fn fingerprint_of(axis: &Axis, configured: KindSet) -> String {
     let words = |kinds: KindSet| {
         let words: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
         if words.is_empty() {
@@ -183,22 +204,16 @@ pub(super) fn fingerprint(machine: &Machine) -> Vec<String> {
             words.join("|")
         }
     };
-    machine
-        .axes
-        .iter()
-        .map(|axis| {
-            let number = axis
-                .number
-                .map_or("-".to_owned(), |number| number.to_string());
-            format!(
-                "axis {} number {number} type {:?} configured {} manual {}",
-                axis.name,
-                axis.axis_type,
-                words(axis.configured),
-                words(axis.manual)
-            )
-        })
-        .collect()
+    let number = axis
+        .number
+        .map_or("-".to_owned(), |number| number.to_string());
+    format!(
+        "axis {} number {number} type {:?} configured {} manual {}",
+        axis.name,
+        axis.axis_type,
+        words(configured),
+        words(axis.manual)
+    )
 }
 
 /// What differs between the machines; the order of the axes does not count.

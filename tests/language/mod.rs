@@ -8,4 +8,5 @@ mod places;
 mod programs;
 mod text;
 mod unknown;
+mod ways;
 mod words;

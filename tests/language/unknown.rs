@@ -116,6 +116,7 @@ fn unknown_switches_and_loops() {
         FC901 2:1-8
       6 line 6 -
       7 line 7 -
+        FC401 5:1-8
       end 7 M30 X:unknown Y:active Z:unconfigured B:ineffective
     ");
 }
@@ -144,6 +145,9 @@ fn unknown_regions_reach_through_calls() {
       5 line 10 -
       6 line 11 -
       7 line 12 -
+        FC401 4:1-10
+        FC401 4:1-10
+        FC401 4:1-10
       end 7 M30 X:unknown Y:unknown Z:unconfigured B:unknown
     ");
     assert_snapshot!(format!("{:?}", session.interpreter().shared_variables()), @r#"{"V.S.Q": Unknown("V.E.A"), "V.S.R": Unknown("V.E.A")}"#);
@@ -195,8 +199,9 @@ fn unknown_jumps_and_calls() {
       5 line 5 - X:inactive>unknown Y:active>unknown B:ineffective>unknown
         FC902 5:1-8
       6 line 6 - X:unknown>active
-      7 line 7 N90
-      end 7 M30 X:active Y:unknown Z:unconfigured B:unknown
+      7 line 7 N90 X:active>unknown
+        FC401 7:1-9
+      end 7 M30 X:unknown Y:unknown Z:unconfigured B:unknown
     ");
 }
 

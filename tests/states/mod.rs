@@ -5,4 +5,5 @@ mod program;
 mod saved;
 mod sessions;
 mod undescribed;
+mod unknown;
 mod versions;

@@ -151,6 +151,7 @@ impl<'a> Player<'a> {
             let changed = from != to;
             let (line, number) = if name == "X" { (6, 45) } else { (4, 25) };
             AxisSummary {
+                others_away: crate::syntax::KindSet::NONE,
                 axis,
                 start: from,
                 end: to,

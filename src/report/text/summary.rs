@@ -204,6 +204,7 @@ mod tests {
     #[test]
     fn as_many_blocks_are_named_as_have_room() {
         let mut axis = AxisSummary {
+            others_away: crate::syntax::KindSet::NONE,
             axis: AxisIndex::new(0),
             start: State::Active,
             end: State::Inactive,

@@ -1,0 +1,62 @@
+//! The lints where a state is not known offline.
+
+use super::program::MACHINE;
+use crate::support::Bench;
+
+fn said(programs: &[&str]) -> String {
+    Bench::on(MACHINE).keep_going().said_in_session(programs)
+}
+
+#[test]
+fn what_a_program_finds_counts_until_its_own_command() {
+    // R1.52: a branch that may not be executed is no command.
+    let left = "X[COMP OFF FRICT]\nM30";
+    let branch = "$IF V.E.A == 1\nX[COMP ON FRICT]\n$ENDIF\nX1\nM30";
+    let both = said(&[left, branch]);
+    assert!(
+        both.contains("FC403 4:1 axis `X` may move with friction compensation inactive"),
+        "{both}"
+    );
+    let alone = said(&[branch]);
+    assert!(!alone.contains("FC403"), "{alone}");
+    let set = said(&[
+        left,
+        "X[COMP ON FRICT]\n$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nX1\nM30",
+    ]);
+    assert!(!set.contains("FC403"), "{set}");
+}
+
+#[test]
+fn what_may_be_left_is_said() {
+    // R1.50: at the last control block that may have left it.
+    let program =
+        "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.E.B == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
+    let said_of = said(&[program]);
+    assert!(
+        said_of.contains("FC401 4:1 `FRICT` of axis `X` may be left inactive past program end"),
+        "{said_of}"
+    );
+    let home = said(&["$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30"]);
+    assert!(!home.contains("FC401"), "{home}");
+}
+
+#[test]
+fn a_loop_without_an_end_is_left_by_a_reset() {
+    // R1.28 R1.50 R2.84
+    let program = "X[COMP OFF FRICT]\n$WHILE 1\nX1\n$ENDWHILE\nM30";
+    let left = said(&[program]);
+    assert!(
+        left.contains("FC401 1:1 `FRICT` of axis `X` is left inactive past the reset that ends it"),
+        "{left}"
+    );
+}
+
+#[test]
+fn a_program_that_never_ended_was_not_judged() {
+    // R9.24: the comment may be of use once the error is mended.
+    let allow = "; frictcomp: allow FC401 FC407\nX[COMP OFF FRICT]\n";
+    let stopped = Bench::on(MACHINE).said(&format!("{allow}S[COMP ON FRICT]\nM30"));
+    assert!(!stopped.contains("FC490"), "{stopped}");
+    let ended = said(&[&format!("{allow}X[COMP ON FRICT]\nM30")]);
+    assert!(ended.contains("FC490"), "{ended}");
+}

@@ -78,7 +78,6 @@ fn blocks_are_skipped_by_level() {
     a.nc -
       1 line 1 N10 X:active>inactive
       2 line 4 -
-        FC402 4:3-19
       3 line 5 -
         FC401 1:6-23
       end 3 M30 X:inactive Y:active Z:unconfigured B:ineffective

@@ -32,7 +32,7 @@ fn axis_names() {
     a.nc -
       1 line 1 -
       2 line 2 -
-        FC402 2:1-18
+        FC408 2:1-18
       3 line 3 -
         P-ERR-21947 3:1-2
       4 line 4 -

@@ -60,9 +60,13 @@ fn look(mut lines: impl BufRead, found: &mut Vec<String>) -> io::Result<()> {
     }
 }
 
+/// Whether a line may hold a command. Of the letters of the word the last one is the rarest in
+/// programs.
 fn has_comp(line: &[u8]) -> bool {
-    line.windows(4)
-        .any(|word| word.eq_ignore_ascii_case(b"COMP"))
+    memchr::memchr2_iter(b'P', b'p', line).any(|at| {
+        let before = at.checked_sub(3).map(|start| &line[start..at]);
+        before.is_some_and(|letters| letters.eq_ignore_ascii_case(b"COM"))
+    })
 }
 
 /// A line without its comments.

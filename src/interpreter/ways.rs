@@ -35,7 +35,7 @@ const MAX_WRITTEN: usize = 4096;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Ways {
     /// Sorted by depth and target, one for each.
-    open: Vec<Box<Way>>,
+    open: Vec<Way>,
     /// The ways that ended the program, as one.
     end: Option<Box<Way>>,
     /// What was written since the first of them left, and after which block last.
@@ -152,14 +152,14 @@ impl Ways {
     }
 
     fn place(&self, depth: usize, target: EntryIndex) -> Result<usize, usize> {
-        let key = |way: &Box<Way>| (way.depth, way.target);
+        let key = |way: &Way| (way.depth, way.target);
         self.open.binary_search_by_key(&(depth, target), key)
     }
 
     fn add(&mut self, way: Way) {
         match self.place(way.depth, way.target) {
             Ok(place) => self.open[place].take_in(way),
-            Err(place) => self.open.insert(place, Box::new(way)),
+            Err(place) => self.open.insert(place, way),
         }
     }
 
@@ -174,11 +174,11 @@ impl Ways {
     fn arrived(&mut self, depth: usize, here: EntryIndex) -> Option<Way> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         let first = self.open.get(place)?;
-        (first.depth == depth && first.target <= here).then(|| *self.open.remove(place))
+        (first.depth == depth && first.target <= here).then(|| self.open.remove(place))
     }
 
     /// The ways of a program that is left.
-    fn left(&mut self, depth: usize) -> Vec<Box<Way>> {
+    fn left(&mut self, depth: usize) -> Vec<Way> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         self.open.split_off(place)
     }
@@ -203,7 +203,10 @@ impl Way {
             *unknown = differing((*selected, *unknown), (*theirs, *lost)).union(*unknown);
         }
         self.standing.modal.doubt(&other.standing.modal);
-        doubt_repeated(&mut self.standing.repeated, &other.standing.repeated);
+        doubt_repeated(
+            &mut self.standing.repeated,
+            other.standing.repeated.as_ref(),
+        );
         doubt_names(
             &mut self.standing.named,
             &other.standing.named,
@@ -223,11 +226,11 @@ fn differing(one: (KindSet, KindSet), other: (KindSet, KindSet)) -> KindSet {
     differ.union(one.1).union(other.1)
 }
 
-fn doubt_repeated(repeated: &mut Option<Repeated>, other: &Option<Repeated>) {
-    if repeated == other {
+fn doubt_repeated(repeated: &mut Option<Repeated>, other: Option<&Repeated>) {
+    if repeated.as_ref() == other {
         return;
     }
-    let known = repeated.take().or_else(|| other.clone());
+    let known = repeated.take().or_else(|| other.cloned());
     *repeated = known.map(|mut known| {
         if let RepeatedCall::Program(found) = known.call {
             known.call = RepeatedCall::Perhaps(found);
@@ -478,12 +481,12 @@ impl Interpreter {
                 way.standing.modal.restore(saved);
             }
             let Some((next, waiting)) = &caller else {
-                self.state.ways.add_end(*way);
+                self.state.ways.add_end(way);
                 continue;
             };
             way.tails.extend(waiting);
             (way.depth, way.target) = (depth, *next);
-            self.state.ways.add(*way);
+            self.state.ways.add(way);
         }
     }
 
@@ -510,7 +513,7 @@ impl Interpreter {
             });
             let behind: Vec<Tail> = behind.collect();
             way.tails.extend(behind);
-            self.join(*way, &mut tails);
+            self.join(way, &mut tails);
         }
         self.forget_called(finder);
         self.departing.clear();
@@ -544,7 +547,7 @@ impl Interpreter {
         if standing.macros != self.state.memory.macro_version() {
             self.doubt_macros(&cause);
         }
-        doubt_repeated(&mut self.state.repeated, &standing.repeated);
+        doubt_repeated(&mut self.state.repeated, standing.repeated.as_ref());
         doubt_names(&mut self.state.named, &standing.named, &cause);
         let written = &self.state.ways.written.0;
         self.state.charge(ITEM + written.len());

@@ -14,6 +14,10 @@ use crate::syntax::{Fault, KindSet};
 
 /// Buffers that are used again for each block.
 #[derive(Default)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "facts of one block, of which each is asked by itself"
+)]
 pub(super) struct Work {
     pub(super) block: Block,
     pub(super) outcomes: Vec<Outcome>,

@@ -542,6 +542,8 @@ fn programs_read_the_state() {
       2 line 4 - Y:active>unknown
         FC901 4:1-28
       3 line 7 -
+        FC401 1:1-10
+        FC401 4:1-28
       end 3 M30 X:unknown Y:unknown Z:unconfigured B:ineffective
     ");
 }

@@ -212,7 +212,7 @@ fn a_remark_in_a_loop_is_made_once_and_counted() {
     let records = bench.records(&["a.nc"]);
     let end = records.iter().find(|record| record.contains("\"end\""));
     let repeated = json(end.expect("an end"))["repeated"].clone();
-    let expected = r#"[{"code":"FC402","file":"a.nc","line":3,"times":4}]"#;
+    let expected = r#"[{"code":"FC402","file":"a.nc","line":3,"column":1,"times":4}]"#;
     assert_eq!(repeated, json(expected));
     let check = bench.stdout(&["check", "--format", "concise", "a.nc"]);
     assert!(check.contains("is already on (4 times)"), "{check}");

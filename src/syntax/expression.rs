@@ -97,10 +97,16 @@ pub(super) fn lower_primary(pair: Pair<'_, Rule>, base: u32, block: &mut Block) 
     operand(from, block)
 }
 
-/// Lowers the text of a literal.
-pub(super) fn lower_literal(text: &str, span: Span, block: &mut Block) -> Operand {
+/// Lowers a number with an optional sign.
+pub(super) fn lower_number(text: &str, span: Span, block: &mut Block) -> Operand {
+    let value = number(text);
+    if value.is_finite() {
+        return Operand::Number(value);
+    }
     let from = block.nodes.len();
-    Lowering { base: 0, block }.push(Node::Number(number(text)), span);
+    let signs = text.len() - text.trim_start_matches(['+', '-']).len();
+    let digits = Span::new(span.start as usize + signs, span.end as usize);
+    Lowering { base: 0, block }.push(Node::Number(value), digits);
     operand(from, block)
 }
 

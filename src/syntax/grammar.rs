@@ -7,4 +7,5 @@ use pest_derive::Parser;
 
 #[derive(Parser)]
 #[grammar = "../grammar.pest"]
+#[cfg_attr(test, grammar = "../tests/reference.pest")]
 pub(super) struct NcParser;

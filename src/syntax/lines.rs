@@ -88,7 +88,8 @@ pub struct BlockReader<S> {
     /// The number of the line that `source` stands on.
     line: u32,
     text: String,
-    code: String,
+    /// The code of the last block that was not parsed by hand.
+    pub(super) code: String,
     remark: Remark,
 }
 

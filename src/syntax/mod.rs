@@ -132,3 +132,6 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
         rest = behind;
     }
 }
+
+#[cfg(test)]
+mod reference;

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::Bench;
+use crate::support::{Bench, Handed};
 use frictcomp::machine::Machine;
 
 fn run(program: &str) -> String {
@@ -410,4 +410,59 @@ fn main_axes_of_a_cycle() {
     M17 X:3 Y:1 Z:2 B:?
     M30 X:3 Y:1 Z:2 B:?
     ");
+}
+
+/// What a program says, in each way to hand it over.
+fn said_in_every_way(program: &str) -> [String; 2] {
+    [Handed::Whole, Handed::LineByLine].map(|handed| {
+        let bench = Bench::new().keep_going().handed(handed);
+        bench.run(&[program])
+    })
+}
+
+#[test]
+fn a_number_that_is_too_large_is_one_nowhere() {
+    // R2.37
+    let large = "9".repeat(400);
+    for form in [
+        "G1 X#",
+        "X-#",
+        "X+# Y1",
+        "X1 Y#.5",
+        "Y2X#",
+        "X#(a (b))",
+        "/X#",
+        "X=#",
+        "X[#]",
+        "X[-#+1]",
+        "G1 X1 F#",
+        "G04 #",
+        "G04 X#",
+        "G#",
+        "M#",
+        "S#",
+        "S.POS#",
+        "T#",
+        "Z1 N#",
+        "A1=#",
+        "P1=#",
+        "P1=1 X[P1*#]",
+        "V.S.A=#",
+        "\"M\"=\"X#\"\n\"M\"",
+        "\"E\"=\"#\"\nX[\"E\"]",
+        "$IF #\n$ENDIF",
+        "@X#",
+        "#TIME #",
+        "L CYCLE [NAME=a.cyc @P1=#]",
+        "X#\\\nY1",
+    ] {
+        let program = format!(
+            "{}\nM30\n",
+            form.replace("#", &large)
+                .replace(&format!("{large}TIME"), "#TIME")
+        );
+        for said in said_in_every_way(&program) {
+            assert_eq!(said.matches("FC312").count(), 1, "{form}: {said}");
+        }
+    }
 }

@@ -23,6 +23,11 @@ use crate::source::Span;
 
 /// Parses the code of a block into an empty block.
 pub(super) fn block(code: &str, block: &mut Block) {
+    block_as(Rule::block, code, block);
+}
+
+/// The same from another rule than the one that all blocks are parsed with.
+pub(super) fn block_as(rule: Rule, code: &str, block: &mut Block) {
     let unclosed = match brackets(code) {
         Ok(unclosed) => unclosed,
         Err(fault) => {
@@ -30,7 +35,7 @@ pub(super) fn block(code: &str, block: &mut Block) {
             return;
         }
     };
-    let Ok(mut pairs) = NcParser::parse(Rule::block, code) else {
+    let Ok(mut pairs) = NcParser::parse(rule, code) else {
         // `block` matches any text; see the last alternative of `item`.
         block
             .faults
@@ -282,8 +287,7 @@ impl Lowering<'_> {
 
     /// `N10` in front of plain words.
     fn plain_number(&mut self, span: Span) {
-        let digits = Span::new(span.start as usize + 1, span.end as usize);
-        let value = expression::lower_literal(digits.of(self.code), digits, self.block);
+        let value = self.plain_value(span);
         self.block.number = Some(Number {
             value,
             label: false,
@@ -291,16 +295,21 @@ impl Lowering<'_> {
         });
     }
 
-    /// A letter with a number behind it.
+    /// A letter with a number after it.
     fn plain_word(&mut self, span: Span) {
-        let text = span.of(self.code);
-        let letter = text.bytes().next().unwrap_or_default();
-        let number = text.get(1..).and_then(|number| number.parse().ok());
+        let letter = span.of(self.code).bytes().next().unwrap_or_default();
+        let value = self.plain_value(span);
         self.block.push_word(Word {
             address: address(letter),
-            value: number.map(Operand::Number),
+            value: Some(value),
             span,
         });
+    }
+
+    /// The number after the letter of a plain word.
+    fn plain_value(&mut self, word: Span) -> Operand {
+        let number = Span::new(word.start as usize + 1, word.end as usize);
+        expression::lower_number(number.of(self.code), number, self.block)
     }
 
     fn word(&mut self, pair: Pair<'_, Rule>, span: Span) {

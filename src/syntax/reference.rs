@@ -1,12 +1,15 @@
-//! The fast path against the grammar: block by block the same tree, on generated blocks and on
-//! blocks that were damaged afterwards.
+//! The shortcuts against the grammar without any: block by block the same tree by the fast path, by the
+//! grammar, and by the grammar without its words in one token, on generated blocks and on blocks that
+//! were damaged afterwards.
 //!
-//! `cargo test --release --test differential -- --ignored` compares ten million blocks.
+//! `cargo test --release --lib reference -- --ignored` compares ten million blocks.
 
 use fastrand::Rng;
-use frictcomp::source::TextLines;
-use frictcomp::syntax::ast::Block;
-use frictcomp::syntax::{BlockReader, FastPath};
+
+use super::ast::Block;
+use super::grammar::Rule;
+use super::{BlockReader, FastPath, lower};
+use crate::source::TextLines;
 
 /// Stretches of a program that are more than words.
 const PIECES: [&str; 56] = [
@@ -83,7 +86,12 @@ const LINE_ENDS: [&str; 6] = ["\n", "\n", "\n", "\r\n", "\r", ""];
 fn push_word(line: &mut String, rng: &mut Rng) {
     line.push(rng.char('A'..='Z'));
     line.push_str(["", "", "", "-", "+"][rng.usize(..5)]);
-    for _ in 0..rng.usize(..10) {
+    // More than 308 digits before the point are no number.
+    let digits = match rng.u16(..500) {
+        0 => 400,
+        _ => rng.usize(..10),
+    };
+    for _ in 0..digits {
         line.push(rng.char('0'..='9'));
     }
     if rng.bool() {
@@ -152,11 +160,24 @@ fn compare(program: &str) -> u64 {
             expected.remark,
         );
         assert_eq!(seen, meant, "{program:?}");
-        // A number that is none is NaN, and equals nothing.
-        let same = one == other || format!("{one:?}") == format!("{other:?}");
-        assert!(same, "{:?}\n{one:#?}\n{other:#?}", found.text);
+        assert_same(found.text, &one, &other);
+        compare_with_reference(&grammar.code);
         blocks += 1;
     }
+}
+
+/// The tree of a block's code by the grammar, and by the grammar without its shortcuts.
+fn compare_with_reference(code: &str) {
+    let (mut tree, mut reference) = (Block::default(), Block::default());
+    lower::block(code, &mut tree);
+    lower::block_as(Rule::reference_block, code, &mut reference);
+    assert_same(code, &tree, &reference);
+}
+
+fn assert_same(text: &str, one: &Block, other: &Block) {
+    // A number that is none is NaN, and equals nothing.
+    let same = one == other || format!("{one:?}") == format!("{other:?}");
+    assert!(same, "{text:?}\n{one:#?}\n{other:#?}");
 }
 
 fn compare_blocks(count: u64, seed: u64) {
@@ -176,7 +197,7 @@ fn compare_blocks(count: u64, seed: u64) {
 }
 
 #[test]
-fn the_fast_path_is_the_grammar() {
+fn every_shortcut_is_the_grammar() {
     compare_blocks(20_000, 1);
 }
 
@@ -190,6 +211,6 @@ fn what_editors_leave_at_the_end_of_a_comment_is_no_text() {
 
 #[test]
 #[ignore = "ten million blocks take minutes"]
-fn the_fast_path_is_the_grammar_at_length() {
+fn every_shortcut_is_the_grammar_at_length() {
     compare_blocks(10_000_000, 2);
 }

@@ -8,6 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use frictcomp::report::assumptions::{CHAPTERS, Chapter};
+
 /// Set to write the output of the commands into the documents.
 const UPDATE: &str = "UPDATE_DOCS";
 
@@ -154,6 +156,67 @@ fn console_blocks_show_what_the_tool_prints() {
             );
         }
     }
+}
+
+/// The list of assumptions with its tables made from the code; what stands above them is prose.
+fn assumptions(text: &str) -> String {
+    let prose = text.split("\n## ").next().unwrap_or_default();
+    let mut fresh = prose.trim_end().to_owned();
+    fresh.push('\n');
+    for Chapter { title, assumptions } in CHAPTERS {
+        let _ = write!(
+            fresh,
+            "\n## {title}\n\n| rule | assumption | what it changes | how it shows |\n|---|---|---|---|\n"
+        );
+        for it in assumptions {
+            let cells = [it.rule, it.sentence, it.changes, it.shows];
+            let _ = writeln!(fresh, "| {} |", cells.join(" | "));
+        }
+    }
+    fresh
+}
+
+#[test]
+fn the_list_of_assumptions_is_that_of_the_code() {
+    let path = root().join("docs/assumptions.md");
+    let text = read(&path);
+    let fresh = assumptions(&text);
+    if std::env::var_os(UPDATE).is_some() {
+        fs::write(&path, &fresh).expect("written");
+    } else {
+        assert!(
+            fresh == text,
+            "docs/assumptions.md is old, see CONTRIBUTING.md:\n{fresh}"
+        );
+    }
+}
+
+#[test]
+fn every_rule_that_is_an_assumption_is_in_the_list() {
+    let all = CHAPTERS.iter().flat_map(|chapter| chapter.assumptions);
+    let named: BTreeSet<&str> = all.flat_map(|it| it.rule.split(", ")).collect();
+    let text = read(&root().join("docs/rules.md"));
+    let mut listed = BTreeSet::new();
+    for line in text.lines() {
+        let Some((rule, rest)) = line
+            .strip_prefix("- **")
+            .and_then(|line| line.split_once("** "))
+        else {
+            continue;
+        };
+        listed.insert(rule);
+        let source = rest.rsplit_once("*(").map_or("", |(_, source)| source);
+        assert!(
+            !source.contains("assumption") || named.contains(rule),
+            "{rule} is an assumption that `report/assumptions` does not have"
+        );
+    }
+    // A number without a letter is a section.
+    let rules = named
+        .iter()
+        .filter(|rule| !rule.starts_with(|it: char| it.is_ascii_digit()));
+    let unknown: Vec<_> = rules.filter(|rule| !listed.contains(*rule)).collect();
+    assert!(unknown.is_empty(), "docs/rules.md has no {unknown:?}");
 }
 
 #[test]

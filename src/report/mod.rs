@@ -4,6 +4,7 @@
 //! kept and ends the dry run; a closed pipe is no error for the caller.
 
 mod advice;
+pub mod assumptions;
 pub mod circle;
 mod concise;
 mod csv;

@@ -1,6 +1,5 @@
 //! The report of a session.
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -14,6 +13,7 @@ use crate::diagnostic::Severity;
 use crate::lists::Parameter;
 use crate::machine::AxisReport;
 use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
+use crate::report::assumptions::Met;
 use crate::report::markup::escaped;
 use crate::report::svg::{Axis, Band, BandChart, BandRow, Frame};
 use crate::syntax::Kind;
@@ -90,10 +90,21 @@ pub fn render_run(
     machine::render_curves(&mut page, story);
     page.end_part()?;
     page.part(READING);
-    let said: BTreeSet<_> = story.messages.iter().map(|it| it.diagnostic.code).collect();
-    assumptions::render(&mut page, &said, story.axis_set);
+    assumptions::render(&mut page, &met(story));
     page.end_part()?;
     page.close()
+}
+
+/// What the session tells about the assumptions that it depends on.
+fn met(story: &RunStory) -> Met {
+    let codes = story.messages.iter().map(|message| message.diagnostic.code);
+    let passed_over = story.summary.iter().flat_map(|it| it.opaque.values()).sum();
+    Met {
+        reported: codes.collect(),
+        axis_set: story.axis_set,
+        passed_over,
+        ended: story.ended(),
+    }
 }
 
 /// More programs are counted, not named.

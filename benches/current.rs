@@ -10,13 +10,13 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use frictcomp::compensation::State;
+use frictcomp::comp::{AxisIndex, State};
 use frictcomp::current::{AdditiveCurrent, Commanded, Followers, Reading};
 use frictcomp::lists::{FrictionList, TablePoint};
-use frictcomp::machine::{AxisIndex, Machine};
+use frictcomp::machine::Machine;
 use frictcomp::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
 /// The cycles of the trace: 1000 s, a reversal every half second.

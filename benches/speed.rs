@@ -24,9 +24,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use frictcomp::source::TextLines;
-use frictcomp::syntax::ast::Block;
-use frictcomp::syntax::{BlockReader, FastPath};
+use frictcomp::syntax::{BlockReader, FastPath, ast::Block};
+use frictcomp::text::TextLines;
 use generate::Shape;
 
 /// The arguments that make this program one of the yardsticks.

@@ -4,10 +4,9 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::compensation::Compensation;
 use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options, Outlook, Snapshot};
 use frictcomp::machine::Machine;
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 
 const PROGRAM: &str = "\
 N10 X[COMP OFF FRICT]
@@ -40,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let machine = Machine::enabled(["X"]);
     let program = || SourceFile::new("a.nc", PROGRAM);
 
-    let start = Compensation::at_startup(&machine);
+    let start = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), start, Options::default());
     let mut observer = |event: Event<'_>| watch(&machine, event, Some(20));
     let outlook = run.program(program(), &mut NoFiles, &mut observer);

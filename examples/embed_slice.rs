@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example embed_slice`
 
-use frictcomp::compensation::{Compensation, CompensationError};
+use frictcomp::comp::CompensationError;
 use frictcomp::machine::Machine;
 use frictcomp::syntax::parse_comp;
 
@@ -34,7 +34,7 @@ fn brackets(block: &str) -> impl Iterator<Item = &str> {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let machine = Machine::from_toml(MACHINE)?;
-    let mut compensation = Compensation::at_startup(&machine);
+    let mut compensation = machine.compensation();
     let mut refused = Vec::new();
     for block in PROGRAM.lines() {
         for bracket in brackets(block) {

@@ -5,15 +5,14 @@
 //! what it changed and which axis has friction compensation active behind it.
 //!
 //! A host with an interpreter of its own needs only [`syntax::parse_comp`] and
-//! [`compensation::Compensation`]:
+//! [`comp::Compensation`]:
 //!
 //! ```
-//! use frictcomp::compensation::Compensation;
 //! use frictcomp::machine::Machine;
 //! use frictcomp::syntax::parse_comp;
 //!
 //! let machine = Machine::enabled(["X"]);
-//! let mut compensation = Compensation::at_startup(&machine);
+//! let mut compensation = machine.compensation();
 //! let changes = compensation.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
 //! assert_eq!(changes[0].to.word(), "inactive");
 //! let refused = compensation.apply(&parse_comp("Y[COMP ON FRICT]")?).unwrap_err();
@@ -33,8 +32,7 @@
 pub mod circle;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod codes;
-pub mod compensation;
+pub mod comp;
 pub mod current;
 pub mod diagnostic;
 pub mod interpreter;
@@ -46,6 +44,6 @@ pub mod motion;
 pub mod report;
 pub mod session;
 pub mod simulation;
-pub mod source;
 pub mod syntax;
+pub mod text;
 pub mod timeline;

@@ -7,14 +7,12 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use crate::codes::Code;
-use crate::compensation::{Change, Compensation, State};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, State};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
-use crate::machine::{AxisIndex, Machine};
-use crate::source::Position;
-use crate::syntax::{Kind, KindSet};
+use crate::machine::Machine;
+use crate::text::Position;
 
 /// The number of the record format.
 pub const SCHEMA: u32 = 1;

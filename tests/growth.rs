@@ -11,7 +11,7 @@ use std::path::Path;
 
 use frictcomp::machine::Machine;
 use frictcomp::session::{Program, Session, SessionOptions, StopPolicy};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
 /// How much more a program of twice the length may need: the exponent 1.2.

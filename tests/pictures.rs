@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use roxmltree::Document;
 
 use frictcomp::circle::{Candidate, FeedResult, Tuned};
-use frictcomp::compensation::State;
+use frictcomp::comp::State;
 use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
 use frictcomp::machine::AcceptedList;

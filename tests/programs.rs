@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use frictcomp::codes::Code;
+use frictcomp::diagnostic::Code;
 
 /// The bound on executed blocks for all programs, so that a loop that does not end is seen.
 const MAX_BLOCKS: &str = "5000";

@@ -2,13 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::compensation::Compensation;
 use frictcomp::interpreter::{Event, Interpreter, Limits, NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
 use frictcomp::session::{Program, Session, SessionOptions};
-use frictcomp::source::{FlowScan, SourceFile, Span, TextLines};
 use frictcomp::syntax::ast::{Block, Item};
-use frictcomp::syntax::{BlockReader, FastPath, Stretch};
+use frictcomp::syntax::{BlockReader, FastPath, FlowScan, Stretch};
+use frictcomp::text::{SourceFile, Span, TextLines};
 use frictcomp::timeline::{Record, Sink};
 use proptest::prelude::*;
 
@@ -323,7 +322,7 @@ fn an_observer_may_stop_at_any_block() {
     let text = "N10 X1\nN20 X[COMP OFF FRICT]\nN30 Y2\nN40 M30\n";
     for stop_at in 1..=4 {
         let machine = Machine::enabled(["X", "Y"]);
-        let compensation = Compensation::at_startup(&machine);
+        let compensation = machine.compensation();
         let mut run = Interpreter::new(machine, compensation, Options::default());
         let mut seen = 0;
         let source = SourceFile::new("a.nc", text);

@@ -6,12 +6,11 @@ use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
-use frictcomp::compensation::Compensation;
 use frictcomp::interpreter::{
     Event, Interpreter, Options, Outlook, ResumeError, Snapshot, StopPolicy,
 };
 use frictcomp::machine::Machine;
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use serde_json::json;
 use support::MACHINE;
 
@@ -134,7 +133,7 @@ fn find(name: &str, _: &str) -> Option<SourceFile> {
 
 fn start(observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>) -> (Interpreter, Outlook) {
     let machine = machine();
-    let compensation = Compensation::at_startup(&machine);
+    let compensation = machine.compensation();
     let mut run = Interpreter::new(machine, compensation, options());
     let source = file("a.nc").expect("the main program");
     let outlook = run.program(source, &mut find, &mut |event: Event<'_>| observer(&event));

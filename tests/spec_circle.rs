@@ -14,7 +14,7 @@ use frictcomp::lists::Field;
 use frictcomp::simulation::{
     Drive, DriveParameters, FrictionModel, POSITION_LOOP_S, Plant, Preset, Setpoint, plant_list,
 };
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use proptest::prelude::{ProptestConfig, Strategy, proptest};
 
 fn circular_test(feed: f64) -> CircularTest {

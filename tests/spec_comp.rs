@@ -2,10 +2,10 @@
 
 mod support;
 
-use frictcomp::compensation::{Compensation, State};
+use frictcomp::comp::{Kind, KindSet, Selection, State};
 use frictcomp::machine::Machine;
 use frictcomp::session::{Session, SessionOptions};
-use frictcomp::syntax::{Kind, KindSet, Selection, parse_comp};
+use frictcomp::syntax::parse_comp;
 use insta::assert_snapshot;
 use support::{Bench, MACHINE};
 
@@ -440,16 +440,13 @@ fn reset_keeps_the_state_a_restart_does_not() {
     // R1.28 R1.29
     let machine = Machine::from_toml(MACHINE).unwrap();
     let x = machine.find("X").unwrap();
-    let mut state = Compensation::at_startup(&machine);
+    let mut state = machine.compensation();
     state
         .apply(&parse_comp("X[COMP OFF FRICT]").unwrap())
         .unwrap();
     assert!(state.reset().is_empty());
     assert_eq!(state.state(x, Kind::Frict), State::Inactive);
-    assert_eq!(
-        Compensation::at_startup(&machine).state(x, Kind::Frict),
-        State::Active
-    );
+    assert_eq!(machine.compensation().state(x, Kind::Frict), State::Active);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Chapter 4: the additive current, rule by rule, against values computed by hand.
 
-use frictcomp::compensation::State;
+use frictcomp::comp::State;
 use frictcomp::current::{
     AdditiveCurrent, Below, Commanded, Delay, Followers, Reading, Standstill, Switched,
 };

@@ -4,8 +4,8 @@
 use frictcomp::machine::Configuration;
 use frictcomp::report::{Ndjson, View};
 use frictcomp::session::{Program, Session, SessionOptions};
-use frictcomp::source::SourceFile;
-use frictcomp::syntax::KindSet;
+use frictcomp::text::SourceFile;
+use frictcomp::comp::KindSet;
 use frictcomp_fuzz::{Bench, Files, POLICIES};
 use libfuzzer_sys::fuzz_target;
 

@@ -2,7 +2,7 @@
 
 use frictcomp::machine::Machine;
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
-use frictcomp::source::TextLines;
+use frictcomp::text::TextLines;
 use frictcomp::timeline::Sink;
 
 use crate::{Files, MAIN};

@@ -6,7 +6,7 @@ use frictcomp::circle::{Circle, CircleError, CircularTest, Comparison, Job, Lap,
 use frictcomp::current::Reading;
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::simulation::{FrictionModel, Plant, STEP_S, plant_list};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 
 use crate::Dice;
 

@@ -2,9 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::compensation::Compensation;
 use frictcomp::interpreter::{Event, Interpreter, Options, Outlook, Snapshot};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 
 use crate::damage::damage;
 use crate::{Bench, Dice, Files, MAIN, POLICIES, machine};
@@ -24,7 +23,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
         ..Options::default()
     };
     let machine = machine();
-    let compensation = Compensation::at_startup(&machine);
+    let compensation = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), compensation, options);
     let mut left = 1 + dice.below(20);
     let outlook = run.program(files.source(), &mut { files }, &mut |_: Event<'_>| {

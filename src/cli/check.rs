@@ -20,11 +20,10 @@ use super::notes::{self, Note};
 use super::outputs::Outputs;
 use super::unread::say_unread;
 use super::{switched, walk, workers};
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::report::wrap;
 use crate::session::{NoteKind, Notes, StopPolicy};
-use crate::source::Position;
+use crate::text::Position;
 use crate::timeline::{Record, Repeat, Sink};
 
 /// Print all messages of all programs; each program runs from the start of the control
@@ -294,7 +293,7 @@ impl Sink for Found {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::{SourceFile, Span};
+    use crate::text::{SourceFile, Span};
 
     #[test]
     fn a_diagnostic_is_kept_once_and_in_the_order_of_the_text() {

@@ -9,7 +9,7 @@ use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::painted::severities;
-use crate::codes::Code;
+use crate::diagnostic::Code;
 
 /// List all codes with severity and title
 #[derive(Debug, Args)]

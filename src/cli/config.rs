@@ -11,12 +11,11 @@ use super::exit;
 use super::failure::{Failure, shown};
 use super::ledger::Ledger;
 use super::painted::parts;
-use crate::compensation::Compensation;
+use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::Diagnostic;
-use crate::machine::{AxisIndex, AxisSet, AxisType, Origin, Parameterisation};
+use crate::machine::{AxisSet, AxisType, Origin, Parameterisation};
 use crate::report::lists::render_parameters;
 use crate::report::visible_line;
-use crate::syntax::Kind;
 
 /// Show the configuration of the machine
 #[derive(Debug, Subcommand)]
@@ -91,7 +90,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
         output,
         "\naxis      type  at start      P-AXIS-00522  value list"
     );
-    let comp = Compensation::at_startup(machine);
+    let comp = machine.compensation();
     for (position, axis) in machine.axes.iter().enumerate() {
         let state = comp.state(AxisIndex::new(position), Kind::Frict);
         let kind = match axis.axis_type {

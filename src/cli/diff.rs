@@ -18,12 +18,10 @@ use super::ledger::Ledger;
 use super::painted::difference;
 use super::settings;
 use super::switched;
-use crate::codes::Code;
-use crate::compensation::State;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::comp::{KindSet, State};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::report::visible_line;
 use crate::session::StopPolicy;
-use crate::syntax::KindSet;
 use crate::timeline::{EndedBy, Record, Row, Sink};
 
 /// Show which compensation changes differ between two versions of a program

@@ -16,11 +16,10 @@ use super::lookahead::{AxesAhead, may_be_axis};
 use super::settings::{self, SetVariable};
 use super::severities::SeverityArgs;
 use super::watch::Watch;
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, Levels, Severity, did_you_mean};
 use crate::lists::Parameter;
 use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// The name of the configuration file.
 pub(super) const CONFIG_NAME: &str = "frictcomp.toml";

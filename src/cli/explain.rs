@@ -6,8 +6,7 @@ use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::painted::page as titles;
-use crate::codes::Code;
-use crate::diagnostic::did_you_mean;
+use crate::diagnostic::{Code, did_you_mean};
 
 /// Explain a message or a parameter
 #[derive(Debug, Args)]

@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::ledger::{Ledger, PROGRAM};
 use super::lines::{LineReader, MOST_KEPT, decode_lines, too_big};
 use super::steady::Steady;
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
@@ -258,7 +258,7 @@ pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::LineSource;
+    use crate::text::LineSource;
 
     #[test]
     fn only_programs_with_flow_are_read_whole() {

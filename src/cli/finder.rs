@@ -11,7 +11,7 @@ use super::files::{Input, Naming, decode, read_bytes};
 use super::grounds::{Elsewhere, Grounds, normal};
 use super::ledger::{Ledger, PROGRAM};
 use crate::session::{Finder, NoProgram};
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// Where the programs that are called may lie besides their caller's folder.
 #[derive(Debug, Clone, Default)]

@@ -2,7 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use crate::diagnostic::{Diagnostic, Place};
+use crate::diagnostic::Diagnostic;
+use crate::text::Place;
 
 /// What becomes of files outside the folders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -153,8 +154,8 @@ fn folded(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::codes::Code;
-    use crate::source::{SourceFile, Span};
+    use crate::diagnostic::Code;
+    use crate::text::{SourceFile, Span};
 
     #[test]
     fn paths_are_made_normal_by_name() {

@@ -9,9 +9,9 @@ use super::failure::Failure;
 use super::files::read_text;
 use super::lines::LineReader;
 use super::outputs::OutputFile;
+use crate::comp::KindSet;
 use crate::report::html::{Given, RunStory, Sources, render_run};
-use crate::source::LineSource;
-use crate::syntax::KindSet;
+use crate::text::LineSource;
 
 /// A report that is written when the session has ended.
 pub(super) struct HtmlFile {

@@ -17,11 +17,11 @@ use super::grounds::normal;
 use super::list_files::{Lists, read_list};
 use super::unfinished::{UnfinishedFile, take_away_left};
 use super::walk;
-use crate::codes::Code;
+use crate::diagnostic::Code;
 use crate::lists::ListKind;
 use crate::machine::{Configuration, check_list};
-use crate::source::SourceFile;
 use crate::syntax::{AxisUse, axis_uses};
+use crate::text::SourceFile;
 
 /// Write a commented `frictcomp.toml` to start from
 ///

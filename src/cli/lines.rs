@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use encoding_rs::WINDOWS_1252;
 
-use crate::source::{FlowScan, LineSource, PhysicalLine, line_end};
+use crate::syntax::FlowScan;
+use crate::text::{LineSource, PhysicalLine, line_end};
 
 /// Bytes that are read at once.
 const BUFFER: usize = 128 * 1024;
@@ -363,7 +364,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::source::TextLines;
+    use crate::text::TextLines;
 
     /// Gives its bytes in pieces of one size.
     struct Pieces<'a>(&'a [u8], usize);

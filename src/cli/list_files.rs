@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use super::failure::Failure;
 use super::files::{decode, read_bytes};
 use crate::machine::{ListFiles, NoList};
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// The list files of the disk.
 pub(super) struct Lists;

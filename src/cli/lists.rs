@@ -14,13 +14,13 @@ use super::list_files::{Lists, read_list};
 use super::listing::{Format, ListingArgs, total};
 use super::outputs::Outputs;
 use super::painted::parts;
-use crate::codes::Code;
-use crate::diagnostic::Severity;
-use crate::machine::{AcceptedList, CncBuild, Configuration, ListsReport, check_list};
+use crate::comp::CncBuild;
+use crate::diagnostic::{Code, Severity};
+use crate::machine::{AcceptedList, Configuration, ListsReport, check_list};
 use crate::report::lists::render_parameters;
 use crate::report::pictures::value_curves;
 use crate::report::svg::Frame;
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// Read and check axis, value, channel and start-up lists
 ///

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::listing::{Format, records};
 use crate::report::{leading, shown_json};
 use crate::session::NoteKind;
-use crate::source::Position;
+use crate::text::Position;
 
 /// A name and where it stands.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,7 +7,7 @@ use super::files::read_text;
 use super::ledger::Ledger;
 use crate::circle::CircleError;
 use crate::simulation::{FrictionModel, Plant, Preset};
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 use clap::ValueEnum;
 
 /// A friction model.

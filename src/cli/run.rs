@@ -23,13 +23,12 @@ use super::severities::SeverityArgs;
 use super::state::StateFile;
 use super::switched;
 use super::unread::say_unread;
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::comp::KindSet;
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::machine::{AxisSet, Setting};
 use crate::report::html::RunStory;
 use crate::report::{Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View};
 use crate::session::{Session, StopPolicy, undescribed};
-use crate::syntax::KindSet;
 use crate::timeline::{Record, Sink};
 
 /// Run programs one after the other in one session of the control and print the timeline

@@ -1,9 +1,9 @@
 //! Small languages of the options: `NAME=VALUE`, `1,3-5`, `FRICT,LEAD`.
 
 use super::console::WIDTHS;
+use crate::comp::{Kind, KindSet};
 use crate::diagnostic::did_you_mean;
 use crate::machine::Setting;
-use crate::syntax::{Kind, KindSet};
 
 /// A variable and its value, from `--set`.
 #[derive(Debug, Clone, PartialEq)]

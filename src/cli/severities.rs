@@ -3,8 +3,7 @@
 use clap::Args;
 
 use super::failure::Failure;
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Levels, Severity, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, Levels, Severity, did_you_mean};
 
 /// Which codes count, for this call; what the control itself reports always does.
 #[derive(Debug, Clone, Default, Args)]

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::additive::{Added, AdditiveCurrent, Switched};
-use crate::compensation::State;
+use crate::comp::State;
 
 /// What is commanded to one axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, Place};
-use crate::source::Span;
+use crate::diagnostic::Diagnostic;
 use crate::syntax::{Comments, Fault, RawBlock, Remark};
+use crate::text::{Place, Span};
 
 /// Where a block stands and what is known about it beside its tree.
 pub(super) struct At<'a> {

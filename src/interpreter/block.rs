@@ -15,12 +15,10 @@ use super::state::{Departure, Last, Request, Step};
 use super::unit::is_harmless;
 use super::value::{Value, rounded};
 use super::words::AxisWords;
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
-use crate::source::Span;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Block, CallScope, Flow, Item, Operand};
-use crate::syntax::hash_name;
-use crate::syntax::{FastPath, Fault};
+use crate::syntax::{FastPath, Fault, hash_name};
+use crate::text::Span;
 
 /// Messages about one block that are said one by one (R2.85).
 const MAX_SAID: usize = 1000;
@@ -457,7 +455,7 @@ impl Interpreter {
             macros.map(|macros| macros.depth)
         })?;
         let mut block = Block::default();
-        let lines = crate::source::TextLines::new(&code);
+        let lines = crate::text::TextLines::new(&code);
         let _ = crate::syntax::BlockReader::new(lines, 1, FastPath::On).next(&mut block);
         let shown = Shown::default();
         let inner = At {

@@ -10,10 +10,9 @@ use super::at::At;
 use super::program::EntryIndex;
 use super::run::Interpreter;
 use super::state::State;
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
-use crate::source::Span;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::Fault;
+use crate::text::Span;
 
 /// Bounds on what a dry run may do (R2.60).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

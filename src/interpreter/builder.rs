@@ -4,11 +4,10 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::program::{Entry, EntryIndex, Index, LabelName, Links, Section};
 use super::value::rounded;
-use crate::codes::Code;
-use crate::diagnostic::{Collected, Diagnostic};
-use crate::source::{SourceFile, Span, TextLines};
+use crate::diagnostic::{Code, Collected, Diagnostic};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
 use crate::syntax::{BlockReader, FastPath, Fault, Stretch, is_statement};
+use crate::text::{SourceFile, Span, TextLines};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {

@@ -13,12 +13,11 @@ use super::sequence::Part;
 use super::start::stops;
 use super::state::{Frame, Repeated, RepeatedCall, Request, Step, after_motion_only};
 use super::value::Value;
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Place, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 use crate::machine::Keeps;
-use crate::source::Span;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Call, CallForm, CallName, CallScope, Operand};
+use crate::text::{Place, Span};
 
 /// How many names a run compares with those of calls that find nothing.
 const MAX_COMPARED: usize = 100_000;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::run::Interpreter;
 use super::value::Value;
-use crate::machine::AxisIndex;
+use crate::comp::AxisIndex;
 
 /// A declared array without its elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

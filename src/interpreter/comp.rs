@@ -3,12 +3,13 @@
 use super::at::At;
 use super::event::Outcome;
 use super::run::Interpreter;
-use crate::codes::Code;
-use crate::compensation::{CompensationError, State};
-use crate::diagnostic::{Diagnostic, did_you_mean};
-use crate::machine::{AxisIndex, AxisSet, CncBuild, Origin, Parameterisation};
-use crate::source::Span;
-use crate::syntax::{CompCommand, Fault, Kind, KindSet, Selection};
+use crate::comp::{
+    AxisIndex, CncBuild, CompCommand, CompensationError, Kind, KindSet, Selection, State,
+};
+use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::machine::{AxisSet, Origin, Parameterisation};
+use crate::syntax::Fault;
+use crate::text::Span;
 
 impl Interpreter {
     pub(super) fn comp(&mut self, command: &CompCommand, at: &At<'_>) {

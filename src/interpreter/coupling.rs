@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::machine::AxisIndex;
+use crate::comp::AxisIndex;
 
 /// The coupling groups of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

@@ -20,9 +20,8 @@ use super::region::Target;
 use super::run::Interpreter;
 use super::state::{Description, Frame, Repeated, State};
 use super::value::Value;
-use crate::codes::Code;
-use crate::compensation::Compensation;
-use crate::diagnostic::Diagnostic;
+use crate::comp::Compensation;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::ast::{Assignment, BinaryOperator, Block, Node, Operand};
 
 /// The pass after which a loop is looked at for the first time, then at each doubling.

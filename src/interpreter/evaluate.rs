@@ -8,11 +8,10 @@ use super::expression::{Evaluator, Given, Macros, Place, Scope};
 use super::modal::Frame as PositionFrame;
 use super::run::Interpreter;
 use super::value::Value;
-use crate::compensation::State;
-use crate::machine::AxisIndex;
-use crate::source::Span;
+use crate::comp::{AxisIndex, Kind, State};
+use crate::syntax::Fault;
 use crate::syntax::ast::{Assignment, Block, Expression, Operand, Owner};
-use crate::syntax::{Fault, Kind};
+use crate::text::Span;
 
 /// Different words that are counted as passed over, one by one.
 const MAX_OPAQUE: usize = 1000;

@@ -8,13 +8,10 @@ use serde::{Deserialize, Serialize};
 
 use super::modal::Modal;
 use super::motion::Motion;
-use crate::codes::Code;
-use crate::compensation::{Change, Compensation, CompensationError};
-use crate::diagnostic::{Diagnostic, Place};
-use crate::machine::AxisIndex;
-use crate::source::Span;
-use crate::syntax::ast::Block;
-use crate::syntax::{Comments, CompCommand, KindSet, Remark};
+use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, KindSet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::{Comments, Remark, ast::Block};
+use crate::text::{Place, Span};
 
 /// Why a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

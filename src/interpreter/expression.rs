@@ -14,10 +14,10 @@ use super::memory::Memory;
 use super::region::Target;
 use super::state::State;
 use super::value::{Value, rounded};
-use crate::codes::Code;
-use crate::source::Span;
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
 use crate::syntax::{Fault, MAX_LINE};
+use crate::text::Span;
 
 /// Macros that one block may expand, whatever their depth: each may use others several times.
 pub(super) const MAX_EXPANSIONS: u32 = 4096;

@@ -1,6 +1,6 @@
 //! Where called programs come from: the library opens no file itself.
 
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// Why a called program is not at hand.
 #[derive(Debug, Clone, PartialEq, Eq)]

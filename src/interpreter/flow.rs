@@ -17,10 +17,10 @@ use super::region::Exit;
 use super::run::Interpreter;
 use super::state::{Departure, Seeking, Step};
 use super::value::Value;
-use crate::codes::Code;
-use crate::source::Span;
+use crate::diagnostic::Code;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::text::Span;
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.

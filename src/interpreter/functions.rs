@@ -2,10 +2,10 @@
 
 use super::expression::Slot;
 use super::value::{Value, is_true, rounded};
-use crate::codes::Code;
-use crate::source::Span;
+use crate::diagnostic::Code;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BinaryOperator, Function};
+use crate::text::Span;
 
 pub(super) fn fault(code: Code, span: Span, message: impl Into<String>) -> Box<Fault> {
     Box::new(Fault::new(code, span, message))

@@ -9,13 +9,11 @@ use super::run::Interpreter;
 use super::state::Description;
 use super::value::Value;
 use super::words::AxisWords;
-use crate::codes::Code;
-use crate::compensation::Coupling;
-use crate::diagnostic::Diagnostic;
-use crate::machine::AxisIndex;
-use crate::source::Span;
+use crate::comp::{AxisIndex, Coupling};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Declaration, Hash, Operand};
+use crate::text::Span;
 
 impl Interpreter {
     pub(super) fn hash(

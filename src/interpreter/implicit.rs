@@ -10,10 +10,10 @@ use super::chain;
 use super::run::Interpreter;
 use super::unknown::Scan;
 use super::value::Value;
-use crate::codes::Code;
-use crate::source::Span;
+use crate::diagnostic::Code;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, CallScope, GCall, Hash};
+use crate::text::Span;
 
 /// What a word calls.
 enum Configured {

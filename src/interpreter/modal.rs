@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::chain::{self, Step};
 use super::event::AxisWord;
 use super::motion::BlockEnd;
-use crate::machine::AxisIndex;
+use crate::comp::AxisIndex;
 
 /// A group of G functions of which one is in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]

@@ -9,8 +9,8 @@ use super::modal::Group;
 use super::run::Interpreter;
 use super::value::rounded;
 use super::words::AxisWords;
-use crate::machine::AxisIndex;
-use crate::source::Span;
+use crate::comp::AxisIndex;
+use crate::text::Span;
 
 /// Whether blocks say what they move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

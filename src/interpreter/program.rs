@@ -6,10 +6,10 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::value::rounded;
-use crate::diagnostic::{Collected, Place};
-use crate::source::{SourceFile, Span, TextLines};
+use crate::diagnostic::Collected;
 use crate::syntax::ast::{Block, Operand};
 use crate::syntax::{BlockReader, FastPath, Remark, Stretch};
+use crate::text::{Place, SourceFile, Span, TextLines};
 
 /// The position of a block in [`Index::entries`].
 pub(super) type EntryIndex = u32;

@@ -25,13 +25,13 @@ use super::program::{EntryIndex, LabelName, Section};
 use super::run::Interpreter;
 use super::state::after_motion_only;
 use super::value::{Value, rounded};
-use crate::machine::AxisIndex;
-use crate::source::Span;
+use crate::comp::{AxisIndex, KindSet};
 use crate::syntax::ast::{
     Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, JumpTarget, Levels, Node, Operand, Owner, Word,
 };
-use crate::syntax::{Comments, KindSet, Stretch, is_letter};
+use crate::syntax::{Comments, Stretch, is_letter};
+use crate::text::Span;
 
 /// Something that a region could change.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

@@ -17,18 +17,18 @@ use super::unknown::{Journal, Regions, Scan};
 use super::value::Value;
 use super::ways::{Departing, Ways};
 use super::work::Work;
-use crate::compensation::Compensation;
-use crate::machine::{AxisIndex, AxisSet, Machine, Setting};
+use crate::comp::{AxisIndex, Compensation};
+use crate::machine::{AxisSet, Machine, Setting};
 
 /// Runs programs on a machine.
 ///
 /// ```
 /// use std::ops::ControlFlow;
 /// use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options};
-/// use frictcomp::{compensation::Compensation, machine::Machine, source::SourceFile};
+/// use frictcomp::{machine::Machine, text::SourceFile};
 ///
 /// let machine = Machine::enabled(["X"]);
-/// let comp = Compensation::at_startup(&machine);
+/// let comp = machine.compensation();
 /// let mut run = Interpreter::new(machine, comp, Options::default());
 /// let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
 /// let mut changes = 0;

@@ -10,11 +10,10 @@ use super::program::{EntryIndex, LabelName};
 use super::run::Interpreter;
 use super::state::Step;
 use super::value::{Value, rounded};
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
-use crate::source::Span;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, CallName, CallScope, JumpTarget, Levels, Return, Sequence};
+use crate::text::Span;
 
 /// The blocks of a program that a frame executes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

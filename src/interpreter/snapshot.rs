@@ -11,7 +11,7 @@ use super::run::Interpreter;
 use super::state::{Frame, RepeatedCall, Request, State, Step};
 use super::unit::Unit;
 use crate::machine::Machine;
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// A run between two blocks, to be saved and resumed (R9.30 is about what outlives programs; this
 /// is about the middle of one).
@@ -105,7 +105,7 @@ impl Interpreter {
         let (state, axes) = (&self.state, self.machine.axes.len());
         let sets = [
             state.occurred.len() == axes,
-            state.compensation.fits(&self.machine),
+            state.compensation.fits(self.machine.axis_setups()),
         ];
         holds(sets == [true; 2], "it has other axes")?;
         let described = state.described.iter().map(|described| &described.before);

@@ -13,10 +13,9 @@ use super::run::Interpreter;
 use super::state::{Frame, Step};
 use super::unit::Unit;
 use super::ways::Ways;
-use crate::codes::Code;
-use crate::diagnostic::{Collected, Diagnostic, Place, Severity};
-use crate::source::{SourceFile, Span};
+use crate::diagnostic::{Code, Collected, Diagnostic, Severity};
 use crate::syntax::ast::Block;
+use crate::text::{Place, SourceFile, Span};
 
 impl Interpreter {
     /// Runs a main program whose text is in memory.

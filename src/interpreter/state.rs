@@ -16,9 +16,9 @@ use super::program::EntryIndex;
 use super::sequence::{Destination, Passage};
 use super::value::Value;
 use super::ways::Ways;
-use crate::compensation::Compensation;
-use crate::diagnostic::Place;
+use crate::comp::Compensation;
 use crate::syntax::ast::{Call, CallForm, Repetition};
+use crate::text::Place;
 
 /// Everything that a run depends on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

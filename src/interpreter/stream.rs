@@ -18,10 +18,9 @@ use super::start::one;
 use super::state::Departure;
 use super::value::rounded;
 use crate::diagnostic::Collected;
-use crate::source::LineSource;
-use crate::source::SourceFile;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
 use crate::syntax::{BlockReader, RawBlock, Stretch};
+use crate::text::{LineSource, SourceFile};
 
 /// How far the program has come.
 #[derive(Clone, Copy)]
@@ -41,7 +40,7 @@ impl Interpreter {
     /// until a block makes the rest count; from there on it is held in memory.
     ///
     /// Control blocks and labels are checked when the rest is read, where a program in memory is
-    /// refused before its first block; [`crate::source::FlowScan`] tells which program may have any.
+    /// refused before its first block; [`crate::syntax::FlowScan`] tells which program may have any.
     pub fn stream(
         &mut self,
         file: &str,

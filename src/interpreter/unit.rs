@@ -7,12 +7,10 @@ use std::sync::Arc;
 use super::at::{At, Shown};
 use super::program::{EntryIndex, Index};
 use super::run::Interpreter;
-use crate::codes::Code;
-use crate::diagnostic::Collected;
+use crate::diagnostic::{Code, Collected};
 use crate::machine::HarmlessWords;
-use crate::source::Span;
-use crate::syntax::ast::Block;
-use crate::syntax::{Comments, Fault, Remark, Stretch};
+use crate::syntax::{Comments, Fault, Remark, Stretch, ast::Block};
+use crate::text::Span;
 
 /// A file of the run.
 pub(super) struct Unit {

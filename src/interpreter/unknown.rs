@@ -17,12 +17,11 @@ use super::region::{Effect, Region, Target};
 use super::run::Interpreter;
 use super::state::{Repeated, RepeatedCall, Step};
 use super::value::Value;
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
-use crate::machine::AxisIndex;
-use crate::source::Span;
+use crate::comp::{AxisIndex, Kind, KindSet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::Fault;
 use crate::syntax::ast::Effect as Unread;
-use crate::syntax::{Fault, Kind, KindSet};
+use crate::text::Span;
 
 /// A call found in a region that may or may not be executed.
 #[derive(Debug, Clone)]

@@ -20,10 +20,10 @@ use super::region::{Exit, Region, Target};
 use super::run::Interpreter;
 use super::state::{Frame, Repeated, RepeatedCall};
 use super::value::Value;
-use crate::codes::Code;
-use crate::machine::AxisIndex;
-use crate::source::Span;
-use crate::syntax::{Fault, KindSet};
+use crate::comp::{AxisIndex, KindSet};
+use crate::diagnostic::Code;
+use crate::syntax::Fault;
+use crate::text::Span;
 
 /// The target of a way that returns to the caller.
 const RETURN: EntryIndex = EntryIndex::MAX;

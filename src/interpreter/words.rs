@@ -11,12 +11,11 @@ use super::modal::Group;
 use super::motion::{BlockEnd, Motions, foreign};
 use super::run::Interpreter;
 use super::value::{exact, rounded};
-use crate::codes::Code;
-use crate::compensation::State;
-use crate::machine::AxisIndex;
-use crate::source::Span;
+use crate::comp::{AxisIndex, State};
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Address, Block, Operand, Word};
 use crate::syntax::{Fault, is_letter, not_known};
+use crate::text::Span;
 
 /// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
 /// ramp time and jerk, feedforward (TF5200 channel parameters, P-CHAN-00210, names examples).

@@ -5,12 +5,10 @@ use std::cell::{Cell, RefCell};
 use super::event::{AxisWord, Note, Outcome};
 use super::motion::{self, Motion};
 use super::value::Value;
-use crate::compensation::Change;
+use crate::comp::{AxisIndex, Change, KindSet};
 use crate::diagnostic::Diagnostic;
-use crate::machine::AxisIndex;
-use crate::source::Span;
-use crate::syntax::ast::Block;
-use crate::syntax::{Fault, KindSet};
+use crate::syntax::{Fault, ast::Block};
+use crate::text::Span;
 
 /// Buffers that are used again for each block.
 #[derive(Default)]

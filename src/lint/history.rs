@@ -3,9 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::memory::{Memory, Site};
-use crate::compensation::{Compensation, State};
-use crate::machine::AxisIndex;
-use crate::syntax::Kind;
+use crate::comp::{AxisIndex, Compensation, Kind, State};
 
 /// A block is remembered with so many characters of its text.
 const MAX_TEXT: usize = 400;

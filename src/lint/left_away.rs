@@ -3,11 +3,8 @@
 
 use super::memory::{Deed, KindMemory, Site};
 use super::{EndNote, LeftAway, Linter};
-use crate::codes::Code;
-use crate::compensation::{Compensation, State};
-use crate::diagnostic::Diagnostic;
-use crate::machine::AxisIndex;
-use crate::syntax::Kind;
+use crate::comp::{AxisIndex, Compensation, Kind, State};
+use crate::diagnostic::{Code, Diagnostic};
 
 pub(super) fn lint(linter: &Linter<'_>, left: &Compensation, past: &str) -> Vec<LeftAway> {
     let mut found = Vec::new();

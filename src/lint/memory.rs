@@ -2,12 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::compensation::{Change, State};
-use crate::diagnostic::Place;
+use crate::comp::{AxisIndex, Change, Kind, KindSet, Selection, State};
 use crate::interpreter::{AxisWord, Executed, Outcome};
-use crate::machine::AxisIndex;
-use crate::source::Span;
-use crate::syntax::{Kind, KindSet, Selection};
+use crate::text::{Place, Span};
 
 /// A block that a lint may have to name later.
 #[derive(Debug, Clone)]

@@ -14,11 +14,10 @@ mod undescribed;
 pub use history::Maker;
 pub(crate) use history::{History, Told};
 
-use crate::compensation::{Compensation, State};
+use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{AxisWord, Ended, EndedBy, Executed, Outcome};
-use crate::machine::{AxisIndex, Machine};
-use crate::syntax::Kind;
+use crate::machine::Machine;
 use memory::Memory;
 
 /// A diagnostic at the end of a program, with the executed block that it is about.

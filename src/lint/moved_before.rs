@@ -1,12 +1,9 @@
 //! FC403: the program moves an axis in a state that an earlier program left (R1.52).
 
 use super::{Linter, Maker};
-use crate::codes::Code;
-use crate::compensation::State;
-use crate::diagnostic::Diagnostic;
+use crate::comp::{AxisIndex, Kind, State};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::Executed;
-use crate::machine::AxisIndex;
-use crate::syntax::Kind;
 
 /// A message shows a block with so many characters.
 const MAX_SHOWN: usize = 60;

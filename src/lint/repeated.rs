@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use super::memory::{Deed, Site, place};
 use super::{Linter, Taken};
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
-use crate::syntax::{Kind, Selection};
+use crate::comp::{Kind, Selection};
+use crate::diagnostic::{Code, Diagnostic};
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let memory = linter.memory.axis(taken.axis);

@@ -1,8 +1,7 @@
 //! FC405: the command takes effect before the motion of its block (R1.9, R1.55).
 
 use super::memory::place;
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::Executed;
 
 pub(super) fn lint(executed: &Executed<'_>) -> Option<Diagnostic> {

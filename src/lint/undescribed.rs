@@ -2,9 +2,8 @@
 
 use super::memory::place;
 use super::{Linter, Taken};
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
-use crate::syntax::{Kind, Selection};
+use crate::comp::{Kind, Selection};
+use crate::diagnostic::{Code, Diagnostic};
 
 pub(super) fn lint(linter: &Linter<'_>, taken: &Taken<'_>) -> Option<Diagnostic> {
     let command = &taken.outcome.command;

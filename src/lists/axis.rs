@@ -4,9 +4,8 @@
 use std::collections::BTreeMap;
 
 use super::{AxisType, Entries, Entry, Given, Number, Origin, Parameter};
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, did_you_mean};
-use crate::syntax::{Kind, KindSet};
+use crate::comp::{Kind, KindSet};
+use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
 /// P-AXIS-00465: the kinds without which the axis must not move (R1.36).
 const REQUIRED: &str = "lr_param.prog_movement_requires_compensations";

@@ -1,9 +1,9 @@
 //! The control's checks of a friction value list (chapter 3.4).
 
 use super::friction::{Field, FrictionDraft};
-use super::{AxisType, CncBuild, FrictionList, Given, Number, Parameter, TablePoint, Written};
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Severity};
+use super::{AxisType, FrictionList, Given, Number, Parameter, TablePoint, Written};
+use crate::comp::CncBuild;
+use crate::diagnostic::{Code, Diagnostic, Severity};
 
 /// After so many statements the rest of a broken table is not looked at.
 const MAX_DIAGNOSTICS: usize = 50;

@@ -8,8 +8,7 @@ use std::ops::RangeInclusive;
 use super::{
     AxisType, DEFAULT_MAX_POINTS, Entries, Entry, Given, Number, Origin, Parameter, Written,
 };
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
 /// The keys that exist without being documented; they are not looked at (R3.5).
 const UNDOCUMENTED: [&str; 10] = [

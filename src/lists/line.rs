@@ -8,9 +8,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::{Given, Number, Written};
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Place};
-use crate::source::{SourceFile, Span};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::text::{Place, SourceFile, Span};
 
 /// What a text that holds `(` is put between; printed samples have the slanted ones (TF5200 Channel
 /// parameters, comments in the ASCII list file).

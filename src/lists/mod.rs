@@ -1,10 +1,8 @@
 //! The control's ASCII lists: their lines, what they say, and the control's checks.
 
 mod axis;
-mod build;
 mod check;
 mod friction;
-mod kind;
 mod line;
 mod parameter;
 mod program;
@@ -15,10 +13,8 @@ mod write;
 use serde::{Deserialize, Serialize};
 
 pub use axis::AxisValues;
-pub use build::{CncBuild, NoBuild};
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use friction::{Field, FrictionDraft, WrittenPoint};
-pub use kind::Facts;
 pub use line::{Entries, Entry};
 pub use parameter::{AxisType, Origin, Parameter};
 pub use program::{ChannelPrograms, Role};

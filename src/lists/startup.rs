@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 
 use super::axis::{axis_number, text};
 use super::{ChannelPrograms, Entries, Entry, Given};
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 
 /// The kinds of list that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::diagnostic::Place;
-use crate::source::{SourceFile, Span};
+use crate::text::{Place, SourceFile, Span};
 
 /// A number as a list or `frictcomp.toml` writes it.
 #[derive(Debug, Clone, Copy, PartialEq)]

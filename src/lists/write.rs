@@ -2,9 +2,9 @@
 
 use std::fmt::{Display, Write as _};
 
-use super::build::CncBuild;
 use super::friction::{Field, STRUCTURE};
 use super::{FrictionList, TablePoint};
+use crate::comp::CncBuild;
 
 /// How the points of the table are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

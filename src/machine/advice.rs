@@ -1,7 +1,7 @@
 //! What to do about a `frictcomp.toml` that cannot be used.
 
 use super::config::ConfigError;
-use crate::source::{SourceFile, Span};
+use crate::text::{SourceFile, Span};
 
 /// A text that is no TOML: the parser's message with what users of the control meet most.
 pub(super) fn no_toml(source: &SourceFile, error: &toml::de::Error) -> ConfigError {

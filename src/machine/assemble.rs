@@ -7,10 +7,9 @@ use serde::Serialize;
 
 use super::load::ValueList;
 use super::{Axis, Origin, Parameterisation};
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::comp::{Kind, KindSet};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{AxisType, AxisValues, Conditions, Entry, Field, Given, Parameter, Verdict};
-use crate::syntax::{Kind, KindSet};
 
 /// The effective parameters of one axis.
 #[derive(Debug, Clone, Serialize)]

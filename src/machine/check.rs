@@ -6,14 +6,14 @@ use std::sync::Arc;
 use super::described::{describe, is_no_matter};
 use super::load::ValueList;
 use super::resolve::ListFiles;
-use super::{AxisReport, CncBuild, Configuration, Machine, Parameterisation};
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use super::{AxisReport, Configuration, Machine, Parameterisation};
+use crate::comp::CncBuild;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
     AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
     Verdict,
 };
-use crate::source::{SourceFile, Span};
+use crate::text::{SourceFile, Span};
 
 /// What there is to say about a list.
 #[derive(Debug, Clone)]

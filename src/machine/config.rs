@@ -11,13 +11,12 @@ use super::load::{AXIS_NAME_HELP, Loader, MAX_AXES, is_axis_name};
 use super::resolve::{ListFiles, NoLists};
 use super::section::{ROOT, Section, Shape};
 use super::{Configuration, Machine, Parameters, Setting, canonical_word};
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Label, Levels, Severity, did_you_mean};
+use crate::comp::{Kind, KindSet};
+use crate::diagnostic::{Code, Diagnostic, Label, Levels, Severity, did_you_mean};
 use crate::lists::{
     AxisType, AxisValues, Field, FrictionDraft, Given, ListKind, Parameter, Written, WrittenPoint,
 };
-use crate::source::{SourceFile, Span};
-use crate::syntax::{Kind, KindSet};
+use crate::text::{SourceFile, Span};
 
 /// A `frictcomp.toml` that cannot be used: it is no TOML, or says something that does not exist.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -113,7 +112,8 @@ impl Configuration {
         self.machine.cycle_time_ms = section.positive("cycle_time_ms")?;
         if let Some(build) = section.string("cnc_build")? {
             let parsed = build.value.parse();
-            let parsed = parsed.map_err(|e: super::NoBuild| ConfigError::at(&build, e.to_string()));
+            let parsed =
+                parsed.map_err(|e: crate::comp::NoBuild| ConfigError::at(&build, e.to_string()));
             self.machine.build = Some(parsed?);
         }
         let dirs = section.strings("program_dirs")?;
@@ -191,7 +191,7 @@ impl Machine {
     ///
     /// ```
     /// use frictcomp::machine::Machine;
-    /// use frictcomp::syntax::Kind;
+    /// use frictcomp::comp::Kind;
     ///
     /// let machine = Machine::from_toml("[[axis]]\nname = \"X\"\nfrict_comp = true\n")?;
     /// assert!(machine.axes[0].configured.contains(Kind::Frict));

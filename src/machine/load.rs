@@ -6,13 +6,12 @@ use super::assemble::AxisDraft;
 use super::described::describe;
 use super::resolve::{ListFiles, folder};
 use super::{AxisSet, Configuration, Machine};
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
     AxisType, AxisValues, ChannelAxis, ChannelList, ChannelPrograms, Conditions, Entries,
     FrictionDraft, Given, ListKind, NamedList, StartupList,
 };
-use crate::source::{SourceFile, Span};
+use crate::text::{SourceFile, Span};
 
 /// More axes than any control has; what lies beyond is not read.
 pub(super) const MAX_AXES: usize = 1024;

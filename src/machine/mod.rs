@@ -27,27 +27,11 @@ pub(crate) use programs::canonical_word;
 pub use programs::{ConfiguredPrograms, Keeps};
 pub use resolve::{ListFiles, NoList, NoLists};
 
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Levels, Place};
-pub use crate::lists::{AxisType, CncBuild, NoBuild, Origin};
+use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation, Kind, KindSet};
+use crate::diagnostic::{Code, Diagnostic, Levels};
+pub use crate::lists::{AxisType, Origin};
 use crate::lists::{FrictionList, Parameter};
-use crate::syntax::{Kind, KindSet};
-
-/// The position of an axis in the machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct AxisIndex(u16);
-
-impl AxisIndex {
-    /// The index from a position in [`Machine::axes`].
-    pub fn new(position: usize) -> Self {
-        Self(u16::try_from(position).expect("a control has fewer than 65536 axes"))
-    }
-
-    /// The position in [`Machine::axes`].
-    pub fn get(self) -> usize {
-        usize::from(self.0)
-    }
-}
+use crate::text::Place;
 
 /// Whether an axis has a friction value list that the control would take.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -293,6 +277,22 @@ impl Machine {
     pub fn is_described(&self) -> bool {
         let given = |axis: &Axis| axis.frict_comp_origin != Origin::Default;
         self.axis_set == AxisSet::Configured || self.axes.iter().any(given)
+    }
+
+    /// The state of all compensations after a start of the control.
+    pub fn compensation(&self) -> Compensation {
+        Compensation::at_startup(self.axis_setups())
+    }
+
+    /// The axes as the compensation sees them.
+    pub(crate) fn axis_setups(&self) -> impl Iterator<Item = AxisSetup> {
+        self.axes.iter().map(|axis| {
+            let mut setup = AxisSetup::new(&axis.name, axis.configured);
+            setup.is_spindle = axis.is_spindle();
+            setup.manual = axis.manual;
+            setup.parameterised = axis.parameterised();
+            setup
+        })
     }
 
     /// The position of an axis by its name.

@@ -5,10 +5,9 @@
 //! are to be tried, the host which of them there is.
 
 use super::load::Loader;
-use crate::codes::Code;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{Entries, Given, ListKind};
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// Why there is no list at a path.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -9,7 +9,7 @@ use super::advice::example;
 use super::config::ConfigError;
 use crate::diagnostic::did_you_mean;
 use crate::lists::{Given, Number, Written};
-use crate::source::{SourceFile, Span};
+use crate::text::{SourceFile, Span};
 
 /// What a table is called and which keys it may have.
 pub(crate) struct Shape {

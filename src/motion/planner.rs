@@ -9,13 +9,11 @@ use super::look_ahead::LookAhead;
 use super::sampler::Sampler;
 use super::segment::{Ends, SAME_PLACE, Segment};
 use super::trace::{Cause, TraceSink};
-use crate::codes::Code;
-use crate::compensation::State;
-use crate::diagnostic::{Diagnostic, Place};
+use crate::comp::{AxisIndex, Kind, State};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{Form, Motion, PathFeed, Travel};
-use crate::machine::{AxisIndex, Machine};
-use crate::source::Span;
-use crate::syntax::Kind;
+use crate::machine::Machine;
+use crate::text::{Place, Span};
 use crate::timeline::Row;
 
 /// How a trace is made.

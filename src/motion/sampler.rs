@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::profile::VelocityProfile;
 use super::segment::Segment;
 use super::trace::{Cause, Sample, TraceSink};
-use crate::machine::AxisIndex;
+use crate::comp::AxisIndex;
 
 /// Goes along profiles in steps of a CNC cycle.
 pub(super) struct Sampler {

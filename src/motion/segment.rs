@@ -92,7 +92,7 @@ impl Segment {
         arc: &CircularArc,
         cause: Shared<Cause>,
     ) -> Result<Self, &'static str> {
-        let axes = arc.axes.map(crate::machine::AxisIndex::get);
+        let axes = arc.axes.map(crate::comp::AxisIndex::get);
         let circle = Circle::new(axes, (&ends.from, &ends.to), arc)?;
         let depth = (0..ends.from.len())
             .filter(|axis| ends.main[*axis] && !axes.contains(axis))

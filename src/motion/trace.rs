@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::compensation::State;
+use crate::comp::State;
 
 /// The block that a piece of the path comes from, and the friction compensation that is in force
 /// while it is followed.

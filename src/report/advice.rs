@@ -1,6 +1,6 @@
 //! What the operator has to know or to do behind a session, for every report that tells it.
 
-use crate::compensation::State;
+use crate::comp::State;
 use crate::timeline::{AxisSummary, EndedBy};
 
 /// What the operator has to know or to do about an axis, behind its name (R1.27: the state
@@ -54,14 +54,14 @@ pub(super) const NOTHING_TO_DO: &str =
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::AxisIndex;
+    use crate::comp::AxisIndex;
 
     #[test]
     fn advice_follows_what_is_left() {
         // R1.27
         let advice = |home, end| {
             let axis = AxisSummary {
-                others_away: crate::syntax::KindSet::NONE,
+                others_away: crate::comp::KindSet::NONE,
                 axis: AxisIndex::new(0),
                 start: home,
                 end,

@@ -3,9 +3,7 @@
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
-use crate::compensation::Change;
-use crate::machine::AxisIndex;
-use crate::syntax::Kind;
+use crate::comp::{AxisIndex, Change, Kind};
 use crate::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
 
 use super::strings::{any_byte, integer};

@@ -6,7 +6,8 @@ use std::ops::Range;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use unicode_width::UnicodeWidthStr;
 
-use crate::diagnostic::{Diagnostic, Label, Place, Severity};
+use crate::diagnostic::{Diagnostic, Label, Severity};
+use crate::text::Place;
 
 use super::DEFAULT_WIDTH;
 use super::visible::{is_command, visible, visible_line};
@@ -238,8 +239,8 @@ fn shares_lines(one: &Place, other: &Place) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::codes::Code;
-    use crate::source::{SourceFile, Span};
+    use crate::diagnostic::Code;
+    use crate::text::{SourceFile, Span};
 
     fn at(text: &str, meant: &str) -> Diagnostic {
         let file = SourceFile::new("a.nc", text);

@@ -40,7 +40,7 @@ pub use text::{Runs, Text, TextOptions};
 #[cfg(feature = "cli")]
 pub(crate) use visible::{leading, visible, visible_line};
 
-use crate::syntax::{Kind, KindSet};
+use crate::comp::{Kind, KindSet};
 use crate::timeline::{Row, Sink};
 
 /// The width of text output that does not go to a terminal.

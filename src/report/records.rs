@@ -1,8 +1,7 @@
 //! The records of chapter 9.2 as JSON objects, one after another in one buffer.
 
-use crate::compensation::Change;
+use crate::comp::{Change, Kind, KindSet};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::syntax::{Kind, KindSet};
 use crate::timeline::{End, Record, Repeat, Row, SCHEMA, StateView, Summary};
 
 use super::View;

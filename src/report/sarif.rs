@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, Place, Severity};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::text::Place;
 
 use super::strings::to_pretty;
 
@@ -159,7 +159,7 @@ fn uri(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::{SourceFile, Span};
+    use crate::text::{SourceFile, Span};
 
     #[test]
     fn results_that_went_out_one_by_one_are_one_document() {

@@ -5,14 +5,13 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::codes::Code;
-use crate::compensation::State;
-use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
+use crate::comp::{AxisIndex, Kind, State};
+use crate::diagnostic::{Code, Diagnostic, Levels, Severity};
 use crate::interpreter::{Ended, Event, Executed, Note, NoteKind};
 use crate::lint::{Linter, Told};
-use crate::machine::{AxisIndex, Machine};
-use crate::source::{Position, Span};
-use crate::syntax::{Comments, Kind, allow};
+use crate::machine::Machine;
+use crate::syntax::{Comments, allow};
+use crate::text::{Place, Position, Span};
 use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Record, Row, Sink, StateView};
 
 use super::said::{Said, Verdict};

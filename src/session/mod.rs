@@ -14,17 +14,16 @@ use std::sync::Arc;
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 pub use undescribed::undescribed;
 
-use crate::compensation::Compensation;
-use crate::diagnostic::{Diagnostic, Levels, Place, Severity};
+use crate::comp::{AxisIndex, Compensation, Kind};
+use crate::diagnostic::{Diagnostic, Levels, Severity};
 use crate::interpreter::{Event, Interpreter, Options, Outlook, Value};
 pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, StopPolicy,
 };
 pub use crate::lint::Maker;
 use crate::lint::{History, Linter, Told};
-use crate::machine::{AxisIndex, AxisSet, Machine, Parameterisation, Setting};
-use crate::source::{LineSource, SourceFile};
-use crate::syntax::Kind;
+use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
+use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
 use desk::{Desk, NoteBook, Tally};
 use said::Said;
@@ -56,7 +55,7 @@ pub struct SessionOptions {
 pub enum Program<'a> {
     /// Lines that come one after another. Behind the first block that can be reached again the rest
     /// is taken into memory; what keeps that rest from running is found only there, see
-    /// [`crate::source::FlowScan`].
+    /// [`crate::syntax::FlowScan`].
     Lines(&'a mut dyn LineSource),
     /// The whole text. What keeps it from running is found before its first block.
     Whole(SourceFile),
@@ -68,7 +67,7 @@ pub enum Program<'a> {
 /// use std::ops::ControlFlow;
 /// use frictcomp::machine::Machine;
 /// use frictcomp::session::{NoFiles, Program, Session, SessionOptions};
-/// use frictcomp::source::SourceFile;
+/// use frictcomp::text::SourceFile;
 /// use frictcomp::timeline::{Record, Sink};
 ///
 /// struct Count(usize);
@@ -107,7 +106,7 @@ impl Session {
     /// A session right after the start of the control.
     pub fn new(machine: Machine, options: SessionOptions) -> Self {
         let machine = Arc::new(machine);
-        let compensation = Compensation::at_startup(&machine);
+        let compensation = machine.compensation();
         let run = Options {
             stop: options.stop,
             skip: options.skip,

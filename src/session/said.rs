@@ -5,9 +5,8 @@ use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
-use crate::codes::Code;
-use crate::diagnostic::{Diagnostic, MAX_MESSAGES, Place};
-use crate::source::Position;
+use crate::diagnostic::{Code, Diagnostic, MAX_MESSAGES};
+use crate::text::{Place, Position};
 use crate::timeline::{EndNote, Repeat};
 
 /// Different messages of one code at one place; further ones count with the last.

@@ -7,11 +7,11 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::comp::{Kind, KindSet};
 use crate::interpreter::{ArrayShape, Carried, Value};
 use crate::lint::Maker;
 use crate::lists::FrictionList;
 use crate::machine::{Axis, AxisSet, Machine, Origin};
-use crate::syntax::{Kind, KindSet};
 
 /// The number of the format that is written.
 pub const STATE_SCHEMA: u32 = 2;

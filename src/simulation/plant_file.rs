@@ -13,7 +13,7 @@ use super::plant_keys::{QUANTITIES, Quantity};
 use crate::lists::{Given, Number, Written};
 use crate::machine::ConfigError;
 use crate::machine::section::{Section, Shape};
-use crate::source::{SourceFile, Span};
+use crate::text::{SourceFile, Span};
 
 /// The whole file.
 const PLANT: Shape = Shape {

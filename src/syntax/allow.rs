@@ -1,8 +1,7 @@
 //! `; frictcomp: allow FC402 reason`: a user's word that a remark is known (R9.24).
 
-use crate::codes::Code;
-use crate::diagnostic::did_you_mean;
-use crate::source::Span;
+use crate::diagnostic::{Code, did_you_mean};
+use crate::text::Span;
 
 /// What a comment that speaks to this tool contains.
 pub(crate) const MARK: &str = "frictcomp:";

@@ -5,8 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompCommand, Fault};
-use crate::source::Span;
+use super::Fault;
+use crate::comp::CompCommand;
+use crate::text::Span;
 
 /// One block.
 #[derive(Debug, Clone, PartialEq, Default)]

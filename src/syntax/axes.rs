@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::ast::{Address, Block, Item, Word};
-use super::{BlockReader, FastPath, Kind};
-use crate::source::TextLines;
+use super::{BlockReader, FastPath};
+use crate::comp::Kind;
+use crate::text::TextLines;
 
 /// What a program does with an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,7 +5,7 @@ use pest::iterators::Pair;
 
 use super::ast::{BinaryOperator, Block, Expression, Function, Node, Operand, Owner};
 use super::grammar::Rule;
-use crate::source::Span;
+use crate::text::Span;
 
 /// How tightly operators bind, loosest first.
 const PRECEDENCE: &[&[BinaryOperator]] = {

@@ -4,7 +4,7 @@
 
 use super::ast::{Address, Block, Number, Operand, Word};
 use super::lines::{Comments, MAX_LINE};
-use crate::source::Span;
+use crate::text::Span;
 
 /// Powers of ten that an `f64` holds exactly, and the same with a minus.
 const POWERS: [[f64; 16]; 2] = [

@@ -5,9 +5,8 @@
 
 use super::ast::Block;
 use super::{Fault, fast, lower};
-use crate::codes::Code;
-use crate::diagnostic::Severity;
-use crate::source::{LineSource, Span};
+use crate::diagnostic::{Code, Severity};
+use crate::text::{LineSource, Span};
 
 /// Characters that one line may have (R2.2).
 pub const MAX_LINE: usize = 4000;

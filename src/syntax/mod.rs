@@ -9,6 +9,7 @@ mod axes;
 mod comp;
 mod expression;
 mod fast;
+mod flow_scan;
 mod grammar;
 mod known;
 mod lines;
@@ -16,14 +17,15 @@ mod lower;
 mod unread;
 
 pub use axes::{AxisUse, axis_uses};
-pub use comp::{CompCommand, Kind, KindSet, Membership, Selection};
+pub use flow_scan::FlowScan;
 pub(crate) use known::is_letter;
 pub use lines::{BlockReader, Comments, FastPath, MAX_LINE, RawBlock, Remark, Stretch};
 pub(crate) use lower::is_statement;
 pub(crate) use unread::not_known;
 
-use crate::codes::Code;
-use crate::source::{Span, TextLines};
+use crate::comp::CompCommand;
+use crate::diagnostic::Code;
+use crate::text::{Span, TextLines};
 
 /// How deep brackets may nest (R2.60).
 pub const MAX_BRACKETS: usize = 64;
@@ -63,7 +65,8 @@ impl Fault {
 /// Parses one COMP command, `X[COMP ON FRICT]`, and nothing else.
 ///
 /// ```
-/// use frictcomp::syntax::{Kind, KindSet, Selection, parse_comp};
+/// use frictcomp::comp::{Kind, KindSet, Selection};
+/// use frictcomp::syntax::parse_comp;
 ///
 /// let command = parse_comp("X[COMP ON FRICT]").unwrap();
 /// assert_eq!(command.axis, "X");

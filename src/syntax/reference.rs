@@ -9,7 +9,7 @@ use fastrand::Rng;
 use super::ast::Block;
 use super::grammar::Rule;
 use super::{BlockReader, FastPath, lower};
-use crate::source::TextLines;
+use crate::text::TextLines;
 
 /// Stretches of a program that are more than words.
 const PIECES: [&str; 56] = [

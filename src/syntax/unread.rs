@@ -1,8 +1,8 @@
 //! Text that has the form of the language and no meaning that is known here (R2.70).
 
 use super::Fault;
-use crate::codes::Code;
-use crate::source::Span;
+use crate::diagnostic::Code;
+use crate::text::Span;
 
 /// FC210 for a text.
 pub(crate) fn not_known(text: &str, span: Span) -> Fault {

@@ -2,12 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::compensation::Compensation;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::{EndedBy, Event, Interpreter, NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
 use frictcomp::session::{Program, Session, SessionOptions};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
 use crate::support::MACHINE;
@@ -35,7 +34,7 @@ impl Ran {
 
 fn ran(text: &str, options: Options) -> Ran {
     let machine = Machine::from_toml(MACHINE).expect("the test's machine");
-    let comp = Compensation::at_startup(&machine);
+    let comp = machine.compensation();
     let mut run = Interpreter::new(machine, comp, options);
     let mut ended = None;
     let mut said = Vec::new();
@@ -61,8 +60,8 @@ fn ran(text: &str, options: Options) -> Ran {
     let state = run.compensation().clone();
     let axes = run.machine().axes.iter().enumerate();
     let states = axes.map(|(at, axis)| {
-        let at = frictcomp::machine::AxisIndex::new(at);
-        let state = state.state(at, frictcomp::syntax::Kind::Frict);
+        let at = frictcomp::comp::AxisIndex::new(at);
+        let state = state.state(at, frictcomp::comp::Kind::Frict);
         (axis.name.clone(), state.word().to_owned())
     });
     Ran {

@@ -183,7 +183,7 @@ fn parts_of_a_program_that_arrives() {
         transcript.contains("FC902") && transcript.contains("X:unknown"),
         "{transcript}"
     );
-    let mut scan = frictcomp::source::FlowScan::default();
+    let mut scan = frictcomp::syntax::FlowScan::default();
     scan.feed(program.as_bytes());
     assert!(scan.needs_whole_text());
     for (text, whole) in [
@@ -192,7 +192,7 @@ fn parts_of_a_program_that_arrives() {
         ("N1LSeQuEnCe[N1]", true),
         ("SEQ", true),
     ] {
-        let mut scan = frictcomp::source::FlowScan::default();
+        let mut scan = frictcomp::syntax::FlowScan::default();
         scan.feed(text.as_bytes());
         assert_eq!(scan.needs_whole_text(), whole, "{text}");
     }

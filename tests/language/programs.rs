@@ -453,13 +453,14 @@ fn a_start_program_is_looked_for_beside_the_main_program() {
         );
         let mut find = |_: &str, caller: &str| {
             asked.push(caller.to_owned());
-            Some(frictcomp::source::SourceFile::new("start.nc", "M17"))
+            Some(frictcomp::text::SourceFile::new("start.nc", "M17"))
         };
-        let mut lines = frictcomp::source::TextLines::new("M30");
+        let mut lines = frictcomp::text::TextLines::new("M30");
         let program = match handed {
-            Handed::Whole => frictcomp::session::Program::Whole(
-                frictcomp::source::SourceFile::new("dir/main.nc", "M30"),
-            ),
+            Handed::Whole => frictcomp::session::Program::Whole(frictcomp::text::SourceFile::new(
+                "dir/main.nc",
+                "M30",
+            )),
             Handed::LineByLine => frictcomp::session::Program::Lines(&mut lines),
         };
         let _ = session.program("dir/main.nc", program, &mut find, &mut Nothing);

@@ -1,7 +1,6 @@
 //! 2.1: text.
 
-use frictcomp::syntax::ast::Operand;
-use frictcomp::syntax::parse_block;
+use frictcomp::syntax::{ast::Operand, parse_block};
 use insta::assert_snapshot;
 
 use crate::support::Bench;

@@ -1,8 +1,6 @@
 //! 2.7: ways that the control may go and the dry run does not.
 
-use frictcomp::compensation::State;
-use frictcomp::machine::AxisIndex;
-use frictcomp::syntax::Kind;
+use frictcomp::comp::{AxisIndex, Kind, State};
 
 use crate::support::{Bench, Handed};
 

@@ -1,11 +1,11 @@
 //! Axis lists, start-up and channel lists, and what needs two lists side by side: R3.10 to R3.14,
 //! R3.27 and R3.30.
 
-use frictcomp::codes::Code;
+use frictcomp::comp::{Kind, KindSet};
+use frictcomp::diagnostic::Code;
 use frictcomp::lists::ListKind;
 use frictcomp::machine::{AxisSet, AxisType, Configuration, Origin, Parameterisation, check_list};
 use frictcomp::report::lists::render_parameters;
-use frictcomp::syntax::{Kind, KindSet};
 
 use super::host::{Disk, codes, judge, meant, start};
 

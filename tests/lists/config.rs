@@ -1,14 +1,13 @@
 //! `frictcomp.toml`, chapter 9.1, and what it does to lists.
 
-use frictcomp::codes::Code;
-use frictcomp::diagnostic::Severity;
+use frictcomp::comp::Kind;
+use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::lists::TablePoint;
 use frictcomp::machine::{
     AxisSet, AxisType, Configuration, Machine, NoLists, Origin, Parameterisation, Setting,
     check_list,
 };
-use frictcomp::source::SourceFile;
-use frictcomp::syntax::Kind;
+use frictcomp::text::SourceFile;
 
 use super::host::{Disk, codes};
 

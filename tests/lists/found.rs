@@ -1,7 +1,7 @@
 //! Which file a list means by a path, and what stands where another list belongs: R3.12 to R3.14.
 
 use frictcomp::machine::{Configuration, ListFiles, check_list};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 
 use super::host::{Memory, codes, judge, meant};
 

@@ -1,7 +1,6 @@
 //! Friction parameters and their checks, R3.11 and R3.20 to R3.29, and the readings C1 to C10.
 
-use frictcomp::codes::Code;
-use frictcomp::diagnostic::Severity;
+use frictcomp::diagnostic::{Code, Severity};
 use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 use frictcomp::machine::{Axis, Parameterisation};
 

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use frictcomp::comp::CncBuild;
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::lists::CncBuild;
 use frictcomp::machine::{
     Configuration, ListFiles, ListsReport, NoList, NoLists, Parameterisation, check_list,
 };
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 
 /// Lists by their paths.
 pub(crate) struct Memory(pub(crate) BTreeMap<&'static str, &'static str>);

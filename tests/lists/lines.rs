@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use frictcomp::diagnostic::Severity;
 use frictcomp::lists::{Entries, Entry, Number};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 
 use super::host::{codes, judge, meant};
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use frictcomp::machine::{Configuration, ListFiles, NoList, check_list};
 use frictcomp::report::lists::render_parameters;
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use insta::assert_snapshot;
 
 /// Lists in memory.

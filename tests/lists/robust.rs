@@ -2,7 +2,7 @@
 
 use frictcomp::diagnostic::Diagnostic;
 use frictcomp::machine::{Configuration, NoLists, check_list};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use proptest::prelude::*;
 
 fn hold(diagnostics: &[Diagnostic]) {

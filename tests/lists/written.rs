@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use frictcomp::comp::CncBuild;
 use frictcomp::lists::{
-    CncBuild, Conditions, Entries, FrictionDraft, FrictionList, Points, TablePoint, Verdict,
-    write_value_list,
+    Conditions, Entries, FrictionDraft, FrictionList, Points, TablePoint, Verdict, write_value_list,
 };
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use proptest::prelude::*;
 
 /// What the control would take from a text, on a build that reads real points.

@@ -9,10 +9,11 @@ mod unknown;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use frictcomp::machine::{AxisIndex, Machine};
+use frictcomp::comp::AxisIndex;
+use frictcomp::machine::Machine;
 use frictcomp::motion::{AxisLimits, Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
-use frictcomp::source::SourceFile;
+use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
 /// The CNC cycle of these tests, in seconds.

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use fastrand::Rng;
+use frictcomp::comp::KindSet;
 use frictcomp::machine::Machine;
 use frictcomp::report::{Ndjson, Report, View};
 use frictcomp::session::{
     NoFiles, Program as Text, SavedState, Session, SessionOptions, StopPolicy,
 };
-use frictcomp::source::SourceFile;
-use frictcomp::syntax::KindSet;
+use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
 use super::model::{Model, Said};

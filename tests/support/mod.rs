@@ -6,12 +6,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
-use frictcomp::compensation::Compensation;
+use frictcomp::comp::{AxisIndex, Kind};
 use frictcomp::interpreter::{Event, Interpreter, Options, PositionFrame, Value};
-use frictcomp::machine::{AxisIndex, Machine, Setting};
+use frictcomp::machine::{Machine, Setting};
 use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
-use frictcomp::source::{SourceFile, TextLines};
-use frictcomp::syntax::Kind;
+use frictcomp::text::{SourceFile, TextLines};
 use frictcomp::timeline::{Record, Sink, StateView};
 
 /// X and Y configured with a value list, Z not configured, B configured without a list.
@@ -183,7 +182,7 @@ impl Bench {
 
     /// Where the axes stand after each block.
     pub(crate) fn positions(&self, program: &str) -> String {
-        let compensation = Compensation::at_startup(&self.machine);
+        let compensation = self.machine.compensation();
         let machine = std::sync::Arc::new(self.machine.clone());
         let mut run = Interpreter::new(machine.clone(), compensation, Options::default());
         for (name, setting) in &self.options.settings {

@@ -23,7 +23,7 @@ use crate::lists::{Conditions, Entries, FrictionDraft, FrictionList, Verdict};
 use crate::motion::PlannerOptions;
 use crate::report::pictures::{AxisPlot, CurrentPlot};
 use crate::report::svg::Frame;
-use crate::source::SourceFile;
+use crate::text::SourceFile;
 
 /// Compute the additive current of a program or a recorded trace, cycle by cycle
 ///

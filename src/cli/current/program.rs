@@ -18,14 +18,14 @@ use super::super::outputs::Outputs;
 use super::super::unread::say_unread;
 use super::super::watch::{Course, Watch};
 use super::{Column, CurrentArgs, Plot, say_saturated, value_list};
-use crate::compensation::State;
+use crate::comp::{AxisIndex, State};
 use crate::current::{
     AdditiveCurrent, Commanded, CurrentSample, Followers, POSITION_UNITS_PER_MM,
     VELOCITY_UNITS_PER_MM_PER_S,
 };
 use crate::diagnostic::{Diagnostic, Severity, did_you_mean};
 use crate::lists::FrictionList;
-use crate::machine::{AxisIndex, AxisType, Parameterisation};
+use crate::machine::{AxisType, Parameterisation};
 use crate::motion::{AxisLimits, Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use crate::report::pictures::AxisPlot;
 use crate::session::{Motions, SessionOptions, StopPolicy};

@@ -11,7 +11,7 @@ use super::super::files::read_text;
 use super::super::ledger::Ledger;
 use super::super::outputs::Outputs;
 use super::{CurrentArgs, Plot, say_saturated, value_list};
-use crate::compensation::State;
+use crate::comp::State;
 use crate::current::{
     Added, AdditiveCurrent, POSITION_UNITS_PER_MM, Switched, VELOCITY_UNITS_PER_MM_PER_S,
 };

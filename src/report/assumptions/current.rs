@@ -2,7 +2,7 @@
 
 use super::Assumption;
 use super::When::Reported;
-use crate::codes::Code;
+use crate::diagnostic::Code;
 
 pub(super) const ASSUMED: &[Assumption] = &[
     Assumption {

@@ -2,7 +2,7 @@
 
 use super::Assumption;
 use super::When::{NoMachine, PassedOver, Reported};
-use crate::codes::Code;
+use crate::diagnostic::Code;
 
 pub(super) const ASSUMED: &[Assumption] = &[
     Assumption {

@@ -12,7 +12,7 @@ mod runs;
 
 use std::collections::BTreeSet;
 
-use crate::codes::Code;
+use crate::diagnostic::Code;
 use crate::machine::AxisSet;
 use crate::timeline::EndedBy;
 

@@ -3,7 +3,7 @@
 use super::page::{Page, state_word};
 use super::run::Given;
 use super::story::RunStory;
-use crate::compensation::Change;
+use crate::comp::Change;
 use crate::lists::{AxisType, Origin, Parameter};
 use crate::machine::{AxisSet, Parameterisation};
 use crate::report::lists::cells;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use crate::compensation::State;
+use crate::comp::State;
 use crate::report::markup::{escaped, push_escaped};
 use crate::report::svg::{self, Standing};
 

@@ -9,6 +9,7 @@ use super::source::{self, Sources};
 use super::story::{ProgramStory, RunStory, SummaryStory};
 use super::track::{Stretch, Track};
 use super::{assumptions, machine, messages};
+use crate::comp::Kind;
 use crate::diagnostic::Severity;
 use crate::lists::Parameter;
 use crate::machine::AxisReport;
@@ -16,7 +17,6 @@ use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
 use crate::report::assumptions::Met;
 use crate::report::markup::escaped;
 use crate::report::svg::{Axis, Band, BandChart, BandRow, Frame};
-use crate::syntax::Kind;
 use crate::timeline::ChangedBy;
 
 /// What the report tells beside the records.

@@ -7,9 +7,9 @@ use super::machine::change_words;
 use super::messages::{line_id, push_item};
 use super::page::Page;
 use super::story::{FileStory, LineStory, RunStory};
+use crate::comp::Kind;
 use crate::report::markup::{push_escaped, push_source_line};
-use crate::source::LineSource;
-use crate::syntax::Kind;
+use crate::text::LineSource;
 
 /// Gives the lines of a program once more, after it has run.
 pub trait Sources {

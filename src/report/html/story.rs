@@ -5,14 +5,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::track::{Spot, Track};
-use crate::codes::Code;
-use crate::compensation::{Change, Compensation, State};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::comp::{AxisIndex, Change, Kind, KindSet, State};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::lists::AxisType;
-use crate::machine::{AcceptedList, AxisIndex, AxisSet, Origin, Parameterisation};
+use crate::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
 use crate::report::svg::Standing;
-use crate::source::Position;
-use crate::syntax::{Kind, KindSet};
+use crate::text::Position;
 use crate::timeline::{AxisSummary, End, EndedBy, Record, Row, Sink, StateView, Summary};
 
 /// Lines whose runs are counted, in all files together.
@@ -180,7 +178,7 @@ impl RunStory {
         if self.programs.len() >= MAX_PROGRAMS {
             self.more_programs += 1;
         }
-        let start = Compensation::at_startup(state.machine);
+        let start = state.machine.compensation();
         let mut tracks = Vec::new();
         for (axis, _) in state.machine.axes.iter().enumerate() {
             let axis = AxisIndex::new(axis);

@@ -1,9 +1,7 @@
 //! The states of one kind on one axis over the blocks of a program, in bounded memory.
 
-use crate::compensation::State;
-use crate::machine::AxisIndex;
+use crate::comp::{AxisIndex, Kind, State};
 use crate::report::svg::{BandState, Standing};
-use crate::syntax::Kind;
 
 /// Where a stretch begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! The additive current over time.
 
-use crate::compensation::State;
+use crate::comp::State;
 use crate::current::Added;
 use crate::lists::AxisType;
 use crate::report::svg::{

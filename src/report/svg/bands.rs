@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width};
 use super::scale::{Ends, Scale};
 use super::{Axis, Frame, Spacing};
-use crate::compensation::State;
+use crate::comp::State;
 
 /// What a bar says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ mod player;
 use player::{OFF, Player, about, machine, play};
 
 use super::*;
-use crate::codes::Code;
+use crate::diagnostic::Code;
 use crate::machine::Machine;
 
 /// Everything that a format writes.

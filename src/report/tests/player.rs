@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use crate::codes::Code;
-use crate::compensation::{Change, Compensation};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::comp::{Change, Compensation, Kind, KindSet, Selection};
+use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::machine::{AxisSet, Machine};
-use crate::source::{SourceFile, Span};
-use crate::syntax::{Kind, KindSet, Selection};
+use crate::text::{SourceFile, Span};
 use crate::timeline::{
     AxisSummary, ChangedBy, End, EndNote, EndedBy, Modal, Record, Row, Sink, StateView, Summary,
 };
@@ -62,7 +60,7 @@ pub(super) struct Player<'a> {
 impl<'a> Player<'a> {
     pub(super) fn new(machine: &'a Machine, sink: &'a mut dyn Sink) -> Self {
         Self {
-            comp: Compensation::at_startup(machine),
+            comp: machine.compensation(),
             listed: vec![true; machine.axes.len()],
             version: 1,
             seq: 0,
@@ -142,7 +140,7 @@ impl<'a> Player<'a> {
             state: state!(self),
         }));
         let view = state!(self);
-        let start = Compensation::at_startup(self.machine);
+        let start = self.machine.compensation();
         let axes = view.axes().map(|(axis, name)| {
             let (from, to) = (
                 start.state(axis, Kind::Frict),
@@ -151,7 +149,7 @@ impl<'a> Player<'a> {
             let changed = from != to;
             let (line, number) = if name == "X" { (6, 45) } else { (4, 25) };
             AxisSummary {
-                others_away: crate::syntax::KindSet::NONE,
+                others_away: crate::comp::KindSet::NONE,
                 axis,
                 start: from,
                 end: to,

@@ -2,9 +2,7 @@
 
 use unicode_width::UnicodeWidthStr;
 
-use crate::compensation::{Change, State};
-use crate::machine::AxisIndex;
-use crate::syntax::Kind;
+use crate::comp::{AxisIndex, Change, Kind, State};
 use crate::timeline::{Row, StateView};
 
 use super::GUTTER;

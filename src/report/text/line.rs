@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use anstyle::{AnsiColor, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use crate::compensation::State;
+use crate::comp::State;
 use crate::report::visible::{is_command, visible, visible_line};
 use crate::report::{Look, Paint};
 

@@ -8,9 +8,8 @@ mod summary;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
-use crate::compensation::Change;
+use crate::comp::{Change, Kind};
 use crate::diagnostic::Diagnostic;
-use crate::syntax::Kind;
 use crate::timeline::{End, EndedBy, Record, Row, Sink, StateView};
 
 use super::diagnostics::{Look, render, wrap};

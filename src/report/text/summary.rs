@@ -198,13 +198,12 @@ fn count(number: u64, noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compensation::State;
-    use crate::machine::AxisIndex;
+    use crate::comp::{AxisIndex, State};
 
     #[test]
     fn as_many_blocks_are_named_as_have_room() {
         let mut axis = AxisSummary {
-            others_away: crate::syntax::KindSet::NONE,
+            others_away: crate::comp::KindSet::NONE,
             axis: AxisIndex::new(0),
             start: State::Active,
             end: State::Inactive,

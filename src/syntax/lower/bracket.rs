@@ -3,15 +3,11 @@
 use pest::iterators::Pair;
 
 use super::{Lowering, not_closed, span_of, trimmed};
-use crate::codes::Code;
-use crate::diagnostic::did_you_mean;
-use crate::source::Span;
+use crate::diagnostic::{Code, did_you_mean};
 use crate::syntax::ast::{Address, Effect, Item, Word};
-use crate::syntax::comp::CompWords;
-use crate::syntax::grammar::Rule;
 use crate::syntax::known::{axis_commands, is_axis_command, is_spindle_command, is_spindle_word};
-use crate::syntax::lines::is_blank;
-use crate::syntax::{Fault, expression};
+use crate::syntax::{Fault, comp::CompWords, expression, grammar::Rule, lines::is_blank};
+use crate::text::Span;
 
 impl Lowering<'_> {
     pub(super) fn axis_bracket(&mut self, pair: Pair<'_, Rule>, span: Span) {

@@ -3,10 +3,9 @@
 use pest::iterators::Pair;
 
 use super::{Lowering, not_closed, not_understood, span_of, trimmed};
-use crate::source::Span;
 use crate::syntax::ast::{Call, CallForm, CallName, CallScope, Effect, Item, Repetition};
-use crate::syntax::expression;
-use crate::syntax::grammar::Rule;
+use crate::syntax::{expression, grammar::Rule};
+use crate::text::Span;
 
 impl Lowering<'_> {
     pub(super) fn plain_call(&mut self, pair: Pair<'_, Rule>, scope: CallScope, span: Span) {

@@ -3,13 +3,10 @@
 use pest::iterators::Pair;
 
 use super::{Lowering, not_closed, not_understood, span_of, trimmed};
-use crate::codes::Code;
-use crate::diagnostic::did_you_mean;
-use crate::source::Span;
-use crate::syntax::Fault;
+use crate::diagnostic::{Code, did_you_mean};
 use crate::syntax::ast::{Effect, Expression, Flow, Item, JumpTarget, Operand, Target};
-use crate::syntax::expression;
-use crate::syntax::grammar::Rule;
+use crate::syntax::{Fault, expression, grammar::Rule};
+use crate::text::Span;
 
 /// The `$` statements.
 const FLOW_WORDS: [&str; 19] = [

@@ -5,12 +5,11 @@ use pest::iterators::Pair;
 
 use super::{Lowering, span_of, trimmed};
 use crate::diagnostic::did_you_mean;
-use crate::source::Span;
 use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
 use crate::syntax::known::{Touches, hash_command, hash_commands};
-use crate::syntax::unread::not_known;
-use crate::syntax::{expression, hash_name};
+use crate::syntax::{expression, hash_name, unread::not_known};
+use crate::text::Span;
 
 impl Lowering<'_> {
     pub(super) fn hash(&mut self, span: Span) {

@@ -18,8 +18,8 @@ use super::ast::{
 use super::grammar::{NcParser, Rule};
 use super::unread::not_known;
 use super::{Fault, MAX_BRACKETS, expression};
-use crate::codes::Code;
-use crate::source::Span;
+use crate::diagnostic::Code;
+use crate::text::Span;
 
 /// Parses the code of a block into an empty block.
 pub(super) fn block(code: &str, block: &mut Block) {

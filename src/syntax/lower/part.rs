@@ -3,10 +3,9 @@
 use pest::iterators::Pair;
 
 use super::{Lowering, not_closed, not_understood, span_of};
-use crate::source::Span;
 use crate::syntax::ast::{Effect, Item, JumpTarget, Levels, Operand, Return, Sequence};
-use crate::syntax::expression;
-use crate::syntax::grammar::Rule;
+use crate::syntax::{expression, grammar::Rule};
+use crate::text::Span;
 
 /// How a part of a program is called.
 const HOW: &str = "name the first and the last block: `L SEQUENCE [N10 N20]`";

@@ -1,110 +1,12 @@
-//! The slice itself: the compensation state of every axis and what a COMP command does to it.
-//!
-//! It knows no files, no interpreter and no clock. A host with an interpreter of its own hands it
-//! the COMP commands that it meets and gets the changes, or the control's own error.
+//! The compensation state of every axis and what a COMP command does to it.
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-pub use crate::lists::Facts;
-
-use crate::codes::Code;
-use crate::machine::{AxisIndex, Machine};
-use crate::syntax::{CompCommand, Kind, KindSet, Membership, Selection};
-
-/// What a user sees of one kind on one axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum State {
-    /// Selected, configured and parameterised: it works.
-    Active,
-    /// Selected, but no value list was accepted: it does nothing.
-    Ineffective,
-    /// Configured, but not selected.
-    Inactive,
-    /// The axis parameter that enables it is 0.
-    Unconfigured,
-    /// The command that decides it hangs on a value that only the machine knows.
-    Unknown,
-}
-
-impl State {
-    /// The word of the records.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Active => "active",
-            Self::Ineffective => "ineffective",
-            Self::Inactive => "inactive",
-            Self::Unconfigured => "unconfigured",
-            Self::Unknown => "unknown",
-        }
-    }
-}
-
-/// One state that a command changed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct Change {
-    /// The axis.
-    pub axis: AxisIndex,
-    /// The kind.
-    pub kind: Kind,
-    /// The state before the command.
-    pub from: State,
-    /// The state after it.
-    pub to: State,
-}
-
-/// Why the control, or this tool in its place, refuses a COMP command.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum CompensationError {
-    /// `X[COMP ON FRICT]` while P-AXIS-00522 of X is 0 (R1.24).
-    #[error("friction compensation of axis `{axis}` is switched on, but P-AXIS-00522 is not set")]
-    NotConfigured {
-        /// The axis of the command.
-        axis: String,
-    },
-    /// `Q[COMP ON FRICT]` on a machine without an axis Q.
-    #[error("the machine has no axis `{axis}`")]
-    UnknownAxis {
-        /// The name in front of the bracket.
-        axis: String,
-    },
-    /// `X[COMP ON FRICT]` between `#ENABLE AX LINK` and `#DISABLE AX LINK` of a coupling with X.
-    #[error("axis `{axis}` is in an active coupling, COMP is not allowed")]
-    Coupled {
-        /// The axis of the command.
-        axis: String,
-    },
-    /// `S[COMP ON FRICT]`.
-    #[error("`{axis}` is a spindle, spindles have no COMP")]
-    Spindle {
-        /// The spindle's name.
-        axis: String,
-    },
-}
-
-impl CompensationError {
-    /// The control's error number, or ours where the control documents none.
-    pub fn code(&self) -> Code {
-        match self {
-            Self::NotConfigured { .. } => Code::PErr70495,
-            Self::UnknownAxis { .. } => Code::PErr21947,
-            Self::Coupled { .. } => Code::PErr21403,
-            Self::Spindle { .. } => Code::Fc302,
-        }
-    }
-
-    /// The axis that the command names.
-    pub fn axis(&self) -> &str {
-        match self {
-            Self::NotConfigured { axis }
-            | Self::UnknownAxis { axis }
-            | Self::Coupled { axis }
-            | Self::Spindle { axis } => axis,
-        }
-    }
-}
+use super::axis::{AxisIndex, AxisSetup};
+use super::command::{CompCommand, Selection};
+use super::error::CompensationError;
+use super::kind::{Kind, KindSet, Membership};
+use super::state::{Change, State};
 
 /// The compensation of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -155,20 +57,19 @@ impl AxisState {
 /// The compensation state of all axes of a machine.
 ///
 /// ```
-/// use frictcomp::compensation::{Compensation, CompensationError, State};
-/// use frictcomp::machine::Machine;
-/// use frictcomp::syntax::{Kind, parse_comp};
+/// use frictcomp::comp::{AxisSetup, Compensation, Kind, KindSet, State};
+/// use frictcomp::syntax::parse_comp;
 ///
-/// let machine = Machine::enabled(["X"]);
-/// let mut comp = Compensation::at_startup(&machine);
+/// let axis = AxisSetup::new("X", KindSet::of(Kind::Frict));
+/// let mut comp = Compensation::at_startup([axis]);
 /// let changes = comp.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
 /// assert_eq!((changes[0].from, changes[0].to), (State::Active, State::Inactive));
 ///
 /// comp.program_end();
-/// assert_eq!(comp.state(machine.find("X").unwrap(), Kind::Frict), State::Inactive);
+/// assert_eq!(comp.state(comp.resolve("X")?, Kind::Frict), State::Inactive);
 ///
 /// let refused = comp.apply(&parse_comp("Y[COMP ON FRICT]")?);
-/// assert_eq!(refused.unwrap_err().code().text(), "P-ERR-70495");
+/// assert_eq!(refused.unwrap_err().code().text(), "P-ERR-21947");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -181,36 +82,38 @@ pub struct Compensation {
 impl Compensation {
     /// The state after a start of the control (R1.22, R1.29): a kind is selected when its axis
     /// parameter configures it, unless the program has to activate it.
-    pub fn at_startup(machine: &Machine) -> Self {
-        let axes = machine.axes.iter().map(|axis| AxisState {
-            configured: axis.configured,
-            parameterised: axis.parameterised(),
-            manual: axis.manual,
-            selected: axis.configured.without(axis.manual),
-            unknown: KindSet::NONE,
-            coupled: false,
-        });
-        Self {
-            axes: axes.collect(),
-            names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
-            spindles: machine
-                .axes
-                .iter()
-                .map(crate::machine::Axis::is_spindle)
-                .collect(),
+    pub fn at_startup(axes: impl IntoIterator<Item = AxisSetup>) -> Self {
+        let mut compensation = Self {
+            axes: Vec::new(),
+            names: Vec::new(),
+            spindles: Vec::new(),
+        };
+        for axis in axes {
+            compensation.axes.push(AxisState {
+                configured: axis.configured,
+                parameterised: axis.parameterised,
+                manual: axis.manual,
+                selected: axis.configured.without(axis.manual),
+                unknown: KindSet::NONE,
+                coupled: false,
+            });
+            compensation.names.push(axis.name);
+            compensation.spindles.push(axis.is_spindle);
         }
+        compensation
     }
 
-    /// Whether it is one of a machine.
-    pub(crate) fn fits(&self, machine: &Machine) -> bool {
-        let axes = machine.axes.iter();
-        self.axes.len() == machine.axes.len()
-            && self.names.iter().eq(axes.clone().map(|axis| &axis.name))
-            && self
-                .spindles
-                .iter()
-                .copied()
-                .eq(axes.map(crate::machine::Axis::is_spindle))
+    /// Whether it is one of these axes.
+    pub(crate) fn fits(&self, axes: impl IntoIterator<Item = AxisSetup>) -> bool {
+        let setups = axes.into_iter().map(|axis| (axis.name, axis.is_spindle));
+        let own = self
+            .names
+            .iter()
+            .cloned()
+            .zip(self.spindles.iter().copied());
+        self.axes.len() == self.names.len()
+            && self.names.len() == self.spindles.len()
+            && own.eq(setups)
     }
 
     /// The state of one kind on one axis.

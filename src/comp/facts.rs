@@ -1,7 +1,7 @@
 //! The facts about each kind of compensation, one row a kind.
 
-use super::CncBuild;
-use crate::syntax::Kind;
+use super::build::CncBuild;
+use super::kind::Kind;
 
 /// What the control's documents say about a kind (R1.10, R1.40).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use crate::diagnostic::Severity;
+use super::severity::Severity;
 
 macro_rules! codes {
     ($($name:ident $text:literal $severity:ident $title:literal;)+) => {
@@ -40,7 +40,7 @@ macro_rules! codes {
             /// The page that `frictcomp explain` shows.
             #[cfg(feature = "cli")]
             pub fn page(self) -> &'static str {
-                match self { $(Self::$name => include_str!(concat!("../docs/codes/", $text, ".md")),)+ }
+                match self { $(Self::$name => include_str!(concat!("../../docs/codes/", $text, ".md")),)+ }
             }
         }
     };

@@ -1,0 +1,51 @@
+//! What the compensation has to know of an axis.
+
+use serde::{Deserialize, Serialize};
+
+use super::kind::KindSet;
+
+/// The position of an axis in the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct AxisIndex(u16);
+
+impl AxisIndex {
+    /// The index from a position in the list of axes.
+    pub fn new(position: usize) -> Self {
+        Self(u16::try_from(position).expect("a control has fewer than 65536 axes"))
+    }
+
+    /// The position in the list of axes.
+    pub fn get(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// An axis as the compensation sees it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct AxisSetup {
+    /// The name in NC programs, case-sensitive.
+    pub name: String,
+    /// Whether it is a spindle; spindles have no COMP.
+    pub is_spindle: bool,
+    /// The kinds that the axis parameters configure.
+    pub configured: KindSet,
+    /// The kinds that only the program activates and that fall off at program end (R1.40).
+    pub manual: KindSet,
+    /// The kinds that have the values that they need to work.
+    pub parameterised: KindSet,
+}
+
+impl AxisSetup {
+    /// An axis on which the kinds are configured and parameterised, and the others are not
+    /// configured.
+    pub fn new(name: impl Into<String>, configured: KindSet) -> Self {
+        Self {
+            name: name.into(),
+            is_spindle: false,
+            configured,
+            manual: KindSet::NONE,
+            parameterised: configured,
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! What a COMP command says.
+
+use serde::{Deserialize, Serialize};
+
+use super::kind::KindSet;
+use crate::text::Span;
+
+/// What a COMP bracket selects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Selection {
+    /// `ON` and the kinds behind it.
+    On(KindSet),
+    /// `OFF` and the kinds behind it.
+    Off(KindSet),
+    /// `OFF_ALL`.
+    OffAll,
+}
+
+impl Selection {
+    /// The kinds that the command names; `OFF_ALL` names every kind (R1.3).
+    pub fn kinds(self) -> KindSet {
+        match self {
+            Self::On(kinds) | Self::Off(kinds) => kinds,
+            Self::OffAll => KindSet::ALL,
+        }
+    }
+}
+
+/// One understood COMP command, `X[COMP ON FRICT]`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct CompCommand {
+    /// The axis in front of the bracket.
+    pub axis: String,
+    /// What is switched.
+    pub selection: Selection,
+    /// Whether `NO_MOVE` stands in the bracket; friction compensation does not care (R1.6).
+    pub no_move: bool,
+    /// From the axis name to the closing bracket.
+    pub span: Span,
+}

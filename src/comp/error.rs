@@ -1,0 +1,57 @@
+//! Why a COMP command is refused.
+
+use thiserror::Error;
+
+use crate::diagnostic::Code;
+
+/// Why the control, or this tool in its place, refuses a COMP command.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum CompensationError {
+    /// `X[COMP ON FRICT]` while P-AXIS-00522 of X is 0 (R1.24).
+    #[error("friction compensation of axis `{axis}` is switched on, but P-AXIS-00522 is not set")]
+    NotConfigured {
+        /// The axis of the command.
+        axis: String,
+    },
+    /// `Q[COMP ON FRICT]` on a machine without an axis Q.
+    #[error("the machine has no axis `{axis}`")]
+    UnknownAxis {
+        /// The name in front of the bracket.
+        axis: String,
+    },
+    /// `X[COMP ON FRICT]` between `#ENABLE AX LINK` and `#DISABLE AX LINK` of a coupling with X.
+    #[error("axis `{axis}` is in an active coupling, COMP is not allowed")]
+    Coupled {
+        /// The axis of the command.
+        axis: String,
+    },
+    /// `S[COMP ON FRICT]`.
+    #[error("`{axis}` is a spindle, spindles have no COMP")]
+    Spindle {
+        /// The spindle's name.
+        axis: String,
+    },
+}
+
+impl CompensationError {
+    /// The control's error number, or ours where the control documents none.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotConfigured { .. } => Code::PErr70495,
+            Self::UnknownAxis { .. } => Code::PErr21947,
+            Self::Coupled { .. } => Code::PErr21403,
+            Self::Spindle { .. } => Code::Fc302,
+        }
+    }
+
+    /// The axis that the command names.
+    pub fn axis(&self) -> &str {
+        match self {
+            Self::NotConfigured { axis }
+            | Self::UnknownAxis { axis }
+            | Self::Coupled { axis }
+            | Self::Spindle { axis } => axis,
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The kinds of axis compensation, and sets of them.
+
+use serde::{Deserialize, Serialize};
+
+/// A kind of axis compensation that COMP switches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub enum Kind {
+    /// Backlash compensation.
+    Backlash,
+    /// Cross compensation.
+    Cross,
+    /// Plane compensation.
+    Plane,
+    /// Leadscrew error compensation.
+    Lead,
+    /// Temperature compensation.
+    Temp,
+    /// Friction compensation.
+    Frict,
+    /// Crosstalk compensation.
+    Crosstalk,
+}
+
+impl Kind {
+    /// Every kind, in the order of the control's documents.
+    pub const ALL: [Self; 7] = [
+        Self::Backlash,
+        Self::Cross,
+        Self::Plane,
+        Self::Lead,
+        Self::Temp,
+        Self::Frict,
+        Self::Crosstalk,
+    ];
+
+    /// The keyword in an NC program.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Backlash => "BACKLASH",
+            Self::Cross => "CROSS",
+            Self::Plane => "PLANE",
+            Self::Lead => "LEAD",
+            Self::Temp => "TEMP",
+            Self::Frict => "FRICT",
+            Self::Crosstalk => "CROSSTALK",
+        }
+    }
+
+    /// The kind that a keyword names, in any case.
+    pub fn from_keyword(word: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.keyword().eq_ignore_ascii_case(word))
+    }
+}
+
+/// A set of kinds; serialised as the list of their keywords.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<Kind>", from = "Vec<Kind>")]
+pub struct KindSet(u8);
+
+impl From<KindSet> for Vec<Kind> {
+    fn from(set: KindSet) -> Self {
+        set.iter().collect()
+    }
+}
+
+impl From<Vec<Kind>> for KindSet {
+    fn from(kinds: Vec<Kind>) -> Self {
+        kinds.into_iter().collect()
+    }
+}
+
+impl KindSet {
+    /// No kind.
+    pub const NONE: Self = Self(0);
+    /// Every kind.
+    pub const ALL: Self = Self(0x7f);
+
+    /// The set of one kind.
+    pub const fn of(kind: Kind) -> Self {
+        Self(1 << kind as u8)
+    }
+
+    /// Whether the kind is in the set.
+    pub fn contains(self, kind: Kind) -> bool {
+        self.0 & Self::of(kind).0 != 0
+    }
+
+    /// Puts a kind into the set.
+    pub fn insert(&mut self, kind: Kind) {
+        self.0 |= Self::of(kind).0;
+    }
+
+    /// Takes a kind out of the set.
+    pub fn remove(&mut self, kind: Kind) {
+        self.0 &= !Self::of(kind).0;
+    }
+
+    /// Puts a kind into the set or takes it out.
+    pub fn assign(&mut self, kind: Kind, present: Membership) {
+        match present {
+            Membership::In => self.insert(kind),
+            Membership::Out => self.remove(kind),
+        }
+    }
+
+    /// The kinds in either set.
+    pub fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// The kinds in both sets.
+    pub fn intersection(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// The kinds of this set that are not in the other.
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// Whether no kind is in the set.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The kinds of the set, in the order of [`Kind::ALL`].
+    pub fn iter(self) -> impl Iterator<Item = Kind> {
+        Kind::ALL
+            .into_iter()
+            .filter(move |&kind| self.contains(kind))
+    }
+}
+
+impl FromIterator<Kind> for KindSet {
+    fn from_iter<I: IntoIterator<Item = Kind>>(kinds: I) -> Self {
+        let mut set = Self::NONE;
+        for kind in kinds {
+            set.insert(kind);
+        }
+        set
+    }
+}
+
+/// Whether a kind belongs to a set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Membership {
+    /// It does.
+    In,
+    /// It does not.
+    Out,
+}

@@ -1,0 +1,23 @@
+//! The slice itself: the kinds of compensation, the state of every axis, and what a COMP command
+//! does to it.
+//!
+//! It knows no files, no interpreter and no clock. A host with an interpreter of its own hands it
+//! the COMP commands that it meets and gets the changes, or the control's own error.
+
+mod axis;
+mod build;
+mod command;
+mod compensation;
+mod error;
+mod facts;
+mod kind;
+mod state;
+
+pub use axis::{AxisIndex, AxisSetup};
+pub use build::{CncBuild, NoBuild};
+pub use command::{CompCommand, Selection};
+pub use compensation::{Compensation, Coupling};
+pub use error::CompensationError;
+pub use facts::Facts;
+pub use kind::{Kind, KindSet, Membership};
+pub use state::{Change, State};

@@ -1,0 +1,48 @@
+//! The state of a kind on an axis, and its change.
+
+use serde::{Deserialize, Serialize};
+
+use super::axis::AxisIndex;
+use super::kind::Kind;
+
+/// What a user sees of one kind on one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum State {
+    /// Selected, configured and parameterised: it works.
+    Active,
+    /// Selected, but no value list was accepted: it does nothing.
+    Ineffective,
+    /// Configured, but not selected.
+    Inactive,
+    /// The axis parameter that enables it is 0.
+    Unconfigured,
+    /// The command that decides it hangs on a value that only the machine knows.
+    Unknown,
+}
+
+impl State {
+    /// The word of the records.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Active => "active",
+            Self::Ineffective => "ineffective",
+            Self::Inactive => "inactive",
+            Self::Unconfigured => "unconfigured",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// One state that a command changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Change {
+    /// The axis.
+    pub axis: AxisIndex,
+    /// The kind.
+    pub kind: Kind,
+    /// The state before the command.
+    pub from: State,
+    /// The state after it.
+    pub to: State,
+}

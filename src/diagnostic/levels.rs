@@ -1,0 +1,32 @@
+//! Other severities for codes of ours.
+
+use std::collections::BTreeMap;
+
+use super::codes::Code;
+use super::severity::Severity;
+
+/// What the user's `[lint]` table says: other severities for codes of ours (R9.28).
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Levels {
+    levels: BTreeMap<Code, Option<Severity>>,
+}
+
+impl Levels {
+    /// Gives a code another severity, or none, which silences it. The control's own errors keep
+    /// theirs (R9.24); the return value says whether the code may be changed.
+    pub fn set(&mut self, code: Code, level: Option<Severity>) -> bool {
+        let ours = !code.is_controller();
+        if ours {
+            self.levels.insert(code, level);
+        }
+        ours
+    }
+
+    /// The severity of a code, `None` when it is off.
+    pub fn severity(&self, code: Code) -> Option<Severity> {
+        self.levels
+            .get(&code)
+            .copied()
+            .unwrap_or(Some(code.severity()))
+    }
+}

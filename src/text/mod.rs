@@ -1,0 +1,17 @@
+//! Text and places in it: spans, lines and columns, physical lines one after another.
+//!
+//! Nothing here knows what an NC block or a list entry is. Offsets are bytes in UTF-8 text; lines
+//! and columns are made only when something is printed.
+
+mod file;
+mod index;
+mod lines;
+mod place;
+mod span;
+
+pub use file::SourceFile;
+pub use index::LineIndex;
+pub(crate) use lines::line_end;
+pub use lines::{LineSource, PhysicalLine, TextLines};
+pub use place::Place;
+pub use span::{Position, Span};

@@ -4,7 +4,7 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options, Outlook, Snapshot};
+use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options, RunOutcome, Snapshot};
 use frictcomp::machine::Machine;
 use frictcomp::text::SourceFile;
 
@@ -15,8 +15,8 @@ N30 X[COMP ON FRICT]
 N40 M30
 ";
 
-/// Prints each block with its changes and stops the run behind a block number.
-fn watch(machine: &Machine, event: Event<'_>, stop_behind: Option<i64>) -> ControlFlow<()> {
+/// Prints each block with its changes and stops the run after a block number.
+fn watch(machine: &Machine, event: Event<'_>, stop_after: Option<i64>) -> ControlFlow<()> {
     let Event::Executed(block) = event else {
         return ControlFlow::Continue(());
     };
@@ -29,7 +29,7 @@ fn watch(machine: &Machine, event: Event<'_>, stop_behind: Option<i64>) -> Contr
             change.to.word()
         ));
     }
-    if stop_behind.is_some() && block.number == stop_behind {
+    if stop_after.is_some() && block.number == stop_after {
         return ControlFlow::Break(());
     }
     ControlFlow::Continue(())
@@ -42,10 +42,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), start, Options::default());
     let mut observer = |event: Event<'_>| watch(&machine, event, Some(20));
-    let outlook = run.program(program(), &mut NoFiles, &mut observer);
-    assert_eq!(outlook, Outlook::Paused);
+    let outcome = run.program(program(), &mut NoFiles, &mut observer);
+    assert_eq!(outcome, RunOutcome::Paused);
 
-    let saved = serde_json::to_string(&run.snapshot())?;
+    let saved = serde_json::to_string(&run.snapshot().ok_or("its text is in memory")?)?;
     drop(run);
     say(&format!("saved in {} bytes", saved.len()));
 
@@ -53,8 +53,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut source = |name: &str| (name == "a.nc").then(program);
     let mut run = Interpreter::resume(machine.clone(), Options::default(), snapshot, &mut source)?;
     let mut observer = |event: Event<'_>| watch(&machine, event, None);
-    let outlook = run.go_on(&mut NoFiles, &mut observer);
-    assert!(matches!(outlook, Outlook::Ended(_)));
+    let outcome = run.go_on(&mut NoFiles, &mut observer);
+    assert!(matches!(outcome, RunOutcome::Ended(_)));
     Ok(())
 }
 

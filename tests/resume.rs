@@ -7,11 +7,11 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use frictcomp::interpreter::{
-    Event, Interpreter, Options, Outlook, ResumeError, Snapshot, StopPolicy,
+    EndedBy, Event, Interpreter, Limits, Options, ResumeError, RunOutcome, Snapshot, StopPolicy,
 };
 use frictcomp::machine::Machine;
-use frictcomp::text::SourceFile;
-use serde_json::json;
+use frictcomp::text::{SourceFile, TextLines};
+use serde_json::{Value, json};
 use support::MACHINE;
 
 /// Nested loops, branches, calls with own parameters, cycles, macros, jumps, unknown values,
@@ -64,12 +64,16 @@ G90 X5
 P9=1/0
 N50 M30
 ";
+/// Jumps that depend on what only the machine knows.
+const WAYS: &str = "X[COMP OFF FRICT]\nL CYCLE [NAME=c.cyc @P1=1 @P2=1 MODAL_BLOCK]\n$IF V.E.A $GOTO N90\n\
+                $IF V.E.B\nM30\n$ENDIF\n$FOR P1=1,99,1\nV.S.N[P1]=P1\n$ENDFOR\nX1\nN90: M30\n";
 const CYCLE: &str = "G1 @X@P1\n$IF @P2>1\nX[COMP OFF FRICT]\nL deep.nc\n$ENDIF\nM17\n";
 const DEEP: &str = "V.S.COUNT = 7\nX[COMP ON FRICT]\n";
 
 fn file(name: &str) -> Option<SourceFile> {
     let text = match name {
         "a.nc" => MAIN,
+        "ways.nc" => WAYS,
         "c.cyc" => CYCLE,
         "deep.nc" => DEEP,
         "start.nc" => "N1 X[COMP ON FRICT]\nM17",
@@ -131,13 +135,13 @@ fn find(name: &str, _: &str) -> Option<SourceFile> {
     file(name)
 }
 
-fn start(observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>) -> (Interpreter, Outlook) {
+fn start(observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>) -> (Interpreter, RunOutcome) {
     let machine = machine();
     let compensation = machine.compensation();
     let mut run = Interpreter::new(machine, compensation, options());
     let source = file("a.nc").expect("the main program");
-    let outlook = run.program(source, &mut find, &mut |event: Event<'_>| observer(&event));
-    (run, outlook)
+    let outcome = run.program(source, &mut find, &mut |event: Event<'_>| observer(&event));
+    (run, outcome)
 }
 
 #[test]
@@ -154,7 +158,7 @@ fn a_run_is_resumed_at_any_block() {
     );
     for stop in 1..whole.len() {
         let said = RefCell::new(Vec::new());
-        let (run, outlook) = start(&mut |event| {
+        let (run, outcome) = start(&mut |event| {
             said.borrow_mut().push(shown(event));
             if said.borrow().len() == stop {
                 ControlFlow::Break(())
@@ -162,10 +166,10 @@ fn a_run_is_resumed_at_any_block() {
                 ControlFlow::Continue(())
             }
         });
-        assert_eq!(outlook, Outlook::Paused, "after {stop}");
-        let saved = serde_json::to_string(&run.snapshot()).expect("a snapshot is JSON");
+        assert_eq!(outcome, RunOutcome::Paused, "after {stop}");
+        let saved = serde_json::to_string(&snapshot(&run)).expect("a snapshot is JSON");
         let saved: Snapshot = serde_json::from_str(&saved).expect("what was written is read");
-        assert_eq!(saved, run.snapshot());
+        assert_eq!(saved, snapshot(&run));
         let mut resumed = Interpreter::resume(machine(), options(), saved, &mut file)
             .expect("all files are there");
         resumed.go_on(&mut find, &mut |event: Event<'_>| {
@@ -176,6 +180,10 @@ fn a_run_is_resumed_at_any_block() {
     }
 }
 
+fn snapshot(run: &Interpreter) -> Snapshot {
+    run.snapshot().expect("its text is in memory")
+}
+
 #[test]
 fn a_run_is_resumed_after_every_block() {
     let mut whole = Vec::new();
@@ -184,14 +192,14 @@ fn a_run_is_resumed_after_every_block() {
         ControlFlow::Continue(())
     });
     let mut said = Vec::new();
-    let (mut run, mut outlook) = start(&mut |event| {
+    let (mut run, mut outcome) = start(&mut |event| {
         said.push(shown(event));
         ControlFlow::Break(())
     });
-    while outlook == Outlook::Paused {
-        run = Interpreter::resume(machine(), options(), run.snapshot(), &mut file)
+    while outcome == RunOutcome::Paused {
+        run = Interpreter::resume(machine(), options(), snapshot(&run), &mut file)
             .expect("all files are there");
-        outlook = run.go_on(&mut find, &mut |event: Event<'_>| {
+        outcome = run.go_on(&mut find, &mut |event: Event<'_>| {
             said.push(shown(&event));
             ControlFlow::Break(())
         });
@@ -199,8 +207,8 @@ fn a_run_is_resumed_after_every_block() {
     assert_eq!(said, whole);
 }
 
-/// A snapshot of the run with another value at each of the places, as JSON pointers.
-fn damaged(places: &[(&str, serde_json::Value)]) -> Result<Interpreter, ResumeError> {
+/// The run stopped in the middle of its calls.
+fn stopped() -> Snapshot {
     let mut left = 40;
     let (run, _) = start(&mut |_| {
         left -= 1;
@@ -210,17 +218,52 @@ fn damaged(places: &[(&str, serde_json::Value)]) -> Result<Interpreter, ResumeEr
             ControlFlow::Continue(())
         }
     });
-    let mut snapshot = serde_json::to_value(run.snapshot()).expect("a snapshot is JSON");
-    for (place, value) in places {
-        *snapshot.pointer_mut(place).expect(place) = value.clone();
-    }
-    let snapshot: Snapshot = serde_json::from_value(snapshot).expect("the right shape");
+    snapshot(&run)
+}
+
+/// A run of another program that is stopped where jumps are open that the control may have taken.
+fn stopped_with_open_ways() -> Snapshot {
+    let compensation = machine().compensation();
+    let mut run = Interpreter::new(machine(), compensation, options());
+    let mut left = 150;
+    let source = SourceFile::new("ways.nc", WAYS);
+    let outcome = run.program(source, &mut find, &mut |_: Event<'_>| {
+        left -= 1;
+        if left == 0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    assert_eq!(outcome, RunOutcome::Paused);
+    let saved = snapshot(&run);
+    let ways = &document(&saved)["state"]["ways"];
+    assert!(
+        ways["open"][0].is_object() && ways["end"].is_object(),
+        "{ways}"
+    );
+    saved
+}
+
+fn document(snapshot: &Snapshot) -> Value {
+    serde_json::to_value(snapshot).expect("a snapshot is JSON")
+}
+
+fn resume(snapshot: Snapshot) -> Result<Interpreter, ResumeError> {
     Interpreter::resume(machine(), options(), snapshot, &mut file)
 }
 
+/// The run with another value at a place, a JSON pointer, as somebody would write it on purpose.
+fn forged(place: &str, value: Value) -> Result<Interpreter, ResumeError> {
+    let mut document = document(&stopped());
+    *document.pointer_mut(place).expect(place) = value;
+    let snapshot: Snapshot = serde_json::from_value(document).expect("the right shape");
+    resume(snapshot.sealed_anew())
+}
+
 #[test]
-fn a_damaged_snapshot_is_refused() {
-    assert!(damaged(&[]).is_ok());
+fn a_snapshot_that_names_what_is_not_there_is_refused() {
+    assert!(resume(stopped()).is_ok());
     for (place, value) in [
         ("/state/frames/0/unit", json!(9)),
         ("/state/frames/0/section", json!(9)),
@@ -233,17 +276,159 @@ fn a_damaged_snapshot_is_refused() {
         ("/state/modal/positions", json!([])),
         ("/state/modal/references", json!([1.0])),
         ("/state/modal/suspended", json!([1.0])),
-        ("/state/compensation/names", json!(["X"])),
-        ("/state/compensation/spindles", json!([])),
         ("/state/couplings/holding", json!({"900": 1})),
         ("/state/parked", json!({"Jump": 4_000_000})),
+        ("/executed/0/0", json!(4_000_000)),
+        ("/executed", json!([[], [], [], [], [], []])),
         ("/files", json!([])),
     ] {
-        let refused = damaged(&[(place, value)]);
+        let refused = forged(place, value);
         assert!(
             matches!(refused, Err(ResumeError::Damaged(_))),
             "{place}: {:?}",
             refused.err()
         );
+    }
+}
+
+/// The places of all numbers of a document, as JSON pointers.
+fn numbers(document: &Value, place: &str, found: &mut Vec<String>) {
+    match document {
+        Value::Number(_) => found.push(place.to_owned()),
+        Value::Array(items) => {
+            for (at, item) in items.iter().enumerate() {
+                numbers(item, &format!("{place}/{at}"), found);
+            }
+        }
+        Value::Object(fields) => {
+            for (name, field) in fields {
+                let name = name.replace('~', "~0").replace('/', "~1");
+                numbers(field, &format!("{place}/{name}"), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn any_number_of_a_snapshot_may_be_wrong() {
+    let options = Options {
+        limits: Limits {
+            blocks: 2000,
+            ..Limits::default()
+        },
+        ..options()
+    };
+    for saved in [stopped(), stopped_with_open_ways()] {
+        let whole = document(&saved);
+        let mut places = Vec::new();
+        numbers(&whole["state"], "/state", &mut places);
+        assert!(places.len() > 40, "{}", places.len());
+        for place in places {
+            for wrong in [json!(7), json!(4_000_000_000_u32), json!(u64::MAX)] {
+                let mut document = whole.clone();
+                *document.pointer_mut(&place).expect("it was found") = wrong.clone();
+                let Ok(snapshot) = serde_json::from_value::<Snapshot>(document) else {
+                    continue;
+                };
+                // As it stands it is refused; made on purpose it is refused or goes to some end.
+                let sealed = snapshot.clone().sealed_anew();
+                assert!(
+                    sealed == snapshot || matches!(resume(snapshot), Err(ResumeError::Damaged(_))),
+                    "{place} is {wrong}"
+                );
+                if let Ok(mut run) = Interpreter::resume(machine(), options, sealed, &mut file) {
+                    run.go_on(&mut find, &mut |_: Event<'_>| ControlFlow::Continue(()));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_snapshot_of_other_texts_is_refused() {
+    let saved = stopped();
+    for changed in saved.files() {
+        let refused = Interpreter::resume(machine(), options(), saved.clone(), &mut |name| {
+            let text = file(name)?;
+            let more = if name == changed { " " } else { "" };
+            Some(SourceFile::new(name, format!("{}{more}", text.text())))
+        });
+        let expected = ResumeError::OtherText(changed.to_owned());
+        assert_eq!(refused.err(), Some(expected));
+        let refused = Interpreter::resume(machine(), options(), saved.clone(), &mut |name| {
+            file(name).filter(|_| name != changed)
+        });
+        let expected = ResumeError::MissingFile(changed.to_owned());
+        assert_eq!(refused.err(), Some(expected));
+    }
+}
+
+#[test]
+fn a_snapshot_of_another_version_or_machine_is_refused() {
+    let mut document = document(&stopped());
+    document["schema"] = json!(1);
+    let snapshot: Snapshot = serde_json::from_value(document).expect("the right shape");
+    let refused = resume(snapshot).err();
+    assert_eq!(refused, Some(ResumeError::Schema { found: 1 }));
+    let other = Machine::from_toml(&MACHINE.replace("\"B\"", "\"C\"")).expect("a machine");
+    let refused = Interpreter::resume(other, options(), stopped(), &mut file);
+    assert_eq!(refused.err(), Some(ResumeError::OtherMachine));
+}
+
+#[test]
+fn a_snapshot_that_was_cut_off_or_has_another_bit_is_refused() {
+    let saved = stopped();
+    let text = serde_json::to_string(&saved).expect("a snapshot is JSON");
+    for length in (0..text.len()).step_by(11) {
+        let cut = text.get(..length).unwrap_or_default();
+        assert!(serde_json::from_str::<Snapshot>(cut).is_err(), "{cut}");
+    }
+    for at in (0..text.len()).step_by(5) {
+        for bit in [0, 4] {
+            let mut bytes = text.clone().into_bytes();
+            bytes[at] ^= 1 << bit;
+            let Ok(snapshot) = serde_json::from_slice::<Snapshot>(&bytes) else {
+                continue;
+            };
+            assert!(snapshot == saved || resume(snapshot).is_err(), "byte {at}");
+        }
+    }
+}
+
+#[test]
+fn the_same_run_gives_the_same_snapshot() {
+    let text = |saved: &Snapshot| serde_json::to_string(saved).expect("a snapshot is JSON");
+    assert_eq!(text(&stopped()), text(&stopped()));
+}
+
+#[test]
+fn a_stream_that_was_stopped_says_that_it_cannot_go_on() {
+    for text in ["N1 X1\nN2 X2\nM30\n", "N1 X1\n$IF 1\nX2\n$ENDIF\nM30\n"] {
+        for stop in 1..4 {
+            let compensation = machine().compensation();
+            let mut run = Interpreter::new(machine(), compensation, options());
+            let mut left = stop;
+            let mut lines = TextLines::new(text);
+            let outcome = run.stream("a.nc", &mut lines, &mut find, &mut |_: Event<'_>| {
+                left -= 1;
+                if left == 0 {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            });
+            assert_eq!(outcome, RunOutcome::Stopped, "{text}");
+            assert_eq!(run.snapshot(), None);
+            let mut nobody = |_: Event<'_>| panic!("it goes on");
+            assert_eq!(run.go_on(&mut find, &mut nobody), RunOutcome::Stopped);
+            // The interpreter is good for the next program.
+            let source = SourceFile::new("b.nc", "X3\nM30\n");
+            let outcome = run.program(source, &mut find, &mut |_: Event<'_>| {
+                ControlFlow::Continue(())
+            });
+            assert_eq!(outcome, RunOutcome::Ended(EndedBy::M30));
+            assert!(run.snapshot().is_some());
+        }
     }
 }

@@ -1,8 +1,8 @@
-//! A run is stopped, saved, damaged and resumed.
+//! A run is stopped, saved, damaged, forged and resumed.
 
 use std::ops::ControlFlow;
 
-use frictcomp::interpreter::{Event, Interpreter, Options, Outlook, Snapshot};
+use frictcomp::interpreter::{Event, Interpreter, Options, RunOutcome, Snapshot};
 use frictcomp::text::SourceFile;
 
 use crate::damage::damage;
@@ -26,7 +26,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
     let compensation = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), compensation, options);
     let mut left = 1 + dice.below(20);
-    let outlook = run.program(files.source(), &mut { files }, &mut |_: Event<'_>| {
+    let outcome = run.program(files.source(), &mut { files }, &mut |_: Event<'_>| {
         left -= 1;
         if left == 0 {
             ControlFlow::Break(())
@@ -34,10 +34,10 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
             ControlFlow::Continue(())
         }
     });
-    if outlook != Outlook::Paused {
+    if outcome != RunOutcome::Paused {
         return;
     }
-    let saved = run.snapshot();
+    let saved = run.snapshot().expect("its text is in memory");
     let mut document = serde_json::to_value(&saved).expect("a snapshot is JSON");
     let text = serde_json::to_string(&document).expect("a document is JSON");
     let read: Snapshot = serde_json::from_str(&text).expect("what was saved is read");
@@ -70,7 +70,13 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
     let Ok(damaged) = serde_json::from_value::<Snapshot>(document) else {
         return;
     };
-    let Ok(mut run) = Interpreter::resume(machine, options, damaged, &mut source) else {
+    if damaged != saved {
+        let refused = Interpreter::resume(machine.clone(), options, damaged.clone(), &mut source);
+        assert!(refused.is_err(), "a damaged snapshot is resumed");
+    }
+    // Made on purpose it passes for a whole one, and what it names is checked.
+    let forged = damaged.sealed_anew();
+    let Ok(mut run) = Interpreter::resume(machine, options, forged, &mut source) else {
         return;
     };
     run.go_on(

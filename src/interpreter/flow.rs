@@ -11,7 +11,7 @@ use super::event::{EndedBy, Observer};
 use super::expression::Place as Target;
 use super::finder::Finder;
 use super::functions::finite;
-use super::options::Outlook;
+use super::options::RunOutcome;
 use super::program::{EntryIndex, LabelName};
 use super::region::Exit;
 use super::run::Interpreter;
@@ -24,10 +24,14 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Executes blocks until the call stack is empty, the program ends, or the observer stops it.
-    pub(super) fn run(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
+    pub(super) fn run(
+        &mut self,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
         loop {
             let Some(frame) = self.state.frames.last() else {
-                return Outlook::Ended(self.state.ending.take().unwrap_or(EndedBy::EndOfFile));
+                return RunOutcome::Ended(self.state.ending.take().unwrap_or(EndedBy::EndOfFile));
             };
             let (unit, section, next) = (frame.unit, frame.section, frame.next);
             if !frame.waiting.is_empty() {
@@ -38,7 +42,7 @@ impl Interpreter {
             if is_past || frame.passage.is_some_and(|passage| next > passage.last) {
                 if frame.level == 0 {
                     self.meet_at_end(finder);
-                    return Outlook::Ended(EndedBy::EndOfFile);
+                    return RunOutcome::Ended(EndedBy::EndOfFile);
                 }
                 self.end_of_pass();
                 continue;
@@ -72,7 +76,7 @@ impl Interpreter {
             if let Some(over) = self.over_budget(&at) {
                 let over = self.with_loop(over, unit, next);
                 self.work.over = Some(over);
-                return Outlook::Ended(EndedBy::Budget);
+                return RunOutcome::Ended(EndedBy::Budget);
             }
             let depth = self.state.frames.len();
             let flow = self.execute(&parsed.block, &at, finder, observer);
@@ -82,13 +86,13 @@ impl Interpreter {
             let step = match flow {
                 ControlFlow::Continue(()) => continue,
                 ControlFlow::Break(Departure::Step(step)) => step,
-                ControlFlow::Break(Departure::Paused) => return Outlook::Paused,
+                ControlFlow::Break(Departure::Paused) => return RunOutcome::Paused,
             };
             if let ControlFlow::Break(by) = self.follow(step) {
                 if by != EndedBy::Error {
                     self.meet_at_end(finder);
                 }
-                return Outlook::Ended(by);
+                return RunOutcome::Ended(by);
             }
         }
     }

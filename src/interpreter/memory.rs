@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::carried::Carried;
-use super::names::{Array, Names, Weight, compare, parts, weight};
+use super::names::{Array, Names, Weight, compare, parts, sorted, weight};
 use super::region::Target;
 use super::value::Value;
 use crate::machine::Parameters;
@@ -31,6 +31,7 @@ pub(super) struct Memory {
     /// `V.L.` of each call level.
     locals: Vec<Names>,
     /// The code of each, or why nobody knows it.
+    #[serde(serialize_with = "sorted")]
     macros: HashMap<String, Value>,
     /// Rises with every change of the macros.
     macro_version: u64,

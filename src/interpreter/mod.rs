@@ -23,6 +23,7 @@ mod evaluate;
 mod event;
 mod expression;
 mod finder;
+mod fingerprint;
 mod flow;
 mod functions;
 mod hash;
@@ -40,6 +41,7 @@ mod snapshot;
 mod start;
 mod state;
 mod stream;
+mod trust;
 mod unit;
 mod unknown;
 mod value;
@@ -57,7 +59,7 @@ pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
 pub use motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };
-pub use options::{Options, Outlook, StopPolicy};
+pub use options::{Options, RunOutcome, StopPolicy};
 pub use run::Interpreter;
 pub use snapshot::{ResumeError, Snapshot};
 pub use value::Value;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::carried::{ArrayShape, Carried};
 use super::region::Target;
@@ -30,8 +30,18 @@ impl Weight {
 /// Variables by name, those of an array under the array's name.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Names {
+    #[serde(serialize_with = "sorted")]
     pub(super) names: HashMap<String, Variable>,
     pub(super) weight: Weight,
+}
+
+/// Writes a map in the order of its names, so that the same state gives the same bytes.
+pub(super) fn sorted<V: Serialize, S: Serializer>(
+    names: &HashMap<String, V>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let sorted: BTreeMap<&String, &V> = names.iter().collect();
+    sorted.serialize(serializer)
 }
 
 /// What goes by one name.

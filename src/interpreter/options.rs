@@ -36,9 +36,22 @@ pub struct Options {
 
 /// How a run goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outlook {
+#[non_exhaustive]
+pub enum RunOutcome {
     /// The program ended.
     Ended(EndedBy),
-    /// The observer stopped it; it can be resumed.
+    /// The observer stopped it; it can go on, or be saved and resumed.
     Paused,
+    /// The observer stopped a program that is read line by line: it cannot go on.
+    Stopped,
+}
+
+/// How the running program was handed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Handed {
+    /// As a text in memory.
+    #[default]
+    Whole,
+    /// Line by line; its lines are gone once they are executed.
+    LineByLine,
 }

@@ -114,11 +114,6 @@ impl Index {
             })
     }
 
-    /// Whether the file has a block, or ends there.
-    pub(super) fn has_block(&self, entry: EntryIndex) -> bool {
-        usize::try_from(entry).is_ok_and(|entry| entry <= self.entries.len())
-    }
-
     /// A local subprogram by its name.
     pub(super) fn local(&self, name: &str) -> Option<usize> {
         self.locals.get(name).copied()

@@ -8,7 +8,7 @@ use super::coupling::Couplings;
 use super::finder::NoProgram;
 use super::memory::Memory;
 use super::modal::{AxisPosition, Modal};
-use super::options::Options;
+use super::options::{Handed, Options};
 use super::program::EntryIndex;
 use super::sequence::Sought;
 use super::state::State;
@@ -43,6 +43,7 @@ use crate::machine::{AxisSet, Machine, Setting};
 pub struct Interpreter {
     pub(super) machine: Arc<Machine>,
     pub(super) options: Options,
+    pub(super) handed: Handed,
     /// The axes with one-letter names.
     pub(super) letters: [Option<AxisIndex>; 26],
     /// The axes with longer names.
@@ -136,6 +137,7 @@ impl Interpreter {
             any_required: machine.axes.iter().any(|axis| !axis.required.is_empty()),
             machine,
             options,
+            handed: Handed::Whole,
             letters,
             names,
             units: Vec::new(),

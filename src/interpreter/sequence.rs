@@ -54,7 +54,12 @@ pub(super) struct Sought {
 }
 
 impl Destination {
-    /// The block, where it is not the one behind the call.
+    /// The call depth of the program.
+    pub(super) fn level(&self) -> u32 {
+        self.level
+    }
+
+    /// The block, where it is not the one after the call.
     pub(super) fn entry(&self) -> Option<EntryIndex> {
         self.entry
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::event::{Ended, EndedBy, Event, Observer};
 use super::finder::Finder;
-use super::options::{Outlook, StopPolicy};
+use super::options::{Handed, RunOutcome, StopPolicy};
 use super::program::Index;
 use super::run::Interpreter;
 use super::state::{Frame, Step};
@@ -24,8 +24,9 @@ impl Interpreter {
         source: SourceFile,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> Outlook {
+    ) -> RunOutcome {
         self.start();
+        self.handed = Handed::Whole;
         self.whole(source, finder, observer)
     }
 
@@ -35,7 +36,7 @@ impl Interpreter {
         source: SourceFile,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> Outlook {
+    ) -> RunOutcome {
         let index = Index::new(source, self.options.limits.nesting);
         let main = index.main();
         let name = main.and_then(|main| index.sections[main].name.clone());
@@ -46,7 +47,7 @@ impl Interpreter {
         self.hold(index);
         if self.announce(name.as_deref(), observer).is_break() {
             self.state.parked = Some(Step::Begin);
-            return Outlook::Paused;
+            return RunOutcome::Paused;
         }
         self.begin(main, finder, observer)
     }
@@ -57,7 +58,7 @@ impl Interpreter {
         main: Option<usize>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> Outlook {
+    ) -> RunOutcome {
         if self.is_refused() {
             return self.refuse(observer);
         }
@@ -68,8 +69,8 @@ impl Interpreter {
         if let Err(missing) = self.start_program(&main, finder) {
             return self.ended(EndedBy::Error, &one(*missing), observer);
         }
-        let outlook = self.run(finder, observer);
-        self.close(outlook, observer)
+        let outcome = self.run(finder, observer);
+        self.close(outcome, observer)
     }
 
     /// Whether what is wrong with the main program keeps it from running.
@@ -78,7 +79,7 @@ impl Interpreter {
     }
 
     /// Ends a program that does not run.
-    pub(super) fn refuse(&mut self, observer: &mut dyn Observer) -> Outlook {
+    pub(super) fn refuse(&mut self, observer: &mut dyn Observer) -> RunOutcome {
         let refused = self.refused();
         self.ended(ended_by(&refused.said), &refused, observer)
     }
@@ -89,20 +90,24 @@ impl Interpreter {
         main.map_or(Collected::default(), |unit| unit.index.refused.clone())
     }
 
-    /// Goes on with a run that an observer stopped.
-    pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> Outlook {
-        let outlook = match self.state.parked.take() {
+    /// Goes on with a run that an observer stopped. One whose program is read line by line stays
+    /// [`RunOutcome::Stopped`].
+    pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> RunOutcome {
+        if self.handed == Handed::LineByLine {
+            return RunOutcome::Stopped;
+        }
+        let outcome = match self.state.parked.take() {
             Some(Step::Begin) => {
                 let main = self.units[0].index.main();
                 return self.begin(main, finder, observer);
             }
             Some(step) => match self.follow(step) {
-                ControlFlow::Break(by) => Outlook::Ended(by),
+                ControlFlow::Break(by) => RunOutcome::Ended(by),
                 ControlFlow::Continue(()) => self.run(finder, observer),
             },
             None => self.run(finder, observer),
         };
-        self.close(outlook, observer)
+        self.close(outcome, observer)
     }
 
     /// Prepares the state for a program start.
@@ -186,9 +191,9 @@ impl Interpreter {
     }
 
     /// Ends a program whose text is in memory.
-    pub(super) fn close(&mut self, outlook: Outlook, observer: &mut dyn Observer) -> Outlook {
-        let Outlook::Ended(by) = outlook else {
-            return outlook;
+    pub(super) fn close(&mut self, outcome: RunOutcome, observer: &mut dyn Observer) -> RunOutcome {
+        let RunOutcome::Ended(by) = outcome else {
+            return outcome;
         };
         let mut notes = self.refused();
         notes.extend(self.work.over.take());
@@ -219,7 +224,7 @@ impl Interpreter {
         by: EndedBy,
         notes: &Collected,
         observer: &mut dyn Observer,
-    ) -> Outlook {
+    ) -> RunOutcome {
         let mut notes = Cow::Borrowed(notes);
         if let Some(open) = self.open_description()
             && matches!(by, EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
@@ -245,7 +250,7 @@ impl Interpreter {
             occurred: &self.state.occurred,
             version: self.version,
         }));
-        Outlook::Ended(by)
+        RunOutcome::Ended(by)
     }
 
     pub(super) fn is_skipped(&self, block: &Block) -> bool {

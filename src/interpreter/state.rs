@@ -97,6 +97,16 @@ pub(super) struct Frame {
     pub(super) passage: Option<Passage>,
 }
 
+impl Frame {
+    /// The program that it stands in.
+    pub(super) fn place(&self) -> Found {
+        Found {
+            unit: self.unit,
+            section: self.section,
+        }
+    }
+}
+
 /// What the next branch statement has to decide.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum Seeking {

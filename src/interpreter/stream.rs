@@ -11,7 +11,7 @@ use super::at::{At, Shown};
 use super::builder::REAL_TIME_LOOP;
 use super::event::{EndedBy, Observer};
 use super::finder::Finder;
-use super::options::{Outlook, StopPolicy};
+use super::options::{Handed, RunOutcome, StopPolicy};
 use super::program::{Index, LabelName};
 use super::run::Interpreter;
 use super::start::one;
@@ -41,14 +41,29 @@ impl Interpreter {
     ///
     /// Control blocks and labels are checked when the rest is read, where a program in memory is
     /// refused before its first block; [`crate::syntax::FlowScan`] tells which program may have any.
+    /// An observer that stops it ends it: see [`RunOutcome::Stopped`].
     pub fn stream(
         &mut self,
         file: &str,
         lines: &mut dyn LineSource,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> Outlook {
+    ) -> RunOutcome {
         self.start();
+        self.handed = Handed::LineByLine;
+        match self.run_lines(file, lines, finder, observer) {
+            RunOutcome::Paused => RunOutcome::Stopped,
+            outcome => outcome,
+        }
+    }
+
+    fn run_lines(
+        &mut self,
+        file: &str,
+        lines: &mut dyn LineSource,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
         let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
         self.hold(none);
         let file: Arc<str> = file.into();
@@ -67,14 +82,14 @@ impl Interpreter {
                 if matches!(stage, Stage::Before) {
                     stage = Stage::Announced;
                     if self.announce(Some(name.of(raw.text)), observer).is_break() {
-                        return Outlook::Paused;
+                        return RunOutcome::Paused;
                     }
                     continue;
                 }
                 if let Stage::Announced = stage {
                     stage = Stage::Running;
-                    if let Some(outlook) = self.begin_lines(&file, finder, observer) {
-                        return outlook;
+                    if let Some(outcome) = self.begin_lines(&file, finder, observer) {
+                        return outcome;
                     }
                 }
                 // Another program of the file: never executed, as where the text is whole.
@@ -96,11 +111,11 @@ impl Interpreter {
                 }
                 Stage::Before | Stage::Announced => {
                     if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
-                        return Outlook::Paused;
+                        return RunOutcome::Paused;
                     }
                     stage = Stage::Running;
-                    if let Some(outlook) = self.begin_lines(&file, finder, observer) {
-                        return outlook;
+                    if let Some(outcome) = self.begin_lines(&file, finder, observer) {
+                        return outcome;
                     }
                 }
             }
@@ -118,12 +133,12 @@ impl Interpreter {
             let step = match self.execute(&block, &at, finder, observer) {
                 ControlFlow::Continue(()) => continue,
                 ControlFlow::Break(Departure::Step(step)) => step,
-                ControlFlow::Break(Departure::Paused) => return Outlook::Paused,
+                ControlFlow::Break(Departure::Paused) => return RunOutcome::Paused,
             };
             match self.follow(step) {
                 ControlFlow::Continue(()) => match self.run_called(finder, observer) {
                     None => {}
-                    Some(outlook) => return outlook,
+                    Some(outcome) => return outcome,
                 },
                 ControlFlow::Break(ended) => {
                     stage = Stage::Beyond(Some(ended));
@@ -135,12 +150,12 @@ impl Interpreter {
         }
         self.work.block = block;
         if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
-            return Outlook::Paused;
+            return RunOutcome::Paused;
         }
         if let Stage::Before | Stage::Announced = stage
-            && let Some(outlook) = self.begin_lines(&file, finder, observer)
+            && let Some(outcome) = self.begin_lines(&file, finder, observer)
         {
-            return outlook;
+            return outcome;
         }
         self.end_of_lines(stage, &notes, observer)
     }
@@ -163,14 +178,14 @@ impl Interpreter {
         !is_it
     }
 
-    /// Enters the program that was announced and runs the one that comes before each; an outlook
+    /// Enters the program that was announced and runs the one that comes before each; an outcome
     /// when that is the end.
     fn begin_lines(
         &mut self,
         file: &str,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> Option<Outlook> {
+    ) -> Option<RunOutcome> {
         self.enter(0, 0);
         match self.start_program(file, finder) {
             Ok(()) => self.run_called(finder, observer),
@@ -183,19 +198,19 @@ impl Interpreter {
         &mut self,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> Option<Outlook> {
+    ) -> Option<RunOutcome> {
         let frame = self.state.frames.last();
         if frame.is_none_or(|frame| frame.level == 0) {
             return None;
         }
         match self.run(finder, observer) {
-            Outlook::Ended(EndedBy::EndOfFile) => None,
-            Outlook::Ended(by) => {
+            RunOutcome::Ended(EndedBy::EndOfFile) => None,
+            RunOutcome::Ended(by) => {
                 let mut notes = Collected::default();
                 notes.extend(self.work.over.take());
                 Some(self.ended(by, &notes, observer))
             }
-            Outlook::Paused => Some(Outlook::Paused),
+            stopped @ (RunOutcome::Paused | RunOutcome::Stopped) => Some(stopped),
         }
     }
 
@@ -206,7 +221,7 @@ impl Interpreter {
         (stage, notes): (Stage, Collected),
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
-    ) -> Outlook {
+    ) -> RunOutcome {
         if matches!(stage, Stage::Before) {
             return self.whole(rest, finder, observer);
         }
@@ -223,8 +238,8 @@ impl Interpreter {
                         _ => return self.ended(EndedBy::Error, &one(sought.missing), observer),
                     }
                 }
-                let outlook = self.run(finder, observer);
-                self.close(outlook, observer)
+                let outcome = self.run(finder, observer);
+                self.close(outcome, observer)
             }
             Stage::Beyond(_) => self.end_of_lines(stage, &notes, observer),
         }
@@ -236,7 +251,7 @@ impl Interpreter {
         stage: Stage,
         notes: &Collected,
         observer: &mut dyn Observer,
-    ) -> Outlook {
+    ) -> RunOutcome {
         if let Some(sought) = self.sought.take() {
             return self.ended(EndedBy::Error, &one(sought.missing), observer);
         }

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::at::At;
 use super::budget::ITEM;
+use super::call::Found;
 use super::expression::Place;
 use super::finder::Finder;
 use super::modal::Modal;
@@ -181,6 +182,35 @@ impl Ways {
     fn left(&mut self, depth: usize) -> Vec<Way> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         self.open.split_off(place)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Way> {
+        self.open.iter().chain(self.end.as_deref())
+    }
+
+    /// Whether what is kept for each way speaks of so many axes.
+    pub(super) fn fit(&self, axes: usize) -> bool {
+        let standings = self.all().map(|way| &way.standing);
+        standings
+            .into_iter()
+            .all(|standing| standing.kinds.len() == axes && standing.modal.fits(axes))
+    }
+
+    /// The sections that ways execute, each from a block on.
+    pub(super) fn tails(&self) -> impl Iterator<Item = (Found, EntryIndex)> {
+        self.all().flat_map(|way| &way.tails).map(|tail| {
+            let Tail {
+                unit,
+                section,
+                from,
+            } = *tail;
+            (Found { unit, section }, from)
+        })
+    }
+
+    /// The modal cycle of each way.
+    pub(super) fn repeated(&self) -> impl Iterator<Item = Option<&Repeated>> {
+        self.all().map(|way| way.standing.repeated.as_ref())
     }
 
     /// Forgets what no way needs any more.

@@ -16,7 +16,7 @@ pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
 use crate::diagnostic::{Diagnostic, Levels, Severity};
-use crate::interpreter::{Event, Interpreter, Options, Outlook, Value};
+use crate::interpreter::{Event, Interpreter, Options, RunOutcome, Value};
 pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, StopPolicy,
 };
@@ -274,12 +274,12 @@ impl Session {
             broken: false,
         };
         let mut listen = |event: Event<'_>| desk.event(event);
-        let outlook = match program {
+        let outcome = match program {
             Program::Lines(lines) => self.interpreter.stream(file, lines, finder, &mut listen),
             Program::Whole(source) => self.interpreter.program(source, finder, &mut listen),
         };
-        match outlook {
-            Outlook::Ended(by) if !desk.broken => {
+        match outcome {
+            RunOutcome::Ended(by) if !desk.broken => {
                 self.stopped |= matches!(by, EndedBy::Error | EndedBy::Budget);
                 ControlFlow::Continue(by)
             }

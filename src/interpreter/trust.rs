@@ -1,0 +1,150 @@
+//! Whether a state that comes from outside fits the machine and the files of the run. What it names is
+//! looked up without a further question afterwards.
+
+use super::call::Found;
+use super::program::EntryIndex;
+use super::run::Interpreter;
+use super::state::{Frame, Repeated, RepeatedCall, Request, Step};
+use crate::text::Place;
+
+/// Counters of a run stay below this for centuries, and a damaged one above it would run over.
+const MOST_COUNTED: u64 = 1 << 60;
+
+/// The line numbers of a text stay below this.
+const MOST_LINES: u32 = 1 << 31;
+
+/// What a state names that is not there.
+type Doubt = Result<(), &'static str>;
+
+fn holds(is: bool, otherwise: &'static str) -> Doubt {
+    if is { Ok(()) } else { Err(otherwise) }
+}
+
+impl Interpreter {
+    /// Whether everything that the state names is there.
+    pub(super) fn check_state(&self) -> Doubt {
+        self.check_axes()?;
+        self.check_counters()?;
+        self.check_frames()?;
+        self.check_calls()?;
+        self.check_ways()?;
+        let state = &self.state;
+        let begins = !self.units.is_empty() || (state.frames.is_empty() && state.parked.is_none());
+        holds(begins, "a run without a file")
+    }
+
+    fn check_axes(&self) -> Doubt {
+        let (state, axes) = (&self.state, self.machine.axes.len());
+        holds(state.occurred.len() == axes, "occurrences of other axes")?;
+        let described = state.described.iter().map(|described| &described.before);
+        let mut modals = described.chain([&state.modal]);
+        holds(
+            modals.all(|modal| modal.fits(axes)),
+            "positions of other axes",
+        )?;
+        holds(state.couplings.fits(axes), "a coupling of other axes")
+    }
+
+    fn check_counters(&self) -> Doubt {
+        let state = &self.state;
+        let counted = [
+            state.seq,
+            state.blocks,
+            state.spent.get(),
+            state.level.get(),
+        ];
+        let counted = counted.iter().all(|count| *count < MOST_COUNTED);
+        holds(counted, "a counter that is too large")?;
+        let mut loops = state.loops.iter();
+        let loops = loops.all(|known| known.fits(MOST_COUNTED) && self.has(known.place()));
+        holds(loops, "a loop in a program that is not there")?;
+        let lines = state.last.iter().all(|last| last.line < MOST_LINES);
+        holds(lines, "a line that no text has")
+    }
+
+    fn check_frames(&self) -> Doubt {
+        let frames = self.state.frames.iter().all(|frame| self.has_frame(frame));
+        holds(frames, "a block that is not there")
+    }
+
+    fn check_calls(&self) -> Doubt {
+        let state = &self.state;
+        let repeated = self.has_repeated(state.repeated.as_ref());
+        holds(repeated, "a cycle that is not there")?;
+        let parked = match &state.parked {
+            Some(Step::Jump(entry)) => state
+                .frames
+                .last()
+                .is_some_and(|frame| self.has_block(frame.place(), *entry)),
+            Some(Step::Call(requests)) => requests.iter().all(|request| self.has_request(request)),
+            Some(Step::ReturnTo(back)) => back.entry().is_none_or(|entry| {
+                let to = |frame: &&Frame| frame.level <= back.level();
+                let frame = state.frames.iter().rev().find(to);
+                frame.is_none_or(|frame| self.has_block(frame.place(), entry))
+            }),
+            Some(Step::Begin | Step::Return | Step::End(_)) | None => true,
+        };
+        holds(parked, "a step to a block that is not there")
+    }
+
+    fn check_ways(&self) -> Doubt {
+        let ways = &self.state.ways;
+        let axes = self.machine.axes.len();
+        holds(ways.fit(axes), "a way of other axes")?;
+        let tails = ways.tails().all(|(place, _)| self.has(place));
+        holds(tails, "a way through a program that is not there")?;
+        let mut repeated = ways.repeated();
+        holds(
+            repeated.all(|repeated| self.has_repeated(repeated)),
+            "a cycle on a way that is not there",
+        )
+    }
+
+    fn has(&self, found: Found) -> bool {
+        let unit = self.units.get(found.unit);
+        unit.is_some_and(|unit| found.section < unit.index.sections.len())
+    }
+
+    /// Whether a block stands in a section, or the section ends there.
+    fn has_block(&self, found: Found, entry: EntryIndex) -> bool {
+        let unit = self.units.get(found.unit);
+        let section = unit.and_then(|unit| unit.index.sections.get(found.section));
+        section.is_some_and(|section| (section.start..=section.end).contains(&entry))
+    }
+
+    fn has_frame(&self, frame: &Frame) -> bool {
+        let place = frame.place();
+        let is_deep =
+            usize::try_from(frame.level).is_ok_and(|level| level > self.state.frames.len());
+        let called = frame.called_from.iter();
+        !is_deep
+            && self.has_block(place, frame.next)
+            && called.into_iter().all(is_somewhere)
+            && frame
+                .waiting
+                .iter()
+                .all(|request| self.has_request(request))
+            && frame
+                .passage
+                .is_none_or(|passage| self.has_block(place, passage.first))
+    }
+
+    fn has_request(&self, request: &Request) -> bool {
+        let first = request.passage.map(|passage| passage.first);
+        self.has(request.found)
+            && is_somewhere(&request.called_from)
+            && first.is_none_or(|first| self.has_block(request.found, first))
+    }
+
+    fn has_repeated(&self, repeated: Option<&Repeated>) -> bool {
+        match repeated.map(|repeated| &repeated.call) {
+            Some(RepeatedCall::Program(found) | RepeatedCall::Perhaps(found)) => self.has(*found),
+            Some(RepeatedCall::External(_)) | None => true,
+        }
+    }
+}
+
+/// Whether a place has a line that a text may have.
+fn is_somewhere(place: &Place) -> bool {
+    place.first_line < MOST_LINES
+}

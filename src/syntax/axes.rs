@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ast::{Address, Block, Item, Word};
-use super::{BlockReader, FastPath};
+use super::lines::{BlockReader, FastPath};
 use crate::comp::Kind;
 use crate::text::TextLines;
 

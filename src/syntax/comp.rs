@@ -1,6 +1,6 @@
 //! The words of a COMP bracket: which kinds, switched how (R1.1 to R1.6).
 
-use super::Fault;
+use super::fault::Fault;
 use crate::comp::{CompCommand, Kind, KindSet, Selection};
 use crate::diagnostic::{Code, did_you_mean};
 use crate::text::Span;

@@ -3,7 +3,7 @@
 //! It yields exactly what the grammar yields, or declines; a property test holds the two together.
 
 use super::ast::{Address, Block, Number, Operand, Word};
-use super::lines::{Comments, MAX_LINE};
+use super::raw::{Comments, MAX_LINE};
 use crate::text::Span;
 
 /// Powers of ten that an `f64` holds exactly, and the same with a minus.

@@ -230,6 +230,29 @@ pub(super) fn hash_commands() -> impl Iterator<Item = &'static str> {
     HASH_COMMANDS.iter().map(|(words, ..)| *words)
 }
 
+/// The `$` statements.
+pub(super) const FLOW_WORDS: [&str; 19] = [
+    "$IF",
+    "$ELSEIF",
+    "$ELSE",
+    "$ENDIF",
+    "$SWITCH",
+    "$CASE",
+    "$DEFAULT",
+    "$ENDSWITCH",
+    "$FOR",
+    "$ENDFOR",
+    "$WHILE",
+    "$ENDWHILE",
+    "$DO",
+    "$ENDDO",
+    "$REPEAT",
+    "$UNTIL",
+    "$BREAK",
+    "$CONTINUE",
+    "$GOTO",
+];
+
 /// First keywords in an axis bracket behind which nothing touches the compensation (R2.23; PM,
 /// chapters on independent axes, oscillation, distance control, lifting, polynomials; PM/5252363631026771979).
 const AXIS_COMMANDS: [&str; 11] = [
@@ -306,6 +329,16 @@ pub(super) fn is_spindle_word(word: &str) -> bool {
     SPINDLE_WORDS
         .iter()
         .any(|known| known.eq_ignore_ascii_case(word))
+}
+
+/// Whether a statement begins with a word of the language, and not with a misspelt one.
+pub(crate) fn is_statement(text: &str) -> bool {
+    let letters = text.get(1..).unwrap_or_default();
+    let length = letters.find(|c: char| !c.is_ascii_alphabetic());
+    let word = &letters[..length.unwrap_or(letters.len())];
+    FLOW_WORDS
+        .iter()
+        .any(|known| known[1..].eq_ignore_ascii_case(word))
 }
 
 /// A command word may touch what follows it: `OVERRIDE=50`, `SYNC[1]`.

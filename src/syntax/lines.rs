@@ -3,13 +3,15 @@
 //! What a block's parser sees is its *code*: the text with comments, continuation signs and the
 //! block numbers of continued lines blanked out byte for byte, so that spans fit both.
 
+use super::allow::MARK;
 use super::ast::Block;
-use super::{Fault, fast, lower};
+use super::fault::Fault;
+use super::hash_words::hash_word;
+use super::mask::{Masked, is_blank, mask, mask_number};
+use super::raw::{Comments, MAX_LINE, RawBlock, Remark, Stretch};
+use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};
 use crate::text::{LineSource, Span};
-
-/// Characters that one line may have (R2.2).
-pub const MAX_LINE: usize = 4000;
 
 /// Bytes that one continued block, or one `#VAR` region, may have. The documents state no bound;
 /// without one a damaged file would be read into memory whole.
@@ -17,57 +19,6 @@ const MAX_REGION: usize = 1 << 20;
 
 /// Faults of one block that are said one by one (R2.85).
 const MAX_FAULTS: usize = 1000;
-
-/// What a stretch of source lines is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stretch {
-    /// A block, parsed.
-    Block,
-    /// `%NAME`: a program begins.
-    Program {
-        /// The name.
-        name: Span,
-        /// Whether it is a local subprogram, `%L NAME`.
-        local: bool,
-    },
-}
-
-/// One block, or one `%` line, as it stands in the file.
-#[derive(Debug, Clone, Copy)]
-pub struct RawBlock<'a> {
-    /// What it is.
-    pub stretch: Stretch,
-    /// The source lines joined by `\n`, without trailing blanks.
-    pub text: &'a str,
-    /// The line on which it starts, from 1.
-    pub line: u32,
-    /// Where that line starts, in bytes from the start of the text.
-    pub offset: usize,
-    /// Whether comments stand in it.
-    pub comments: Comments,
-    /// Whether it was parsed by hand, so that it is made of words with plain numbers.
-    pub plain: bool,
-    /// The comment line directly above that speaks to this tool (R9.24).
-    pub remark: Option<&'a Remark>,
-}
-
-/// A comment line that speaks to this tool.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Remark {
-    /// The line without trailing blanks.
-    pub text: String,
-    /// Its number, from 1.
-    pub line: u32,
-}
-
-/// Whether comments stand in a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Comments {
-    /// There is none.
-    Absent,
-    /// There may be some.
-    Possible,
-}
 
 /// Whether blocks are parsed by hand where that is possible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -90,15 +41,6 @@ pub struct BlockReader<S> {
     /// The code of the last block that was not parsed by hand.
     pub(super) code: String,
     remark: Remark,
-}
-
-/// What masking found in a line.
-#[derive(Debug, Clone, Copy, Default)]
-struct Masked {
-    /// A `\` stands at the end of the code.
-    continues: bool,
-    /// The first character outside ASCII that stands in code.
-    foreign: Option<Span>,
 }
 
 impl<S: LineSource> BlockReader<S> {
@@ -172,7 +114,7 @@ impl<S: LineSource> BlockReader<S> {
         let masked = self.take_line();
         let start = self.code.trim_ascii_start();
         if start.is_empty() {
-            if self.text.contains(super::allow::MARK) {
+            if self.text.contains(MARK) {
                 self.remark.text.clone_from(&self.text);
                 self.remark.line = self.line;
             }
@@ -359,18 +301,6 @@ fn cap_faults(faults: &mut Vec<Fault>) {
     ));
 }
 
-impl Remark {
-    /// The remark, for a block that begins on the next line; line 0 is that of no remark.
-    fn above(&self, line: u32) -> Option<&Self> {
-        (self.line > 0 && self.line + 1 == line).then_some(self)
-    }
-}
-
-/// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
-pub(super) fn is_blank(c: char) -> bool {
-    c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
-}
-
 /// A line without the blanks at its end.
 #[inline]
 fn trimmed(line: &str) -> &str {
@@ -402,111 +332,4 @@ fn program_line(code: &str, behind: &str) -> Stretch {
         name: Span::new(start, start + length),
         local,
     }
-}
-
-/// The words of a `#` command at the start of a block, behind its number, in upper case.
-pub(super) fn hash_word(code: &str) -> Option<String> {
-    let start = code.trim_start_matches(is_blank);
-    let start = match start.strip_prefix(['N', 'n']) {
-        Some(number) => number.trim_start_matches(|c: char| c.is_ascii_digit() || is_blank(c)),
-        None => start,
-    };
-    start.starts_with('#').then(|| super::hash_name(start).0)
-}
-
-/// Blanks out the block number of a continued line (R1.5).
-fn mask_number(code: &mut String, from: usize) {
-    let line = &code[from..];
-    let start = from + line.len() - line.trim_start_matches(is_blank).len();
-    let Some(number) = code[start..].strip_prefix(['N', 'n']) else {
-        return;
-    };
-    let digits = number.trim_start_matches(|c: char| c.is_ascii_digit());
-    let length = number.len() - digits.len();
-    if length > 0 {
-        let end = start + 1 + length;
-        code.replace_range(start..end, &" ".repeat(end - start));
-    }
-}
-
-/// Appends a line to `code` with comments, a continuation sign and foreign characters blanked out.
-fn mask(line: &str, code: &mut String) -> Masked {
-    let from = code.len();
-    let bytes = line.as_bytes();
-    let mut masked = Masked::default();
-    let mut at = 0;
-    while at < bytes.len() {
-        match bytes[at] {
-            b'"' if text_end(bytes, at).is_some() => {
-                let end = text_end(bytes, at).unwrap_or(bytes.len());
-                code.push_str(&line[at..end]);
-                at = end;
-            }
-            b';' => {
-                blank(code, bytes.len() - at);
-                at = bytes.len();
-            }
-            b'(' => {
-                let end = comment_end(bytes, at);
-                blank(code, end - at);
-                at = end;
-            }
-            byte if byte.is_ascii() => {
-                let end = at + 1 + code_length(&bytes[at + 1..]);
-                code.push_str(&line[at..end]);
-                at = end;
-            }
-            _ => {
-                let length = line[at..].chars().next().map_or(1, char::len_utf8);
-                masked.foreign = masked.foreign.or(Some(Span::new(at, at + length)));
-                blank(code, length);
-                at += length;
-            }
-        }
-    }
-    let end = from + code[from..].trim_end_matches(is_blank).len();
-    if code[from..end].ends_with('\\') {
-        code.replace_range(end - 1..end, " ");
-        masked.continues = true;
-    }
-    masked
-}
-
-/// How many bytes stand in front of a text, a comment or a foreign character.
-fn code_length(bytes: &[u8]) -> usize {
-    let ends = |byte: &u8| matches!(byte, b'"' | b';' | b'(' | 0x80..);
-    bytes.iter().position(ends).unwrap_or(bytes.len())
-}
-
-/// One past the quote that closes the text at `start`. A `\"` stands for a quote inside; where that
-/// leaves the text open, it was the text's own last character.
-pub(super) fn text_end(bytes: &[u8], start: usize) -> Option<usize> {
-    let mut at = start + 1;
-    while let Some(length) = memchr::memchr(b'"', &bytes[at..]) {
-        at += length + 1;
-        if bytes[at - 2] != b'\\' || at - 2 == start {
-            return Some(at);
-        }
-    }
-    memchr::memchr(b'"', &bytes[start + 1..]).map(|length| start + length + 2)
-}
-
-fn blank(code: &mut String, length: usize) {
-    code.extend(std::iter::repeat_n(' ', length));
-}
-
-/// One past the `)` that closes the comment at `start`; comments nest (R2.6).
-fn comment_end(bytes: &[u8], start: usize) -> usize {
-    let mut depth = 0_usize;
-    for (at, byte) in bytes.iter().enumerate().skip(start) {
-        match byte {
-            b'(' => depth += 1,
-            b')' => depth -= 1,
-            _ => continue,
-        }
-        if depth == 0 {
-            return at + 1;
-        }
-    }
-    bytes.len()
 }

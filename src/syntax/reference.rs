@@ -8,7 +8,8 @@ use fastrand::Rng;
 
 use super::ast::Block;
 use super::grammar::Rule;
-use super::{BlockReader, FastPath, lower};
+use super::lines::{BlockReader, FastPath};
+use super::lower;
 use crate::text::TextLines;
 
 /// Stretches of a program that are more than words.

@@ -1,6 +1,6 @@
 //! Text that has the form of the language and no meaning that is known here (R2.70).
 
-use super::Fault;
+use super::fault::Fault;
 use crate::diagnostic::Code;
 use crate::text::Span;
 

@@ -2,11 +2,11 @@
 
 use pest::iterators::Pair;
 
-use super::{Lowering, not_closed, span_of, trimmed};
+use super::block::{Lowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, did_you_mean};
 use crate::syntax::ast::{Address, Effect, Item, Word};
 use crate::syntax::known::{axis_commands, is_axis_command, is_spindle_command, is_spindle_word};
-use crate::syntax::{Fault, comp::CompWords, expression, grammar::Rule, lines::is_blank};
+use crate::syntax::{comp::CompWords, expression, fault::Fault, grammar::Rule, mask::is_blank};
 use crate::text::Span;
 
 impl Lowering<'_> {

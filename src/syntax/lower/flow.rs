@@ -2,44 +2,12 @@
 
 use pest::iterators::Pair;
 
-use super::{Lowering, not_closed, not_understood, span_of, trimmed};
+use super::block::{Lowering, not_closed, not_understood, span_of, trimmed};
 use crate::diagnostic::{Code, did_you_mean};
 use crate::syntax::ast::{Effect, Expression, Flow, Item, JumpTarget, Operand, Target};
-use crate::syntax::{Fault, expression, grammar::Rule};
+use crate::syntax::known::FLOW_WORDS;
+use crate::syntax::{expression, fault::Fault, grammar::Rule};
 use crate::text::Span;
-
-/// The `$` statements.
-const FLOW_WORDS: [&str; 19] = [
-    "$IF",
-    "$ELSEIF",
-    "$ELSE",
-    "$ENDIF",
-    "$SWITCH",
-    "$CASE",
-    "$DEFAULT",
-    "$ENDSWITCH",
-    "$FOR",
-    "$ENDFOR",
-    "$WHILE",
-    "$ENDWHILE",
-    "$DO",
-    "$ENDDO",
-    "$REPEAT",
-    "$UNTIL",
-    "$BREAK",
-    "$CONTINUE",
-    "$GOTO",
-];
-
-/// Whether a statement begins with a word of the language, and not with a misspelt one.
-pub(crate) fn is_statement(text: &str) -> bool {
-    let letters = text.get(1..).unwrap_or_default();
-    let length = letters.find(|c: char| !c.is_ascii_alphabetic());
-    let word = &letters[..length.unwrap_or(letters.len())];
-    FLOW_WORDS
-        .iter()
-        .any(|known| known[1..].eq_ignore_ascii_case(word))
-}
 
 impl Lowering<'_> {
     pub(super) fn flow(&mut self, pair: Pair<'_, Rule>, span: Span) {

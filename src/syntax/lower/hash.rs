@@ -3,12 +3,12 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use super::{Lowering, span_of, trimmed};
+use super::block::{Lowering, span_of, trimmed};
 use crate::diagnostic::did_you_mean;
 use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
 use crate::syntax::known::{Touches, hash_command, hash_commands};
-use crate::syntax::{expression, hash_name, unread::not_known};
+use crate::syntax::{expression, hash_words::hash_name, unread::not_known};
 use crate::text::Span;
 
 impl Lowering<'_> {

@@ -1,0 +1,212 @@
+//! A block and what stands in it.
+
+use super::call::{Call, GCall, Return, Sequence};
+use super::expression::{Node, Operand, Target};
+use super::flow::Flow;
+use crate::comp::CompCommand;
+use crate::syntax::fault::Fault;
+use crate::text::Span;
+
+/// One block.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Block {
+    /// The skip level of a leading slash, 1 to 10 (R2.3).
+    pub skip: Option<u8>,
+    /// The block number.
+    pub number: Option<Number>,
+    /// The words in front of everything else; most blocks have nothing else.
+    pub words: Vec<Word>,
+    /// What follows them, from left to right.
+    pub items: Vec<Item>,
+    /// The expressions of the block.
+    pub nodes: Vec<Node>,
+    /// The source of each node.
+    pub spans: Vec<Span>,
+    /// What is wrong with its text, from left to right.
+    pub faults: Vec<Fault>,
+}
+
+impl Block {
+    /// Whether a `$GOTO` stands in the block; an `$IF` beside it opens no control block.
+    pub fn jumps(&self) -> bool {
+        self.items
+            .iter()
+            .any(|item| matches!(item, Item::Flow(Flow::Goto(_), _)))
+    }
+
+    /// Appends a word to what stands in the block.
+    #[inline]
+    pub(in crate::syntax) fn push_word(&mut self, word: Word) {
+        if self.items.is_empty() {
+            self.words.push(word);
+        } else {
+            self.items.push(Item::Word(word));
+        }
+    }
+
+    /// Empties the block and keeps its memory.
+    #[inline]
+    pub fn clear(&mut self) {
+        self.skip = None;
+        self.number = None;
+        self.words.clear();
+        self.items.clear();
+        self.nodes.clear();
+        self.spans.clear();
+        self.faults.clear();
+    }
+}
+
+/// `N10`, or the jump label `N10:`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number {
+    /// The number, often an expression.
+    pub value: Operand,
+    /// Whether a colon makes it a jump label.
+    pub label: bool,
+    /// From the N to the number's or the colon's end.
+    pub span: Span,
+}
+
+/// The address of a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Address {
+    /// One letter, in upper case.
+    Letter(u8),
+    /// A lower-case letter that would name an axis in upper case; axis names are case-sensitive.
+    Lower(u8),
+    /// `@X` … `@Z`, `@I` … `@K`, `@S` in a cycle: a main axis of the active plane, its centre or the
+    /// main spindle.
+    Main(u8),
+    /// A longer axis or spindle name.
+    Name(Span),
+}
+
+/// A word: `G1`, `X12.5`, `X1=100`, `M200=1200`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Word {
+    /// The address.
+    pub address: Address,
+    /// The value behind it; some machines take an axis letter alone.
+    pub value: Option<Operand>,
+    /// The word.
+    pub span: Span,
+}
+
+/// Something in a block.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Item {
+    /// A word behind something else.
+    Word(Word),
+    /// A COMP command.
+    Comp(CompCommand),
+    /// A COMP bracket that was not understood; its fault says why.
+    BadCommand(Span),
+    /// A bracket command of another kind: the axis, its first keyword, the whole.
+    Bracket {
+        /// The axis or spindle.
+        axis: Span,
+        /// The first keyword.
+        keyword: Span,
+        /// The whole command.
+        span: Span,
+    },
+    /// `G800[1, 2, , 4]`.
+    GCall(GCall),
+    /// A number without an address, `G04 2.5`.
+    BareNumber(Operand, Span),
+    /// `P1 = 5`.
+    Assign(Assignment),
+    /// `[NAME]`, a jump label.
+    Label(Span),
+    /// A `$` statement.
+    Flow(Flow, Span),
+    /// A `#` command: its words up to the first bracket or number, and what follows.
+    Hash(Hash),
+    /// A subprogram call.
+    Call(Call),
+    /// A call of a part of a program, `L SEQUENCE […]`.
+    Sequence(Sequence),
+    /// `M17 […]`, `M29 […]`.
+    Return(Return),
+    /// `"NAME" = "code"`, both with their quotes.
+    MacroDefinition(Span, Span),
+    /// `"NAME"`, with its quotes.
+    MacroUse(Span),
+    /// Text that has the form of the language and a meaning that is not known here (FC210, R2.70).
+    Unread(Effect, Span),
+}
+
+impl Item {
+    /// The source of the item.
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Word(word) => word.span,
+            Self::Comp(command) => command.span,
+            Self::BadCommand(span)
+            | Self::Bracket { span, .. }
+            | Self::BareNumber(_, span)
+            | Self::Label(span)
+            | Self::Flow(_, span)
+            | Self::MacroUse(span)
+            | Self::Unread(_, span) => *span,
+            Self::GCall(call) => call.span,
+            Self::Assign(assignment) => assignment.span,
+            Self::Hash(hash) => hash.span,
+            Self::Call(call) => call.span,
+            Self::Sequence(sequence) => sequence.span,
+            Self::Return(back) => back.span,
+            Self::MacroDefinition(name, code) => name.to(*code),
+        }
+    }
+}
+
+/// What text that is not known here could change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effect {
+    /// Whatever a program could: it may be a call.
+    Everything,
+    /// Some parameter: it assigns to a place that is not known.
+    Parameters,
+    /// Nothing that is followed here: it is a word of a spindle.
+    Spindle,
+}
+
+/// `target = value`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Assignment {
+    /// What is written.
+    pub target: Target,
+    /// The new value.
+    pub value: Operand,
+    /// The whole.
+    pub span: Span,
+}
+
+/// A `#` command.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hash {
+    /// Its words in upper case, joined by one blank, with the `#`: `#COMMENT BEGIN`.
+    pub name: String,
+    /// What follows the words.
+    pub rest: Span,
+    /// The value of `#TIME`, the targets of `#DELETE`.
+    pub arguments: Vec<Operand>,
+    /// The declarations of `#VAR`.
+    pub declarations: Vec<Declaration>,
+    /// The places that the command writes with values that only the machine knows.
+    pub written: Vec<Target>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// One declaration in `#VAR` … `#ENDVAR`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declaration {
+    /// The variable with its dimensions as subscripts.
+    pub target: Target,
+    /// The type in upper case, REAL64 when left out.
+    pub kind: Option<String>,
+    /// The initial values in row order; a scalar has one.
+    pub initial: Vec<Operand>,
+}

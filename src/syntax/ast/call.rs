@@ -1,0 +1,118 @@
+//! Calls of programs, and returns from them.
+
+use serde::{Deserialize, Serialize};
+
+use super::expression::{Expression, Operand};
+use super::flow::JumpTarget;
+use crate::text::Span;
+
+/// `LL NAME`, `L file.nc`, `L CYCLE [NAME=… @P1=…]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Call {
+    /// Where the program is looked for.
+    pub scope: CallScope,
+    /// How it is named.
+    pub name: CallName,
+    /// Whether it is a cycle.
+    pub form: CallForm,
+    /// Own parameters of the call, `@P1` …: number and value.
+    pub arguments: Vec<(u32, Operand)>,
+    /// Words of the call, `@X`, `@S` …: the letter in upper case and its value.
+    pub words: Vec<(u8, Operand)>,
+    /// Whether it is repeated.
+    pub repetition: Repetition,
+    /// The whole.
+    pub span: Span,
+}
+
+/// How a called program is named.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CallName {
+    /// As it stands.
+    Literal(Span),
+    /// In quotes, a macro's name or the program's; the span holds the quotes.
+    Quoted(Span),
+    /// A variable that holds the name.
+    Variable(Expression),
+}
+
+/// Where a called program is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CallScope {
+    /// `LL`: in the same file.
+    Local,
+    /// `L`: in a file.
+    Global,
+}
+
+/// Whether a call is one of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum CallForm {
+    /// `L file.nc`, `LL NAME`.
+    #[default]
+    Plain,
+    /// `L CYCLE […]`, `LL CYCLE […]`: what the cycle does to G functions and feed ends with it.
+    Cycle,
+}
+
+/// How a cycle is repeated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Repetition {
+    /// Not at all.
+    #[default]
+    Once,
+    /// `MODAL_MOVE`: after each block with motion.
+    AfterMotion,
+    /// `MODAL_BLOCK`: after each block.
+    AfterBlock,
+}
+
+/// An implicit call, `G800[1, 2, , 4]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GCall {
+    /// The number of the G function.
+    pub number: u32,
+    /// The values; one that is left out is `None`.
+    pub arguments: Vec<Option<Operand>>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// `L SEQUENCE [NAME=a.nc N10 N20 REPEAT=3 ENDTAG]`: the blocks from one to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sequence {
+    /// The program; the one that is executed where it is left out.
+    pub name: Option<CallName>,
+    /// The first block.
+    pub first: JumpTarget,
+    /// The last block.
+    pub last: Option<JumpTarget>,
+    /// Whether the call itself ends the sequence, too.
+    pub end_tag: bool,
+    /// How often it is executed; once where it is left out.
+    pub passes: Option<Operand>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// `M17 [MAIN [LABEL]]`: where a subprogram returns to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Return {
+    /// Over how many programs.
+    pub levels: Levels,
+    /// To which block, where that is not the next one.
+    pub target: Option<JumpTarget>,
+    /// The whole.
+    pub span: Span,
+}
+
+/// How far a subprogram returns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Levels {
+    /// To its caller.
+    One,
+    /// To the main program.
+    Main,
+    /// Over so many programs.
+    Number(Operand),
+}

@@ -1,0 +1,14 @@
+//! The blocks of a program as data, compact and owned.
+//!
+//! Names are spans into the block's text. Expressions stand in one vector per block, each operand
+//! in front of its operator, so that they are evaluated with a stack and without recursion.
+
+mod block;
+mod call;
+mod expression;
+mod flow;
+
+pub use block::{Address, Assignment, Block, Declaration, Effect, Hash, Item, Number, Word};
+pub use call::{Call, CallForm, CallName, CallScope, GCall, Levels, Repetition, Return, Sequence};
+pub use expression::{BinaryOperator, Expression, Function, Node, Operand, Owner, Target};
+pub use flow::{Flow, JumpTarget};

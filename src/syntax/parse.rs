@@ -1,0 +1,56 @@
+//! Texts that are parsed by themselves: one command, one block, one expression.
+
+use super::ast::{Block, Item, Operand};
+use super::brackets::brackets;
+use super::expression::lower_text;
+use super::fault::Fault;
+use super::lines::{BlockReader, FastPath};
+use crate::comp::CompCommand;
+use crate::diagnostic::{Code, Severity};
+use crate::text::{Span, TextLines};
+
+/// Parses one COMP command, `X[COMP ON FRICT]`, and nothing else.
+///
+/// ```
+/// use frictcomp::comp::{Kind, KindSet, Selection};
+/// use frictcomp::syntax::parse_comp;
+///
+/// let command = parse_comp("X[COMP ON FRICT]").unwrap();
+/// assert_eq!(command.axis, "X");
+/// assert_eq!(command.selection, Selection::On(KindSet::of(Kind::Frict)));
+/// assert_eq!(parse_comp("X[COMP ON FRIKT]").unwrap_err().code.text(), "FC202");
+/// ```
+///
+/// # Errors
+/// The first fault that keeps the control from taking the command.
+pub fn parse_comp(text: &str) -> Result<CompCommand, Fault> {
+    let block = parse_block(text);
+    let refused = |fault: &Fault| fault.code.severity() == Severity::Error;
+    if let Some(fault) = block.faults.into_iter().find(refused) {
+        return Err(fault);
+    }
+    let mut items = block.items.into_iter();
+    match (items.next(), items.next()) {
+        (Some(Item::Comp(command)), None) if block.words.is_empty() => Ok(command),
+        _ => Err(Fault::new(
+            Code::Fc207,
+            Span::new(0, text.len()),
+            "this is no single COMP command",
+        )
+        .with_help("write `X[COMP ON FRICT]`")),
+    }
+}
+
+/// Parses the first block of a text; an empty block where there is none.
+pub fn parse_block(text: &str) -> Block {
+    let mut block = Block::default();
+    let _ = BlockReader::new(TextLines::new(text), 1, FastPath::On).next(&mut block);
+    block
+}
+
+/// Parses a text that is one expression into an empty block; `None` where it is none, or nests too
+/// deeply.
+pub(crate) fn parse_expression(text: &str, block: &mut Block) -> Option<Operand> {
+    brackets(text).ok()?;
+    lower_text(text, block)
+}

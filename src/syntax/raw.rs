@@ -1,0 +1,64 @@
+//! A block as it stands in the file.
+
+use crate::text::Span;
+
+/// Characters that one line may have (R2.2).
+pub const MAX_LINE: usize = 4000;
+
+/// What a stretch of source lines is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stretch {
+    /// A block, parsed.
+    Block,
+    /// `%NAME`: a program begins.
+    Program {
+        /// The name.
+        name: Span,
+        /// Whether it is a local subprogram, `%L NAME`.
+        local: bool,
+    },
+}
+
+/// One block, or one `%` line, as it stands in the file.
+#[derive(Debug, Clone, Copy)]
+pub struct RawBlock<'a> {
+    /// What it is.
+    pub stretch: Stretch,
+    /// The source lines joined by `\n`, without trailing blanks.
+    pub text: &'a str,
+    /// The line on which it starts, from 1.
+    pub line: u32,
+    /// Where that line starts, in bytes from the start of the text.
+    pub offset: usize,
+    /// Whether comments stand in it.
+    pub comments: Comments,
+    /// Whether it was parsed by hand, so that it is made of words with plain numbers.
+    pub plain: bool,
+    /// The comment line directly above that speaks to this tool (R9.24).
+    pub remark: Option<&'a Remark>,
+}
+
+/// A comment line that speaks to this tool.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Remark {
+    /// The line without trailing blanks.
+    pub text: String,
+    /// Its number, from 1.
+    pub line: u32,
+}
+
+impl Remark {
+    /// The remark, for a block that begins on the next line; line 0 is that of no remark.
+    pub(super) fn above(&self, line: u32) -> Option<&Self> {
+        (self.line > 0 && self.line + 1 == line).then_some(self)
+    }
+}
+
+/// Whether comments stand in a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Comments {
+    /// There is none.
+    Absent,
+    /// There may be some.
+    Possible,
+}

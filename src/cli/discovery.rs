@@ -133,7 +133,7 @@ impl LoadedMachine {
                 .count()
         };
         let mut parts = Vec::new();
-        for (severity, noun) in [(Severity::Warning, "warning"), (Severity::Info, "note")] {
+        for (severity, noun) in [(Severity::Warning, "warning"), (Severity::Info, "info")] {
             match count(severity) {
                 0 => {}
                 1 => parts.push(format!("1 {noun}")),

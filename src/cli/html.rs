@@ -1,4 +1,4 @@
-//! The HTML report of `run`: the story of the session, and its sources read once more.
+//! The HTML report of `run`: the digest of the session, and its sources read once more.
 
 use std::fs::File;
 use std::io;
@@ -10,13 +10,13 @@ use super::files::read_text;
 use super::lines::LineReader;
 use super::outputs::OutputFile;
 use crate::comp::KindSet;
-use crate::report::html::{Given, RunStory, Sources, render_run};
+use crate::report::html::{Given, RunDigest, Sources, render_run};
 use crate::text::LineSource;
 
 /// A report that is written when the session has ended.
 pub(super) struct HtmlFile {
     file: OutputFile,
-    story: RunStory,
+    digest: RunDigest,
 }
 
 impl HtmlFile {
@@ -24,13 +24,13 @@ impl HtmlFile {
     pub(super) fn new(file: OutputFile, kinds: KindSet) -> Self {
         Self {
             file,
-            story: RunStory::new(kinds),
+            digest: RunDigest::new(kinds),
         }
     }
 
     /// Takes the records of the session.
-    pub(super) fn story(&mut self) -> &mut RunStory {
-        &mut self.story
+    pub(super) fn digest(&mut self) -> &mut RunDigest {
+        &mut self.digest
     }
 
     /// Writes the report with what the user gave and the parameters in effect.
@@ -44,7 +44,7 @@ impl HtmlFile {
             parameters: &loaded.reports,
             programs: &loaded.programs,
         };
-        render_run(&self.story, &given, &mut Files, &mut self.file)
+        render_run(&self.digest, &given, &mut Files, &mut self.file)
             .map_err(|error| Failure::output(&error))
     }
 }

@@ -256,6 +256,6 @@ pub(super) fn total(tally: &Tally) -> String {
         count(tally.files, "file"),
         count(tally.of(Severity::Error), "error"),
         count(tally.of(Severity::Warning), "warning"),
-        count(tally.of(Severity::Info), "note"),
+        count(tally.of(Severity::Info), "info"),
     )
 }

@@ -26,7 +26,7 @@ use super::unread::say_unread;
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::machine::{AxisSet, Setting};
-use crate::report::html::RunStory;
+use crate::report::html::RunDigest;
 use crate::report::{Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View};
 use crate::session::{Session, StopPolicy, undescribed};
 use crate::timeline::{Record, Sink};
@@ -315,7 +315,7 @@ fn play(
     let goes_on_alone = html.is_some();
     let mut sink = Listeners {
         report: &shared,
-        html: html.map(HtmlFile::story),
+        html: html.map(HtmlFile::digest),
         weightiest: None,
     };
     // Between two reads of a program no record is on its way.
@@ -376,10 +376,10 @@ impl Start<'_> {
     }
 }
 
-/// The timeline, shared with who flushes it, and the story of the HTML report.
+/// The timeline, shared with who flushes it, and the digest for the HTML report.
 struct Listeners<'a> {
     report: &'a RefCell<Box<dyn Report>>,
-    html: Option<&'a mut RunStory>,
+    html: Option<&'a mut RunDigest>,
     /// The first of the weightiest diagnostics.
     weightiest: Option<(Severity, Code)>,
 }
@@ -409,7 +409,7 @@ impl Sink for Listeners<'_> {
         }
         let flow = self.report.borrow_mut().record(record);
         match &mut self.html {
-            Some(story) => story.record(record),
+            Some(digest) => digest.record(record),
             None => flow,
         }
     }

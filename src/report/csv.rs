@@ -6,9 +6,10 @@ use std::ops::ControlFlow;
 use crate::comp::{AxisIndex, Change, Kind};
 use crate::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
 
-use super::strings::{any_byte, integer};
-use super::visible::{is_command, visible, visible_line};
-use super::{Output, Report, View};
+use super::output::{Output, Report};
+use super::strings::integer;
+use super::view::View;
+use super::visible::{any_byte, is_command, visible, visible_line};
 
 /// The last row: what is said at program end joins its codes.
 #[derive(Debug, Default)]

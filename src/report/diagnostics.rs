@@ -9,8 +9,10 @@ use unicode_width::UnicodeWidthStr;
 use crate::diagnostic::{Diagnostic, Label, Severity};
 use crate::text::Place;
 
-use super::DEFAULT_WIDTH;
 use super::visible::{is_command, visible, visible_line};
+
+/// The width of text output that does not go to a terminal.
+pub const DEFAULT_WIDTH: usize = 80;
 
 /// Whether text output carries colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 
 use crate::timeline::{Record, Sink};
 
+use super::output::{Output, Report};
 use super::records::{Encoder, Frame};
-use super::{Output, Report, View};
+use super::view::View;
 
 /// What stands before the first record.
 pub(super) const OPENING: &[u8] = b"{\"schema\":1,\"records\":[";

@@ -7,10 +7,11 @@ use std::ops::ControlFlow;
 use crate::diagnostic::{Diagnostic, Severity};
 
 use super::diagnostics::{Look, render};
+use super::output::Output;
 use super::records::append_diagnostic;
 use super::sarif::Sarif;
 use super::strings::integer;
-use super::{Output, concise, github, json};
+use super::{concise, github, json};
 
 /// A format for diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

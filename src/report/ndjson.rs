@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 
 use crate::timeline::{Record, Sink};
 
+use super::output::{Output, Report};
 use super::records::{Encoder, Frame};
-use super::{Output, Report, View};
+use super::view::View;
 
 /// Writes records as newline-delimited JSON.
 #[derive(Debug)]

@@ -4,8 +4,8 @@ use crate::comp::{Change, Kind, KindSet};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::timeline::{End, Record, Repeat, Row, SCHEMA, StateView, Summary};
 
-use super::View;
 use super::strings::{integer, optional, separated, string};
+use super::view::View;
 
 /// The name and version that the session record carries.
 const TOOL: &str = concat!("frictcomp ", env!("CARGO_PKG_VERSION"));

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::visible::is_hidden;
+use super::visible::{any_byte, is_hidden};
 
 /// What a byte becomes in a JSON string: 0 itself, `u` a code, else the letter behind `\`.
 const ESCAPES: [u8; 256] = {
@@ -23,19 +23,6 @@ const ESCAPES: [u8; 256] = {
 };
 
 const HEX: [u8; 16] = *b"0123456789abcdef";
-
-/// Whether a text holds a special byte; a blank is none. Most texts hold none, so that sixteen bytes
-/// are looked at without a branch; the last sixteen may overlap those before.
-#[inline]
-pub(super) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
-    let any_of = |chunk: &[u8; 16]| chunk.map(|byte| u8::from(is_special(byte))) != [0; 16];
-    if let Some(last) = bytes.last_chunk() {
-        return bytes.as_chunks().0.iter().any(any_of) || any_of(last);
-    }
-    let mut filled = [b' '; 16];
-    filled[..bytes.len()].copy_from_slice(bytes);
-    any_of(&filled)
-}
 
 /// Appends a text as a JSON string with its quotes. What cannot be seen is escaped, whatever JSON
 /// itself asks for (R9.76).

@@ -8,8 +8,6 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-use super::strings::any_byte;
-
 /// Whether a character is a control character or one that changes how its neighbours are read, or
 /// that nobody sees: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
 /// characters without width, and what is no character.
@@ -44,14 +42,24 @@ pub(super) fn push_picture(out: &mut String, letter: char) {
     }
 }
 
-/// Whether every byte of a text is a character that can be seen, or a blank.
-fn is_plain(text: &str) -> bool {
-    !any_byte(text.as_bytes(), |byte| !(0x20..0x7f).contains(&byte))
+/// Whether a text holds a special byte; a blank is none. Most texts hold none, so that sixteen bytes
+/// are looked at without a branch; the last sixteen may overlap those before.
+#[inline]
+pub(super) fn any_byte(bytes: &[u8], is_special: impl Fn(u8) -> bool) -> bool {
+    let any_of = |chunk: &[u8; 16]| chunk.map(|byte| u8::from(is_special(byte))) != [0; 16];
+    if let Some(last) = bytes.last_chunk() {
+        return bytes.as_chunks().0.iter().any(any_of) || any_of(last);
+    }
+    let mut filled = [b' '; 16];
+    filled[..bytes.len()].copy_from_slice(bytes);
+    any_of(&filled)
 }
 
 fn replaced(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     let hidden = |letter: char| is_hidden(letter) && !stays(letter);
-    if is_plain(text) || !text.contains(hidden) {
+    // Most texts are ASCII that can be seen.
+    let special = |byte: u8| !(0x20..0x7f).contains(&byte) && !stays(char::from(byte));
+    if !any_byte(text.as_bytes(), special) || !text.contains(hidden) {
         return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len() + 16);

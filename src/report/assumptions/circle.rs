@@ -1,6 +1,6 @@
 //! What is assumed about the circular test.
 
-use super::Assumption;
+use super::assumption::Assumption;
 
 pub(super) const ASSUMED: &[Assumption] = &[
     Assumption {

@@ -1,7 +1,7 @@
 //! What is assumed about the COMP command.
 
-use super::Assumption;
-use super::When::{Always, NoMachine, Reported};
+use super::assumption::Assumption;
+use super::assumption::When::{Always, NoMachine, Reported};
 use crate::diagnostic::Code;
 
 pub(super) const ASSUMED: &[Assumption] = &[

@@ -1,7 +1,7 @@
 //! What is assumed about the NC language.
 
-use super::Assumption;
-use super::When::{NoMachine, PassedOver, Reported};
+use super::assumption::Assumption;
+use super::assumption::When::{NoMachine, PassedOver, Reported};
 use crate::diagnostic::Code;
 
 pub(super) const ASSUMED: &[Assumption] = &[

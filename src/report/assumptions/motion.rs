@@ -1,7 +1,7 @@
 //! What is assumed about motion.
 
-use super::Assumption;
-use super::When::Reported;
+use super::assumption::Assumption;
+use super::assumption::When::Reported;
 use crate::diagnostic::Code;
 
 pub(super) const ASSUMED: &[Assumption] = &[

@@ -1,7 +1,7 @@
 //! What is assumed about runs as a whole.
 
-use super::Assumption;
-use super::When::Stopped;
+use super::assumption::Assumption;
+use super::assumption::When::Stopped;
 
 pub(super) const ASSUMED: &[Assumption] = &[Assumption {
     rule: "R9.20",

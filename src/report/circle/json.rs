@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::super::strings::to_pretty;
-use super::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
+use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{Advice, Crossing, Glitch, PathFigures};
 
 #[derive(Serialize)]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
+use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{
     Advice, CircularTest, Crossing, Direction, Figures, Finding, FoundAt, PathFigures, Recording,
 };

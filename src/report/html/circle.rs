@@ -2,8 +2,11 @@
 
 use std::io::{self, Write};
 
-use super::page::{NUMBERS, Page, Part};
-use crate::lists::AxisType;
+use maud::{Markup, html};
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, figure};
+use crate::lists::{AxisType, FrictionList};
 use crate::machine::AcceptedList;
 use crate::report::circle::{CircleReport, Subject, advice_lines, conditions, table};
 use crate::report::pictures::{circle, value_curve};
@@ -44,67 +47,53 @@ pub fn render_circle(report: &CircleReport, out: &mut dyn Write) -> io::Result<(
         parts.insert(3, CURVES);
     }
     let mut page = Page::open(out, &chart.title, lead, &parts)?;
-    page.part(PICTURE);
-    page.figure(&chart.render(Frame::Inside("circle")));
-    page.end_part()?;
-    page.part(FIGURES);
-    render_figures(&mut page, report);
-    page.end_part()?;
-    page.part(ADVICE);
-    render_advice(&mut page, report);
-    page.end_part()?;
+    page.part(PICTURE, &figure(chart.render(Frame::Inside("circle"))))?;
+    page.part(FIGURES, &figures(report))?;
+    page.part(ADVICE, &advice(report))?;
     if !lists.is_empty() {
-        page.part(CURVES);
-        for (number, list) in lists.iter().enumerate() {
-            let name = format!("curve{number}");
-            page.figure(&value_curve(list).render(Frame::Inside(&name)));
-        }
-        page.end_part()?;
+        page.part(CURVES, &curves(&lists))?;
     }
-    page.part(CONDITIONS);
-    for line in &told {
-        page.paragraph(line);
-    }
-    page.end_part()?;
+    page.part(CONDITIONS, &html! { @for line in &told { p { (line) } } })?;
     page.close()
 }
 
-fn render_figures(page: &mut Page<'_>, report: &CircleReport) {
-    let table = table(report);
-    let mut columns = vec!["figure"];
-    let numbers: Vec<String> = table
-        .columns
-        .iter()
-        .map(|name| format!("{NUMBERS}{name}"))
-        .collect();
-    columns.extend(numbers.iter().map(String::as_str));
-    page.open_table(
-        "Figures of ISO 230-4 and glitches at reversals, in µm",
-        &columns,
-    );
-    for row in &table.rows {
+fn figures(report: &CircleReport) -> Markup {
+    let figures = table(report);
+    let names = figures.columns.iter();
+    let mut columns = vec![Column::Text("figure")];
+    columns.extend(names.map(|name| Column::Number(name)));
+    let table = Table {
+        caption: Caption::Shown("Figures of ISO 230-4 and glitches at reversals, in µm"),
+        columns: &columns,
+    };
+    table.render(figures.rows.iter().map(|row| {
         let values = row.values.iter();
-        let cells: Vec<String> = values
-            .map(|value| value.map(|value| format!("{value:.3}")).unwrap_or_default())
+        let shown = values.map(|value| value.map(|value| format!("{value:.3}")));
+        let cells: Vec<Markup> = shown
+            .map(|value| html! { @if let Some(it) = value { (it) } })
             .collect();
-        page.row(&row.name, &cells);
-    }
-    page.close_table();
+        Row::new(&row.name, cells)
+    }))
 }
 
-fn render_advice(page: &mut Page<'_>, report: &CircleReport) {
+fn advice(report: &CircleReport) -> Markup {
     let lines: Vec<String> = report.sides.iter().flat_map(advice_lines).collect();
-    if lines.is_empty() {
-        page.paragraph("The shapes suggest nothing.");
-        return;
+    html! {
+        @if lines.is_empty() {
+            p { "The shapes suggest nothing." }
+        } @else {
+            ul { @for line in &lines { li { (line) } } }
+        }
     }
-    page.raw("<ul>\n");
-    for line in lines {
-        page.raw("<li>");
-        page.text(&line);
-        page.raw("</li>\n");
+}
+
+fn curves(lists: &[AcceptedList]) -> Markup {
+    html! {
+        @for (number, list) in lists.iter().enumerate() {
+            @let name = format!("curve{number}");
+            (figure(value_curve(list).render(Frame::Inside(&name))))
+        }
     }
-    page.raw("</ul>\n");
 }
 
 /// The value lists of the axes, one where both have the same.
@@ -112,7 +101,7 @@ fn lists(report: &CircleReport) -> Vec<AcceptedList> {
     let Subject::Simulated { test, .. } = &report.subject else {
         return Vec::new();
     };
-    let accepted = |axis: &str, list: &crate::lists::FrictionList| AcceptedList {
+    let accepted = |axis: &str, list: &FrictionList| AcceptedList {
         axis: axis.to_owned(),
         axis_type: AxisType::Linear,
         list: list.clone(),

@@ -1,79 +1,102 @@
 //! The axes of the machine, their parameters with numbers and origins, and their value lists.
 
-use super::page::{Page, state_word};
-use super::run::Given;
-use super::story::RunStory;
-use crate::comp::Change;
+use maud::{Markup, html};
+
+use super::digest::RunDigest;
+use super::given::Given;
+use super::parts::{Caption, Column, Row, Table, figure};
 use crate::lists::{AxisType, Origin, Parameter};
 use crate::machine::{AxisSet, Parameterisation};
 use crate::report::lists::cells;
-use crate::report::markup::escaped;
 use crate::report::pictures::value_curve;
 use crate::report::svg::Frame;
 
-/// Writes what the user gave and what holds on each axis.
-pub(super) fn render(page: &mut Page<'_>, story: &RunStory, given: &Given<'_>) {
-    if !given.settings.is_empty() {
-        page.open_table("Given for this run", &["setting", "value"]);
-        for (name, value) in given.settings {
-            page.row(name, &[escaped(value)]);
+/// What the user gave and what holds on each axis.
+pub(super) fn render(digest: &RunDigest, given: &Given<'_>) -> Markup {
+    html! {
+        @if !given.settings.is_empty() { (settings(given.settings)) }
+        @if digest.axis_set == AxisSet::AsTheyOccur {
+            p {
+                "Without a configuration the axes are taken as they occur, with the documented \
+                 defaults of their parameters."
+            }
         }
-        page.close_table();
+        (axes(digest))
+        @for report in given.parameters {
+            (parameters(&format!("Parameters of axis {}", report.axis), &report.parameters))
+        }
+        (parameters("Programs and macros of the machine", given.programs))
     }
-    if story.axis_set == AxisSet::AsTheyOccur {
-        page.paragraph(
-            "Without a configuration the axes are taken as they occur, with the documented \
-             defaults of their parameters.",
-        );
+}
+
+/// The curve of each axis with an accepted value list.
+pub(super) fn render_curves(digest: &RunDigest) -> Markup {
+    html! {
+        @for (number, accepted) in digest.accepted.iter().enumerate() {
+            @let name = format!("curve{number}");
+            (figure(value_curve(accepted).render(Frame::Inside(&name))))
+        }
+        @if digest.accepted.is_empty() {
+            p { "No axis has a value list that the control would accept." }
+        }
     }
-    let columns = [
-        "axis",
-        "type",
-        "FRICT configured (P-AXIS-00522)",
-        "origin",
-        "value list",
-    ];
-    page.open_table("Axes", &columns);
-    for axis in story.axes.iter().filter(|axis| axis.listed) {
+}
+
+fn settings(settings: &[(String, String)]) -> Markup {
+    let table = Table {
+        caption: Caption::Shown("Given for this run"),
+        columns: &[Column::Text("setting"), Column::Text("value")],
+    };
+    let rows = settings.iter();
+    table.render(rows.map(|(name, value)| Row::new(name, [html! { (value) }])))
+}
+
+fn axes(digest: &RunDigest) -> Markup {
+    let table = Table {
+        caption: Caption::Shown("Axes"),
+        columns: &[
+            Column::Text("axis"),
+            Column::Text("type"),
+            Column::Text("FRICT configured (P-AXIS-00522)"),
+            Column::Text("origin"),
+            Column::Text("value list"),
+        ],
+    };
+    let listed = digest.axes.iter().filter(|axis| axis.listed);
+    table.render(listed.map(|axis| {
         let configured = if axis.configured { "1, yes" } else { "0, no" };
         let cells = [
-            axis_type(axis.axis_type).to_owned(),
-            configured.to_owned(),
-            escaped(&origin(&axis.origin)),
-            value_list(&axis.friction),
+            html! { (axis_type(axis.axis_type)) },
+            html! { (configured) },
+            html! { (origin(&axis.origin)) },
+            html! { (value_list(&axis.friction)) },
         ];
-        page.row(&axis.name, &cells);
-    }
-    page.close_table();
-    for report in given.parameters {
-        let caption = format!("Parameters of axis {}", report.axis);
-        parameters(page, &caption, &report.parameters);
-    }
-    parameters(page, "Programs and macros of the machine", given.programs);
+        Row::new(&axis.name, cells)
+    }))
 }
 
-/// Writes the curve of each axis with an accepted value list.
-pub(super) fn render_curves(page: &mut Page<'_>, story: &RunStory) {
-    for (number, accepted) in story.accepted.iter().enumerate() {
-        let name = format!("curve{number}");
-        page.figure(&value_curve(accepted).render(Frame::Inside(&name)));
+fn parameters(caption: &str, parameters: &[Parameter]) -> Markup {
+    if parameters.is_empty() {
+        return html! {};
     }
-    if story.accepted.is_empty() {
-        page.paragraph("No axis has a value list that the control would accept.");
-    }
-}
-
-fn parameters(page: &mut Page<'_>, caption: &str, rows: &[Parameter]) {
-    if rows.is_empty() {
-        return;
-    }
-    page.open_table(caption, &["number", "key", "#value", "origin"]);
-    for parameter in rows {
+    let table = Table {
+        caption: Caption::Shown(caption),
+        columns: &[
+            Column::Text("number"),
+            Column::Text("key"),
+            Column::Number("value"),
+            Column::Text("origin"),
+        ],
+    };
+    table.render(parameters.iter().map(|parameter| {
         let [number, key, value, origin] = cells(parameter);
-        let key = format!("<code>{}</code>", escaped(&key));
-        page.row(&number, &[key, escaped(&value), escaped(&origin)]);
-    }
-    page.close_table();
+        let cells = [
+            html! { code { (key) } },
+            html! { (value) },
+            html! { (origin) },
+        ];
+        Row::new(&number, cells)
+    }))
 }
 
 fn axis_type(axis_type: AxisType) -> &'static str {
@@ -96,17 +119,8 @@ fn value_list(friction: &Parameterisation) -> String {
     match friction {
         Parameterisation::Missing => "none".to_owned(),
         Parameterisation::Off => "its mode is 0, off".to_owned(),
-        Parameterisation::Rejected { file, code } => {
-            format!("{} is rejected ({})", escaped(file), escaped(code))
-        }
+        Parameterisation::Rejected { file, code } => format!("{file} is rejected ({code})"),
         Parameterisation::Assumed => "assumed by --enable, its values are not known".to_owned(),
         Parameterisation::Accepted(list) => format!("accepted, {} points", list.table.len()),
     }
-}
-
-/// The words of a change of state.
-pub(super) fn change_words(story: &RunStory, change: Change) -> String {
-    let of = (change.axis, change.kind);
-    let word = |state| state_word(state, story.standing(of, state));
-    format!("{} \u{2192} {}", word(change.from), word(change.to))
 }

@@ -1,6 +1,6 @@
 //! Reports as one HTML file that needs nothing else: no network, no script, no second file.
 //!
-//! A [`RunStory`] takes the records of a session and keeps what a reader asks for afterwards, in
+//! A [`RunDigest`] takes the records of a session and keeps what a reader asks for afterwards, in
 //! memory that does not grow with the length of a run; [`render_run`] writes it with the sources.
 //! Long stretches of source without a change are folded into elements that a browser opens by
 //! itself. The page forbids everything but its own style, so nothing in a program can become
@@ -8,15 +8,19 @@
 
 mod assumptions;
 mod circle;
+mod digest;
+mod given;
 mod machine;
 mod messages;
 mod page;
+mod parts;
 mod run;
 mod source;
-mod story;
+mod states;
 mod track;
 
 pub use circle::render_circle;
-pub use run::{Given, render_run};
+pub use digest::RunDigest;
+pub use given::Given;
+pub use run::render_run;
 pub use source::Sources;
-pub use story::RunStory;

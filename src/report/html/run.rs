@@ -3,32 +3,19 @@
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use super::messages::line_id;
-use super::page::{Page, Part, state_word};
+use maud::{Markup, html};
+
+use super::digest::{RunDigest, SummaryDigest};
+use super::given::Given;
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, counted, line_id, state_word};
 use super::source::{self, Sources};
-use super::story::{ProgramStory, RunStory, SummaryStory};
-use super::track::{Stretch, Track};
-use super::{assumptions, machine, messages};
+use super::{assumptions, machine, messages, states};
 use crate::comp::Kind;
 use crate::diagnostic::Severity;
-use crate::lists::Parameter;
-use crate::machine::AxisReport;
 use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
 use crate::report::assumptions::Met;
-use crate::report::markup::escaped;
-use crate::report::svg::{Axis, Band, BandChart, BandRow, Frame};
 use crate::timeline::ChangedBy;
-
-/// What the report tells beside the records.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Given<'a> {
-    /// What the user gave for the run: names and values.
-    pub settings: &'a [(String, String)],
-    /// The parameters in effect, by axis.
-    pub parameters: &'a [AxisReport],
-    /// The programs and macros that the configuration names.
-    pub programs: &'a [Parameter],
-}
 
 const LEFT: Part = Part {
     id: "left",
@@ -64,59 +51,49 @@ const READING: Part = Part {
 /// # Errors
 /// Those of `out`.
 pub fn render_run(
-    story: &RunStory,
+    digest: &RunDigest,
     given: &Given<'_>,
     sources: &mut dyn Sources,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let parts = [LEFT, STATES, MESSAGES, SOURCE, MACHINE, CURVES, READING];
-    let mut page = Page::open(out, &title(story), &lead(story), &parts)?;
-    page.part(LEFT);
-    render_left(&mut page, story);
-    page.end_part()?;
-    page.part(STATES);
-    render_states(&mut page, story)?;
-    page.end_part()?;
-    page.part(MESSAGES);
-    messages::render(&mut page, story)?;
-    page.end_part()?;
-    page.part(SOURCE);
-    source::render(&mut page, story, sources)?;
-    page.end_part()?;
-    page.part(MACHINE);
-    machine::render(&mut page, story, given);
-    page.end_part()?;
-    page.part(CURVES);
-    machine::render_curves(&mut page, story);
-    page.end_part()?;
-    page.part(READING);
-    assumptions::render(&mut page, &met(story));
-    page.end_part()?;
+    let mut page = Page::open(out, &title(digest), &lead(digest), &parts)?;
+    page.part(LEFT, &left(digest))?;
+    page.long_part(STATES, |page| states::render(page, digest))?;
+    page.part(MESSAGES, &messages::render(digest))?;
+    page.long_part(SOURCE, |page| source::render(page, digest, sources))?;
+    page.part(MACHINE, &machine::render(digest, given))?;
+    page.part(CURVES, &machine::render_curves(digest))?;
+    page.part(READING, &assumptions::render(&met(digest)))?;
     page.close()
 }
 
 /// What the session tells about the assumptions that it depends on.
-fn met(story: &RunStory) -> Met {
-    let codes = story.messages.iter().map(|message| message.diagnostic.code);
-    let passed_over = story.summary.iter().flat_map(|it| it.opaque.values()).sum();
+fn met(digest: &RunDigest) -> Met {
+    let codes = digest.messages.iter().map(|it| it.diagnostic.code);
+    let passed_over = digest
+        .summary
+        .iter()
+        .flat_map(|it| it.opaque.values())
+        .sum();
     Met {
         reported: codes.collect(),
-        axis_set: story.axis_set,
+        axis_set: digest.axis_set,
         passed_over,
-        ended: story.ended(),
+        ended: digest.ended(),
     }
 }
 
 /// More programs are counted, not named.
 const NAMED: usize = 3;
 
-fn title(story: &RunStory) -> String {
+fn title(digest: &RunDigest) -> String {
     let mut names: Vec<&str> = Vec::new();
-    for program in &story.programs {
-        let name = story.files[program.file].name.as_str();
+    for program in &digest.programs {
+        let name = digest.files[program.file].name.as_str();
         names.push(name.rsplit(['/', '\\']).next().unwrap_or(name));
     }
-    let total = story.programs.len();
+    let total = digest.programs.len();
     names.truncate(NAMED);
     let mut title = format!("Friction compensation: {}", names.join(", "));
     if total > NAMED {
@@ -126,16 +103,16 @@ fn title(story: &RunStory) -> String {
 }
 
 /// What stands under the title, first of all that no machine is described (R1.37).
-fn lead(story: &RunStory) -> String {
-    match &story.remark {
-        Some(remark) => format!("{remark}. {}", counts(story)),
-        None => counts(story),
+fn lead(digest: &RunDigest) -> String {
+    match &digest.remark {
+        Some(remark) => format!("{remark}. {}", counts(digest)),
+        None => counts(digest),
     }
 }
 
-fn counts(story: &RunStory) -> String {
-    let Some(summary) = &story.summary else {
-        return "The session did not run to its end.".to_owned();
+fn counts(digest: &RunDigest) -> String {
+    let Some(summary) = &digest.summary else {
+        return NOT_ENDED.to_owned();
     };
     let count = |severity| summary.counts.get(&severity).copied().unwrap_or_default();
     format!(
@@ -147,79 +124,70 @@ fn counts(story: &RunStory) -> String {
     )
 }
 
-fn counted(number: u64, noun: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {noun}{plural}")
-}
+const NOT_ENDED: &str = "The session did not run to its end.";
 
-fn render_left(page: &mut Page<'_>, story: &RunStory) {
-    let Some(summary) = &story.summary else {
-        page.paragraph("The session did not run to its end.");
-        return;
+fn left(digest: &RunDigest) -> Markup {
+    let Some(summary) = &digest.summary else {
+        return html! { p { (NOT_ENDED) } };
     };
-    page.paragraph("Friction compensation (FRICT) by axis, after the last program. Home is the state after a start \
-         of the control; \u{25b2} marks what is away from home and remains so.");
-    page.open_table(
-        "What is left",
-        &["axis", "at start", "at end", "changed by"],
-    );
-    for axis in &summary.axes {
+    let table = Table {
+        caption: Caption::Heard(LEFT.title),
+        columns: &[
+            Column::Text("axis"),
+            Column::Text("at start"),
+            Column::Text("at end"),
+            Column::Text("changed by"),
+        ],
+    };
+    let rows = summary.axes.iter().map(|axis| {
         let of = (axis.axis, Kind::Frict);
-        let state = |state| state_word(state, story.standing(of, state));
-        let cells = [
-            state(axis.start),
-            state(axis.end),
-            changed_by(story, &axis.changed_by, axis.changes),
-        ];
-        page.row(story.axis_name(axis.axis), &cells);
-    }
-    page.close_table();
-    render_advice(page, story, summary);
-    if !summary.opaque.is_empty() {
-        page.raw("<p>Passed over without effect on the states: ");
-        for (at, (word, count)) in summary.opaque.iter().enumerate() {
-            let comma = if at == 0 { "" } else { ", " };
-            page.raw(&format!(
-                "{comma}<code>{}</code>\u{a0}\u{d7}{count}",
-                escaped(word)
-            ));
+        let state = |state| state_word(state, digest.standing(of, state));
+        let changed = changed_by(digest, &axis.changed_by, axis.changes);
+        let cells = [state(axis.start), state(axis.end), changed];
+        Row::new(digest.axis_name(axis.axis), cells)
+    });
+    html! {
+        p {
+            "Friction compensation (FRICT) by axis, after the last program. Home is the state \
+             after a start of the control; \u{25b2} marks what is away from home and remains so."
         }
-        page.raw("</p>\n");
+        (table.render(rows))
+        (advice(digest, summary))
+        @if !summary.opaque.is_empty() {
+            p {
+                "Passed over without effect on the states: "
+                @for (at, (word, count)) in summary.opaque.iter().enumerate() {
+                    @if at > 0 { ", " }
+                    code { (word) } "\u{a0}\u{d7}" (count)
+                }
+            }
+        }
     }
 }
 
-fn render_advice(page: &mut Page<'_>, story: &RunStory, summary: &SummaryStory) {
+fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
     let errors = summary.counts.get(&Severity::Error).copied();
     let mut advice: Vec<String> = (summary.axes.iter())
         .filter_map(|axis| {
-            let name = story.axis_name(axis.axis);
+            let name = digest.axis_name(axis.axis);
             axis_advice(axis, name).map(|text| format!("{name}{text}"))
         })
         .collect();
-    advice.extend(error_advice(errors.unwrap_or_default(), story.ended()).map(str::to_owned));
-    if advice.is_empty() {
-        if story.remark.is_none() && summary.axes.iter().all(is_home) {
-            page.paragraph(NOTHING_TO_DO);
+    advice.extend(error_advice(errors.unwrap_or_default(), digest.ended()).map(str::to_owned));
+    let all_home = digest.remark.is_none() && summary.axes.iter().all(is_home);
+    html! {
+        @if !advice.is_empty() {
+            div.to-do { ul { @for text in &advice { li { (text) } } } }
+        } @else if all_home {
+            p { (NOTHING_TO_DO) }
         }
-        return;
     }
-    page.raw("<div class=\"to-do\"><ul>\n");
-    for text in advice {
-        page.raw("<li>");
-        page.text(&text);
-        page.raw("</li>\n");
-    }
-    page.raw("</ul></div>\n");
 }
 
 /// The blocks that a summary names in a cell.
 const NAMED_BLOCKS: usize = 8;
 
-fn changed_by(story: &RunStory, blocks: &[ChangedBy], total: u64) -> String {
-    if blocks.is_empty() {
-        return "\u{2013}".to_owned();
-    }
-    let mut cell = String::new();
+fn changed_by(digest: &RunDigest, blocks: &[ChangedBy], total: u64) -> Markup {
     let mut named: Vec<&ChangedBy> = Vec::new();
     for block in blocks {
         // A block of a loop is named once.
@@ -228,164 +196,32 @@ fn changed_by(story: &RunStory, blocks: &[ChangedBy], total: u64) -> String {
             named.push(block);
         }
     }
-    for (at, block) in named.iter().enumerate() {
-        let comma = if at == 0 { "" } else { ", " };
-        let name = match block.number {
-            Some(number) => format!("N{number} ({}:{})", block.file, block.line),
-            None => format!("{}:{}", block.file, block.line),
-        };
-        let file = story.files.iter().position(|file| file.name == block.file);
-        let shown = file.filter(|&file| story.files[file].events.contains_key(&block.line));
-        let _ = match shown {
-            Some(file) => write!(
-                cell,
-                "{comma}<a href=\"#{}\">{}</a>",
-                line_id((file, block.line)),
-                escaped(&name)
-            ),
-            None => write!(cell, "{comma}{}", escaped(&name)),
-        };
-    }
-    let named = u64::try_from(named.len()).unwrap_or(u64::MAX);
-    if total > named {
-        let _ = write!(cell, " and {} more", total - named);
-    }
-    cell
-}
-
-fn render_states(page: &mut Page<'_>, story: &RunStory) -> io::Result<()> {
-    page.paragraph(
-        "Each bar is a state over the executed blocks and links to the line that caused it. Striped \
-         bars are away from home, the state after a start of the control.",
-    );
-    let charted = story
-        .programs
-        .iter()
-        .filter(|program| !program.tracks.is_empty());
-    for program in charted {
-        let file = &story.files[program.file].name;
-        page.raw("<h3>");
-        page.text(&format!("Program {}: ", program.number));
-        page.raw(&format!(
-            "<a href=\"#f{}\">{}</a>",
-            program.file,
-            escaped(file)
-        ));
-        if let Some(name) = &program.name {
-            page.text(&format!(" %{name}"));
+    let unnamed = total.saturating_sub(u64::try_from(named.len()).unwrap_or(u64::MAX));
+    html! {
+        @if blocks.is_empty() {
+            "\u{2013}"
+        } @else {
+            @for (at, block) in named.into_iter().enumerate() {
+                @if at > 0 { ", " }
+                (changing_block(digest, block))
+            }
+            @if unnamed > 0 { " and " (unnamed) " more" }
         }
-        page.raw("</h3>\n");
-        let end = match program.by {
-            Some(by) => format!("ended by {}", by.word()),
-            None => "did not end".to_owned(),
-        };
-        page.paragraph(&format!(
-            "{}, {end}.",
-            counted(program.blocks, "executed block")
-        ));
-        let name = format!("states{}", program.number);
-        page.figure(&chart(story, program).render(Frame::Inside(&name)));
-        page.settle()?;
-    }
-    if story.more_programs > 0 {
-        page.paragraph(&format!(
-            "{} more have no chart here.",
-            counted(u64::from(story.more_programs), "program")
-        ));
-    }
-    Ok(())
-}
-
-fn chart(story: &RunStory, program: &ProgramStory) -> BandChart {
-    let shown = program.tracks.iter().filter(|track| {
-        let listed = story
-            .axes
-            .get(track.axis.get())
-            .is_some_and(|axis| axis.listed);
-        listed && (track.kind == Kind::Frict || track.is_configured())
-    });
-    let rows: Vec<BandRow> = shown.map(|track| row(story, program, track)).collect();
-    let told: Vec<String> = rows.iter().map(describe).collect();
-    BandChart {
-        // The heading above it says what it is.
-        title: String::new(),
-        description: if told.is_empty() {
-            "No axis occurred.".to_owned()
-        } else {
-            told.join(" ")
-        },
-        x: Axis::linear("executed block"),
-        steps: Some((0.0, block(program.blocks))),
-        rows,
     }
 }
 
-/// The states of a row in words, at most the first few.
-fn describe(row: &BandRow) -> String {
-    const TOLD: usize = 6;
-    let mut states: Vec<&str> = row.bands.iter().map(|band| band.state.word()).collect();
-    let total = states.len();
-    states.truncate(TOLD);
-    let more = if total > TOLD {
-        format!(" and {} more states", total - TOLD)
-    } else {
-        String::new()
+/// The name of a block, as a link if the page shows its line.
+fn changing_block(digest: &RunDigest, block: &ChangedBy) -> Markup {
+    let name = match block.number {
+        Some(number) => format!("N{number} ({}:{})", block.file, block.line),
+        None => format!("{}:{}", block.file, block.line),
     };
-    format!("{}: {}{more}.", row.label, states.join(", then "))
-}
-
-fn row(story: &RunStory, program: &ProgramStory, track: &Track) -> BandRow {
-    let axis = story.axis_name(track.axis);
-    let label = match track.kind {
-        Kind::Frict => axis.to_owned(),
-        kind => format!("{axis} {}", kind.keyword()),
-    };
-    // Block n has the room about n, the start that about 0.
-    let ends = track.stretches.iter().skip(1).map(|next| next.from);
-    let ends = ends.chain([program.blocks + 1]);
-    let bands = (track.stretches.iter().zip(ends))
-        .map(|(stretch, end)| Band {
-            from: block(stretch.from) - 0.5,
-            to: block(end) - 0.5,
-            state: stretch.state,
-            standing: track.standing(stretch.state),
-            title: told(story, &label, stretch),
-            href: Some(target(story, program, stretch)),
-        })
-        .collect();
-    BandRow { label, bands }
-}
-
-/// A bar in words.
-fn told(story: &RunStory, label: &str, stretch: &Stretch) -> String {
-    let word = stretch.state.word();
-    match stretch.spot {
-        None => format!("{label} {word} at program start"),
-        Some(spot) => {
-            let number = spot.number.map(|n| format!("N{n}, ")).unwrap_or_default();
-            let file = &story.files[spot.file].name;
-            format!(
-                "{label} {word} from {number}{file}:{}, executed block {}",
-                spot.line, stretch.from
-            )
+    let file = digest.files.iter().position(|file| file.name == block.file);
+    let shown = file.filter(|&file| digest.files[file].events.contains_key(&block.line));
+    html! {
+        @match shown {
+            Some(file) => a href={ "#" (line_id((file, block.line))) } { (name) },
+            None => (name),
         }
     }
-}
-
-/// The line that made it so, if the source shows it by itself, or else its file.
-fn target(story: &RunStory, program: &ProgramStory, stretch: &Stretch) -> String {
-    match stretch.spot {
-        Some(spot) if story.files[spot.file].events.contains_key(&spot.line) => {
-            format!("#{}", line_id((spot.file, spot.line)))
-        }
-        Some(spot) => format!("#f{}", spot.file),
-        None => format!("#f{}", program.file),
-    }
-}
-
-/// A block as a place on the axis of a chart; beyond 2^52 neighbours fall together.
-fn block(number: u64) -> f64 {
-    let high = u32::try_from(number >> 32).unwrap_or(u32::MAX);
-    let low = u32::try_from(number & 0xffff_ffff).unwrap_or(u32::MAX);
-    f64::from(high) * 4_294_967_296.0 + f64::from(low)
 }

@@ -1,14 +1,16 @@
 //! The source with its changes and messages at their lines; long stretches without are folded.
 
 use std::fmt::Write as _;
-use std::io;
+use std::ops::Range;
+use std::{io, iter};
 
-use super::machine::change_words;
-use super::messages::{line_id, push_item};
+use maud::{Escaper, Markup, Render, html};
+
+use super::digest::{FileDigest, LINE_ROOM, LineDigest, RunDigest};
+use super::messages::item;
 use super::page::Page;
-use super::story::{FileStory, LineStory, RunStory};
-use crate::comp::Kind;
-use crate::report::markup::{push_escaped, push_source_line};
+use super::parts::{line_id, state_word, times};
+use crate::comp::{Change, Kind};
 use crate::text::LineSource;
 
 /// Gives the lines of a program once more, after it has run.
@@ -29,13 +31,16 @@ const MIN_FOLD: usize = 6;
 /// Lines of one fold.
 const FOLD: usize = 1000;
 
+/// Further right nothing is marked.
+const MARKED_BYTES: usize = 400;
+
 /// Lines on their way to the page.
-pub(super) struct Listing<'a, 'p> {
+struct Listing<'a, 'p> {
     page: &'a mut Page<'p>,
-    story: &'a RunStory,
+    digest: &'a RunDigest,
     file: usize,
     /// Lines without anything to say that wait for what follows.
-    quiet: Vec<(u32, String)>,
+    quiet: Vec<QuietLine>,
     /// Whether a line with something to say stands above the waiting ones.
     below_event: bool,
     /// How many more quiet lines may be written.
@@ -43,103 +48,125 @@ pub(super) struct Listing<'a, 'p> {
     left_out: u64,
 }
 
+/// A line without anything to say.
+struct QuietLine {
+    number: u32,
+    runs: u32,
+    text: String,
+}
+
+/// What stands below the lines that wait.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Below {
+    /// A line with something to say.
+    Event,
+    /// Nothing any more.
+    End,
+}
+
 /// Writes every file whose blocks were executed.
 pub(super) fn render(
     page: &mut Page<'_>,
-    story: &RunStory,
+    digest: &RunDigest,
     sources: &mut dyn Sources,
 ) -> io::Result<()> {
-    page.paragraph(
-        "The first number is the line, the second how often the line was executed. Lines that \
-         changed a state or have a message are shown; unfold the others to see them.",
-    );
+    page.push(&html! {
+        p {
+            "The first number is the line, the second how often the line was executed. Lines that \
+             changed a state or have a message are shown; unfold the others to see them."
+        }
+        "\n"
+    })?;
     let mut room = MAX_LINES;
-    for (number, file) in story.files.iter().enumerate() {
-        page.raw(&format!("<h3 id=\"f{number}\">"));
-        page.text(&file.name);
-        page.raw("</h3>\n");
+    for (number, file) in digest.files.iter().enumerate() {
+        page.push(&html! { h3 id={ "f" (number) } { (file.name) } "\n" })?;
         let listing = Listing {
             page,
-            story,
+            digest,
             file: number,
             quiet: Vec::new(),
             below_event: false,
             room: &mut room,
             left_out: 0,
         };
-        listing.file(file, sources)?;
+        listing.render(file, sources)?;
     }
-    if story.more_events > 0 {
-        page.paragraph(&format!(
-            "{} more changes and messages are not marked at their lines: there are too many.",
-            story.more_events
-        ));
+    if digest.more_events > 0 {
+        page.push(&html! {
+            p {
+                (digest.more_events)
+                " more changes and messages are not marked at their lines: there are too many."
+            }
+        })?;
     }
     Ok(())
 }
 
 impl Listing<'_, '_> {
-    fn file(mut self, file: &FileStory, sources: &mut dyn Sources) -> io::Result<()> {
-        let again = sources.open(&file.name);
+    fn render(mut self, file: &FileDigest, sources: &mut dyn Sources) -> io::Result<()> {
+        let mut again = sources.open(&file.name);
         if again.is_none() {
-            self.page.paragraph(
-                "The file cannot be read a second time: only the lines with something to report \
-                 are shown.",
-            );
-        }
-        self.page
-            .raw("<div class=\"source\" role=\"group\" aria-label=\"Source ");
-        self.page.text(&file.name);
-        self.page
-            .raw("\" tabindex=\"0\">\n<pre class=\"head\">  line    runs  source</pre>\n");
-        match again {
-            Some(mut lines) => self.lines(file, lines.as_mut())?,
-            None => {
-                for (&line, story) in &file.events {
-                    self.event(line, &story.text, story)?;
+            self.page.push(&html! {
+                p {
+                    "The file cannot be read a second time: only the lines with something to \
+                     report are shown."
                 }
-            }
+            })?;
         }
+        let label = html! { "Source " (file.name) }.0;
+        self.page.raw(&format!(
+            "<div class=\"source\" role=\"group\" aria-label=\"{label}\" tabindex=\"0\">\n"
+        ));
+        self.page
+            .push(&html! { pre.head { "  line    runs  source" } "\n" })?;
+        self.lines(file, again.as_deref_mut())?;
         self.page.raw("</div>\n");
         if self.left_out > 0 {
-            let left_out = self.left_out;
-            self.page.paragraph(&format!(
-                "{left_out} more lines with nothing to report are left out; a report holds \
-                 {MAX_LINES} of them."
-            ));
+            self.page.push(&html! {
+                p {
+                    (self.left_out) " more lines with nothing to report are left out; a report \
+                     holds " (MAX_LINES) " of them."
+                }
+            })?;
         }
-        self.page.settle()
+        Ok(())
     }
 
-    fn lines(&mut self, file: &FileStory, lines: &mut dyn LineSource) -> io::Result<()> {
+    fn lines(
+        &mut self,
+        file: &FileDigest,
+        lines: Option<&mut (dyn LineSource + '_)>,
+    ) -> io::Result<()> {
         let mut events = file.events.iter().peekable();
         let mut number = 0_u32;
-        while lines.advance() {
-            number = number.saturating_add(1);
-            let text = lines.line().text;
-            if let Some((_, story)) = events.next_if(|(line, _)| **line == number) {
-                let text = text.to_owned();
-                self.release(Below::Event)?;
-                self.event(number, &text, story)?;
-                self.below_event = true;
-            } else if *self.room > 0 {
-                *self.room -= 1;
-                let mut row = String::new();
-                push_gutter(&mut row, number, file.runs_of(number));
-                push_source_line(&mut row, text);
-                row.push('\n');
-                self.quiet.push((number, row));
-                if self.quiet.len() >= FOLD + CONTEXT {
-                    self.release_some(FOLD)?;
+        if let Some(lines) = lines {
+            while lines.advance() {
+                number = number.saturating_add(1);
+                let text = lines.line().text;
+                if let Some((_, event)) = events.next_if(|(line, _)| **line == number) {
+                    let text = text.to_owned();
+                    self.release(Below::Event)?;
+                    self.event(number, &text, event)?;
+                    self.below_event = true;
+                } else if *self.room > 0 {
+                    *self.room -= 1;
+                    self.quiet.push(QuietLine {
+                        number,
+                        runs: file.runs_of(number),
+                        text: text.to_owned(),
+                    });
+                    if self.quiet.len() >= FOLD + CONTEXT {
+                        self.release_some(FOLD)?;
+                    }
+                } else {
+                    self.left_out += 1;
                 }
-            } else {
-                self.left_out += 1;
             }
+            self.release(Below::End)?;
         }
-        self.release(Below::End)?;
-        // A source that became shorter since it ran.
-        for (&line, story) in events {
-            self.event(line, &story.text, story)?;
+        // A source that cannot be read again, or that became shorter since it ran.
+        for (&line, event) in events {
+            self.event(line, &event.text, event)?;
         }
         Ok(())
     }
@@ -152,133 +179,189 @@ impl Listing<'_, '_> {
         };
         let fold = self.quiet.len().saturating_sub(keep);
         self.release_some(fold)?;
-        self.open_lines(self.quiet.len());
-        self.page.settle()
+        self.open_lines(self.quiet.len())
     }
 
     /// Folds the first of the lines that wait.
     fn release_some(&mut self, count: usize) -> io::Result<()> {
         let context = if self.below_event { CONTEXT } else { 0 };
         if count < context + MIN_FOLD {
-            self.open_lines(count);
-            return Ok(());
+            return self.open_lines(count);
         }
-        self.open_lines(context);
+        self.open_lines(context)?;
         self.below_event = false;
-        let folded: Vec<_> = self.quiet.drain(..count - context).collect();
-        let (Some((first, _)), Some((last, _))) = (folded.first(), folded.last()) else {
+        let folded = &self.quiet[..count - context];
+        let (Some(first), Some(last)) = (folded.first(), folded.last()) else {
             return Ok(());
         };
-        let lines = folded.len();
-        self.page.raw(&format!(
-            "<details><summary>lines {first} to {last}: {lines} without a change</summary><pre>"
-        ));
-        for (_, row) in &folded {
-            self.page.raw(row);
-        }
-        self.page.raw("</pre></details>\n");
-        self.page.settle()
+        self.page.push(&html! {
+            details {
+                summary {
+                    "lines " (first.number) " to " (last.number) ": " (folded.len())
+                    " without a change"
+                }
+                pre { @for line in folded { (line) } }
+            }
+            "\n"
+        })?;
+        self.quiet.drain(..count - context);
+        Ok(())
     }
 
-    fn open_lines(&mut self, count: usize) {
+    fn open_lines(&mut self, count: usize) -> io::Result<()> {
         if count == 0 {
-            return;
+            return Ok(());
         }
-        self.page.raw("<pre>");
-        for (_, row) in self.quiet.drain(..count) {
-            self.page.raw(&row);
-        }
-        self.page.raw("</pre>\n");
+        let shown = &self.quiet[..count];
+        self.page
+            .push(&html! { pre { @for line in shown { (line) } } "\n" })?;
+        self.quiet.drain(..count);
+        Ok(())
     }
 
-    fn event(&mut self, line: u32, text: &str, event: &LineStory) -> io::Result<()> {
-        let story = self.story;
-        let runs = story.files[self.file].runs_of(line);
-        let id = line_id((self.file, line));
-        let out = self.page.buffer();
-        let _ = write!(out, "<div class=\"ev\" id=\"{id}\" tabindex=\"-1\"><pre>");
-        push_gutter(out, line, runs);
-        self.marked(line, text, event);
-        let out = self.page.buffer();
-        out.push_str("</pre><ul>\n");
-        for (change, times) in &event.changes {
-            let _ = write!(out, "<li><strong>");
-            push_escaped(out, story.axis_name(change.axis));
-            if change.kind != Kind::Frict {
-                let _ = write!(out, " {}", change.kind.keyword());
+    fn event(&mut self, line: u32, text: &str, event: &LineDigest) -> io::Result<()> {
+        let gutter = Gutter {
+            line,
+            runs: self.digest.files[self.file].runs_of(line),
+        };
+        self.page.push(&html! {
+            div.ev id=(line_id((self.file, line))) tabindex="-1" {
+                pre { (gutter) (self.marked(line, text, event)) "\n" }
+                ul {
+                    @for (change, count) in &event.changes {
+                        li { (self.change(*change)) (times(*count)) }
+                        "\n"
+                    }
+                    @if event.more_changes > 0 {
+                        li { "and " (event.more_changes) " more changes" }
+                    }
+                    @for &message in &event.messages {
+                        (item(&self.digest.messages[message]))
+                    }
+                }
             }
-            let words = change_words(story, *change);
-            let _ = write!(out, "</strong> {words}");
-            if *times > 1 {
-                let _ = write!(out, " <span class=\"quiet\">({times} times)</span>");
+            "\n"
+        })
+    }
+
+    fn change(&self, change: Change) -> Markup {
+        let of = (change.axis, change.kind);
+        let word = |state| state_word(state, self.digest.standing(of, state));
+        html! {
+            strong {
+                (self.digest.axis_name(change.axis))
+                @if change.kind != Kind::Frict { " " (change.kind.keyword()) }
             }
-            out.push_str("</li>\n");
+            " " (word(change.from)) " \u{2192} " (word(change.to))
         }
-        if event.more_changes > 0 {
-            let _ = writeln!(out, "<li>and {} more changes</li>", event.more_changes);
-        }
-        for &message in &event.messages {
-            push_item(out, &story.messages[message]);
-        }
-        out.push_str("</ul></div>\n");
-        self.page.settle()
     }
 
     /// The line with what its messages mean underlined.
-    fn marked(&mut self, line: u32, text: &str, event: &LineStory) {
-        let mut spans: Vec<(usize, usize)> = (event.messages.iter())
-            .filter_map(|&message| {
-                let place = &self.story.messages[message].diagnostic.place;
-                let (start, end) = (place.start(), place.end());
-                let end = if end.line == start.line {
-                    end.column
-                } else {
-                    u32::MAX
-                };
-                let columns = |column: u32| usize::try_from(column).unwrap_or(usize::MAX) - 1;
-                (start.line == line).then(|| (columns(start.column), columns(end)))
-            })
-            .collect();
-        spans.sort_unstable();
-        let byte = |column: usize| {
+    fn marked(&self, line: u32, text: &str, event: &LineDigest) -> Markup {
+        let spans = self.spans(line, text, event);
+        let begins = iter::once(0).chain(spans.iter().map(|span| span.end));
+        let rest = spans.last().map_or(0, |span| span.end);
+        html! {
+            @for (begin, span) in begins.zip(&spans) {
+                (text[begin..span.start]) mark { (text[span.clone()]) }
+            }
+            (SourceText(&text[rest..]))
+        }
+    }
+
+    /// What the messages about a line mean, in bytes of it, one after the other.
+    fn spans(&self, line: u32, text: &str, event: &LineDigest) -> Vec<Range<usize>> {
+        let byte = |column: u32| {
+            let column = usize::try_from(column).unwrap_or(usize::MAX) - 1;
             let at = text.char_indices().nth(column);
             at.map_or(text.len(), |(byte, _)| byte)
         };
-        let out = self.page.buffer();
+        let places = event.messages.iter();
+        let mut spans: Vec<Range<usize>> = places
+            .map(|&message| &self.digest.messages[message].diagnostic.place)
+            .filter(|place| place.start().line == line)
+            .map(|place| {
+                let (start, end) = (place.start(), place.end());
+                let end = if end.line == start.line {
+                    byte(end.column)
+                } else {
+                    text.len()
+                };
+                byte(start.column)..end
+            })
+            .collect();
+        spans.sort_unstable_by_key(|span| (span.start, span.end));
         let mut done = 0;
-        for (start, end) in spans {
-            let (start, end) = (byte(start).max(done), byte(end));
-            if start < end && end <= MARKED_BYTES {
-                push_escaped(out, &text[done..start]);
-                out.push_str("<mark>");
-                push_escaped(out, &text[start..end]);
-                out.push_str("</mark>");
-                done = end;
+        for span in &mut spans {
+            span.start = span.start.max(done);
+            if span.start < span.end && span.end <= MARKED_BYTES {
+                done = span.end;
+            } else {
+                *span = 0..0;
             }
         }
-        push_source_line(out, &text[done..]);
+        spans.retain(|span| !span.is_empty());
+        spans
+    }
+}
+
+impl Render for QuietLine {
+    fn render_to(&self, out: &mut String) {
+        let Self { number, runs, .. } = *self;
+        Gutter { line: number, runs }.render_to(out);
+        SourceText(&self.text).render_to(out);
         out.push('\n');
     }
 }
 
-/// Further right nothing is marked.
-const MARKED_BYTES: usize = 400;
-
-/// What stands below the lines that wait.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Below {
-    /// A line with something to say.
-    Event,
-    /// Nothing any more.
-    End,
+/// The number of a line and how often it was executed, empty for never.
+struct Gutter {
+    line: u32,
+    runs: u32,
 }
 
-/// The number of a line and how often it was executed, empty for never.
-fn push_gutter(out: &mut String, line: u32, runs: u32) {
-    let runs = if runs == 0 {
-        String::new()
-    } else {
-        format!("{runs}\u{d7}")
-    };
-    let _ = write!(out, "{line:>6} {runs:>7}  ");
+impl Render for Gutter {
+    fn render_to(&self, out: &mut String) {
+        let Self { line, runs } = self;
+        let _ = match runs {
+            0 => write!(out, "{line:>6}          "),
+            _ => write!(out, "{line:>6} {runs:>6}\u{d7}  "),
+        };
+    }
+}
+
+/// A source line, cut where it is unreasonably long.
+struct SourceText<'a>(&'a str);
+
+impl Render for SourceText<'_> {
+    fn render_to(&self, out: &mut String) {
+        let end = self.0.char_indices().nth(LINE_ROOM);
+        let (shown, rest) = self.0.split_at(end.map_or(self.0.len(), |(end, _)| end));
+        let _ = Escaper::new(out).write_str(shown);
+        if !rest.is_empty() {
+            let left = rest.chars().count();
+            let _ = write!(out, " \u{2026} and {left} more characters");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lines_are_cut() {
+        // R9.52
+        let text = "ü".repeat(LINE_ROOM + 7);
+        let out = SourceText(&text).render().0;
+        assert!(out.ends_with("ü … and 7 more characters"), "{out}");
+    }
+
+    #[test]
+    fn the_gutter_has_a_fixed_width() {
+        // R9.50
+        let of = |line, runs| Gutter { line, runs }.render().0;
+        assert_eq!(of(7, 0), "     7          ");
+        assert_eq!(of(7, 12), "     7     12×  ");
+    }
 }

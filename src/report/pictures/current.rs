@@ -7,7 +7,7 @@ use crate::report::svg::{
     Axis, Band, BandRow, BandState, Curve, Drawn, LineChart, Panel, Series, Standing,
 };
 
-use super::velocity_unit;
+use super::units::velocity_unit;
 
 /// More states over time are not kept apart.
 const MAX_BANDS: usize = 20_000;

@@ -3,7 +3,7 @@
 use crate::machine::AcceptedList;
 use crate::report::svg::{Axis, Drawn, LineChart, Panel, Series};
 
-use super::velocity_unit;
+use super::units::velocity_unit;
 
 /// The curve of a value list with its points and the ends at which its value is held (R4.7), and
 /// the scaled curve where P-COMP-00045 is not 100 %.

@@ -1,8 +1,8 @@
 //! States along an axis as rows of bars, in shapes that need no colour.
 
 use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width};
-use super::scale::{Ends, Scale};
-use super::{Axis, Frame, Spacing};
+use super::frame::Frame;
+use super::scale::{Axis, Ends, Scale, Spacing};
 use crate::comp::State;
 
 /// What a bar says.

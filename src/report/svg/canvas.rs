@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use unicode_width::UnicodeWidthStr;
 
-use super::{Frame, STYLE};
-use crate::report::markup::push_escaped;
+use super::escape::push_escaped;
+use super::frame::{Frame, STYLE};
 
 /// The width of every chart in units of the picture.
 pub(super) const WIDTH: f64 = 860.0;

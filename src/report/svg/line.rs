@@ -2,9 +2,9 @@
 
 use super::bands::{self, BandRow, Rows, draw_legend, draw_ticks};
 use super::canvas::{Anchor, Area, Canvas, Head, Legend, Marks, Role, SERIES, WIDTH, text_width};
+use super::frame::Frame;
 use super::reduce::reduce;
-use super::scale::{Ends, Scale};
-use super::{Axis, Frame};
+use super::scale::{Axis, Ends, Scale};
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::Frame;
 use super::canvas::{Anchor, Canvas, Head, Legend, Marks, Role, SERIES, WIDTH, text_width};
+use super::frame::Frame;
 use super::reduce::reduce;
 use super::scale::{label, round_step};
 

@@ -2,11 +2,15 @@
 
 mod player;
 
+use std::io::{self, Write};
+
 use player::{OFF, Player, about, machine, play};
 
 use super::*;
+use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::machine::Machine;
+use crate::timeline::Sink;
 
 /// Everything that a format writes.
 fn written<'a, R: Report + 'a>(

@@ -5,8 +5,7 @@ use unicode_width::UnicodeWidthStr;
 use crate::comp::{AxisIndex, Change, Kind, State};
 use crate::timeline::{Row, StateView};
 
-use super::GUTTER;
-use super::line::{BOLD, Line, MARK, style};
+use super::line::{BOLD, GUTTER, Line, MARK, style};
 
 /// The column behind the line number.
 const LINE_END: usize = 6;

@@ -6,10 +6,13 @@ use anstyle::{AnsiColor, Style};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use crate::comp::State;
+use crate::report::diagnostics::{Look, Paint};
 use crate::report::visible::{is_command, visible, visible_line};
-use crate::report::{Look, Paint};
 
-/// Stands behind a state that the block changed.
+/// Columns of the line number with the gap after it.
+pub(super) const GUTTER: usize = 8;
+
+/// Stands after a state that the block changed.
 pub(super) const MARK: char = '◄';
 
 pub(super) const BOLD: Style = Style::new().bold();

@@ -13,16 +13,14 @@ use crate::diagnostic::Diagnostic;
 use crate::timeline::{End, EndedBy, Record, Row, Sink, StateView};
 
 use super::diagnostics::{Look, render, wrap};
+use super::output::{Output, Report};
+use super::view::{Blocks, View};
 use super::visible::leading;
-use super::{Blocks, Output, Report, View};
 use columns::Columns;
-use line::{BOLD, DIM, Line, MARK, grouped, paragraph};
+use line::{BOLD, DIM, GUTTER, Line, MARK, grouped, paragraph};
 
 /// Below so many columns diagnostics stand further left.
 const NARROW: usize = 60;
-
-/// Columns of the line number with the gap behind it.
-const GUTTER: usize = 8;
 
 /// What happens to blocks that change nothing and about which there is nothing to say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

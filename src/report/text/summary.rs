@@ -4,8 +4,8 @@ use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
 use crate::diagnostic::Severity;
-use crate::report::Look;
 use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
+use crate::report::diagnostics::Look;
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
 use super::line::{BOLD, DIM, Line, grouped, paragraph, style};

@@ -1,4 +1,4 @@
-//! What is kept of a session while it runs, for the report behind it.
+//! What is kept of a session while it runs, for the report after it.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
@@ -12,6 +12,9 @@ use crate::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
 use crate::report::svg::Standing;
 use crate::text::Position;
 use crate::timeline::{AxisSummary, End, EndedBy, Record, Row, Sink, StateView, Summary};
+
+/// How many characters of a source line are shown.
+pub(super) const LINE_ROOM: usize = 400;
 
 /// Lines whose runs are counted, in all files together.
 const MAX_COUNTED_LINES: usize = 1_000_000;
@@ -30,23 +33,23 @@ const MAX_PROGRAMS: usize = 200;
 
 /// What a session did, in bounded memory: a [`Sink`] for its records.
 #[derive(Debug, Default)]
-pub struct RunStory {
+pub struct RunDigest {
     kinds: KindSet,
-    pub(super) axes: Vec<AxisStory>,
+    pub(super) axes: Vec<AxisDigest>,
     pub(super) axis_set: AxisSet,
     /// That no machine is described (R1.37).
     pub(super) remark: Option<String>,
     pub(super) accepted: Vec<AcceptedList>,
-    pub(super) programs: Vec<ProgramStory>,
+    pub(super) programs: Vec<ProgramDigest>,
     /// Programs beyond [`MAX_PROGRAMS`].
     pub(super) more_programs: u32,
-    pub(super) files: Vec<FileStory>,
+    pub(super) files: Vec<FileDigest>,
     pub(super) messages: Vec<Message>,
     /// Messages beyond [`MAX_MESSAGES`].
     pub(super) more_messages: u64,
     /// Lines with something to say beyond [`MAX_EVENT_LINES`].
     pub(super) more_events: u64,
-    pub(super) summary: Option<SummaryStory>,
+    pub(super) summary: Option<SummaryDigest>,
     by_name: HashMap<String, usize>,
     by_place: HashMap<(Code, Arc<str>, Position, String), usize>,
     /// The file of the last block.
@@ -58,7 +61,7 @@ pub struct RunStory {
 
 /// One axis of the machine.
 #[derive(Debug)]
-pub(super) struct AxisStory {
+pub(super) struct AxisDigest {
     pub(super) name: String,
     pub(super) axis_type: AxisType,
     pub(super) configured: bool,
@@ -70,7 +73,7 @@ pub(super) struct AxisStory {
 
 /// One program of the session.
 #[derive(Debug)]
-pub(super) struct ProgramStory {
+pub(super) struct ProgramDigest {
     pub(super) number: u32,
     pub(super) file: usize,
     pub(super) name: Option<String>,
@@ -81,14 +84,14 @@ pub(super) struct ProgramStory {
 
 /// One file whose blocks were executed.
 #[derive(Debug)]
-pub(super) struct FileStory {
+pub(super) struct FileDigest {
     pub(super) name: String,
     /// How often each line was executed, the first line first.
     pub(super) runs: Vec<u32>,
-    pub(super) events: BTreeMap<u32, LineStory>,
+    pub(super) events: BTreeMap<u32, LineDigest>,
 }
 
-impl FileStory {
+impl FileDigest {
     /// How often a line was executed, as far as that was counted.
     pub(super) fn runs_of(&self, line: u32) -> u32 {
         let row = usize::try_from(line)
@@ -100,7 +103,7 @@ impl FileStory {
 
 /// A line with something to say.
 #[derive(Debug, Default)]
-pub(super) struct LineStory {
+pub(super) struct LineDigest {
     /// The block as it was executed.
     pub(super) text: String,
     pub(super) changes: Vec<(Change, u64)>,
@@ -121,7 +124,7 @@ pub(super) struct Message {
 
 /// The end of the session.
 #[derive(Debug)]
-pub(super) struct SummaryStory {
+pub(super) struct SummaryDigest {
     pub(super) programs: u32,
     pub(super) blocks: u64,
     pub(super) counts: BTreeMap<Severity, u64>,
@@ -129,8 +132,8 @@ pub(super) struct SummaryStory {
     pub(super) axes: Vec<AxisSummary>,
 }
 
-impl RunStory {
-    /// A story that tells of FRICT and of some other kinds.
+impl RunDigest {
+    /// A digest of FRICT and some other kinds.
     pub fn new(mut kinds: KindSet) -> Self {
         kinds.insert(Kind::Frict);
         Self {
@@ -162,7 +165,7 @@ impl RunStory {
         self.axis_set = state.machine.axis_set;
         self.accepted = AcceptedList::of(state.machine);
         self.axes = (state.machine.axes.iter().zip(listed))
-            .map(|(axis, listed)| AxisStory {
+            .map(|(axis, listed)| AxisDigest {
                 name: axis.name.clone(),
                 axis_type: axis.axis_type,
                 configured: axis.configured.contains(Kind::Frict),
@@ -189,7 +192,7 @@ impl RunStory {
             }
         }
         self.version = Some(state.version);
-        let story = ProgramStory {
+        let program = ProgramDigest {
             number,
             file,
             name: name.map(str::to_owned),
@@ -201,7 +204,7 @@ impl RunStory {
             // Only the last one beyond the bound is kept, for how the session ended.
             self.programs.truncate(MAX_PROGRAMS);
         }
-        self.programs.push(story);
+        self.programs.push(program);
     }
 
     fn file(&mut self, name: &str) -> usize {
@@ -210,7 +213,7 @@ impl RunStory {
         }
         let number = self.files.len();
         self.by_name.insert(name.to_owned(), number);
-        self.files.push(FileStory {
+        self.files.push(FileDigest {
             name: name.to_owned(),
             runs: Vec::new(),
             events: BTreeMap::new(),
@@ -265,8 +268,8 @@ impl RunStory {
         runs[at] = runs[at].saturating_add(1);
     }
 
-    /// The story of a line, unless there are too many already.
-    fn line(&mut self, (file, line): (usize, u32), text: &str) -> Option<&mut LineStory> {
+    /// What is kept of a line, unless there are too many already.
+    fn line(&mut self, (file, line): (usize, u32), text: &str) -> Option<&mut LineDigest> {
         let events = &mut self.files[file].events;
         if !events.contains_key(&line) {
             if self.event_lines >= MAX_EVENT_LINES {
@@ -275,14 +278,11 @@ impl RunStory {
             }
             self.event_lines += 1;
         }
-        let story = events.entry(line).or_default();
-        if story.text.is_empty() {
-            story.text = text
-                .chars()
-                .take(crate::report::markup::LINE_ROOM)
-                .collect();
+        let digest = events.entry(line).or_default();
+        if digest.text.is_empty() {
+            digest.text = text.chars().take(LINE_ROOM).collect();
         }
-        Some(story)
+        Some(digest)
     }
 
     fn change(&mut self, place: (usize, u32), text: &str, change: Change) {
@@ -321,8 +321,8 @@ impl RunStory {
             let within = self.files[file].name == *place.file;
             let line = if within { place.start().line } else { line };
             let text = if within { &*place.text } else { text };
-            let story = self.line((file, line), text)?;
-            story.messages.push(number);
+            let digest = self.line((file, line), text)?;
+            digest.messages.push(number);
             Some((file, line))
         });
         self.messages.push(Message {
@@ -359,7 +359,7 @@ impl RunStory {
     }
 
     fn summary(&mut self, summary: &Summary<'_>) {
-        self.summary = Some(SummaryStory {
+        self.summary = Some(SummaryDigest {
             programs: summary.programs,
             blocks: summary.blocks,
             counts: summary.counts.clone(),
@@ -372,7 +372,7 @@ impl RunStory {
     }
 }
 
-impl Sink for RunStory {
+impl Sink for RunDigest {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match *record {
             Record::Session { state, remark } => self.session(state, remark),

@@ -1,8 +1,6 @@
-//! Text that is safe in HTML and XML, whatever bytes a program holds.
+//! Text that is safe in a picture, whatever bytes a program holds.
 
-use std::fmt::Write as _;
-
-use super::visible::{is_hidden, push_picture};
+use crate::report::visible::{is_hidden, push_picture};
 
 /// Appends a text with the characters of markup escaped and what cannot be seen made visible.
 ///
@@ -23,31 +21,15 @@ pub(super) fn push_escaped(out: &mut String, text: &str) {
     }
 }
 
-/// The escaped text.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len() + text.len() / 8);
-    push_escaped(&mut out, text);
-    out
-}
-
-/// How many characters of a source line are shown.
-pub(super) const LINE_ROOM: usize = 400;
-
-/// Appends one source line, cut where it is unreasonably long.
-pub(super) fn push_source_line(out: &mut String, text: &str) {
-    match text.char_indices().nth(LINE_ROOM) {
-        None => push_escaped(out, text),
-        Some((end, _)) => {
-            push_escaped(out, &text[..end]);
-            let left = text[end..].chars().count();
-            let _ = write!(out, " \u{2026} and {left} more characters");
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn escaped(text: &str) -> String {
+        let mut out = String::new();
+        push_escaped(&mut out, text);
+        out
+    }
 
     #[test]
     fn markup_is_inert() {
@@ -64,12 +46,5 @@ mod tests {
             "a\u{2400}b\u{27e8}U+202E\u{27e9}c\u{2421}\u{27e8}U+FFFF\u{27e9}"
         );
         assert_eq!(escaped("Übergröße 漢\t"), "Übergröße 漢\t");
-    }
-
-    #[test]
-    fn long_lines_are_cut() {
-        let mut out = String::new();
-        push_source_line(&mut out, &"ü".repeat(LINE_ROOM + 7));
-        assert!(out.ends_with("ü … and 7 more characters"), "{out}");
     }
 }

@@ -1,0 +1,48 @@
+//! Which blocks and kinds a timeline shows.
+
+use crate::comp::{Kind, KindSet};
+use crate::timeline::Row;
+
+/// Which blocks are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Blocks {
+    /// Every block.
+    #[default]
+    All,
+    /// Only blocks that changed a state or about which there is something to say.
+    Changed,
+}
+
+/// What a timeline shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct View {
+    /// The blocks that are written.
+    pub blocks: Blocks,
+    /// The kinds of compensation whose changes are written.
+    pub kinds: KindSet,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            blocks: Blocks::All,
+            kinds: KindSet::of(Kind::Frict),
+        }
+    }
+}
+
+impl View {
+    /// Whether a block changed a selected kind, or something is said about it.
+    pub(super) fn is_eventful(self, row: &Row<'_>) -> bool {
+        !row.diagnostics.is_empty()
+            || row
+                .changes
+                .iter()
+                .any(|change| self.kinds.contains(change.kind))
+    }
+
+    /// Whether a block is written.
+    pub(super) fn shows(self, row: &Row<'_>) -> bool {
+        self.blocks == Blocks::All || self.is_eventful(row)
+    }
+}

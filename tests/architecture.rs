@@ -8,15 +8,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 16] = [
+const ROOMS: [(&str, &[&str]); 17] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
     ("syntax", &["text", "diagnostic", "comp"]),
     ("lists", &["text", "diagnostic", "comp", "syntax"]),
+    ("config", &["text", "diagnostic", "comp", "lists"]),
     (
         "machine",
-        &["text", "diagnostic", "comp", "syntax", "lists"],
+        &["text", "diagnostic", "comp", "syntax", "lists", "config"],
     ),
     (
         "interpreter",
@@ -72,7 +73,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
         ],
     ),
     ("current", &["diagnostic", "comp", "lists"]),
-    ("simulation", &["text", "diagnostic", "lists", "machine"]),
+    ("simulation", &["text", "diagnostic", "lists", "config"]),
     ("circle", &["diagnostic", "lists", "current", "simulation"]),
     (
         "report",

@@ -3,7 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{AxisType, Entries, Entry, Given, Number, Origin, Parameter};
+use super::line::{Entries, Entry};
+use super::parameter::{AxisType, Origin, Parameter};
+use super::value::{Given, Number};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
@@ -28,6 +30,19 @@ pub struct AxisValues {
     /// The entries of the drive, `antr.*`, by their keys.
     pub drive: BTreeMap<String, Entry>,
 }
+
+/// Whether a name can stand in a program: a letter, then letters, digits or `_`, 16 at most (R2.20).
+/// Those of spindles begin with other letters than those of axes.
+pub(crate) fn is_axis_name(name: &str) -> bool {
+    let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(letter)
+        && name.len() <= 16
+}
+
+/// How a name of an axis is written.
+pub(crate) const AXIS_NAME_HELP: &str =
+    "a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`";
 
 /// More drive entries than any axis list has; what lies beyond is not kept.
 const MAX_DRIVE_ENTRIES: usize = 4096;

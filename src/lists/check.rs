@@ -1,7 +1,9 @@
 //! The control's checks of a friction value list (chapter 3.4).
 
 use super::friction::{Field, FrictionDraft};
-use super::{AxisType, FrictionList, Given, Number, Parameter, TablePoint, Written};
+use super::parameter::{AxisType, Parameter};
+use super::table::{FrictionList, TablePoint};
+use super::value::{Given, Number, Written};
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 

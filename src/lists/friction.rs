@@ -1,13 +1,14 @@
 //! What a value list says about friction compensation: the `frict_comp` structure (chapter 3.3).
 //!
-//! This file gathers what is written, [`super::check`] says what the control makes of it.
+//! This file gathers what is written, `check` says what the control makes of it.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-use super::{
-    AxisType, DEFAULT_MAX_POINTS, Entries, Entry, Given, Number, Origin, Parameter, Written,
-};
+use super::line::{Entries, Entry};
+use super::parameter::{AxisType, Origin, Parameter};
+use super::table::DEFAULT_MAX_POINTS;
+use super::value::{Given, Number, Written};
 use crate::diagnostic::{Code, Diagnostic, did_you_mean};
 
 /// The keys that exist without being documented; they are not looked at (R3.5).

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{Given, Number, Written};
+use super::value::{Given, Number, Written};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{Place, SourceFile, Span};
 

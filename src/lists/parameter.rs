@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Given;
+use super::value::Given;
 
 /// The type of an axis, P-AXIS-00018 (`kenngr.achs_typ`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{Entries, Entry, Given, Parameter};
+use super::line::{Entries, Entry};
+use super::parameter::Parameter;
+use super::value::Given;
 
 /// What runs a program of the channel list.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,7 +4,9 @@
 use std::collections::BTreeMap;
 
 use super::axis::{axis_number, text};
-use super::{ChannelPrograms, Entries, Entry, Given};
+use super::line::{Entries, Entry};
+use super::program::ChannelPrograms;
+use super::value::Given;
 use crate::diagnostic::{Code, Diagnostic};
 
 /// The kinds of list that are read.

@@ -3,7 +3,7 @@
 use std::fmt::{Display, Write as _};
 
 use super::friction::{Field, STRUCTURE};
-use super::{FrictionList, TablePoint};
+use super::table::{FrictionList, TablePoint};
 use crate::comp::CncBuild;
 
 /// How the points of the table are written.

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::load::ValueList;
-use super::{Axis, Origin, Parameterisation};
+use super::axis::{Axis, Parameterisation};
+use super::value_list::ValueList;
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lists::{AxisType, AxisValues, Conditions, Entry, Field, Given, Parameter, Verdict};
+use crate::lists::{
+    AxisType, AxisValues, Conditions, Entry, Field, Given, Origin, Parameter, Verdict,
+};
 
 /// The effective parameters of one axis.
 #[derive(Debug, Clone, Serialize)]

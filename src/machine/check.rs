@@ -3,10 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::assemble::AxisReport;
+use super::axis::Parameterisation;
+use super::configuration::Configuration;
 use super::described::{describe, is_no_matter};
-use super::load::ValueList;
-use super::resolve::ListFiles;
-use super::{AxisReport, Configuration, Machine, Parameterisation};
+use super::description::Machine;
+use super::files::ListFiles;
+use super::value_list::ValueList;
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{

@@ -10,12 +10,10 @@ mod clock;
 mod drive;
 mod drive_pair;
 mod friction;
+#[cfg(feature = "toml")]
+mod from_file;
 mod parameters;
 mod plant;
-#[cfg(feature = "toml")]
-mod plant_file;
-#[cfg(feature = "toml")]
-mod plant_keys;
 mod plant_list;
 
 pub use clock::{POSITION_LOOP_S, SPEED_LOOP_S, STEP_S};

@@ -1,55 +1,62 @@
-//! Which file a list means by a path (R3.12).
-//!
-//! The control resolves relative paths from its own working folder, which lies somewhere above the
-//! start-up list, and Windows paths on its own disk. The library opens no file: it says which paths
-//! are to be tried, the host which of them there is.
+//! Reads the lists that others name (R3.12).
 
-use super::load::Loader;
+use std::sync::Arc;
+
+use super::described::describe;
+use super::files::{ListFiles, NoList, folder, is_absolute, join};
+use super::value_list::ValueList;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lists::{Entries, Given, ListKind};
+use crate::lists::{AxisValues, ChannelPrograms, Entries, Given, ListKind};
 use crate::text::SourceFile;
-
-/// Why there is no list at a path.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum NoList {
-    /// Nothing is there.
-    #[error("it is not found")]
-    Missing,
-    /// Something is there that cannot be read; the reason.
-    #[error("{0}")]
-    Unreadable(String),
-}
-
-/// Hands list files to the library, which opens none itself.
-pub trait ListFiles {
-    /// The list at a path. A relative path has been resolved against the folder of the list that
-    /// asks, as far as that list's own name has one. The name of the source is what diagnostics
-    /// show, and what further paths are resolved against.
-    ///
-    /// # Errors
-    /// There is none, or it cannot be read.
-    fn read(&mut self, path: &str) -> Result<SourceFile, NoList>;
-
-    /// The folder above a folder; both are empty for the folder in which relative paths begin.
-    /// `None` when there is none, or the host knows none.
-    fn above(&self, folder: &str) -> Option<String> {
-        parent(folder).map(str::to_owned)
-    }
-}
-
-/// A host that has no list files.
-pub struct NoLists;
-
-impl ListFiles for NoLists {
-    fn read(&mut self, _path: &str) -> Result<SourceFile, NoList> {
-        Err(NoList::Missing)
-    }
-}
 
 /// More folders above a list than there are on any disk.
 const MAX_ABOVE: usize = 64;
 
-impl Loader<'_> {
+/// Reads lists through the host and collects what they give reason to say.
+pub(super) struct Loader<'f> {
+    pub(super) files: &'f mut dyn ListFiles,
+    /// The folder of the start-up list, for paths of the control's own disk.
+    pub(super) startup_folder: Option<String>,
+    pub(super) diagnostics: Vec<Diagnostic>,
+    pub(super) names: Vec<Arc<str>>,
+    /// How many lists were asked for and are not there.
+    pub(super) missing: usize,
+    /// What the first channel names.
+    pub(super) programs: Option<ChannelPrograms>,
+}
+
+impl<'f> Loader<'f> {
+    pub(super) fn new(files: &'f mut dyn ListFiles) -> Self {
+        Self {
+            files,
+            startup_folder: None,
+            diagnostics: Vec::new(),
+            names: Vec::new(),
+            missing: 0,
+            programs: None,
+        }
+    }
+
+    /// The entries of a list that is here already.
+    pub(super) fn entries(&mut self, file: &Arc<SourceFile>) -> Entries {
+        if !self.names.contains(file.name()) {
+            self.names.push(file.name().clone());
+        }
+        let mut entries = Entries::parse(file);
+        self.diagnostics.append(&mut entries.diagnostics);
+        entries
+    }
+
+    pub(super) fn axis_list(&mut self, asked: &Given<String>) -> Option<AxisValues> {
+        let entries = self.load(asked, ListKind::Axis)?;
+        Some(AxisValues::from_entries(&entries, &mut self.diagnostics))
+    }
+
+    pub(super) fn value_list(&mut self, asked: &Given<String>) -> Option<ValueList> {
+        let entries = self.load(asked, ListKind::Value)?;
+        Some(ValueList::from_entries(&entries, &mut self.diagnostics))
+    }
+
     /// The entries of a list that another one names; FC123 when there is no such file (R3.14),
     /// FC125 when it is a list of another kind.
     pub(super) fn load(&mut self, asked: &Given<String>, wanted: ListKind) -> Option<Entries> {
@@ -141,43 +148,8 @@ fn mistaken(asked: &Given<String>, wanted: ListKind, entries: &Entries) -> Diagn
     let message = format!(
         "`{}` is {}, not {}",
         asked.value,
-        super::described::describe(entries),
+        describe(entries),
         wanted.word()
     );
     Diagnostic::new(Code::Fc125, asked.place(), message).with_help("the list is not used")
-}
-
-/// The folder of a path as it is written, without its separator; empty for a bare name.
-pub(super) fn folder(path: &str) -> &str {
-    match path.rfind(['/', '\\']) {
-        Some(0) => "/",
-        Some(at) => &path[..at],
-        None => "",
-    }
-}
-
-/// The folder above, as far as the path itself says.
-fn parent(path: &str) -> Option<&str> {
-    let named = !matches!(path, "" | "." | "/") && !path.ends_with("..");
-    named.then(|| folder(path))
-}
-
-fn is_absolute(path: &str) -> bool {
-    path.starts_with(['/', '\\']) || path.get(1..2) == Some(":")
-}
-
-/// A path seen from a folder, with `/` between its parts and without `.` among them.
-fn join(folder: &str, path: &str) -> String {
-    let slashed = path.replace('\\', "/");
-    if is_absolute(path) {
-        return slashed;
-    }
-    let mut joined = folder.to_owned();
-    for part in slashed.split('/').filter(|part| !matches!(*part, "" | ".")) {
-        if !joined.is_empty() && !joined.ends_with('/') {
-            joined.push('/');
-        }
-        joined.push_str(part);
-    }
-    joined
 }

@@ -1,82 +1,18 @@
 //! From a start-up list to the axes that it describes (R3.12 to R3.14).
 
-use std::sync::Arc;
-
 use super::assemble::AxisDraft;
-use super::described::describe;
-use super::resolve::{ListFiles, folder};
-use super::{AxisSet, Configuration, Machine};
+use super::files::folder;
+use super::loader::Loader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
-    AxisType, AxisValues, ChannelAxis, ChannelList, ChannelPrograms, Conditions, Entries,
-    FrictionDraft, Given, ListKind, NamedList, StartupList,
+    AXIS_NAME_HELP, AxisType, AxisValues, ChannelAxis, ChannelList, Entries, Given, ListKind,
+    NamedList, StartupList, is_axis_name,
 };
-use crate::text::{SourceFile, Span};
 
 /// More axes than any control has; what lies beyond is not read.
 pub(super) const MAX_AXES: usize = 1024;
 
-/// The head and the friction parameters of one value list.
-#[derive(Debug, Clone, Default)]
-pub(super) struct ValueList {
-    pub(super) head: AxisValues,
-    pub(super) friction: FrictionDraft,
-}
-
-impl ValueList {
-    pub(super) fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        Self {
-            head: AxisValues::from_entries(list, diagnostics),
-            friction: FrictionDraft::from_entries(list, diagnostics),
-        }
-    }
-}
-
-/// Reads lists through the host and collects what they give reason to say.
-pub(super) struct Loader<'f> {
-    pub(super) files: &'f mut dyn ListFiles,
-    /// The folder of the start-up list, for paths of the control's own disk.
-    pub(super) startup_folder: Option<String>,
-    pub(super) diagnostics: Vec<Diagnostic>,
-    pub(super) names: Vec<Arc<str>>,
-    /// How many lists were asked for and are not there.
-    pub(super) missing: usize,
-    /// What the first channel names.
-    pub(super) programs: Option<ChannelPrograms>,
-}
-
-impl<'f> Loader<'f> {
-    pub(super) fn new(files: &'f mut dyn ListFiles) -> Self {
-        Self {
-            files,
-            startup_folder: None,
-            diagnostics: Vec::new(),
-            names: Vec::new(),
-            missing: 0,
-            programs: None,
-        }
-    }
-
-    /// The entries of a list that is here already.
-    pub(super) fn entries(&mut self, file: &Arc<SourceFile>) -> Entries {
-        if !self.names.contains(file.name()) {
-            self.names.push(file.name().clone());
-        }
-        let mut entries = Entries::parse(file);
-        self.diagnostics.append(&mut entries.diagnostics);
-        entries
-    }
-
-    pub(super) fn axis_list(&mut self, asked: &Given<String>) -> Option<AxisValues> {
-        let entries = self.load(asked, ListKind::Axis)?;
-        Some(AxisValues::from_entries(&entries, &mut self.diagnostics))
-    }
-
-    pub(super) fn value_list(&mut self, asked: &Given<String>) -> Option<ValueList> {
-        let entries = self.load(asked, ListKind::Value)?;
-        Some(ValueList::from_entries(&entries, &mut self.diagnostics))
-    }
-
+impl Loader<'_> {
     /// The axes of a start-up list: in the order of the channel list, then those that no channel
     /// names.
     pub(super) fn startup(&mut self, list: &Entries) -> Vec<AxisDraft> {
@@ -260,19 +196,6 @@ impl<'f> Loader<'f> {
     }
 }
 
-/// Whether a name can stand in a program: a letter, then letters, digits or `_`, 16 at most (R2.20).
-/// Those of spindles begin with other letters than those of axes.
-pub(super) fn is_axis_name(name: &str) -> bool {
-    let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    name.starts_with(|c: char| c.is_ascii_alphabetic())
-        && name.chars().all(letter)
-        && name.len() <= 16
-}
-
-/// How a name of an axis is written.
-pub(super) const AXIS_NAME_HELP: &str =
-    "a name is a letter, then letters, digits or `_`, 16 at most: `X`, `Y2`";
-
 /// FC124 for a channel whose axes have the names of another one's. Programs are taken to run in the
 /// channel that comes first (R3.13).
 fn other_channel(asked: &Given<String>, names: &[String]) -> Diagnostic {
@@ -317,73 +240,4 @@ fn channel_axis(
     draft.name.clone_from(&name.value);
     draft.values.name = Some(name);
     Some(draft)
-}
-
-/// FC125 for a file that is given as a start-up list and names nothing.
-fn not_startup(entries: &Entries) -> Diagnostic {
-    let source = entries.source();
-    let what = describe(entries);
-    let message = format!("`{}` is {what}, not a start-up list", source.name());
-    Diagnostic::new(Code::Fc125, source.place(Span::new(0, 0)), message)
-        .with_help("a start-up list (`hochlauf.lis`) names the lists of the axes and channels")
-}
-
-impl Configuration {
-    /// The machine that a start-up list describes, with every list that it names.
-    pub fn from_startup(file: SourceFile, files: &mut dyn ListFiles) -> Self {
-        let mut configuration = Self::default();
-        configuration.read_startup(&Arc::new(file), files);
-        configuration
-    }
-
-    pub(super) fn read_startup(&mut self, file: &Arc<SourceFile>, files: &mut dyn ListFiles) {
-        let mut loader = Loader::new(files);
-        let entries = loader.entries(file);
-        if ListKind::detect(&entries) != Some(ListKind::Startup) {
-            loader.diagnostics = vec![not_startup(&entries)];
-            self.assemble(Vec::new(), loader);
-            return;
-        }
-        let axes = loader.startup(&entries);
-        self.assemble(axes, loader);
-    }
-
-    /// Puts the axes together under the machine's build and takes over what the lists gave reason
-    /// to say, with the user's severities.
-    pub(super) fn assemble(&mut self, axes: Vec<AxisDraft>, loader: Loader<'_>) {
-        self.diagnostics.extend(loader.diagnostics);
-        self.files.extend(loader.names);
-        self.missing += loader.missing;
-        if let Some(programs) = loader.programs {
-            let named = &self.machine.programs;
-            self.programs
-                .extend(programs.parameters(&|role| named.has(role)));
-            self.machine.programs.add_channel(&programs);
-        }
-        let conditions = Conditions {
-            build: self.machine.build,
-            ..Conditions::default()
-        };
-        if axes.is_empty() {
-            let any = Machine::unconfigured();
-            self.machine.axes = any.axes;
-            self.machine.axis_set = any.axis_set;
-        } else {
-            self.machine.axis_set = AxisSet::Configured;
-        }
-        for draft in axes {
-            let (finished, report) = draft.finish(&conditions, &mut self.diagnostics);
-            self.machine.axes.push(finished);
-            self.reports.push(report);
-        }
-        let levels = &self.levels;
-        self.diagnostics
-            .retain_mut(|diagnostic| match levels.severity(diagnostic.code) {
-                Some(severity) => {
-                    diagnostic.severity = severity;
-                    true
-                }
-                None => false,
-            });
-    }
 }

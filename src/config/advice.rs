@@ -1,6 +1,6 @@
 //! What to do about a `frictcomp.toml` that cannot be used.
 
-use super::config::ConfigError;
+use super::error::ConfigError;
 use crate::text::{SourceFile, Span};
 
 /// A text that is no TOML: the parser's message with what users of the control meet most.

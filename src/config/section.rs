@@ -1,4 +1,4 @@
-//! Tables of `frictcomp.toml` with the place of everything in them.
+//! Tables of TOML with the place of everything in them.
 
 use std::sync::Arc;
 
@@ -6,27 +6,21 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::advice::example;
-use super::config::ConfigError;
+use super::error::ConfigError;
 use crate::diagnostic::did_you_mean;
 use crate::lists::{Given, Number, Written};
 use crate::text::{SourceFile, Span};
 
 /// What a table is called and which keys it may have.
-pub(crate) struct Shape {
+pub(super) struct Shape {
     /// As the user writes it.
-    pub(crate) name: &'static str,
+    pub(super) name: &'static str,
     /// The keys; `None` when the user chooses them.
-    pub(crate) keys: Option<&'static [&'static str]>,
+    pub(super) keys: Option<&'static [&'static str]>,
 }
 
-/// The whole file.
-pub(crate) const ROOT: Shape = Shape {
-    name: "frictcomp.toml",
-    keys: Some(&["machine", "axis", "variables", "lint", "check"]),
-};
-
 /// One table whose keys are all known.
-pub(crate) struct Section<'a> {
+pub(super) struct Section<'a> {
     table: &'a DeTable<'a>,
     source: &'a Arc<SourceFile>,
     span: Span,
@@ -34,7 +28,7 @@ pub(crate) struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// A table after a look at its keys.
-    pub(crate) fn new(
+    pub(super) fn new(
         table: &'a DeTable<'a>,
         source: &'a Arc<SourceFile>,
         shape: &Shape,
@@ -61,30 +55,25 @@ impl<'a> Section<'a> {
     }
 
     /// The place of the table itself.
-    pub(crate) fn whole(&self) -> Given<()> {
+    pub(super) fn whole(&self) -> Given<()> {
         Given::new((), self.source, self.span)
     }
 
     /// The place of a value.
-    pub(crate) fn given(&self, key: &str) -> Option<Given<()>> {
+    pub(super) fn given(&self, key: &str) -> Option<Given<()>> {
         let value = self.table.get(key)?;
         Some(Given::new((), self.source, span(value)))
     }
 
-    /// The place of a value, or that of the table without it.
-    pub(crate) fn given_or_whole(&self, key: &str) -> Given<()> {
-        self.given(key).unwrap_or_else(|| self.whole())
-    }
-
     /// The keys with their places.
-    pub(crate) fn names(&self) -> impl Iterator<Item = Given<&'a str>> {
+    pub(super) fn names(&self) -> impl Iterator<Item = Given<&'a str>> {
         self.table
             .keys()
             .map(|key| Given::new(key.get_ref().as_ref(), self.source, span(key)))
     }
 
     /// A table in this one.
-    pub(crate) fn table(
+    pub(super) fn table(
         &self,
         key: &str,
         shape: &Shape,
@@ -99,7 +88,7 @@ impl<'a> Section<'a> {
     }
 
     /// The tables of an array, `[[axis]]`.
-    pub(crate) fn tables(&self, key: &str, shape: &Shape) -> Result<Vec<Section<'a>>, ConfigError> {
+    pub(super) fn tables(&self, key: &str, shape: &Shape) -> Result<Vec<Section<'a>>, ConfigError> {
         let mut tables = Vec::new();
         for value in self.array(key, "an array of tables")? {
             let Some(table) = value.get_ref().as_table() else {
@@ -111,7 +100,7 @@ impl<'a> Section<'a> {
     }
 
     /// A text.
-    pub(crate) fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
+    pub(super) fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -122,7 +111,7 @@ impl<'a> Section<'a> {
     }
 
     /// A list of texts; empty without the key.
-    pub(crate) fn strings(&self, key: &str) -> Result<Vec<Given<String>>, ConfigError> {
+    pub(super) fn strings(&self, key: &str) -> Result<Vec<Given<String>>, ConfigError> {
         let mut texts = Vec::new();
         for value in self.array(key, "a list of texts")? {
             match value.get_ref().as_str() {
@@ -134,7 +123,7 @@ impl<'a> Section<'a> {
     }
 
     /// A truth value, also as `0` or `1`.
-    pub(crate) fn truth(&self, key: &str) -> Result<Option<Given<bool>>, ConfigError> {
+    pub(super) fn truth(&self, key: &str) -> Result<Option<Given<bool>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -149,13 +138,13 @@ impl<'a> Section<'a> {
 
     /// What stands where a number may stand; `None` without the key or for a value of another
     /// type.
-    pub(crate) fn number(&self, key: &str) -> Option<Given<Written>> {
+    pub(super) fn number(&self, key: &str) -> Option<Given<Written>> {
         let value = self.table.get(key)?;
         Some(self.place(value, self.written(value)?))
     }
 
     /// A whole number from 0 to 65535.
-    pub(crate) fn whole_number(&self, key: &str) -> Result<Option<Given<u32>>, ConfigError> {
+    pub(super) fn whole_number(&self, key: &str) -> Result<Option<Given<u32>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -170,7 +159,7 @@ impl<'a> Section<'a> {
     }
 
     /// A number above 0.
-    pub(crate) fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
+    pub(super) fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -182,7 +171,7 @@ impl<'a> Section<'a> {
     }
 
     /// A list of pairs of numbers, `[[0, 12.0], [1800, 10.5]]`.
-    pub(crate) fn number_pairs(
+    pub(super) fn number_pairs(
         &self,
         key: &str,
     ) -> Result<Option<Vec<[Given<Written>; 2]>>, ConfigError> {
@@ -277,7 +266,7 @@ impl<'a> Section<'a> {
     }
 
     /// The value of a key that is no number.
-    pub(crate) fn no_number(&self, key: &str) -> ConfigError {
+    pub(super) fn no_number(&self, key: &str) -> ConfigError {
         let Some(value) = self.table.get(key) else {
             return ConfigError::at(&self.whole(), format!("`{key}` is missing"));
         };
@@ -286,7 +275,7 @@ impl<'a> Section<'a> {
     }
 
     /// A name with points and its value, where points made tables of it.
-    pub(crate) fn dotted(&self, key: &str) -> Option<(String, String)> {
+    pub(super) fn dotted(&self, key: &str) -> Option<(String, String)> {
         let mut name = key.to_owned();
         let mut value = self.table.get(key)?;
         while let DeValue::Table(table) = value.get_ref() {

@@ -1,0 +1,203 @@
+//! A table `[[axis]]` of `frictcomp.toml`.
+
+use super::error::ConfigError;
+use super::section::{Section, Shape};
+use crate::comp::{Kind, KindSet};
+use crate::diagnostic::Label;
+use crate::lists::{
+    AXIS_NAME_HELP, AxisType, AxisValues, Field, FrictionDraft, Given, WrittenPoint, is_axis_name,
+};
+
+/// What `[[axis]]` says.
+#[derive(Debug, Clone)]
+pub(crate) struct AxisTable {
+    /// The name in NC programs.
+    pub(crate) name: Given<String>,
+    /// The axis list.
+    pub(crate) axis_list: Option<Given<String>>,
+    /// The value list.
+    pub(crate) value_list: Option<Given<String>>,
+    /// The value list that stands in the file itself, `[axis.value]`.
+    pub(crate) inline_list: Option<FrictionDraft>,
+    /// What an axis list could say, too.
+    pub(crate) values: AxisValues,
+    /// Whether compensation is assumed.
+    pub(crate) is_enabled: bool,
+    /// The maximum velocity in mm/min or °/min.
+    pub(crate) max_velocity: Option<f64>,
+    /// The maximum acceleration in m/s² or °/s².
+    pub(crate) max_acceleration: Option<f64>,
+    /// The maximum jerk in m/s³ or °/s³.
+    pub(crate) max_jerk: Option<f64>,
+}
+
+const AXIS: Shape = Shape {
+    name: "[[axis]]",
+    keys: Some(&[
+        "name",
+        "type",
+        "number",
+        "frict_comp",
+        "enable",
+        "axis_list",
+        "value_list",
+        "value",
+        "compensations",
+        "manual_activation",
+        "required",
+        "max_velocity",
+        "max_acceleration",
+        "max_jerk",
+    ]),
+};
+
+const VALUE: Shape = Shape {
+    name: "[axis.value]",
+    keys: Some(&[
+        "mode",
+        "max_points",
+        "table_entries",
+        "position_delay",
+        "reversal_lookahead",
+        "scaling_factor",
+        "delay_cycles",
+        "table",
+    ]),
+};
+
+impl AxisTable {
+    /// The tables in the whole file, each with a name of its own.
+    pub(super) fn read_all(root: &Section<'_>) -> Result<Vec<Self>, ConfigError> {
+        let mut tables: Vec<Self> = Vec::new();
+        for section in root.tables("axis", &AXIS)? {
+            let name = name(&section)?;
+            let mut others = tables.iter().map(|table| &table.name);
+            if let Some(other) = others.find(|other| other.value == name.value) {
+                return Err(named_twice(&name, other));
+            }
+            tables.push(Self::read(&section, name)?);
+        }
+        Ok(tables)
+    }
+
+    fn read(section: &Section<'_>, name: Given<String>) -> Result<Self, ConfigError> {
+        let inline_list = section.table("value", &VALUE)?;
+        Ok(Self {
+            axis_list: section.string("axis_list")?,
+            value_list: section.string("value_list")?,
+            inline_list: inline_list.as_ref().map(inline_values).transpose()?,
+            values: AxisValues {
+                name: Some(name.clone()),
+                ..values(section)?
+            },
+            is_enabled: section.truth("enable")?.is_some_and(|given| given.value),
+            max_velocity: section.positive("max_velocity")?,
+            max_acceleration: section.positive("max_acceleration")?,
+            max_jerk: section.positive("max_jerk")?,
+            name,
+        })
+    }
+}
+
+fn name(section: &Section<'_>) -> Result<Given<String>, ConfigError> {
+    let Some(name) = section.string("name")? else {
+        let message = "an axis needs a `name`";
+        return Err(ConfigError::at(&section.whole(), message).with_help("add `name = \"X\"`"));
+    };
+    if is_axis_name(&name.value) {
+        return Ok(name);
+    }
+    let message = format!("`{}` is not an axis name", name.value);
+    Err(ConfigError::at(&name, message).with_help(AXIS_NAME_HELP))
+}
+
+fn named_twice(name: &Given<String>, first: &Given<String>) -> ConfigError {
+    let message = format!("there are two axes `{}`", name.value);
+    let mut error = ConfigError::at(name, message).with_help("remove one of them");
+    error.diagnostic.labels.push(Label {
+        place: first.place(),
+        text: "the first one".to_owned(),
+    });
+    error
+}
+
+fn values(section: &Section<'_>) -> Result<AxisValues, ConfigError> {
+    let mut values = AxisValues {
+        number: section.whole_number("number")?,
+        ..AxisValues::default()
+    };
+    if let Some(letter) = section.string("type")? {
+        let axis_type = AxisType::from_letter(&letter.value);
+        let axis_type = axis_type.ok_or_else(|| {
+            ConfigError::at(&letter, format!("`{}` is not an axis type", letter.value))
+                .with_help("write `T` for linear, `R` for rotary, `S` for a spindle")
+        })?;
+        values.axis_type = Some(letter.with(axis_type));
+    }
+    for (kind, given) in kinds(section, "compensations")? {
+        values.selectors.insert(kind, given.with(true));
+    }
+    if let Some(on) = section.truth("frict_comp")? {
+        values.selectors.insert(Kind::Frict, on);
+    }
+    for (kind, given) in kinds(section, "manual_activation")? {
+        if kind.facts().manual_activation.is_none() {
+            return Err(no_manual_activation(kind, &given));
+        }
+        values.manual.insert(kind, given.with(true));
+    }
+    if let Some(whole) = section.given("required") {
+        let required = kinds(section, "required")?.into_iter();
+        let required: KindSet = required.map(|(kind, _)| kind).collect();
+        values.required = Some(whole.with(required));
+    }
+    Ok(values)
+}
+
+fn no_manual_activation(kind: Kind, given: &Given<String>) -> ConfigError {
+    let has_one = |kind: &Kind| kind.facts().manual_activation.is_some();
+    let others = Kind::ALL.into_iter().filter(has_one);
+    let others: Vec<_> = others.map(Kind::keyword).collect();
+    let message = format!("{} has no manual activation", kind.keyword());
+    ConfigError::at(given, message)
+        .with_help(format!("the kinds that have one are {}", others.join(", ")))
+}
+
+/// A list of compensation keywords.
+fn kinds(section: &Section<'_>, key: &str) -> Result<Vec<(Kind, Given<String>)>, ConfigError> {
+    let mut found = Vec::new();
+    for word in section.strings(key)? {
+        let kind = Kind::from_keyword(&word.value).ok_or_else(|| {
+            let message = format!("`{}` is not a kind of compensation", word.value);
+            ConfigError::at(&word, message).with_near(&word.value, Kind::ALL.map(Kind::keyword))
+        })?;
+        found.push((kind, word));
+    }
+    Ok(found)
+}
+
+/// The value list that stands in `frictcomp.toml` itself. Its values have the names, units,
+/// defaults and checks of a list.
+fn inline_values(section: &Section<'_>) -> Result<FrictionDraft, ConfigError> {
+    let mut draft = FrictionDraft::default();
+    if let (Some(whole), Some(pairs)) = (section.given("table"), section.number_pairs("table")?) {
+        let points = pairs
+            .into_iter()
+            .map(|[input, output]| WrittenPoint {
+                input: Some(input),
+                output: Some(output),
+            })
+            .collect();
+        draft.set_table(points, &whole);
+    }
+    for field in Field::ALL {
+        if section.given(field.name()).is_none() {
+            continue;
+        }
+        let Some(number) = section.number(field.name()) else {
+            return Err(section.no_number(field.name()));
+        };
+        draft.set(field, number);
+    }
+    Ok(draft)
+}

@@ -1,0 +1,47 @@
+//! What is wrong with a file of the user.
+
+use thiserror::Error;
+
+use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::lists::Given;
+use crate::text::{SourceFile, Span};
+
+/// A `frictcomp.toml` that cannot be used: it is no TOML, or says something that does not exist.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{}:{}: {}", .diagnostic.place.file, .diagnostic.place.start(), .diagnostic.message)]
+pub struct ConfigError {
+    /// FC110 with the place.
+    pub diagnostic: Box<Diagnostic>,
+}
+
+impl ConfigError {
+    pub(crate) fn new(source: &SourceFile, span: Span, message: impl Into<String>) -> Self {
+        let place = source.place(span);
+        Self {
+            diagnostic: Box::new(Diagnostic::new(Code::Fc110, place, message)),
+        }
+    }
+
+    pub(crate) fn at<T>(given: &Given<T>, message: impl Into<String>) -> Self {
+        Self {
+            diagnostic: Box::new(Diagnostic::new(Code::Fc110, given.place(), message)),
+        }
+    }
+
+    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.diagnostic.help.push(help.into());
+        self
+    }
+
+    /// The same with "did you mean" where a known word is near.
+    pub(crate) fn with_near<'a>(
+        self,
+        found: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        match did_you_mean(found, known) {
+            Some(meant) => self.with_help(format!("did you mean `{meant}`?")),
+            None => self,
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The whole `frictcomp.toml`.
+
+use std::sync::Arc;
+
+use toml::de::DeTable;
+
+use super::advice::no_toml;
+use super::axis::AxisTable;
+use super::error::ConfigError;
+use super::machine::MachineTable;
+use super::section::{Section, Shape};
+use super::setting::Setting;
+use crate::diagnostic::{Code, Levels, Severity};
+use crate::lists::{Given, Written};
+use crate::text::SourceFile;
+
+/// What `frictcomp.toml` says.
+#[derive(Debug, Clone)]
+pub(crate) struct ConfigFile {
+    /// `[machine]`.
+    pub(crate) machine: MachineTable,
+    /// `[[axis]]`.
+    pub(crate) axes: Vec<AxisTable>,
+    /// `[variables]`.
+    pub(crate) variables: Vec<(String, Setting)>,
+    /// `[lint]`.
+    pub(crate) levels: Levels,
+    /// The extensions of programs in `[check]`, in lower case and without a dot.
+    pub(crate) extensions: Vec<String>,
+}
+
+/// The whole file.
+const ROOT: Shape = Shape {
+    name: "frictcomp.toml",
+    keys: Some(&["machine", "axis", "variables", "lint", "check"]),
+};
+
+const VARIABLES: Shape = Shape {
+    name: "[variables]",
+    keys: None,
+};
+
+const LINT: Shape = Shape {
+    name: "[lint]",
+    keys: None,
+};
+
+const CHECK: Shape = Shape {
+    name: "[check]",
+    keys: Some(&["extensions"]),
+};
+
+impl ConfigFile {
+    /// What the file says by itself; the lists that it names are not read.
+    pub(crate) fn parse(source: &Arc<SourceFile>) -> Result<Self, ConfigError> {
+        let table = DeTable::parse(source.text());
+        let table = table.map_err(|error| no_toml(source, &error))?;
+        let root = Section::new(table.get_ref(), source, &ROOT)?;
+        Ok(Self {
+            machine: MachineTable::read(&root)?,
+            variables: variables(&root)?,
+            levels: levels(&root)?,
+            extensions: extensions(&root)?,
+            axes: AxisTable::read_all(&root)?,
+        })
+    }
+}
+
+/// The extensions of programs, in lower case and without a dot.
+fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
+    let Some(check) = root.table("check", &CHECK)? else {
+        return Ok(Vec::new());
+    };
+    let extension = |given: Given<String>| {
+        let text = given.value.trim_start_matches('.').to_ascii_lowercase();
+        let is_one = !text.is_empty() && !text.contains(['.', '/', '\\', '*', ' ']);
+        if is_one {
+            return Ok(text);
+        }
+        let message = format!("`{}` is not a file extension", given.value);
+        Err(ConfigError::at(&given, message).with_help("write `extensions = [\"nc\", \"spf\"]`"))
+    };
+    let given = check.strings("extensions")?;
+    given.into_iter().map(extension).collect()
+}
+
+fn variables(root: &Section<'_>) -> Result<Vec<(String, Setting)>, ConfigError> {
+    let Some(variables) = root.table("variables", &VARIABLES)? else {
+        return Ok(Vec::new());
+    };
+    let mut settings = Vec::new();
+    for name in variables.names() {
+        let setting = match variables.number(name.value) {
+            Some(Given {
+                value:
+                    Written {
+                        number: Some(number),
+                        ..
+                    },
+                ..
+            }) => Setting::Number(number.to_f64()),
+            _ => match variables.string(name.value) {
+                Ok(Some(text)) => Setting::Text(text.value),
+                _ => return Err(no_variable(&variables, &name)),
+            },
+        };
+        settings.push((name.value.to_owned(), setting));
+    }
+    Ok(settings)
+}
+
+/// A variable that is neither a number nor a text; most often its name lacks the quotes, so that
+/// TOML takes its parts as tables.
+fn no_variable(variables: &Section<'_>, name: &Given<&str>) -> ConfigError {
+    match variables.dotted(name.value) {
+        Some((dotted, value)) => {
+            ConfigError::at(name, format!("the name `{dotted}` has no quotes"))
+                .with_help(format!("write `\"{dotted}\" = {value}`"))
+        }
+        None => ConfigError::at(
+            name,
+            format!("`{}` is neither a number nor a text", name.value),
+        )
+        .with_help(format!("write `\"{}\" = 3` or `= \"TEXT\"`", name.value)),
+    }
+}
+
+fn levels(root: &Section<'_>) -> Result<Levels, ConfigError> {
+    let mut levels = Levels::default();
+    let Some(lint) = root.table("lint", &LINT)? else {
+        return Ok(levels);
+    };
+    for name in lint.names() {
+        let Some(code) = Code::find(name.value) else {
+            let message = format!("there is no diagnostic `{}`", name.value);
+            let known = Code::ALL.iter().map(|code| code.text());
+            return Err(ConfigError::at(&name, message).with_near(name.value, known));
+        };
+        let Some(word) = lint.string(name.value)? else {
+            continue;
+        };
+        let level = match word.value.as_str() {
+            "off" => None,
+            "info" => Some(Severity::Info),
+            "warning" => Some(Severity::Warning),
+            "error" => Some(Severity::Error),
+            other => {
+                let message = format!("`{other}` is not a severity");
+                return Err(ConfigError::at(&word, message)
+                    .with_near(other, ["off", "info", "warning", "error"])
+                    .with_help("write `off`, `info`, `warning` or `error`"));
+            }
+        };
+        if !levels.set(code, level) {
+            let message = format!("{code} is an error of the control, it keeps its severity");
+            return Err(ConfigError::at(&name, message)
+                .with_help("only codes that begin with `FC` may be changed"));
+        }
+    }
+    Ok(levels)
+}

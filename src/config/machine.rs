@@ -1,0 +1,123 @@
+//! The table `[machine]` of `frictcomp.toml`.
+
+use super::error::ConfigError;
+use super::section::{Section, Shape};
+use crate::comp::{CncBuild, NoBuild};
+use crate::lists::Given;
+
+/// What `[machine]` says.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct MachineTable {
+    /// The start-up list.
+    pub(crate) startup: Option<Given<String>>,
+    /// The CNC cycle in milliseconds.
+    pub(crate) cycle_time_ms: Option<f64>,
+    /// The kernel version.
+    pub(crate) build: Option<CncBuild>,
+    /// The folders of called programs.
+    pub(crate) program_dirs: Vec<String>,
+    /// The program that runs before every main program.
+    pub(crate) start_program: Option<Given<String>>,
+    /// The program that runs before the end of every main program.
+    pub(crate) end_program: Option<Given<String>>,
+    /// Words and the programs that they call, `[machine.programs]`.
+    pub(crate) words: Vec<(String, Given<String>)>,
+    /// Patterns of programs that only the machine has.
+    pub(crate) external: Vec<String>,
+    /// Patterns of those that keep compensation states, `[machine.external_keeps]`.
+    pub(crate) keep_compensation: Vec<String>,
+    /// Patterns of those that keep positions.
+    pub(crate) keep_positions: Vec<String>,
+    /// Words of the shop that change nothing.
+    pub(crate) harmless: Vec<Given<String>>,
+    /// Whether P parameters outlive a program.
+    pub(crate) keep_parameters: bool,
+}
+
+const MACHINE: Shape = Shape {
+    name: "[machine]",
+    keys: Some(&[
+        "startup",
+        "cycle_time_ms",
+        "cnc_build",
+        "program_dirs",
+        "start_program",
+        "end_program",
+        "keep_parameters",
+        "programs",
+        "external",
+        "external_keeps",
+        "harmless",
+    ]),
+};
+
+const EXTERNAL_KEEPS: Shape = Shape {
+    name: "[machine.external_keeps]",
+    keys: Some(&["compensation", "positions"]),
+};
+
+const WORDS: Shape = Shape {
+    name: "[machine.programs]",
+    keys: None,
+};
+
+impl MachineTable {
+    /// The table in the whole file; without it nothing is said.
+    pub(super) fn read(root: &Section<'_>) -> Result<Self, ConfigError> {
+        let Some(section) = root.table("machine", &MACHINE)? else {
+            return Ok(Self::default());
+        };
+        let dirs = section.strings("program_dirs")?;
+        let mut table = Self {
+            startup: section.string("startup")?,
+            cycle_time_ms: section.positive("cycle_time_ms")?,
+            build: build(&section)?,
+            program_dirs: dirs.into_iter().map(|dir| dir.value).collect(),
+            start_program: section.string("start_program")?,
+            end_program: section.string("end_program")?,
+            words: words(&section)?,
+            harmless: section.strings("harmless")?,
+            keep_parameters: section
+                .truth("keep_parameters")?
+                .is_some_and(|given| given.value),
+            ..Self::default()
+        };
+        let patterns = section.strings("external")?;
+        table.external = patterns.into_iter().map(|given| given.value).collect();
+        if let Some(keeps) = section.table("external_keeps", &EXTERNAL_KEEPS)? {
+            table.keep_compensation = kept(&keeps, "compensation", &table.external)?;
+            table.keep_positions = kept(&keeps, "positions", &table.external)?;
+        }
+        Ok(table)
+    }
+}
+
+fn build(section: &Section<'_>) -> Result<Option<CncBuild>, ConfigError> {
+    let Some(build) = section.string("cnc_build")? else {
+        return Ok(None);
+    };
+    let refused = |error: NoBuild| ConfigError::at(&build, error.to_string());
+    build.value.parse().map(Some).map_err(refused)
+}
+
+fn words(section: &Section<'_>) -> Result<Vec<(String, Given<String>)>, ConfigError> {
+    let mut words = Vec::new();
+    if let Some(programs) = section.table("programs", &WORDS)? {
+        for name in programs.names() {
+            if let Some(program) = programs.string(name.value)? {
+                words.push((name.value.to_owned(), program));
+            }
+        }
+    }
+    Ok(words)
+}
+
+/// The programs that keep something: all that are on the machine only, none, or those that match.
+fn kept(keeps: &Section<'_>, key: &str, all: &[String]) -> Result<Vec<String>, ConfigError> {
+    if let Ok(on) = keeps.truth(key) {
+        let all = on.filter(|on| on.value).map(|_| all.to_vec());
+        return Ok(all.unwrap_or_default());
+    }
+    let patterns = keeps.strings(key)?;
+    Ok(patterns.into_iter().map(|given| given.value).collect())
+}

@@ -1,0 +1,191 @@
+//! A plant file: TOML with the symbols of the equations, in SI units.
+
+use std::sync::Arc;
+
+use toml::de::DeTable;
+
+use super::error::ConfigError;
+use super::plant_keys::{self as keys, Facts, Quantity};
+use super::section::{Section, Shape};
+use crate::lists::{Given, Number, Written};
+use crate::text::{SourceFile, Span};
+
+/// What a plant file says.
+#[derive(Debug, Clone)]
+pub(crate) struct PlantFile {
+    /// What the plant is called.
+    pub(crate) name: Option<String>,
+    /// The plant that gives the missing values.
+    pub(crate) base: Option<Given<String>>,
+    /// What holds for both axes.
+    pub(crate) both: DriveTable,
+    /// What holds for X and for Y.
+    pub(crate) axes: [Option<DriveTable>; 2],
+}
+
+/// The values of a drive that a table has, each within its range.
+#[derive(Debug, Clone)]
+pub(crate) struct DriveTable {
+    numbers: Vec<(Quantity, Given<f64>)>,
+    /// How fast elements that slip follow the friction.
+    pub(crate) attraction: Option<f64>,
+    /// The share and the stiffness in N/m of each element of the Maxwell-slip model.
+    pub(crate) elements: Option<Vec<[f64; 2]>>,
+    whole: Given<()>,
+}
+
+/// The whole file.
+const PLANT: Shape = Shape {
+    name: "plant",
+    keys: Some(&keys::FILE_KEYS),
+};
+
+/// The tables `[x]` and `[y]`.
+const AXIS: Shape = Shape {
+    name: "[x] and [y]",
+    keys: Some(&keys::AXIS_KEYS),
+};
+
+/// Elements of the Maxwell-slip model at most.
+const MAX_ELEMENTS: usize = 20;
+
+impl PlantFile {
+    /// What the file says. What the values must be to each other is not looked at.
+    pub(crate) fn parse(source: &Arc<SourceFile>) -> Result<Self, ConfigError> {
+        let parsed = DeTable::parse(source.text()).map_err(|error| {
+            let span = error.span().unwrap_or_default();
+            let message = error.message().lines().collect::<Vec<_>>().join(", ");
+            ConfigError::new(source, Span::new(span.start, span.end), message)
+        })?;
+        let root = Section::new(parsed.get_ref(), source, &PLANT)?;
+        let one = |key: &str| match root.table(key, &AXIS)? {
+            Some(table) => DriveTable::read(&table).map(Some),
+            None => Ok(None),
+        };
+        let base = root.string(keys::BASE)?;
+        let both = DriveTable::read(&root)?;
+        let name = root.string(keys::NAME)?.map(|given| given.value);
+        let [x, y] = keys::AXES.map(one);
+        Ok(Self {
+            name,
+            base,
+            both,
+            axes: [x?, y?],
+        })
+    }
+}
+
+impl DriveTable {
+    fn read(table: &Section<'_>) -> Result<Self, ConfigError> {
+        let mut numbers = Vec::new();
+        for quantity in Quantity::ALL {
+            let Facts { key, .. } = quantity.facts();
+            if let Some(place) = table.given(key) {
+                let number = checked(quantity, &place, table.number(key))?;
+                numbers.push((quantity, place.with(number)));
+            }
+        }
+        let read = Self {
+            numbers,
+            attraction: table.positive(keys::ATTRACTION)?,
+            elements: elements(table)?,
+            whole: table.whole(),
+        };
+        let either = [Quantity::RatedForce, Quantity::ForcePerUnit];
+        if either
+            .iter()
+            .all(|&quantity| read.number(quantity).is_some())
+        {
+            let message = "`k_I` and `rated_force` mean the same".to_owned();
+            let help = "`k_I` is `rated_force` / 1000; remove one of them";
+            return Err(read.refuse(Quantity::ForcePerUnit, message, help));
+        }
+        Ok(read)
+    }
+
+    /// The numbers of the table.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = (Quantity, f64)> {
+        self.numbers
+            .iter()
+            .map(|(quantity, given)| (*quantity, given.value))
+    }
+
+    /// A number of the table.
+    pub(crate) fn number(&self, quantity: Quantity) -> Option<f64> {
+        self.numbers()
+            .find_map(|(other, number)| (other == quantity).then_some(number))
+    }
+
+    /// The error about a number, at its place, or at the table without it.
+    pub(crate) fn refuse(&self, quantity: Quantity, message: String, help: &str) -> ConfigError {
+        let mut numbers = self.numbers.iter();
+        let place = numbers.find_map(|(other, given)| (*other == quantity).then(|| given.with(())));
+        ConfigError::at(place.as_ref().unwrap_or(&self.whole), message).with_help(help)
+    }
+}
+
+/// A number within its range.
+fn checked(
+    quantity: Quantity,
+    place: &Given<()>,
+    written: Option<Given<Written>>,
+) -> Result<f64, ConfigError> {
+    let Facts { key, unit, range } = quantity.facts();
+    let [least, most] = range;
+    let Some(number) = written.and_then(|given| value(&given)) else {
+        let unit = match unit {
+            "" => String::new(),
+            unit => format!(" in {unit}"),
+        };
+        return Err(ConfigError::at(place, format!("`{key}` is a number{unit}")));
+    };
+    if (least..=most).contains(&number) {
+        return Ok(number);
+    }
+    let shown = if number.abs() < 1e15 {
+        number.to_string()
+    } else {
+        format!("{number:e}")
+    };
+    let unit = match unit {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let message = format!("`{key}` is {shown}{unit}, it must be between {least} and {most}");
+    Err(ConfigError::at(place, message).with_help("all values are in SI units: kg, N, m, s"))
+}
+
+fn value(given: &Given<Written>) -> Option<f64> {
+    given.value.number.map(Number::to_f64)
+}
+
+/// `gms = [[share, stiffness], …]`, stiffnesses in N/m.
+fn elements(table: &Section<'_>) -> Result<Option<Vec<[f64; 2]>>, ConfigError> {
+    let Some(pairs) = table.number_pairs(keys::ELEMENTS)? else {
+        return Ok(None);
+    };
+    let place = table.given(keys::ELEMENTS).unwrap_or_else(|| table.whole());
+    if pairs.is_empty() || pairs.len() > MAX_ELEMENTS {
+        let message = format!(
+            "`gms` has {} elements, it has 1 to {MAX_ELEMENTS}",
+            pairs.len()
+        );
+        return Err(ConfigError::at(&place, message));
+    }
+    let mut elements = Vec::new();
+    for [share, stiffness] in &pairs {
+        let share = value(share).filter(|share| (0.0..=1.0).contains(share));
+        let stiffness = value(stiffness).filter(|stiffness| (1.0..=1e12).contains(stiffness));
+        let (Some(share), Some(stiffness)) = (share, stiffness) else {
+            let message = "an element of `gms` is `[share, stiffness]`: 0 to 1, and 1 to 1e12 N/m";
+            return Err(ConfigError::at(&place, message));
+        };
+        elements.push([share, stiffness]);
+    }
+    let sum: f64 = elements.iter().map(|[share, _]| share).sum();
+    if (sum - 1.0).abs() > 1e-6 {
+        let message = format!("the shares of `gms` add up to {sum}");
+        return Err(ConfigError::at(&place, message).with_help("they make 1"));
+    }
+    Ok(Some(elements))
+}

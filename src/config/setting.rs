@@ -1,0 +1,13 @@
+//! The values of variables that only the machine knows.
+
+use serde::{Deserialize, Serialize};
+
+/// The value that the user gives to a variable that only the machine knows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Setting {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(String),
+}

@@ -1,0 +1,134 @@
+//! One axis with its parameters.
+
+use serde::{Deserialize, Serialize};
+
+use crate::comp::{Kind, KindSet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, Origin};
+use crate::text::Place;
+
+/// Whether an axis has a friction value list that the control would take.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub enum Parameterisation {
+    /// No value list belongs to the axis.
+    #[default]
+    Missing,
+    /// The list says mode 0, off.
+    Off,
+    /// The list was read and rejected with this code.
+    Rejected {
+        /// The list.
+        file: String,
+        /// The code of the first check that it failed.
+        code: String,
+    },
+    /// The user said `--enable`: a list is assumed, its values are not known.
+    Assumed,
+    /// The list was accepted.
+    Accepted(FrictionList),
+}
+
+/// One axis of the machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The name in NC programs, case-sensitive.
+    pub name: String,
+    /// The logical axis number, P-AXIS-00016 (`kopf.achs_nr`).
+    pub number: Option<u32>,
+    /// The type.
+    pub axis_type: AxisType,
+    /// The kinds whose selector in the axis list is set; FRICT is P-AXIS-00522.
+    pub configured: KindSet,
+    /// Where P-AXIS-00522 came from.
+    pub frict_comp_origin: Origin,
+    /// The kinds that only the program activates and that fall off at program end (R1.40).
+    pub manual: KindSet,
+    /// The kinds that must be active while the axis moves, P-AXIS-00465 (R1.36).
+    pub required: KindSet,
+    /// The friction value list.
+    pub friction: Parameterisation,
+    /// The table size that was reserved at start-up, P-COMP-00062.
+    pub max_points: u32,
+    /// Where that size stands, or else the value list; `None` without a value list.
+    pub max_points_place: Option<Place>,
+    /// The maximum velocity in mm/min or °/min, where known.
+    pub max_velocity: Option<f64>,
+    /// The maximum acceleration in m/s² or °/s², where known.
+    pub max_acceleration: Option<f64>,
+    /// The maximum jerk in m/s³ or °/s³, where known.
+    pub max_jerk: Option<f64>,
+}
+
+impl Axis {
+    /// An axis with the documented defaults: P-AXIS-00522 is 0, no value list.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            number: None,
+            axis_type: AxisType::Linear,
+            configured: KindSet::NONE,
+            frict_comp_origin: Origin::Default,
+            manual: KindSet::NONE,
+            required: KindSet::NONE,
+            friction: Parameterisation::Missing,
+            max_points: DEFAULT_MAX_POINTS,
+            max_points_place: None,
+            max_velocity: None,
+            max_acceleration: None,
+            max_jerk: None,
+        }
+    }
+
+    /// The kinds that have what they need to work. Only the friction value list is read; the
+    /// other kinds count as parameterised.
+    pub fn parameterised(&self) -> KindSet {
+        let mut kinds = KindSet::ALL;
+        if !matches!(
+            self.friction,
+            Parameterisation::Accepted(_) | Parameterisation::Assumed
+        ) {
+            kinds.remove(Kind::Frict);
+        }
+        kinds
+    }
+
+    /// Compares the reserved table size with that of an earlier load in the same session. The
+    /// control cannot change it later: it refuses the list and keeps the earlier one (R3.22).
+    pub fn check_max_points(&self, earlier: u32) -> Option<Diagnostic> {
+        let place = self.max_points_place.clone()?;
+        if self.max_points == earlier {
+            return None;
+        }
+        let number = match self.number {
+            Some(number) => format!(" (axis number {number})"),
+            None => String::new(),
+        };
+        let message = format!(
+            "`{}` reserves {} points for axis `{}`{number}, at the start of the control it was \
+             {earlier}: the list is not loaded, the earlier one remains in force",
+            place.file, self.max_points, self.name
+        );
+        Some(
+            Diagnostic::new(Code::PErr110641, place, message)
+                .with_axis(&self.name)
+                .with_help("`frict_comp.max_points` changes only with a restart of the control"),
+        )
+    }
+
+    /// Whether it is a spindle.
+    pub fn is_spindle(&self) -> bool {
+        self.axis_type == AxisType::Spindle
+    }
+
+    /// Assumes P-AXIS-00522 = 1 and an accepted value list, as `--enable` does. A list that was
+    /// accepted stays.
+    pub fn enable(&mut self) {
+        if !self.configured.contains(Kind::Frict) {
+            self.configured.insert(Kind::Frict);
+            self.frict_comp_origin = Origin::Assumed;
+        }
+        if !matches!(self.friction, Parameterisation::Accepted(_)) {
+            self.friction = Parameterisation::Assumed;
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! A machine and what else its configuration says.
+
+use std::sync::Arc;
+
+use super::assemble::{AxisDraft, AxisReport};
+use super::described::describe;
+use super::description::{AxisSet, Machine};
+use super::files::ListFiles;
+use super::loader::Loader;
+use crate::config::Setting;
+use crate::diagnostic::{Code, Diagnostic, Levels};
+use crate::lists::{Conditions, Entries, ListKind, Parameter};
+use crate::text::{SourceFile, Span};
+
+/// A machine and everything else that its configuration says.
+#[derive(Debug, Clone, Default)]
+pub struct Configuration {
+    /// The machine.
+    pub machine: Machine,
+    /// The values of variables that only the machine knows.
+    pub settings: Vec<(String, Setting)>,
+    /// The user's severities; those of `diagnostics` follow them already.
+    pub levels: Levels,
+    /// The extensions of files that are programs, in lower case; empty for the usual ones.
+    pub extensions: Vec<String>,
+    /// The folders in which called programs are looked for, as written.
+    pub program_dirs: Vec<String>,
+    /// What the lists give reason to say.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The lists that were read, as they are named in diagnostics, in the order of reading.
+    pub files: Vec<Arc<str>>,
+    /// How many lists are named and are not there.
+    pub missing: usize,
+    /// The effective parameters of each axis, in the order of [`Machine::axes`].
+    pub reports: Vec<AxisReport>,
+    /// The programs and macros that the configuration names, and where.
+    pub programs: Vec<Parameter>,
+}
+
+impl Configuration {
+    /// The machine that a start-up list describes, with every list that it names.
+    pub fn from_startup(file: SourceFile, files: &mut dyn ListFiles) -> Self {
+        let mut configuration = Self::default();
+        configuration.read_startup(&Arc::new(file), files);
+        configuration
+    }
+
+    pub(super) fn read_startup(&mut self, file: &Arc<SourceFile>, files: &mut dyn ListFiles) {
+        let mut loader = Loader::new(files);
+        let entries = loader.entries(file);
+        if ListKind::detect(&entries) != Some(ListKind::Startup) {
+            loader.diagnostics = vec![not_startup(&entries)];
+            self.assemble(Vec::new(), loader);
+            return;
+        }
+        let axes = loader.startup(&entries);
+        self.assemble(axes, loader);
+    }
+
+    /// Puts the axes together under the machine's build and takes over what the lists gave reason
+    /// to say, with the user's severities.
+    pub(super) fn assemble(&mut self, axes: Vec<AxisDraft>, loader: Loader<'_>) {
+        self.diagnostics.extend(loader.diagnostics);
+        self.files.extend(loader.names);
+        self.missing += loader.missing;
+        if let Some(programs) = loader.programs {
+            let named = &self.machine.programs;
+            self.programs
+                .extend(programs.parameters(&|role| named.has(role)));
+            self.machine.programs.add_channel(&programs);
+        }
+        let conditions = Conditions {
+            build: self.machine.build,
+            ..Conditions::default()
+        };
+        if axes.is_empty() {
+            let any = Machine::unconfigured();
+            self.machine.axes = any.axes;
+            self.machine.axis_set = any.axis_set;
+        } else {
+            self.machine.axis_set = AxisSet::Configured;
+        }
+        for draft in axes {
+            let (finished, report) = draft.finish(&conditions, &mut self.diagnostics);
+            self.machine.axes.push(finished);
+            self.reports.push(report);
+        }
+        let levels = &self.levels;
+        self.diagnostics
+            .retain_mut(|diagnostic| match levels.severity(diagnostic.code) {
+                Some(severity) => {
+                    diagnostic.severity = severity;
+                    true
+                }
+                None => false,
+            });
+    }
+}
+
+/// FC125 for a file that is given as a start-up list and names nothing.
+fn not_startup(entries: &Entries) -> Diagnostic {
+    let source = entries.source();
+    let what = describe(entries);
+    let message = format!("`{}` is {what}, not a start-up list", source.name());
+    Diagnostic::new(Code::Fc125, source.place(Span::new(0, 0)), message)
+        .with_help("a start-up list (`hochlauf.lis`) names the lists of the axes and channels")
+}

@@ -1,0 +1,122 @@
+//! A machine as far as NC programs see it.
+
+use super::axis::Axis;
+use super::harmless::HarmlessWords;
+use super::programs::ConfiguredPrograms;
+use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation};
+use crate::lists::Origin;
+
+/// Where the axes of a machine come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum AxisSet {
+    /// The configuration lists them; any other name is P-ERR-21947.
+    #[default]
+    Configured,
+    /// Nothing is configured: X Y Z A B C U V W are taken as they occur (R2.20).
+    AsTheyOccur,
+}
+
+/// A machine as far as NC programs see it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Machine {
+    /// The axes, in the machine's order.
+    pub axes: Vec<Axis>,
+    /// Whether the configuration lists the axes.
+    pub axis_set: AxisSet,
+    /// The CNC cycle in milliseconds.
+    pub cycle_time_ms: Option<f64>,
+    /// The kernel version, where the user gave it.
+    pub build: Option<CncBuild>,
+    /// Programs that run by themselves or stand behind a word.
+    pub programs: ConfiguredPrograms,
+    /// Words of the shop that change nothing that is followed here.
+    pub harmless: HarmlessWords,
+    /// What a program start does to P parameters.
+    pub parameters: Parameters,
+}
+
+/// What a program start does to P parameters (R2.33).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Parameters {
+    /// They are cleared.
+    #[default]
+    Cleared,
+    /// They keep what an earlier program wrote.
+    Kept,
+}
+
+impl Machine {
+    /// The machine without any configuration: X Y Z A B C U V W with the documented defaults,
+    /// taken as they occur (R2.20).
+    pub fn unconfigured() -> Self {
+        Self {
+            axes: ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"]
+                .into_iter()
+                .map(Axis::new)
+                .collect(),
+            axis_set: AxisSet::AsTheyOccur,
+            ..Self::default()
+        }
+    }
+
+    /// The unconfigured machine with friction compensation assumed on some axes.
+    pub fn enabled<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut machine = Self::unconfigured();
+        for name in names {
+            machine.enable(name);
+        }
+        machine
+    }
+
+    /// Assumes friction compensation on an axis, see [`Axis::enable`]. Returns whether the
+    /// machine has the axis; an unconfigured machine gets it.
+    pub fn enable(&mut self, name: &str) -> bool {
+        if let Some(axis) = self.axes.iter_mut().find(|axis| axis.name == name) {
+            axis.enable();
+            return true;
+        }
+        let admitted = self.axis_set == AxisSet::AsTheyOccur;
+        if admitted {
+            let mut axis = Axis::new(name);
+            axis.enable();
+            self.axes.push(axis);
+        }
+        admitted
+    }
+
+    /// Whether a configuration, a list or `--enable` says anything about friction compensation.
+    /// Without, every axis has the documented default (R1.37).
+    pub fn is_described(&self) -> bool {
+        let given = |axis: &Axis| axis.frict_comp_origin != Origin::Default;
+        self.axis_set == AxisSet::Configured || self.axes.iter().any(given)
+    }
+
+    /// The state of all compensations after a start of the control.
+    pub fn compensation(&self) -> Compensation {
+        Compensation::at_startup(self.axis_setups())
+    }
+
+    /// The axes as the compensation sees them.
+    pub(crate) fn axis_setups(&self) -> impl Iterator<Item = AxisSetup> {
+        self.axes.iter().map(|axis| {
+            let mut setup = AxisSetup::new(&axis.name, axis.configured);
+            setup.is_spindle = axis.is_spindle();
+            setup.manual = axis.manual;
+            setup.parameterised = axis.parameterised();
+            setup
+        })
+    }
+
+    /// The position of an axis by its name.
+    pub fn find(&self, name: &str) -> Option<AxisIndex> {
+        self.axes
+            .iter()
+            .position(|axis| axis.name == name)
+            .map(AxisIndex::new)
+    }
+
+    /// An axis by its position.
+    pub fn axis(&self, index: AxisIndex) -> &Axis {
+        &self.axes[index.get()]
+    }
+}

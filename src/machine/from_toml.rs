@@ -1,0 +1,146 @@
+//! The machine that a `frictcomp.toml` describes, by itself or over the control's lists.
+
+use std::sync::Arc;
+
+use super::assemble::{AxisDraft, Dynamics};
+use super::configuration::Configuration;
+use super::description::{Machine, Parameters};
+use super::files::{ListFiles, NoLists};
+use super::loader::Loader;
+use super::programs::canonical_word;
+use super::startup::MAX_AXES;
+use crate::config::{AxisTable, ConfigError, ConfigFile, MachineTable};
+use crate::lists::{AxisValues, Given, ListKind, Parameter};
+use crate::text::SourceFile;
+
+impl Configuration {
+    /// The machine that a `frictcomp.toml` describes, with every list that it names. What the file
+    /// itself says overrides the lists.
+    ///
+    /// # Errors
+    /// The file is no TOML, or has a key or a value that does not exist.
+    pub fn from_toml(file: SourceFile, files: &mut dyn ListFiles) -> Result<Self, ConfigError> {
+        let file = ConfigFile::parse(&Arc::new(file))?;
+        let mut configuration = Self {
+            settings: file.variables,
+            levels: file.levels,
+            extensions: file.extensions,
+            ..Self::default()
+        };
+        let startup = file.machine.startup.clone();
+        configuration.take_machine(file.machine)?;
+        let mut loader = Loader::new(files);
+        let mut axes = match startup.and_then(|asked| loader.load(&asked, ListKind::Startup)) {
+            Some(entries) => loader.startup(&entries),
+            None => Vec::new(),
+        };
+        for table in file.axes {
+            if axes.len() >= MAX_AXES {
+                let message = format!("a machine has at most {MAX_AXES} axes");
+                return Err(ConfigError::at(&table.name, message));
+            }
+            let found = axes.iter().position(|axis| axis.name == table.name.value);
+            let at = found.unwrap_or_else(|| {
+                let name = table.name.value.clone();
+                axes.push(AxisDraft::new(name, AxisValues::default()));
+                axes.len() - 1
+            });
+            axes[at].take_table(table, &mut loader);
+        }
+        configuration.assemble(axes, loader);
+        Ok(configuration)
+    }
+
+    fn take_machine(&mut self, table: MachineTable) -> Result<(), ConfigError> {
+        for given in &table.harmless {
+            if !self.machine.harmless.add(&given.value) {
+                let message = format!(
+                    "`{}` is neither a `#` command nor an M function",
+                    given.value
+                );
+                return Err(ConfigError::at(given, message)
+                    .with_help("write `harmless = [\"#MYCMD\", \"M100\"]`"));
+            }
+        }
+        self.machine.cycle_time_ms = table.cycle_time_ms;
+        self.machine.build = table.build;
+        self.program_dirs.clone_from(&table.program_dirs);
+        if table.keep_parameters {
+            self.machine.parameters = Parameters::Kept;
+        }
+        self.take_programs(table);
+        Ok(())
+    }
+
+    /// The programs that run by themselves, stand behind words, or are on the machine only.
+    fn take_programs(&mut self, table: MachineTable) {
+        let mut named = |number, key: String, given: Given<String>| {
+            self.programs.push(Parameter {
+                number,
+                key,
+                value: given.value.clone(),
+                unit: "",
+                origin: (&given).into(),
+            });
+            given.value
+        };
+        let programs = &mut self.machine.programs;
+        programs.start = (table.start_program)
+            .map(|given| named("P-CHAN-00119", "start_program".to_owned(), given));
+        programs.end =
+            (table.end_program).map(|given| named("P-CHAN-00252", "end_program".to_owned(), given));
+        for (word, given) in table.words {
+            let key = format!("programs.{word}");
+            let program = named("", key, given);
+            programs.words.push((canonical_word(&word), program));
+        }
+        programs.external = table.external;
+        programs.keep_compensation = table.keep_compensation;
+        programs.keep_positions = table.keep_positions;
+    }
+}
+
+impl AxisDraft {
+    /// What the user says about the axis, over what the lists say.
+    fn take_table(&mut self, table: AxisTable, loader: &mut Loader<'_>) {
+        let list = table.axis_list.as_ref();
+        if let Some(values) = list.and_then(|asked| loader.axis_list(asked)) {
+            self.add_list(values);
+        }
+        let list = table.value_list.as_ref();
+        if let Some(list) = list.and_then(|asked| loader.value_list(asked)) {
+            self.value_list = list;
+            self.startup_number = None;
+        }
+        if let Some(inline) = table.inline_list {
+            self.value_list.friction.override_with(inline);
+        }
+        self.values.override_with(table.values);
+        self.enabled = table.is_enabled;
+        self.dynamics = Dynamics {
+            velocity: table.max_velocity,
+            acceleration: table.max_acceleration,
+            jerk: table.max_jerk,
+        };
+    }
+}
+
+impl Machine {
+    /// The machine that the text of a `frictcomp.toml` describes by itself, without lists.
+    ///
+    /// ```
+    /// use frictcomp::comp::Kind;
+    /// use frictcomp::machine::Machine;
+    ///
+    /// let machine = Machine::from_toml("[[axis]]\nname = \"X\"\nfrict_comp = true\n")?;
+    /// assert!(machine.axes[0].configured.contains(Kind::Frict));
+    /// # Ok::<(), frictcomp::machine::ConfigError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The text is no TOML, or has a key or a value that does not exist.
+    pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
+        let file = SourceFile::new("frictcomp.toml", text);
+        Ok(Configuration::from_toml(file, &mut NoLists)?.machine)
+    }
+}

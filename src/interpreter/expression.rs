@@ -128,7 +128,12 @@ impl Evaluator<'_> {
             let span = self.block.spans[at];
             let slot = match self.block.nodes[at] {
                 Node::Number(number) if !number.is_finite() => {
-                    Err(fault(Code::Fc312, span, "this is not a number"))
+                    let reason = if number.is_nan() {
+                        "this is not a number"
+                    } else {
+                        "this number is too large to compute with"
+                    };
+                    Err(fault(Code::Fc312, span, reason))
                 }
                 Node::Number(number) => Ok(Value::Number(number)),
                 Node::Text => self.text(span),

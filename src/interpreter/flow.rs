@@ -18,8 +18,8 @@ use super::run::Interpreter;
 use super::state::{Departure, Seeking, Step};
 use super::value::Value;
 use crate::diagnostic::Code;
-use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::syntax::{Fault, is_command};
 use crate::text::Span;
 
 impl Interpreter {
@@ -585,6 +585,8 @@ fn flow_span(block: &Block) -> Span {
 pub(super) fn unknown_value(name: &str) -> String {
     if is_settable(name) {
         format!("`{name}`, which only the machine knows")
+    } else if is_command(name) {
+        format!("`{name}`, whose result only the machine knows")
     } else {
         format!("`{name}`, which is not known here")
     }
@@ -602,6 +604,9 @@ fn is_settable(name: &str) -> bool {
 
 /// How a user makes a value known.
 pub(super) fn how_to_set(name: &str) -> String {
+    if is_command(name) {
+        return format!("to check one case, assign the value in a block after `{name}`");
+    }
     if !is_settable(name) {
         return format!("FC210 or FC207 shows where `{name}` first occurs");
     }

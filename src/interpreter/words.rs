@@ -18,9 +18,11 @@ use crate::syntax::{Fault, is_letter, not_known};
 use crate::text::Span;
 
 /// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
-/// ramp time and jerk, feedforward (TF5200 channel parameters, P-CHAN-00210, names examples).
-const NO_MOTION: [u32; 15] = [
-    98, 99, 112, 129, 130, 131, 132, 133, 134, 135, 136, 137, 231, 333, 334,
+/// ramp time and jerk, feedforward (PM/206590731, 206596619, 206565643), manual mode (PM/206639371),
+/// mirroring by axis (PM/206266379).
+const NO_MOTION: [u32; 23] = [
+    98, 99, 112, 129, 130, 131, 132, 133, 134, 135, 136, 137, 200, 201, 202, 230, 231, 233, 333,
+    334, 338, 339, 351,
 ];
 
 /// Homing: the axes move, their words are no coordinates.

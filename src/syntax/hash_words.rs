@@ -18,7 +18,8 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
             && word.starts_with(['P', 'p'])
             && word[1..].bytes().all(|byte| byte.is_ascii_digit());
         let is_value = is_parameter || behind.starts_with('.');
-        if !is_word || is_value || behind.trim_start().starts_with('=') {
+        let is_argument = name.len() > 1 && behind.trim_start().starts_with('=');
+        if !is_word || is_value || is_argument {
             return (name, end);
         }
         if name.len() > 1 {

@@ -72,7 +72,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#DISABLE MODAL CYCLE", Nothing, "PM/206859019"),
     ("#DIST CTRL", Nothing, EDITOR),
     ("#DISTANCE PROG START", Nothing, EDITOR),
-    ("#DRIVE RD", Nothing, EDITOR),
+    ("#DRIVE RD", Values, EDITOR),
     ("#DRIVE WAIT", Nothing, EDITOR),
     ("#DRIVE WR", Nothing, EDITOR),
     ("#DYN WEIGHT", Nothing, EDITOR),
@@ -110,9 +110,9 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#IDENT RD", Values, EDITOR),
     ("#IDENT WR", Nothing, EDITOR),
     ("#INFO", Nothing, EDITOR),
-    ("#INIT", Nothing, EDITOR),
+    ("#INIT", Values, EDITOR),
     ("#INIT MACRO TAB", Nothing, EDITOR),
-    ("#INIT V", Nothing, EDITOR),
+    ("#INIT V", Values, EDITOR),
     ("#JOG CONT", Nothing, EDITOR),
     ("#JOG INCR", Nothing, EDITOR),
     ("#KIN DATA", Nothing, EDITOR),
@@ -124,7 +124,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#MANUAL LIMITS", Nothing, EDITOR),
     ("#MARK", Nothing, EDITOR),
     ("#MCS", Nothing, EDITOR),
-    ("#MCS TO WCS", Nothing, EDITOR),
+    ("#MCS TO WCS", Values, "PM/208525707"),
     ("#MEAS", Nothing, EDITOR),
     ("#MICROJOINT", Nothing, EDITOR),
     ("#MSG", Nothing, EDITOR),
@@ -169,6 +169,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#SET UEBERSCH_PARAM", Nothing, EDITOR),
     ("#SHIFT", Nothing, EDITOR),
     ("#SIGNAL", Nothing, EDITOR),
+    ("#SIGNAL READ", Values, "PM/913718283"),
     ("#SINGLE STEP", Nothing, EDITOR),
     ("#SLOPE", Nothing, EDITOR),
     ("#SPLINE", Nothing, EDITOR),
@@ -206,10 +207,10 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#VIRTUAL AX", Nothing, EDITOR),
     ("#VOLCOMP", Nothing, EDITOR),
     ("#VOLKOMP", Nothing, EDITOR),
-    ("#WAIT", Nothing, EDITOR),
+    ("#WAIT", Values, "PM/207421579"),
     ("#WAIT FOR", Nothing, EDITOR),
     ("#WAIT INDP", Nothing, EDITOR),
-    ("#WCS TO MCS", Nothing, EDITOR),
+    ("#WCS TO MCS", Values, "PM/208525707"),
 ];
 
 /// What a `#` command touches; `None` where no row names it. The name has its words in upper case
@@ -223,6 +224,11 @@ pub(crate) fn hash_command(name: &str) -> Option<Touches> {
     let row = rows.filter(|(words, ..)| begins(words));
     row.max_by_key(|(words, ..)| words.len())
         .map(|(_, touches, _)| *touches)
+}
+
+/// Whether a name is that of a `#` command that is known.
+pub(crate) fn is_command(name: &str) -> bool {
+    hash_command(name).is_some()
 }
 
 /// The `#` commands by name, for "did you mean".

@@ -27,7 +27,7 @@ pub use brackets::MAX_BRACKETS;
 pub use fault::Fault;
 pub use flow_scan::FlowScan;
 pub(crate) use hash_words::hash_name;
-pub(crate) use known::{is_letter, is_statement};
+pub(crate) use known::{is_command, is_letter, is_statement};
 pub use lines::{BlockReader, FastPath};
 pub(crate) use parse::parse_expression;
 pub use parse::{parse_block, parse_comp};

@@ -282,3 +282,52 @@ fn a_region_is_looked_through_anew_where_its_macros_do_something_else() {
     let program = "P1=1 P2=0\n\"A\"=\"P2=1\"\n$FOR P3=1,2,1\n$IF V.E.A\n\"A\"\n$ENDIF\n\"A\"=\"P1=2\"\n$ENDFOR\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     assert_eq!(at_the_end(&[program]), [true, false]);
 }
+
+#[test]
+fn what_other_channels_and_drives_send_is_unknown() {
+    // R2.50, R2.70: PM/207421579, 913718283, 208525707
+    for command in [
+        "#WAIT [ID=1 P[0]=V.P.A CH=2]",
+        "#WAIT SYN [ID1 P[0] = V.P.A]",
+        "#SIGNAL READ [ID=1 P[3]=V.P.A]",
+        "#WCS TO MCS [V.P.A=X]",
+        "#DRIVE RD SYN [AX=X ID=S-0-0047 P=V.P.A]",
+    ] {
+        let program =
+            format!("#VAR\nV.P.A=0\n#ENDVAR\n{command}\n$IF V.P.A\nX[COMP OFF FRICT]\n$ENDIF\nM30");
+        let said = Bench::new().run(&[&program]);
+        assert!(
+            said.contains("FC901") && said.contains("X:unknown"),
+            "{command}: {said}"
+        );
+    }
+    // What is sent stays as it was, and so does what a channel only waits for.
+    for command in [
+        "#SIGNAL [ID=1 P[0]=V.P.A CH=2]",
+        "#WAIT INDP [X]",
+        "#WAIT [ID=1 CH=2]",
+    ] {
+        let program =
+            format!("#VAR\nV.P.A=0\n#ENDVAR\n{command}\n$IF V.P.A\nX[COMP OFF FRICT]\n$ENDIF\nM30");
+        let said = Bench::new().run(&[&program]);
+        assert!(!said.contains("FC"), "{command}: {said}");
+    }
+}
+
+#[test]
+fn a_command_may_give_its_value_with_an_equals_sign() {
+    // R2.70: PM/206609163
+    for command in [
+        "#FRC=30",
+        "#FRC = 30",
+        "X10 #CHF=2.5",
+        "X10 #RND = 3",
+        "#CHR=1",
+        "#ANG=45",
+    ] {
+        let said = Bench::new().run(&[&format!("{command}\nM30")]);
+        assert!(!said.contains("FC"), "{command}: {said}");
+    }
+    let said = Bench::new().run(&["#FRX=30\nM30"]);
+    assert!(said.contains("FC210"), "{said}");
+}

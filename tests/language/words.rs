@@ -466,3 +466,31 @@ fn a_number_that_is_too_large_is_one_nowhere() {
         }
     }
 }
+
+#[test]
+fn axis_words_of_weights_and_modes_are_no_coordinates() {
+    // R2.45: PM/206590731, 206596619, 206639371, 206266379
+    for mode in [
+        "G130 X70 Y60",
+        "G230 X50",
+        "G132 X75 Y75",
+        "G333 X80",
+        "G338 X80 Y80",
+        "G136 X80 Y95",
+        "G131=50",
+        "G233=90",
+        "G339=85",
+        "G131 50",
+        "G201 X1",
+        "G202 X1 Y1",
+        "G200 X0",
+        "G351 X-1",
+    ] {
+        let positions = Bench::new().positions(&format!("X10 Y20\n{mode}\nM30"));
+        let after = positions.lines().nth(1).unwrap_or_default();
+        assert!(after.contains("X:10") && after.contains("Y:20"), "{after}");
+    }
+    // Mirroring by axis: what is programmed from here is not where the axis goes.
+    let mirrored = Bench::new().positions("X10\nG351 X-1\nX20\nM30");
+    assert!(mirrored.contains("X20 X:20*"), "{mirrored}");
+}

@@ -1,0 +1,15 @@
+%LOGIC
+N10 P1 = 5 P2 = '16#0F'
+N20 P3 = [P1 & 4] | [P2 ^ 1]
+N30 P4 = INV[P2] & 255
+N40 P5 = P1 MOD 3 + 2 ** 3 ** 1
+N50 P6 = [P1 > 3] && [P2 != 15] || NOT[FALSE]
+N60 P7 = [P1 == 5] XOR TRUE
+N70 P8 = ATAN2[1, -1] + ROUND[2.5] - FRACT[3.25] * INT[7.9]
+N80 P9 = MAX[1, P1, 3] + MIN[4, 2]
+N90 P10 = -SIN[30] + COS[-60] + DEXP[2] + LOG[100] + LN[EXP[1]]
+N100 P11 = SQRT[ABS[-16]] + SQR[2] + CEIL[1.1] + FLOOR[-1.1]
+N110 P11 += P11
+N120 P11 *= 2
+N130 X[P5] Y P7
+N140 M30

@@ -2,67 +2,25 @@
 
 #![cfg(feature = "cli")]
 
+mod folder;
+
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use folder::Bench;
 use roxmltree::{Document, Node, ParsingOptions};
 
-const MACHINE: &str = "\
-[[axis]]
-name = \"X\"
-frict_comp = true
-value = { mode = 3, table = [[0, 12], [1800, 10]] }
-[[axis]]
-name = \"Y\"
-frict_comp = true
-value = { mode = 3, table = [[0, 12], [1800, 10]] }
-[[axis]]
-name = \"Z\"
-";
-
-/// A folder with a machine and programs.
-struct Bench(tempfile::TempDir);
-
-impl Bench {
-    fn new(programs: &[(&str, &str)]) -> Self {
-        let bench = Self(tempfile::tempdir().expect("a folder"));
-        bench.write("frictcomp.toml", MACHINE);
-        for (name, text) in programs {
-            bench.write(name, text);
-        }
-        bench
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).expect("written");
-    }
-
-    fn run(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-            .current_dir(self.0.path())
-            .arg("run")
-            .args(arguments)
-            .stdin(Stdio::null())
-            .output()
-            .expect("the tool starts")
-    }
-
-    /// The report of programs.
-    fn report(&self, arguments: &[&str]) -> String {
-        let output = self.run(&[arguments, &["--html", "report.html"]].concat());
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_ne!(output.status.code(), Some(2), "{said}");
-        fs::read_to_string(self.path("report.html")).expect("a report")
-    }
+/// The report of programs.
+fn report_of(bench: &Bench, arguments: &[&str]) -> String {
+    let output = bench.call(&[&["run"], arguments, &["--html", "report.html"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_ne!(output.status.code(), Some(2), "{said}");
+    bench.read("report.html")
 }
 
 fn parse(report: &str) -> Document<'_> {
@@ -153,7 +111,7 @@ N55 M30 ;Program end
 fn a_session_is_told_from_its_end_to_its_assumptions() {
     // R9.50
     let bench = Bench::new(&[("a.nc", FRICTION), ("b.nc", "N10 G01 X1 F100\nN20 M30\n")]);
-    let report = bench.report(&["a.nc", "b.nc"]);
+    let report = report_of(&bench, &["a.nc", "b.nc"]);
     assert_sound(&report);
     let left = part(&report, "left");
     // FC401 has said it.
@@ -191,7 +149,7 @@ fn a_session_is_told_from_its_end_to_its_assumptions() {
 fn bars_lead_to_the_lines_that_made_them() {
     // R9.50
     let bench = Bench::new(&[("a.nc", FRICTION)]);
-    let report = bench.report(&["a.nc"]);
+    let report = report_of(&bench, &["a.nc"]);
     let document = parse(&report);
     let bars = document.descendants().filter(|node| {
         node.has_tag_name("a") && node.ancestors().any(|above| above.has_tag_name("svg"))
@@ -216,7 +174,7 @@ fn section(report: &str, id: &str) -> String {
 fn what_is_away_from_home_looks_like_it() {
     // R9.50, R9.51
     let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nG1 X1 F100\nM30\n")]);
-    let report = bench.report(&["a.nc"]);
+    let report = report_of(&bench, &["a.nc"]);
     let left = section(&report, "left");
     assert!(left.contains("class=\"state inactive away\""), "{left}");
     assert!(left.contains("class=\"state active\""), "{left}");
@@ -235,7 +193,7 @@ fn what_is_away_from_home_looks_like_it() {
         "the scale ends at the last block: {states}"
     );
     let back = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n")]);
-    let left = section(&back.report(&["a.nc"]), "left");
+    let left = section(&report_of(&back, &["a.nc"]), "left");
     assert!(!left.contains(" away\""), "{left}");
 }
 
@@ -243,7 +201,7 @@ fn what_is_away_from_home_looks_like_it() {
 fn a_report_says_nothing_twice() {
     // R9.50
     let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n")]);
-    let report = bench.report(&["a.nc"]);
+    let report = report_of(&bench, &["a.nc"]);
     assert!(!report.contains(">once<") && !report.contains(">said<"));
     assert!(report.contains("<caption class=\"unseen\">Messages</caption>"));
     assert!(report.contains("<td class=\"num\">"));
@@ -261,7 +219,7 @@ fn nothing_in_a_program_becomes_active() {
         N20 #MSG[\"<b>&amp;</b>\"]\nN30 L \"<i>.nc\"\nN40 M30\n";
     let name = if cfg!(windows) { "a.nc" } else { "<b>&\".nc" };
     let bench = Bench::new(&[(name, program)]);
-    let report = bench.report(&[name, "--keep-going"]);
+    let report = report_of(&bench, &[name, "--keep-going"]);
     assert_sound(&report);
     for raw in [
         "<script",
@@ -284,9 +242,9 @@ fn nothing_in_a_program_becomes_active() {
 fn the_same_input_gives_the_same_bytes() {
     // R9.16
     let bench = Bench::new(&[("a.nc", FRICTION)]);
-    let first = bench.report(&["a.nc"]);
-    assert_eq!(first, bench.report(&["a.nc"]));
-    assert!(!first.contains(&bench.0.path().display().to_string()));
+    let first = report_of(&bench, &["a.nc"]);
+    assert_eq!(first, report_of(&bench, &["a.nc"]));
+    assert!(!first.contains(&bench.folder().display().to_string()));
 }
 
 #[test]
@@ -303,7 +261,7 @@ fn called_programs_and_loops_are_shown_where_they_stand() {
             "N1 Y[COMP OFF FRICT]\nN2 X1\nN3 Y[COMP ON FRICT]\nN4 M17\n",
         ),
     ]);
-    let report = bench.report(&["main.nc", "--kinds", "all"]);
+    let report = report_of(&bench, &["main.nc", "--kinds", "all"]);
     assert_sound(&report);
     assert!(part(&report, "f1").contains("sub.nc"));
     let line = part(&report, "f1l1");
@@ -323,13 +281,13 @@ fn an_error_is_shown_with_what_did_not_run() {
         "a.nc",
         "N10 X1\nN20 Z[COMP ON FRICT]\nN30 Y[COMP OFF FRICT]\nN40 M30\n",
     )]);
-    let report = bench.report(&["a.nc"]);
+    let report = report_of(&bench, &["a.nc"]);
     assert_sound(&report);
     assert!(part(&report, "left").contains("Stopped by an error"));
     assert!(part(&report, "states").contains("ended by error"));
     assert!(part(&report, "f0l2").contains("error[P-ERR-70495]"));
     assert!(part(&report, "source").contains("     3          N30 Y[COMP OFF FRICT]"));
-    let assumed = bench.report(&["a.nc", "--enable", "Z"]);
+    let assumed = report_of(&bench, &["a.nc", "--enable", "Z"]);
     let machine = part(&assumed, "machine");
     assert!(machine.contains("assumed by --enable"), "{machine}");
 }
@@ -346,7 +304,7 @@ fn long_programs_are_folded_and_stay_small() {
     }
     program.push_str("M30\n");
     let bench = Bench::new(&[("long.nc", &program)]);
-    let report = bench.report(&["long.nc"]);
+    let report = report_of(&bench, &["long.nc"]);
     assert_sound(&report);
     let document = parse(&report);
     let elements = document.descendants().filter(Node::is_element).count();
@@ -375,7 +333,7 @@ fn loops_without_end_do_not_grow_the_report() {
     // R9.52
     let program = "N10 $FOR P1 = 1, 20000, 1\nN20 X[COMP OFF FRICT]\nN30 X[COMP ON FRICT]\nN40 $ENDFOR\nN50 M30\n";
     let bench = Bench::new(&[("loop.nc", program)]);
-    let report = bench.report(&["loop.nc", "--changes"]);
+    let report = report_of(&bench, &["loop.nc", "--changes"]);
     assert_sound(&report);
     assert!(report.len() < 200_000, "{} bytes", report.len());
     assert!(part(&report, "f0l2").contains("(20000 times)"));
@@ -386,7 +344,7 @@ fn a_report_is_whole_or_not_there() {
     // R9.53
     let bench = Bench::new(&[("a.nc", FRICTION)]);
     let refused = |path: &str, word: &str| {
-        let output = bench.run(&["a.nc", "--html", path]);
+        let output = bench.call(&["run", "a.nc", "--html", path]);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{said}");
         assert!(said.contains(word), "{said}");
@@ -394,14 +352,11 @@ fn a_report_is_whole_or_not_there() {
     refused("no/report.html", "`no/report.html` cannot be written");
     refused(".", "cannot be written");
     refused("a.nc", "would overwrite the program");
-    assert_eq!(
-        fs::read_to_string(bench.path("a.nc")).expect("text"),
-        FRICTION
-    );
+    assert_eq!(bench.read("a.nc"), FRICTION);
     if Path::new("/dev/full").exists() {
         refused("/dev/full", "cannot be written");
     }
-    let names = fs::read_dir(bench.0.path()).expect("a folder").count();
+    let names = fs::read_dir(bench.folder()).expect("a folder").count();
     assert_eq!(names, 2, "nothing half written is left");
 }
 
@@ -410,7 +365,7 @@ fn a_program_from_a_pipe_has_a_report() {
     // R9.50
     let bench = Bench::new(&[]);
     let mut child = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(bench.0.path())
+        .current_dir(bench.folder())
         .args(["run", "-", "--html", "report.html"])
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
@@ -420,7 +375,7 @@ fn a_program_from_a_pipe_has_a_report() {
     input.write_all(FRICTION.as_bytes()).expect("written");
     drop(input);
     assert!(child.wait().expect("it ends").success());
-    let report = fs::read_to_string(bench.path("report.html")).expect("a report");
+    let report = bench.read("report.html");
     assert_sound(&report);
     assert!(part(&report, "source").contains("N45 X[COMP OFF FRICT]"));
     assert!(part(&report, "source").contains("cannot be read a second time"));
@@ -430,25 +385,21 @@ fn a_program_from_a_pipe_has_a_report() {
 fn a_circular_test_has_a_report() {
     // R9.50, R5.23
     let bench = Bench::new(&[]);
-    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
-        .current_dir(bench.0.path())
-        .args([
-            "circle",
-            "--feed",
-            "5000",
-            "--radius",
-            "50",
-            "--html",
-            "report.html",
-        ])
-        .output()
-        .expect("the tool starts");
+    let output = bench.call(&[
+        "circle",
+        "--feed",
+        "5000",
+        "--radius",
+        "50",
+        "--html",
+        "report.html",
+    ]);
     assert!(
         output.status.success(),
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    let report = fs::read_to_string(bench.path("report.html")).expect("a report");
+    let report = bench.read("report.html");
     assert_sound(&report);
     assert!(part(&report, "picture").contains("deviation magnified"));
     let figures = part(&report, "figures");
@@ -562,8 +513,8 @@ fn the_report_works_in_a_browser() {
     }
     program.push_str("M30\n");
     let bench = Bench::new(&[("long.nc", &program)]);
-    let report = bench.report(&["long.nc", "--changes"]);
-    let (dom, log) = load(&browser, &bench.path("report.html"));
+    let report = report_of(&bench, &["long.nc", "--changes"]);
+    let (dom, log) = load(&browser, &bench.folder().join("report.html"));
     assert!(
         dom.contains("N199999 G01"),
         "not all of the page is there: {log}"
@@ -577,7 +528,7 @@ fn the_report_works_in_a_browser() {
         )
         .replace("</body>", &format!("{PROBE}</body>"));
     bench.write("probed.html", &probed);
-    let (dom, log) = load(&browser, &bench.path("probed.html"));
+    let (dom, log) = load(&browser, &bench.folder().join("probed.html"));
     let body = body_tag(&dom);
     for wanted in [
         "data-fold=\"opens\"",
@@ -592,7 +543,7 @@ fn the_report_works_in_a_browser() {
         "guarded.html",
         &report.replace("</body>", &format!("{PROBE}</body>")),
     );
-    let (dom, log) = load(&browser, &bench.path("guarded.html"));
+    let (dom, log) = load(&browser, &bench.folder().join("guarded.html"));
     assert_eq!(body_tag(&dom), "", "a script ran");
     assert!(log.contains("Content Security Policy"), "{log}");
 }

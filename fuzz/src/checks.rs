@@ -30,13 +30,7 @@ pub fn check_run(files: Files<'_>, way: usize) {
 
 /// Whatever a run saves, the next run reads, and starts with exactly that.
 pub fn check_saved(files: Files<'_>, way: usize) {
-    let bench = Bench {
-        files,
-        stop: POLICIES[way % 3],
-    };
-    let mut nothing = Ndjson::new(sink(), View::default());
-    let mut session = Session::new(machine(), bench.options());
-    bench.session(&mut session, &mut nothing);
+    let (bench, session) = finished(files, way);
     let left = session.save();
     let text = serde_json::to_string(&left).expect("a state is JSON");
     let read: SavedState = serde_json::from_str(&text).expect("what was saved is read");
@@ -45,18 +39,12 @@ pub fn check_saved(files: Files<'_>, way: usize) {
         .unwrap_or_else(|error| panic!("the own state is refused: {error}\n{text}"));
     let again = serde_json::to_string(&next.save()).expect("a state is JSON");
     assert_eq!(again, text, "a state that nobody touched is another one");
-    bench.whole(&mut next, &mut nothing);
+    bench.whole(&mut next, &mut Ndjson::new(sink(), View::default()));
 }
 
 /// Runs a program that grows: the budget of work ends it, and what it holds stays small.
 pub fn check_growth(files: Files<'_>, way: usize) {
-    let bench = Bench {
-        files,
-        stop: POLICIES[way % 3],
-    };
-    let mut nothing = Ndjson::new(sink(), View::default());
-    let mut session = Session::new(machine(), bench.options());
-    bench.session(&mut session, &mut nothing);
+    let (bench, session) = finished(files, way);
     check_work(&session, files);
     // Lengths are all that grows in a state; a text counts once more for every 32 bytes.
     let held = serde_json::to_string(&session.save()).expect("a state is JSON");
@@ -67,6 +55,17 @@ pub fn check_growth(files: Files<'_>, way: usize) {
         "the run holds {} bytes, {most} are allowed",
         held.len()
     );
+}
+
+/// A session that has run a program, in one way of several.
+fn finished(files: Files<'_>, way: usize) -> (Bench<'_>, Session) {
+    let bench = Bench {
+        files,
+        stop: POLICIES[way % 3],
+    };
+    let mut session = Session::new(machine(), bench.options());
+    bench.session(&mut session, &mut Ndjson::new(sink(), View::default()));
+    (bench, session)
 }
 
 /// The work of a run is bounded by its budgets and its texts.

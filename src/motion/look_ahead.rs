@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use super::junction::Junction;
 use super::limits::AxisLimits;
@@ -10,7 +9,7 @@ use super::plan::{Stage, Stretch, plan};
 use super::sampler::Sampler;
 use super::segment::Segment;
 use super::share::Share;
-use super::trace::{Cause, TraceSink};
+use super::trace::{Dwell, TraceSink};
 
 /// How many segments are looked at together. The path is planned to a stop after the last one;
 /// half of the plan is kept, the rest is planned anew when more segments are known.
@@ -84,14 +83,9 @@ impl LookAhead {
     }
 
     /// Lets the axes rest.
-    pub(super) fn rest(
-        &mut self,
-        seconds: f64,
-        cause: &Arc<Cause>,
-        sink: &mut dyn TraceSink,
-    ) -> ControlFlow<()> {
+    pub(super) fn rest(&mut self, dwell: Dwell<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         self.drain(sink)?;
-        self.sampler.rest(seconds, cause, sink)
+        self.sampler.rest(dwell, sink)
     }
 
     /// Follows the path to its end and stops there.

@@ -8,7 +8,7 @@ use super::limits::AxisLimits;
 use super::look_ahead::LookAhead;
 use super::sampler::Sampler;
 use super::segment::{Ends, SAME_PLACE, Segment};
-use super::trace::{Cause, TraceSink};
+use super::trace::{Cause, Dwell, TraceSink};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{Form, Motion, PathFeed, Travel};
@@ -241,8 +241,11 @@ impl TrajectoryPlanner {
         }
         match seconds {
             Some(seconds) if seconds >= 0.0 && seconds.is_finite() => {
-                let cause = self.cause(row);
-                self.look_ahead.rest(seconds, &cause, sink)
+                let dwell = Dwell {
+                    seconds,
+                    cause: &self.cause(row),
+                };
+                self.look_ahead.rest(dwell, sink)
             }
             Some(_) => self.lose(row, "a dwell time must not be negative", sink),
             None => self.lose(row, "the dwell time is not known", sink),

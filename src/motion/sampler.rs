@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::profile::VelocityProfile;
 use super::segment::Segment;
-use super::trace::{Cause, Sample, TraceSink};
+use super::trace::{Cause, Dwell, Sample, TraceSink};
 use crate::comp::AxisIndex;
 
 /// Goes along profiles in steps of a CNC cycle.
@@ -96,13 +96,9 @@ impl Sampler {
         ControlFlow::Continue(())
     }
 
-    /// Rests for some seconds where the path ends.
-    pub(super) fn rest(
-        &mut self,
-        seconds: f64,
-        cause: &Arc<Cause>,
-        sink: &mut dyn TraceSink,
-    ) -> ControlFlow<()> {
+    /// Rests where the path ends.
+    pub(super) fn rest(&mut self, dwell: Dwell<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        let Dwell { seconds, cause } = dwell;
         self.end += seconds;
         self.velocities.fill(0.0);
         self.last = Some(Arc::clone(cause));

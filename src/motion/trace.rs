@@ -32,6 +32,13 @@ pub struct Sample<'a> {
     pub cause: &'a Arc<Cause>,
 }
 
+/// A stay where the path ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dwell<'a> {
+    pub(super) seconds: f64,
+    pub(super) cause: &'a Arc<Cause>,
+}
+
 /// Takes a commanded trace.
 pub trait TraceSink {
     /// The trace begins, or begins anew after something that is not known. The axes stand still.

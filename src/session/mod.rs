@@ -2,7 +2,7 @@
 //!
 //! The state that one program leaves is the state that the next one starts with.
 
-mod desk;
+mod recorder;
 mod said;
 mod saved;
 mod undescribed;
@@ -25,7 +25,7 @@ use crate::lint::{History, Linter, Told};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
-use desk::{Desk, NoteBook, Tally};
+use recorder::{NoteBook, Recorder, Tally};
 use said::Said;
 use saved::{fingerprint, storable};
 
@@ -258,7 +258,7 @@ impl Session {
     ) -> ControlFlow<(), EndedBy> {
         self.programs += 1;
         let machine = Arc::clone(&self.machine);
-        let mut desk = Desk {
+        let mut recorder = Recorder {
             machine: &machine,
             levels: &self.levels,
             linter: Linter::new(&machine, &mut self.history, file),
@@ -273,13 +273,13 @@ impl Session {
             here: Vec::new(),
             broken: false,
         };
-        let mut listen = |event: Event<'_>| desk.event(event);
+        let mut listen = |event: Event<'_>| recorder.event(event);
         let outcome = match program {
             Program::Lines(lines) => self.interpreter.stream(file, lines, finder, &mut listen),
             Program::Whole(source) => self.interpreter.program(source, finder, &mut listen),
         };
         match outcome {
-            RunOutcome::Ended(by) if !desk.broken => {
+            RunOutcome::Ended(by) if !recorder.broken => {
                 self.stopped |= matches!(by, EndedBy::Error | EndedBy::Budget);
                 ControlFlow::Continue(by)
             }

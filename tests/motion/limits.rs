@@ -1,6 +1,7 @@
 //! R5.2: velocity, acceleration and jerk of each axis in every cycle.
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 use frictcomp::motion::{Bounds, VelocityProfile};
 
@@ -194,7 +195,24 @@ proptest! {
 }
 
 /// Seconds that rsruckig takes for a change of state without acceleration at both ends.
+///
+/// Its searches have absolute tolerances: for some numbers they fail, for others they end at a
+/// motion that is possible but not the fastest. The time does not depend on the unit of length, so
+/// the shortest of all units is taken.
 fn reference(start: f64, end: f64, length: f64, bounds: &Bounds) -> f64 {
+    let units = [1.0, 1e-3, 1e3, 0.1, 10.0, 1e-2, 1e2];
+    let times = units.iter().filter_map(|unit| {
+        let bounds = Bounds {
+            velocity: bounds.velocity * unit,
+            acceleration: bounds.acceleration * unit,
+            jerk: bounds.jerk * unit,
+        };
+        reference_in_one_unit(start * unit, end * unit, length * unit, &bounds)
+    });
+    times.fold(f64::INFINITY, f64::min)
+}
+
+fn reference_in_one_unit(start: f64, end: f64, length: f64, bounds: &Bounds) -> Option<f64> {
     use rsruckig::prelude::*;
     let mut input = InputParameter::<1>::new(None);
     input.current_position = daov_stack![0.0];
@@ -209,12 +227,21 @@ fn reference(start: f64, end: f64, length: f64, bounds: &Bounds) -> f64 {
     let mut trajectory = Trajectory::<1>::new(None);
     let mut generator = Ruckig::<1, ThrowErrorHandler>::new(None, CYCLE);
     let result = generator.calculate(&input, &mut trajectory);
-    assert!(result.is_ok(), "{result:?}");
-    trajectory.get_duration()
+    result.is_ok().then(|| trajectory.get_duration())
+}
+
+/// So many cases, the same each time unless `PROPTEST_RNG_SEED` asks for others.
+fn seeded(cases: u32) -> ProptestConfig {
+    let config = ProptestConfig::with_cases(cases);
+    let rng_seed = match config.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(20_260_101),
+        given @ RngSeed::Fixed(_) => given,
+    };
+    ProptestConfig { rng_seed, ..config }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(seeded(2000))]
 
     #[test]
     fn profiles_take_the_time_of_the_reference(

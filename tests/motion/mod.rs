@@ -1,4 +1,4 @@
-//! A bench that runs a program and keeps its commanded trace.
+//! Runs a program and keeps its commanded trace.
 
 #[cfg(feature = "cli")]
 mod command;
@@ -90,12 +90,13 @@ impl TraceSink for Trace {
     }
 }
 
-struct Bench {
+/// A planner and the trace that it makes.
+struct Planned {
     planner: TrajectoryPlanner,
     trace: Trace,
 }
 
-impl Sink for Bench {
+impl Sink for Planned {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match record {
             Record::Block(row) => self.planner.block(row, &mut self.trace),
@@ -116,7 +117,7 @@ pub(crate) fn trace_of(
         .iter()
         .map(|name| machine.find(name).expect("an axis"))
         .collect();
-    let mut bench = Bench {
+    let mut planned = Planned {
         planner: TrajectoryPlanner::new(&machine, &followed, options),
         trace: Trace::default(),
     };
@@ -128,15 +129,15 @@ pub(crate) fn trace_of(
         },
     );
     let source = SourceFile::new("a.nc", program);
-    let flow = session.program("a.nc", Program::Whole(source), &mut NoFiles, &mut bench);
+    let flow = session.program("a.nc", Program::Whole(source), &mut NoFiles, &mut planned);
     if flow.is_continue() {
-        let _ = bench.planner.finish(&mut bench.trace);
+        let _ = planned.planner.finish(&mut planned.trace);
     }
-    let said = bench.planner.diagnostics().iter();
-    bench.trace.said = said
+    let said = planned.planner.diagnostics().iter();
+    planned.trace.said = said
         .map(|diagnostic| (diagnostic.code.to_string(), diagnostic.place.first_line))
         .collect();
-    bench.trace
+    planned.trace
 }
 
 /// The trace of the named axes on the machine of these tests.

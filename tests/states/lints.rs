@@ -2,12 +2,14 @@
 
 use insta::assert_snapshot;
 
-use super::program::MACHINE;
+use super::program::machine_text;
 use crate::support::Bench;
 
 /// What is said under each program of a session: code, place, message, advice.
 fn said(programs: &[&str]) -> String {
-    Bench::on(MACHINE).keep_going().said_in_session(programs)
+    Bench::on(&machine_text())
+        .keep_going()
+        .said_in_session(programs)
 }
 
 #[test]
@@ -164,7 +166,7 @@ fn remarks_on_the_text_of_a_command() {
 #[test]
 fn an_error_ends_without_blame() {
     // R1.50 R1.53: the program is not blamed for what it did not come to; who made it so is known.
-    let bench = Bench::on(MACHINE);
+    let bench = Bench::on(&machine_text());
     assert_snapshot!(bench.said_in_session(&["X1\nX[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30"]), @"
     P-ERR-70495 3:1 friction compensation of axis `Z` is switched on, but P-AXIS-00522 is not set
       help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control

@@ -1,6 +1,9 @@
 //! Programs made at random, with the blocks that they execute.
 
 use fastrand::Rng;
+use frictcomp::machine::Machine;
+
+use crate::support::MACHINE;
 
 /// The axes of the machine below; Z has no friction compensation, B no value list.
 pub(crate) const AXES: [&str; 4] = ["X", "Y", "Z", "B"];
@@ -8,26 +11,19 @@ pub(crate) const AXES: [&str; 4] = ["X", "Y", "Z", "B"];
 /// Kinds that commands name.
 pub(crate) const KINDS: [&str; 3] = ["FRICT", "LEAD", "CROSS"];
 
-/// X has all three kinds, of which CROSS falls off at program end; Y and B have FRICT, Z has LEAD.
-pub(crate) const MACHINE: &str = r#"
-[[axis]]
-name = "X"
-frict_comp = true
-compensations = ["FRICT", "LEAD", "CROSS"]
-manual_activation = ["CROSS"]
-value = { mode = 3, table = [[0, 12], [1800, 10]] }
-[[axis]]
-name = "Y"
-frict_comp = true
-value = { mode = 3, table = [[0, 12], [1800, 10]] }
-[[axis]]
-name = "Z"
-compensations = ["LEAD"]
-[[axis]]
-name = "B"
-type = "R"
-frict_comp = true
-"#;
+/// The machine of the other tests, where X has all three kinds, of which CROSS falls off at program
+/// end, and Z has LEAD.
+pub(crate) fn machine_text() -> String {
+    let x = "compensations = [\"FRICT\", \"LEAD\", \"CROSS\"]\nmanual_activation = [\"CROSS\"]";
+    MACHINE
+        .replace("name = \"X\"", &format!("name = \"X\"\n{x}"))
+        .replace("name = \"Z\"", "name = \"Z\"\ncompensations = [\"LEAD\"]")
+}
+
+/// The same, read.
+pub(crate) fn machine() -> Machine {
+    Machine::from_toml(&machine_text()).expect("the machine")
+}
 
 /// What a command says of an axis.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,12 +2,12 @@
 
 use fastrand::Rng;
 use frictcomp::interpreter::Value;
-use frictcomp::machine::{Machine, Setting};
+use frictcomp::machine::Setting;
 use frictcomp::session::{SavedState, Session, StateError};
 use frictcomp::timeline::{Record, Sink};
 use std::ops::ControlFlow;
 
-use super::program::MACHINE;
+use super::program::machine;
 use super::sessions::{options, play, resumed};
 use crate::folder::{Bench, json};
 
@@ -20,7 +20,7 @@ impl Sink for Nobody {
 }
 
 fn left_off() -> Session {
-    let mut session = Session::new(Machine::from_toml(MACHINE).expect("a machine"), options());
+    let mut session = Session::new(machine(), options());
     let program = "%FRICTION\nN10 X[COMP OFF FRICT] ; known\nY[COMP OFF FRICT]\nM30\n";
     play(&mut session, ("friction.nc", program), &mut Nobody);
     session
@@ -41,8 +41,7 @@ fn it_says_who_made_a_state() {
 fn refusal(change: impl FnOnce(&mut SavedState)) -> String {
     let mut saved = left_off().save();
     change(&mut saved);
-    let machine = Machine::from_toml(MACHINE).expect("a machine");
-    match Session::resume(machine, options(), saved) {
+    match Session::resume(machine(), options(), saved) {
         Ok(_) => String::new(),
         Err(error @ (StateError::Damaged { .. } | StateError::OtherMachine { .. })) => {
             error.to_string()
@@ -76,8 +75,7 @@ fn axes_are_matched_by_name() {
     let mut saved = left_off().save();
     saved.axes.swap(0, 1);
     saved.axes[0].selected = saved.axes[3].selected;
-    let machine = Machine::from_toml(MACHINE).expect("a machine");
-    let (session, _) = Session::resume(machine, options(), saved).unwrap();
+    let (session, _) = Session::resume(machine(), options(), saved).unwrap();
     let text = serde_json::to_string(&session.save().axes).unwrap();
     assert!(text.find("\"X\"") < text.find("\"Y\""), "{text}");
     let state = session.state();
@@ -182,7 +180,6 @@ fn whatever_is_saved_is_read() {
             };
             settings.settings.push((format!("V.S.N{at}"), value));
         }
-        let machine = || Machine::from_toml(MACHINE).expect("a machine");
         let mut session = Session::new(machine(), settings);
         let program = "V.S.B = V.S.N0\nV.S.U = V.E.X\n#VAR\nV.S.A[2,3]\n#ENDVAR\nV.S.A[1,1] = 2\nX1e300\nM30\n";
         play(&mut session, ("a.nc", program), &mut Nobody);

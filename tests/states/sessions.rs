@@ -14,7 +14,7 @@ use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
 use super::model::{Model, Said};
-use super::program::{AXES, MACHINE, Program};
+use super::program::{AXES, Program, machine};
 
 const LINTS: [&str; 4] = ["FC401", "FC402", "FC403", "FC407"];
 
@@ -23,10 +23,6 @@ pub(crate) fn options() -> SessionOptions {
         stop: StopPolicy::KeepGoing,
         ..SessionOptions::default()
     }
-}
-
-fn machine() -> Machine {
-    Machine::from_toml(MACHINE).expect("the machine")
 }
 
 /// Keeps the lints.

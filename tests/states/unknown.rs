@@ -1,10 +1,12 @@
 //! The lints where a state is not known offline.
 
-use super::program::MACHINE;
+use super::program::machine_text;
 use crate::support::Bench;
 
 fn said(programs: &[&str]) -> String {
-    Bench::on(MACHINE).keep_going().said_in_session(programs)
+    Bench::on(&machine_text())
+        .keep_going()
+        .said_in_session(programs)
 }
 
 #[test]
@@ -55,7 +57,7 @@ fn a_loop_without_an_end_is_left_by_a_reset() {
 fn a_program_that_never_ended_was_not_judged() {
     // R9.24: the comment may be of use once the error is mended.
     let allow = "; frictcomp: allow FC401 FC407\nX[COMP OFF FRICT]\n";
-    let stopped = Bench::on(MACHINE).said(&format!("{allow}S[COMP ON FRICT]\nM30"));
+    let stopped = Bench::on(&machine_text()).said(&format!("{allow}S[COMP ON FRICT]\nM30"));
     assert!(!stopped.contains("FC490"), "{stopped}");
     let ended = said(&[&format!("{allow}X[COMP ON FRICT]\nM30")]);
     assert!(ended.contains("FC490"), "{ended}");

@@ -12,26 +12,11 @@ use crate::report::circle::{CircleReport, Subject, advice_lines, conditions, tab
 use crate::report::pictures::{circle, value_curve};
 use crate::report::svg::Frame;
 
-const PICTURE: Part = Part {
-    id: "picture",
-    title: "Circle",
-};
-const FIGURES: Part = Part {
-    id: "figures",
-    title: "Figures",
-};
-const ADVICE: Part = Part {
-    id: "advice",
-    title: "What the shapes suggest",
-};
-const CURVES: Part = Part {
-    id: "curves",
-    title: "Value lists",
-};
-const CONDITIONS: Part = Part {
-    id: "conditions",
-    title: "Conditions",
-};
+const PICTURE: Part = Part::new("picture", "Circle");
+const FIGURES: Part = Part::new("figures", "Figures");
+const ADVICE: Part = Part::new("advice", "What the shapes suggest");
+const CURVES: Part = Part::new("curves", "Value lists");
+const CONDITIONS: Part = Part::new("conditions", "Conditions");
 
 /// Writes the report of a circular test as one page.
 ///

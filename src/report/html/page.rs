@@ -35,8 +35,14 @@ pub(super) struct Page<'a> {
 /// A part of the page that the navigation leads to.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Part {
-    pub(super) id: &'static str,
+    id: &'static str,
     pub(super) title: &'static str,
+}
+
+impl Part {
+    pub(super) const fn new(id: &'static str, title: &'static str) -> Self {
+        Self { id, title }
+    }
 }
 
 impl<'a> Page<'a> {

@@ -17,34 +17,13 @@ use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
 use crate::report::assumptions::Met;
 use crate::timeline::ChangedBy;
 
-const LEFT: Part = Part {
-    id: "left",
-    title: "What is left",
-};
-const STATES: Part = Part {
-    id: "states",
-    title: "States over the blocks",
-};
-const MESSAGES: Part = Part {
-    id: "messages",
-    title: "Messages",
-};
-const SOURCE: Part = Part {
-    id: "source",
-    title: "Source",
-};
-const MACHINE: Part = Part {
-    id: "machine",
-    title: "Machine and parameters",
-};
-const CURVES: Part = Part {
-    id: "curves",
-    title: "Value lists",
-};
-const READING: Part = Part {
-    id: "reading",
-    title: "Assumptions",
-};
+const LEFT: Part = Part::new("left", "What is left");
+const STATES: Part = Part::new("states", "States over the blocks");
+const MESSAGES: Part = Part::new("messages", "Messages");
+const SOURCE: Part = Part::new("source", "Source");
+const MACHINE: Part = Part::new("machine", "Machine and parameters");
+const CURVES: Part = Part::new("curves", "Value lists");
+const READING: Part = Part::new("reading", "Assumptions");
 
 /// Writes the report of a session as one page. The sources are read once more, line by line.
 ///

@@ -1,5 +1,5 @@
-//! The desk at which events of a program become records: lints are added, the user's severities
-//! and `allow` comments applied, everything is counted.
+//! Events of a program become records: lints are added, the user's severities and `allow` comments
+//! applied, everything is counted.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
@@ -56,7 +56,7 @@ pub(super) struct Allow {
 }
 
 /// Turns the events of one program into records.
-pub(super) struct Desk<'a> {
+pub(super) struct Recorder<'a> {
     pub(super) machine: &'a Machine,
     pub(super) levels: &'a Levels,
     pub(super) linter: Linter<'a>,
@@ -74,7 +74,7 @@ pub(super) struct Desk<'a> {
     pub(super) broken: bool,
 }
 
-impl Desk<'_> {
+impl Recorder<'_> {
     pub(super) fn event(&mut self, event: Event<'_>) -> ControlFlow<()> {
         let flow = match event {
             Event::Started {

@@ -25,8 +25,8 @@ fn watch(machine: &Machine, event: Event<'_>, stop_after: Option<i64>) -> Contro
         let axis = &machine.axis(change.axis).name;
         say(&format!(
             "    {axis}: {} → {}",
-            change.from.word(),
-            change.to.word()
+            change.from.as_str(),
+            change.to.as_str()
         ));
     }
     if stop_after.is_some() && block.number == stop_after {

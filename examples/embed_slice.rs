@@ -47,8 +47,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         let axis = &machine.axis(change.axis).name;
                         say(&format!(
                             "{block}: {axis} {} → {}",
-                            change.from.word(),
-                            change.to.word()
+                            change.from.as_str(),
+                            change.to.as_str()
                         ));
                     }
                 }

@@ -14,7 +14,7 @@
 //! let machine = Machine::enabled(["X"]);
 //! let mut compensation = machine.compensation();
 //! let changes = compensation.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
-//! assert_eq!(changes[0].to.word(), "inactive");
+//! assert_eq!(changes[0].to.as_str(), "inactive");
 //! let refused = compensation.apply(&parse_comp("Y[COMP ON FRICT]")?).unwrap_err();
 //! assert_eq!(refused.code().text(), "P-ERR-70495");
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -52,7 +52,7 @@ fn band(from: f64, to: f64, state: BandState) -> Band {
         from,
         to,
         state,
-        title: format!("from {from} to {to}: {}", state.word()),
+        title: format!("from {from} to {to}: {}", state.as_str()),
         href: Some("#line-1".to_owned()),
     }
 }

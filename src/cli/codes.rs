@@ -35,7 +35,7 @@ pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
     match args.format {
         Format::Text => {
             for code in Code::ALL {
-                let severity = code.severity().word();
+                let severity = code.severity().as_str();
                 let _ = writeln!(
                     output,
                     "{:<12}  {severity:<7}  {}",
@@ -51,7 +51,7 @@ pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
                 .map(|code| {
                     json!({
                         "code": code.text(),
-                        "severity": code.severity().word(),
+                        "severity": code.severity().as_str(),
                         "title": code.title(),
                     })
                 })

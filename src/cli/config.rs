@@ -117,7 +117,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
             output,
             "{:<8}  {kind:<4}  {:<12}  {:<12}  {list}",
             axis.name,
-            state.word(),
+            state.as_str(),
             format!("{value} {origin}"),
         );
     }

@@ -209,7 +209,7 @@ pub(super) fn explain(code: Code) -> String {
 }
 
 fn row((code, severity): (Code, Severity), count: u64) -> String {
-    let (word, title) = (severity.word(), code.title());
+    let (word, title) = (severity.as_str(), code.title());
     format!("{count:>7}  {word:<7}  {:<12}  {title}\n", code.text())
 }
 
@@ -239,7 +239,7 @@ fn record((code, severity): (Code, Severity), count: u64) -> Value {
     json!({
         "record": "statistic",
         "code": code.text(),
-        "severity": severity.word(),
+        "severity": severity.as_str(),
         "count": count,
         "title": code.title(),
     })

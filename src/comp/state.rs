@@ -1,5 +1,7 @@
 //! The state of a kind on an axis, and its change.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::axis::AxisIndex;
@@ -23,7 +25,7 @@ pub enum State {
 
 impl State {
     /// The word of the records.
-    pub fn word(self) -> &'static str {
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::Active => "active",
             Self::Ineffective => "ineffective",
@@ -31,6 +33,12 @@ impl State {
             Self::Unconfigured => "unconfigured",
             Self::Unknown => "unknown",
         }
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
     }
 }
 

@@ -5,7 +5,8 @@ use super::section::{Section, Shape};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Label;
 use crate::lists::{
-    AXIS_NAME_HELP, AxisType, AxisValues, Field, FrictionDraft, Given, WrittenPoint, is_axis_name,
+    AXIS_NAME_HELP, AxisValues, Field, FrictionDraft, Given, UnknownAxisType, WrittenPoint,
+    is_axis_name,
 };
 
 /// What `[[axis]]` says.
@@ -127,9 +128,8 @@ fn values(section: &Section<'_>) -> Result<AxisValues, ConfigError> {
         ..AxisValues::default()
     };
     if let Some(letter) = section.string("type")? {
-        let axis_type = AxisType::from_letter(&letter.value);
-        let axis_type = axis_type.ok_or_else(|| {
-            ConfigError::at(&letter, format!("`{}` is not an axis type", letter.value))
+        let axis_type = letter.value.parse().map_err(|error: UnknownAxisType| {
+            ConfigError::at(&letter, error.to_string())
                 .with_help("write `T` for linear, `R` for rotary, `S` for a spindle")
         })?;
         values.axis_type = Some(letter.with(axis_type));

@@ -30,7 +30,7 @@ pub struct CurrentSample {
 /// some cycles ahead, so that the currents come out as many cycles later (R4.2).
 pub struct Followers {
     axes: Vec<Follower>,
-    /// How many cycles the currents lag behind.
+    /// How many cycles the currents lag after.
     lag: usize,
     samples: Vec<CurrentSample>,
 }

@@ -1,5 +1,7 @@
 //! How much a diagnostic weighs.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 /// How much a diagnostic weighs.
@@ -16,11 +18,17 @@ pub enum Severity {
 
 impl Severity {
     /// The word of the records: `error`, `warning`, `info`.
-    pub fn word(self) -> &'static str {
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::Info => "info",
             Self::Warning => "warning",
             Self::Error => "error",
         }
+    }
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
     }
 }

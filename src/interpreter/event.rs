@@ -1,6 +1,7 @@
 //! What the interpreter tells while it runs.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -30,7 +31,7 @@ pub enum EndedBy {
 
 impl EndedBy {
     /// The word of the records.
-    pub fn word(self) -> &'static str {
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::M30 => "M30",
             Self::M02 => "M02",
@@ -38,6 +39,12 @@ impl EndedBy {
             Self::Error => "error",
             Self::Budget => "budget",
         }
+    }
+}
+
+impl fmt::Display for EndedBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
     }
 }
 

@@ -68,9 +68,9 @@ impl Subject<'_> {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
         let message = format!(
             "`{keyword}` of axis `{name}` is left {} past {}; the control starts with it {}",
-            self.end.word(),
+            self.end.as_str(),
             self.past,
-            self.linter.history.home(self.axis, self.kind).word()
+            self.linter.history.home(self.axis, self.kind).as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
@@ -88,9 +88,9 @@ impl Subject<'_> {
         let message = format!(
             "`{keyword}` of axis `{name}` may be left {} past {}, which is not known offline; the \
              control starts with it {}",
-            away.word(),
+            away.as_str(),
             self.past,
-            home.word()
+            home.as_str()
         );
         let help = format!("bring it home before M30: `{name}[COMP {way} {keyword}]`");
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
@@ -106,7 +106,7 @@ impl Subject<'_> {
              `{keyword}`, and line {} leaves it {}",
             moved.seen_from(&place.file),
             place.start().line,
-            self.end.word()
+            self.end.as_str()
         );
         Diagnostic::new(Code::Fc407, place.clone(), message)
             .with_axis(name)

@@ -25,9 +25,9 @@ pub(super) fn lint(
         (State::Unknown, _) => "moves in an unknown state of friction compensation".to_owned(),
         // A region that may or may not be executed could have switched it (R2.51).
         (found, State::Unknown) => {
-            format!("may move with friction compensation {}", found.word())
+            format!("may move with friction compensation {}", found.as_str())
         }
-        (_, known) => format!("moves with friction compensation {}", known.word()),
+        (_, known) => format!("moves with friction compensation {}", known.as_str()),
     };
     let who = match linter.history.maker(axis, Kind::Frict) {
         Some(maker) => named(maker),

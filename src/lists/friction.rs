@@ -56,7 +56,7 @@ impl Field {
         Self::DelayCycles,
     ];
 
-    /// The name behind `frict_comp.`.
+    /// The name after `frict_comp.`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mode => "mode",
@@ -69,7 +69,7 @@ impl Field {
         }
     }
 
-    /// The parameter with this name behind `frict_comp.`.
+    /// The parameter with this name after `frict_comp.`.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|field| field.name() == name)
     }
@@ -176,7 +176,7 @@ impl FrictionDraft {
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut draft = Self::default();
         for entry in &list.entries {
-            let Some(rest) = behind_structure(&entry.pattern) else {
+            let Some(rest) = after_structure(&entry.pattern) else {
                 continue;
             };
             let index = entry.indices.first().copied();
@@ -309,8 +309,8 @@ fn floored(field: Field, written: &Written) -> bool {
 /// What the keys of friction compensation begin with.
 pub(super) const STRUCTURE: &str = "frict_comp.";
 
-/// What stands behind `frict_comp` in a key of that structure, in whatever case it is written.
-fn behind_structure(pattern: &str) -> Option<&str> {
+/// What stands after `frict_comp` in a key of that structure, in whatever case it is written.
+fn after_structure(pattern: &str) -> Option<&str> {
     let name = STRUCTURE.trim_end_matches('.');
     let (head, rest) = pattern.split_at_checked(name.len())?;
     let ours = head.eq_ignore_ascii_case(name) && (rest.is_empty() || rest.starts_with(['.', '[']));

@@ -27,7 +27,7 @@ pub struct Entry {
     pub indices: Vec<u32>,
     /// Where the key stands.
     pub key_span: Span,
-    /// Everything behind the key, without blanks at either end.
+    /// Everything after the key, without blanks at either end.
     pub value_span: Span,
     source: Arc<SourceFile>,
 }
@@ -112,7 +112,7 @@ impl Entry {
             words.push(self.part(start..start + end));
             rest = rest[end..].trim_start();
             match rest.strip_prefix('|') {
-                Some(behind) => rest = behind,
+                Some(after) => rest = after,
                 None => return words,
             }
         }
@@ -318,7 +318,7 @@ impl Reader<'_> {
         let mut line = whole.trim_start_matches('\u{feff}').trim_start();
         while let Some(comment) = line.strip_prefix("/*") {
             match comment.split_once("*/") {
-                Some((_, behind)) => line = behind.trim_start(),
+                Some((_, after)) => line = after.trim_start(),
                 None => return Line::Odd("a comment is not closed on its line"),
             }
         }
@@ -355,7 +355,7 @@ impl Reader<'_> {
             if pattern.is_empty() {
                 break;
             }
-            let Some((index, behind)) = bracket.split_once(']') else {
+            let Some((index, after)) = bracket.split_once(']') else {
                 return Line::Odd("an index is not closed");
             };
             let index = index.trim();
@@ -364,7 +364,7 @@ impl Reader<'_> {
                 _ => return Line::Odd("an index is no number that a table can have"),
             }
             pattern.push_str("[]");
-            rest = behind;
+            rest = after;
         }
         let key_end = line.len() - rest.len();
         let value = rest.trim();

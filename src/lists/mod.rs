@@ -16,7 +16,7 @@ pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 pub use line::{Entries, Entry};
-pub use parameter::{AxisType, Origin, Parameter};
+pub use parameter::{AxisType, Origin, Parameter, UnknownAxisType};
 pub use program::{ChannelPrograms, Role};
 pub use startup::{ChannelAxis, ChannelList, ListKind, NamedList, StartupList};
 pub use table::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};

@@ -1,6 +1,9 @@
 //! What a parameter is worth in the end, and where that came from.
 
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::value::Given;
 
@@ -28,14 +31,23 @@ impl AxisType {
             Self::Spindle => "4",
         }
     }
+}
+
+/// A text that names no axis type.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{0}` is not an axis type")]
+pub struct UnknownAxisType(pub String);
+
+impl FromStr for AxisType {
+    type Err = UnknownAxisType;
 
     /// The type that a letter of the parameter descriptions names: `T`, `R`, `S`.
-    pub fn from_letter(letter: &str) -> Option<Self> {
+    fn from_str(letter: &str) -> Result<Self, Self::Err> {
         match letter {
-            "T" => Some(Self::Linear),
-            "R" => Some(Self::Rotary),
-            "S" => Some(Self::Spindle),
-            _ => None,
+            "T" => Ok(Self::Linear),
+            "R" => Ok(Self::Rotary),
+            "S" => Ok(Self::Spindle),
+            _ => Err(UnknownAxisType(letter.to_owned())),
         }
     }
 }

@@ -99,7 +99,7 @@ impl ListKind {
     }
 
     /// What it is called, with its article: `a start-up list`.
-    pub fn word(self) -> &'static str {
+    pub fn noun(self) -> &'static str {
         match self {
             Self::Startup => "a start-up list",
             Self::Channel => "a channel list",

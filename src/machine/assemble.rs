@@ -138,9 +138,9 @@ impl AxisDraft {
             max_points_place: max_points_given
                 .map(Given::place)
                 .or_else(|| anchor.as_ref().map(Given::place)),
-            max_velocity: self.dynamics.velocity,
-            max_acceleration: self.dynamics.acceleration,
-            max_jerk: self.dynamics.jerk,
+            max_velocity_per_min: self.dynamics.velocity,
+            max_acceleration_per_s2: self.dynamics.acceleration,
+            max_jerk_per_s3: self.dynamics.jerk,
         };
         if self.enabled {
             axis.enable();

@@ -52,11 +52,11 @@ pub struct Axis {
     /// Where that size stands, or else the value list; `None` without a value list.
     pub max_points_place: Option<Place>,
     /// The maximum velocity in mm/min or °/min, where known.
-    pub max_velocity: Option<f64>,
+    pub max_velocity_per_min: Option<f64>,
     /// The maximum acceleration in m/s² or °/s², where known.
-    pub max_acceleration: Option<f64>,
+    pub max_acceleration_per_s2: Option<f64>,
     /// The maximum jerk in m/s³ or °/s³, where known.
-    pub max_jerk: Option<f64>,
+    pub max_jerk_per_s3: Option<f64>,
 }
 
 impl Axis {
@@ -73,9 +73,9 @@ impl Axis {
             friction: Parameterisation::Missing,
             max_points: DEFAULT_MAX_POINTS,
             max_points_place: None,
-            max_velocity: None,
-            max_acceleration: None,
-            max_jerk: None,
+            max_velocity_per_min: None,
+            max_acceleration_per_s2: None,
+            max_jerk_per_s3: None,
         }
     }
 

@@ -5,7 +5,7 @@ use crate::lists::{Entries, Entry, ListKind};
 /// What a file is, with its article: `a value list`, `a program`.
 pub(super) fn describe(entries: &Entries) -> &'static str {
     if let Some(kind) = ListKind::detect(entries) {
-        return kind.word();
+        return kind.noun();
     }
     let text = entries.source().text();
     let first = text

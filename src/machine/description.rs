@@ -27,7 +27,7 @@ pub struct Machine {
     pub cycle_time_ms: Option<f64>,
     /// The kernel version, where the user gave it.
     pub build: Option<CncBuild>,
-    /// Programs that run by themselves or stand behind a word.
+    /// Programs that run by themselves or are called by a word.
     pub programs: ConfiguredPrograms,
     /// Words of the shop that change nothing that is followed here.
     pub harmless: HarmlessWords,

@@ -72,7 +72,7 @@ impl Configuration {
         Ok(())
     }
 
-    /// The programs that run by themselves, stand behind words, or are on the machine only.
+    /// The programs that run by themselves, are called by words, or are on the machine only.
     fn take_programs(&mut self, table: MachineTable) {
         let mut named = |number, key: String, given: Given<String>| {
             self.programs.push(Parameter {

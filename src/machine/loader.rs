@@ -149,7 +149,7 @@ fn mistaken(asked: &Given<String>, wanted: ListKind, entries: &Entries) -> Diagn
         "`{}` is {}, not {}",
         asked.value,
         describe(entries),
-        wanted.word()
+        wanted.noun()
     );
     Diagnostic::new(Code::Fc125, asked.place(), message).with_help("the list is not used")
 }

@@ -46,8 +46,11 @@ impl AxisLimits {
             AxisType::Linear => 1000.0,
             AxisType::Rotary | AxisType::Spindle => 1.0,
         };
-        let (velocity, acceleration, jerk) =
-            (axis.max_velocity, axis.max_acceleration, axis.max_jerk);
+        let (velocity, acceleration, jerk) = (
+            axis.max_velocity_per_min,
+            axis.max_acceleration_per_s2,
+            axis.max_jerk_per_s3,
+        );
         Self {
             velocity: velocity.map_or(VELOCITY, |per_minute| per_minute / 60.0),
             acceleration: acceleration.map_or(ACCELERATION, |given| given * unit),

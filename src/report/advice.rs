@@ -1,9 +1,9 @@
-//! What the operator has to know or to do behind a session, for every report that tells it.
+//! What the operator has to know or to do after a session, for every report that tells it.
 
 use crate::comp::State;
 use crate::timeline::{AxisSummary, EndedBy};
 
-/// What the operator has to know or to do about an axis, behind its name (R1.27: the state
+/// What the operator has to know or to do about an axis, after its name (R1.27: the state
 /// outlives the program).
 pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
     let untold = axis.end != axis.home && !axis.told;

@@ -14,7 +14,7 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.push(b':');
     integer(out, start.column);
     out.extend_from_slice(b": ");
-    out.extend_from_slice(diagnostic.severity.word().as_bytes());
+    out.extend_from_slice(diagnostic.severity.as_str().as_bytes());
     out.push(b'[');
     out.extend_from_slice(diagnostic.code.text().as_bytes());
     out.extend_from_slice(b"] ");

@@ -139,7 +139,7 @@ impl<W: Write> Csv<W> {
         self.states.clear();
         for (index, _) in state.machine.axes.iter().enumerate() {
             let axis = AxisIndex::new(index);
-            let word = state.state(axis, Kind::Frict).word();
+            let word = state.state(axis, Kind::Frict).as_str();
             self.states.extend_from_slice(word.as_bytes());
             self.states.push(b',');
         }
@@ -253,7 +253,7 @@ fn push_change(list: &mut String, change: Change, state: StateView<'_>) {
     list.push(':');
     list.push_str(change.kind.keyword());
     list.push(':');
-    list.push_str(change.from.word());
+    list.push_str(change.from.as_str());
     list.push('>');
-    list.push_str(change.to.word());
+    list.push_str(change.to.as_str());
 }

@@ -42,7 +42,7 @@ impl Default for Look {
     }
 }
 
-/// Renders a diagnostic, with a line end behind its last line.
+/// Renders a diagnostic, with a line end after its last line.
 pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
@@ -86,10 +86,10 @@ const HELP_INDENT: usize = 13;
 
 /// Columns before the message: `error[P-ERR-70495]: `.
 fn title_indent(diagnostic: &Diagnostic) -> usize {
-    diagnostic.severity.word().len() + diagnostic.code.text().len() + 4
+    diagnostic.severity.as_str().len() + diagnostic.code.text().len() + 4
 }
 
-/// Breaks a text between words so that it fits behind an indent; the renderer aligns the lines.
+/// Breaks a text between words so that it fits after an indent; the renderer aligns the lines.
 pub(crate) fn wrap(text: &str, width: usize, indent: usize) -> String {
     let room = width.saturating_sub(indent).max(12);
     let mut wrapped = String::with_capacity(text.len() + 8);
@@ -184,10 +184,10 @@ fn shown(place: &Place) -> Shown<'_> {
     let start = floor(text, first.saturating_sub(SURROUNDINGS));
     let end = floor(text, last.max(first) + SURROUNDINGS);
     let before = if start > 0 { "…" } else { "" };
-    let behind = if end < text.len() { "…" } else { "" };
+    let after = if end < text.len() { "…" } else { "" };
     let part = &text[start..end];
     Shown {
-        text: Cow::Owned(format!("{before}{}{behind}", visible(part))),
+        text: Cow::Owned(format!("{before}{}{after}", visible(part))),
         part,
         skipped: start,
         mark: before,

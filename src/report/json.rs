@@ -26,7 +26,7 @@ impl<W: Write> Json<W> {
     pub fn new(writer: W, view: View) -> Self {
         let frame = Frame {
             before: b",\n",
-            behind: b"",
+            after: b"",
         };
         let mut output = Output::new(writer);
         output.bytes.extend_from_slice(OPENING);

@@ -21,7 +21,7 @@ impl<W: Write> Ndjson<W> {
     pub fn new(writer: W, view: View) -> Self {
         let frame = Frame {
             before: b"",
-            behind: b"\n",
+            after: b"\n",
         };
         Self {
             output: Output::new(writer),

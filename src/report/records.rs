@@ -10,11 +10,11 @@ use super::view::View;
 /// The name and version that the session record carries.
 const TOOL: &str = concat!("frictcomp ", env!("CARGO_PKG_VERSION"));
 
-/// Where an object stands: what comes before and behind it.
+/// Where an object stands: what comes before and after it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     pub(super) before: &'static [u8],
-    pub(super) behind: &'static [u8],
+    pub(super) after: &'static [u8],
 }
 
 /// The program and block to which a diagnostic belongs.
@@ -132,7 +132,7 @@ impl Encoder {
         out.extend_from_slice(b",\"seq\":");
         integer(out, end.seq);
         out.extend_from_slice(b",\"by\":");
-        string(out, end.by.word());
+        string(out, end.by.as_str());
         // Program end never changes friction compensation (R1.27); kinds with manual activation
         // fall off, and their reader asked for them with `--kinds`.
         if end
@@ -178,7 +178,7 @@ impl Encoder {
         }
         append_diagnostic(out, diagnostic);
         out.push(b'}');
-        out.extend_from_slice(self.frame.behind);
+        out.extend_from_slice(self.frame.after);
     }
 
     fn changes(&self, out: &mut Vec<u8>, changes: &[Change], state: StateView<'_>) {
@@ -192,9 +192,9 @@ impl Encoder {
             out.extend_from_slice(b",\"kind\":");
             string(out, change.kind.keyword());
             out.extend_from_slice(b",\"from\":");
-            string(out, change.from.word());
+            string(out, change.from.as_str());
             out.extend_from_slice(b",\"to\":");
-            string(out, change.to.word());
+            string(out, change.to.as_str());
             out.push(b'}');
         });
         out.push(b']');
@@ -216,7 +216,7 @@ impl Encoder {
         }
         out.extend_from_slice(&self.state);
         out.push(b'}');
-        out.extend_from_slice(self.frame.behind);
+        out.extend_from_slice(self.frame.after);
     }
 }
 
@@ -226,7 +226,7 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.extend_from_slice(b",\"code\":");
     string(out, diagnostic.code.text());
     out.extend_from_slice(b",\"severity\":");
-    string(out, diagnostic.severity.word());
+    string(out, diagnostic.severity.as_str());
     out.extend_from_slice(b",\"file\":");
     string(out, &diagnostic.place.file);
     out.extend_from_slice(b",\"line\":");
@@ -252,7 +252,7 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
     separated(out, state.axes(), |out, (axis, name)| {
         string(out, name);
         out.push(b':');
-        string(out, state.state(axis, Kind::Frict).word());
+        string(out, state.state(axis, Kind::Frict).as_str());
     });
     out.push(b'}');
     if view.kinds == KindSet::of(Kind::Frict) {
@@ -265,7 +265,7 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
         separated(out, view.kinds.iter(), |out, kind| {
             string(out, kind.keyword());
             out.push(b':');
-            string(out, state.state(axis, kind).word());
+            string(out, state.state(axis, kind).as_str());
         });
         out.push(b'}');
     });

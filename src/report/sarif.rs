@@ -71,7 +71,7 @@ impl Sarif {
         out.extend_from_slice(b"],\n      \"tool\": ");
         let from = out.len();
         indented(out, &tool, RUN);
-        // The first line stands behind its key.
+        // The first line stands after its key.
         out.drain(from..from + RUN);
         out.extend_from_slice(b"\n    }\n  ],\n  \"version\": \"2.1.0\"\n}\n");
     }

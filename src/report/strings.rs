@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::visible::{any_byte, is_hidden};
 
-/// What a byte becomes in a JSON string: 0 itself, `u` a code, else the letter behind `\`.
+/// What a byte becomes in a JSON string: 0 itself, `u` a code, else the letter after `\`.
 const ESCAPES: [u8; 256] = {
     let mut table = [0; 256];
     let mut byte = 0;
@@ -40,16 +40,16 @@ pub(super) fn string(out: &mut Vec<u8>, text: &str) {
 fn escape(out: &mut Vec<u8>, mut rest: &str) {
     let special = |letter: char| matches!(letter, '"' | '\\') || is_hidden(letter);
     while let Some(at) = rest.find(special) {
-        let (before, behind) = rest.split_at(at);
+        let (before, after) = rest.split_at(at);
         out.extend_from_slice(before.as_bytes());
-        let letter = behind.chars().next().unwrap_or_default();
+        let letter = after.chars().next().unwrap_or_default();
         let short = u8::try_from(letter).map_or(0, |byte| ESCAPES[usize::from(byte)]);
         if short == 0 || short == b'u' {
             push_units(out, letter);
         } else {
             out.extend_from_slice(&[b'\\', short]);
         }
-        rest = &behind[letter.len_utf8()..];
+        rest = &after[letter.len_utf8()..];
     }
     out.extend_from_slice(rest.as_bytes());
 }

@@ -62,7 +62,7 @@ fn ran(text: &str, options: Options) -> Ran {
     let states = axes.map(|(at, axis)| {
         let at = frictcomp::comp::AxisIndex::new(at);
         let state = state.state(at, frictcomp::comp::Kind::Frict);
-        (axis.name.clone(), state.word().to_owned())
+        (axis.name.clone(), state.as_str().to_owned())
     });
     Ran {
         by: ended.expect("the program ends"),

@@ -86,7 +86,7 @@ FC401 = "error"
     );
     assert_eq!(x.manual, [Kind::Cross].into_iter().collect());
     assert_eq!(x.required, [Kind::Frict].into_iter().collect());
-    assert_eq!(x.max_velocity, Some(20000.0));
+    assert_eq!(x.max_velocity_per_min, Some(20000.0));
     let origin = Origin::File {
         file: "frictcomp.toml".into(),
         line: 13,

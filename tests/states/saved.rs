@@ -81,7 +81,7 @@ fn axes_are_matched_by_name() {
     let state = session.state();
     let word = |name| {
         let axis = state.machine.find(name).unwrap();
-        state.state(axis, frictcomp::comp::Kind::Frict).word()
+        state.state(axis, frictcomp::comp::Kind::Frict).as_str()
     };
     assert_eq!((word("X"), word("Y")), ("inactive", "active"));
 }

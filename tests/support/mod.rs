@@ -267,7 +267,7 @@ impl Transcript {
         let mut words = Vec::new();
         for (axis, name) in view.axes() {
             for &kind in &self.kinds {
-                let word = view.state(axis, kind).word();
+                let word = view.state(axis, kind).as_str();
                 if self.kinds.len() == 1 {
                     words.push(format!("{name}:{word}"));
                 } else {
@@ -325,8 +325,8 @@ impl Sink for Transcript {
                         write!(
                             self.text,
                             " {axis}{kind}:{}>{}",
-                            change.from.word(),
-                            change.to.word()
+                            change.from.as_str(),
+                            change.to.as_str()
                         )
                         .expect("text");
                     }
@@ -349,7 +349,8 @@ impl Sink for Transcript {
                     .expect("text");
                 }
                 let states = self.states(end.state);
-                writeln!(self.text, "  end {} {} {states}", end.seq, end.by.word()).expect("text");
+                writeln!(self.text, "  end {} {} {states}", end.seq, end.by.as_str())
+                    .expect("text");
             }
             Record::Summary(summary) => {
                 if !summary.opaque.is_empty() {

@@ -42,13 +42,13 @@ pub struct Tuned {
 }
 
 impl Tuned {
-    /// The result from the glitches in µm of [`Task::wholes`], in their order.
-    pub fn new(task: &Task, search: &Search, glitches: &[f64]) -> Self {
+    /// The result from the glitches of [`Task::wholes`], in their order.
+    pub fn new(task: &Task, search: &Search, glitches_um: &[f64]) -> Self {
         let candidate = search.best();
         let feeds = task
             .circles
             .iter()
-            .zip(glitches.chunks_exact(Variant::ALL.len()));
+            .zip(glitches_um.chunks_exact(Variant::ALL.len()));
         Self {
             candidate,
             list: candidate.list(&task.plant.x),

@@ -395,7 +395,7 @@ fn write_row(
             _ => write!(writer, ",{},{}", added.current, added.output)?,
         }
         if columns.contains(&Column::Comp) {
-            write!(writer, ",{}", commanded.friction.word())?;
+            write!(writer, ",{}", commanded.friction.as_str())?;
         }
     }
     if columns.contains(&Column::Line) {
@@ -440,7 +440,7 @@ impl Told<'_> {
         }
         for (name, states) in self.names.iter().zip(&self.table.seen) {
             for state in states {
-                let word = state.word();
+                let word = state.as_str();
                 let what = match state {
                     State::Unknown => "its current is left empty",
                     _ => "its current is 0",

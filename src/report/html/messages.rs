@@ -32,7 +32,7 @@ pub(super) fn render(digest: &RunDigest) -> Markup {
 
 fn row(message: &Message) -> Row {
     let diagnostic = &message.diagnostic;
-    let severity = diagnostic.severity.word();
+    let severity = diagnostic.severity.as_str();
     let place = format!("{}:{}", diagnostic.place.file, diagnostic.place.start());
     let cells = [
         html! { span.sev.(severity) { (severity) } },
@@ -54,7 +54,7 @@ fn row(message: &Message) -> Row {
 /// A message as an item of the list below its line.
 pub(super) fn item(message: &Message) -> Markup {
     let diagnostic = &message.diagnostic;
-    let severity = diagnostic.severity.word();
+    let severity = diagnostic.severity.as_str();
     html! {
         li.(severity) {
             span.sev { (severity) "[" (diagnostic.code.text()) "]" }

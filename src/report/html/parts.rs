@@ -101,7 +101,7 @@ pub(super) fn figure(svg: String) -> Markup {
 
 /// A state, told apart by more than colour, above all where it is away from home.
 pub(super) fn state_word(state: State, standing: Standing) -> Markup {
-    let word = state.word();
+    let word = state.as_str();
     html! { span.state.(word).away[standing == Standing::Away] { (word) } }
 }
 

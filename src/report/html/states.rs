@@ -23,7 +23,7 @@ pub(super) fn render(page: &mut Page<'_>, digest: &RunDigest) -> io::Result<()> 
     let programs = digest.programs.iter();
     for program in programs.filter(|program| !program.tracks.is_empty()) {
         let end = match program.by {
-            Some(by) => format!("ended by {}", by.word()),
+            Some(by) => format!("ended by {}", by.as_str()),
             None => "did not end".to_owned(),
         };
         let name = format!("states{}", program.number);
@@ -71,7 +71,7 @@ fn chart(digest: &RunDigest, program: &ProgramDigest) -> BandChart {
 /// The states of a row in words, at most the first few.
 fn describe(row: &BandRow) -> String {
     const TOLD: usize = 6;
-    let mut states: Vec<&str> = row.bands.iter().map(|band| band.state.word()).collect();
+    let mut states: Vec<&str> = row.bands.iter().map(|band| band.state.as_str()).collect();
     let total = states.len();
     states.truncate(TOLD);
     let more = if total > TOLD {
@@ -106,7 +106,7 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &Track) -> BandRow {
 
 /// A bar in words.
 fn told(digest: &RunDigest, label: &str, stretch: &Stretch) -> String {
-    let word = stretch.state.word();
+    let word = stretch.state.as_str();
     match stretch.spot {
         None => format!("{label} {word} at program start"),
         Some(spot) => {

@@ -17,7 +17,7 @@ pub(super) struct Spot {
 /// A state from one executed block on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Stretch {
-    /// The executed block behind which the state holds, 0 at program start.
+    /// The executed block after which the state holds, 0 at program start.
     pub(super) from: u64,
     /// The state.
     pub(super) state: BandState,
@@ -59,7 +59,7 @@ impl Track {
         }
     }
 
-    /// Takes the state behind a block.
+    /// Takes the state after a block.
     pub(super) fn push(&mut self, seq: u64, state: State, spot: Spot) {
         if state == self.state {
             return;

@@ -84,7 +84,7 @@ impl AxisPlot {
                     state: BandState::One(state),
                     // Friction compensation that can be switched is on after a start.
                     standing: Standing::of(state, State::Active),
-                    title: format!("{name} {} from {time} s", state.word()),
+                    title: format!("{name} {} from {time} s", state.as_str()),
                     href: None,
                 });
             }

@@ -26,9 +26,9 @@ impl BandState {
     ];
 
     /// The word in and below the bars.
-    pub fn word(self) -> &'static str {
+    pub fn as_str(self) -> &'static str {
         match self {
-            Self::One(state) => state.word(),
+            Self::One(state) => state.as_str(),
             Self::Changing => "changing",
         }
     }
@@ -78,7 +78,7 @@ pub struct Band {
 pub struct BandRow {
     /// The name of the axis.
     pub label: String,
-    /// The bars, one behind the other.
+    /// The bars, one after the other.
     pub bands: Vec<Band>,
 }
 
@@ -238,7 +238,7 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
     let href = band.href.as_deref();
     canvas.open_link(href, &band.title);
     draw_shape(canvas, (band.state, band.standing), area);
-    let word = band.state.word();
+    let word = band.state.as_str();
     if band.state != BandState::One(State::Unconfigured) && text_width(word) + 10.0 < area.width {
         let class = match band.standing {
             Standing::Away => "fc-on-away",
@@ -299,8 +299,8 @@ pub(super) fn draw_legend(
     let mut x = left;
     for state in &states {
         let word = match *state {
-            (state, Standing::Away) => format!("{}, away from home", state.word()),
-            (state, Standing::Home) => state.word().to_owned(),
+            (state, Standing::Away) => format!("{}, away from home", state.as_str()),
+            (state, Standing::Home) => state.as_str().to_owned(),
         };
         let swatch = Area {
             x,

@@ -21,7 +21,7 @@ struct Group {
     least: [f64; 2],
     greatest: [f64; 2],
     last: [f64; 2],
-    /// Whether the curve is interrupted behind it.
+    /// Whether the curve is interrupted after it.
     end: End,
 }
 
@@ -73,7 +73,7 @@ impl Curve {
         }
     }
 
-    /// Interrupts the curve behind the last point.
+    /// Interrupts the curve after the last point.
     pub fn interrupt(&mut self) {
         if let Some(last) = self.groups.last_mut() {
             last.end = End::Interrupted;

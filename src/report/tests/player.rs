@@ -11,7 +11,7 @@ use crate::timeline::{
     AxisSummary, ChangedBy, End, EndNote, EndedBy, Modal, Record, Row, Sink, StateView, Summary,
 };
 
-/// The documented example (1.5), with a loop behind it that changes nothing.
+/// The documented example (1.5), with a loop after it that changes nothing.
 pub(super) const PROGRAM: &str = "\
 %DEMO
 ; the documented example
@@ -21,7 +21,7 @@ N35 X22 Y33 Z44
 N45 X[COMP OFF FRICT] ;Deactivates X axis
 N55 M30 ;Program end";
 
-/// The machine of the example with more axes behind Z.
+/// The machine of the example with more axes after Z.
 pub(super) fn machine(more: &[&str]) -> Machine {
     let mut machine = Machine::enabled(["X", "Y"]);
     machine.axes.truncate(3);

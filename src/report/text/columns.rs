@@ -7,7 +7,7 @@ use crate::timeline::{Row, StateView};
 
 use super::line::{BOLD, GUTTER, Line, MARK, style};
 
-/// The column behind the line number.
+/// The column after the line number.
 const LINE_END: usize = 6;
 
 /// The block text must keep so many columns, or states become symbols.
@@ -141,7 +141,7 @@ impl Columns {
                 .iter()
                 .any(|change| change.axis == column.axis && change.kind == Kind::Frict);
             let word = match self.words {
-                Words::Full => now.word(),
+                Words::Full => now.as_str(),
                 Words::Short | Words::Below => symbol(now),
             };
             if !marked {
@@ -199,11 +199,11 @@ fn word_width(state: StateView<'_>, axis: AxisIndex) -> usize {
     let parameterised = state.machine.axis(axis).parameterised();
     match state.state(axis, Kind::Frict) {
         // P-AXIS-00522 is fixed while the control runs: the word stays and has no mark.
-        State::Unconfigured => State::Unconfigured.word().len(),
+        State::Unconfigured => State::Unconfigured.as_str().len(),
         now if parameterised.contains(Kind::Frict) && now != State::Ineffective => {
-            State::Inactive.word().len() + 2
+            State::Inactive.as_str().len() + 2
         }
-        _ => State::Ineffective.word().len() + 2,
+        _ => State::Ineffective.as_str().len() + 2,
     }
 }
 

@@ -46,7 +46,7 @@ impl<'a> Line<'a> {
         self.column
     }
 
-    /// Goes on in a line of its own, behind an indent.
+    /// Goes on in a line of its own, after an indent.
     pub(super) fn next(&mut self, indent: usize) {
         self.trim();
         self.out.push(b'\n');
@@ -124,13 +124,13 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The last place of a line behind which `…` has room.
+/// The last place of a line after which `…` has room.
 struct Cut {
     length: usize,
     column: usize,
 }
 
-/// Writes a text over as many lines as its words need within a width, all behind an indent.
+/// Writes a text over as many lines as its words need within a width, all after an indent.
 pub(super) fn paragraph(
     out: &mut Vec<u8>,
     (look, indent): (Look, usize),

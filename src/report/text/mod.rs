@@ -231,8 +231,8 @@ impl<W: Write> Text<W> {
                     "{MARK} {} {}: {} → {}",
                     state.name(change.axis),
                     change.kind.keyword(),
-                    change.from.word(),
-                    change.to.word(),
+                    change.from.as_str(),
+                    change.to.as_str(),
                 ),
             );
             line.end();

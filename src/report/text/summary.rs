@@ -58,9 +58,9 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
         line.go_to(2);
         line.plain(name(axis));
         line.go_to(first);
-        line.styled(style(axis.start), axis.start.word());
+        line.styled(style(axis.start), axis.start.as_str());
         line.go_to(first + STATE);
-        line.styled(style(axis.end), axis.end.word());
+        line.styled(style(axis.end), axis.end.as_str());
         let room = look.width.saturating_sub(column);
         let text = changed_by(axis, room);
         let fits = beside && text.width() <= room;

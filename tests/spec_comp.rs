@@ -310,7 +310,11 @@ fn malformed_commands() {
 #[test]
 fn near_misses_get_advice() {
     // 1.1: did you mean
-    let advice = |text: &str| parse_comp(text).unwrap_err().help.join(" / ");
+    let advice = |text: &str| {
+        let advice = parse_comp(text).unwrap_err().advice;
+        let words: Vec<String> = advice.iter().map(ToString::to_string).collect();
+        words.join(" / ")
+    };
     assert_snapshot!(advice("X[COMP ON FRIKT]"), @"did you mean `FRICT`?");
     assert_snapshot!(advice("X[KOMP ON FRICT]"), @"did you mean `COMP`?");
     assert_snapshot!(advice("X[COMP OFFALL]"), @"did you mean `OFF_ALL`?");

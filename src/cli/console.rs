@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::painted::painted;
 use super::progress::{OverProgress, clear};
 use crate::diagnostic::Diagnostic;
-use crate::report::{Look, Paint, fitted, leading, render, visible, wrap};
+use crate::report::{Look, Paint, command_line, fitted, leading, render, visible, wrap};
 
 /// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
 const FALLBACK_WIDTH: usize = 100;
@@ -177,7 +177,9 @@ impl Console {
         };
         let mut writer = AutoStream::new(stderr.lock(), choice);
         for diagnostic in diagnostics {
-            let _ = writeln!(writer, "{}", render(diagnostic, look));
+            let mut diagnostic = diagnostic.clone();
+            diagnostic.reword(Some(command_line));
+            let _ = writeln!(writer, "{}", render(&diagnostic, look));
         }
     }
 

@@ -16,6 +16,7 @@ use super::settings::{self, SkipLevels};
 use super::switched;
 use super::watch::{Watch, Watched};
 use crate::machine::AxisSet;
+use crate::report::command_line;
 use crate::session::{Limits, Motions, Notes, Program, Session, SessionOptions, StopPolicy};
 use crate::timeline::Sink;
 
@@ -71,6 +72,7 @@ impl ExecutionArgs {
             notes: Notes::None,
             motions: Motions::None,
             switched: Vec::new(),
+            wording: Some(command_line),
         }
     }
 }

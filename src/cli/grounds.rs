@@ -81,7 +81,8 @@ impl Grounds {
                 "{}; the file lies outside the project, its text is not shown",
                 diagnostic.code.title()
             );
-            diagnostic.help = vec!["`--allow-outside` shows it".to_owned()];
+            diagnostic.advice = vec!["`--allow-outside` shows it".into()];
+            diagnostic.fixes.clear();
             blank(&mut diagnostic.place);
             for label in &mut diagnostic.labels {
                 blank(&mut label.place);

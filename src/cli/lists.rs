@@ -17,6 +17,7 @@ use super::painted::parts;
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Severity};
 use crate::machine::{AcceptedList, Configuration, ListsReport, check_list};
+use crate::report::command_line;
 use crate::report::lists::render_parameters;
 use crate::report::pictures::value_curves;
 use crate::report::svg::Frame;
@@ -170,6 +171,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
         grounds.conceal(&mut report.diagnostics);
         args.listing.severities.sift(&mut report.diagnostics);
         for diagnostic in &mut report.diagnostics {
+            diagnostic.reword(Some(command_line));
             if args.strict && diagnostic.code == Code::Fc132 {
                 diagnostic.severity = Severity::Error;
             }

@@ -27,7 +27,9 @@ use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::machine::{AxisSet, Setting};
 use crate::report::html::RunDigest;
-use crate::report::{Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View};
+use crate::report::{
+    Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View, command_line,
+};
 use crate::session::{Session, StopPolicy, undescribed};
 use crate::timeline::{Record, Sink};
 
@@ -252,7 +254,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if args.format == Format::Csv {
         // A row is a block: the remark has no row.
         if let Some(remark) = undescribed(&loaded.machine, &options.switched) {
-            Console::talk(&remark);
+            Console::talk(&remark.in_words(Some(command_line)));
         }
     }
     let (session, said) = match (saved, &state) {

@@ -6,6 +6,7 @@ use std::io::{self, BufRead, BufReader};
 
 use super::files::Input;
 use crate::machine::Machine;
+use crate::report::command_line;
 use crate::session::undescribed;
 
 /// The sentence above what is said about programs that run without a described machine, where any of
@@ -15,7 +16,8 @@ pub(super) fn remark<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Option<
     if axes.is_empty() {
         return None;
     }
-    undescribed(&Machine::unconfigured(), &axes)
+    let advice = undescribed(&Machine::unconfigured(), &axes)?;
+    Some(advice.in_words(Some(command_line)))
 }
 
 /// The axes whose friction compensation the programs switch, sorted. What cannot be read is said

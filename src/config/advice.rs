@@ -1,6 +1,7 @@
 //! What to do about a `frictcomp.toml` that cannot be used.
 
 use super::error::ConfigError;
+use crate::diagnostic::Advice;
 use crate::text::{SourceFile, Span};
 
 /// A text that is no TOML: the parser's message with what users of the control meet most.
@@ -23,7 +24,7 @@ pub(super) fn no_toml(source: &SourceFile, error: &toml::de::Error) -> ConfigErr
     } else if line.contains('=') && !line.contains(['"', '\'']) {
         refused.with_help("texts stand in quotes: `startup = \"lists/hochlauf.lis\"`")
     } else {
-        refused.with_help("`frictcomp init` writes a configuration to start from")
+        refused.with_help(Advice::WriteConfiguration)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Code, Diagnostic, did_you_mean};
 use crate::lists::Given;
 use crate::text::{SourceFile, Span};
 
@@ -28,20 +28,20 @@ impl ConfigError {
         }
     }
 
-    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.diagnostic.help.push(help.into());
+    pub(crate) fn with_help(mut self, advice: impl Into<Advice>) -> Self {
+        self.diagnostic.advice.push(advice.into());
         self
     }
 
     /// The same with "did you mean" where a known word is near.
     pub(crate) fn with_near<'a>(
-        self,
+        mut self,
         found: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        match did_you_mean(found, known) {
-            Some(meant) => self.with_help(format!("did you mean `{meant}`?")),
-            None => self,
+        if let Some(near) = did_you_mean(found, known) {
+            self.diagnostic = Box::new(self.diagnostic.with_near(found, near));
         }
+        self
     }
 }

@@ -7,6 +7,7 @@ use toml::de::DeTable;
 use super::error::ConfigError;
 use super::plant_keys::{self as keys, Facts, Quantity};
 use super::section::{Section, Shape};
+use crate::diagnostic::Advice;
 use crate::lists::{Given, Number, Written};
 use crate::text::{SourceFile, Span};
 
@@ -117,7 +118,12 @@ impl DriveTable {
     }
 
     /// The error about a number, at its place, or at the table without it.
-    pub(crate) fn refuse(&self, quantity: Quantity, message: String, help: &str) -> ConfigError {
+    pub(crate) fn refuse(
+        &self,
+        quantity: Quantity,
+        message: String,
+        help: impl Into<Advice>,
+    ) -> ConfigError {
         let mut numbers = self.numbers.iter();
         let place = numbers.find_map(|(other, given)| (*other == quantity).then(|| given.with(())));
         ConfigError::at(place.as_ref().unwrap_or(&self.whole), message).with_help(help)

@@ -7,7 +7,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::advice::example;
 use super::error::ConfigError;
-use crate::diagnostic::did_you_mean;
 use crate::lists::{Given, Number, Written};
 use crate::text::{SourceFile, Span};
 
@@ -42,9 +41,11 @@ impl<'a> Section<'a> {
             let name = key.get_ref().as_ref();
             let message = format!("`{}` has no key `{name}`", shape.name);
             let error = ConfigError::new(source, span(key), message);
-            return Err(match did_you_mean(name, known.iter().copied()) {
-                Some(near) => error.with_help(format!("did you mean `{near}`?")),
-                None => error.with_help(format!("its keys are {}", known.join(", "))),
+            let error = error.with_near(name, known.iter().copied());
+            return Err(if error.diagnostic.advice.is_empty() {
+                error.with_help(format!("its keys are {}", known.join(", ")))
+            } else {
+                error
             });
         }
         Ok(Self {

@@ -1,8 +1,10 @@
 //! One statement about a program or a list.
 
+use super::advice::{Advice, Wording};
 use super::codes::Code;
+use super::fix::Fix;
 use super::severity::Severity;
-use crate::text::Place;
+use crate::text::{Place, Span};
 
 /// A second place that explains the first.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,8 +28,10 @@ pub struct Diagnostic {
     pub place: Place,
     /// The axis that it is about.
     pub axis: Option<String>,
-    /// What to do, one piece of advice each.
-    pub help: Vec<String>,
+    /// What to do.
+    pub advice: Vec<Advice>,
+    /// Changes to the text, each of which alone does what is advised.
+    pub fixes: Vec<Fix>,
     /// Further places.
     pub labels: Vec<Label>,
 }
@@ -41,7 +45,8 @@ impl Diagnostic {
             message: message.into(),
             place,
             axis: None,
-            help: Vec::new(),
+            advice: Vec::new(),
+            fixes: Vec::new(),
             labels: Vec::new(),
         }
     }
@@ -53,9 +58,45 @@ impl Diagnostic {
     }
 
     /// The same with one more piece of advice.
-    pub fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help.push(help.into());
+    pub fn with_help(mut self, advice: impl Into<Advice>) -> Self {
+        self.advice.push(advice.into());
         self
+    }
+
+    /// The same with one more change that does what is advised.
+    pub fn with_fix(mut self, fix: Fix) -> Self {
+        self.fixes.push(fix);
+        self
+    }
+
+    /// The same with the known word that may be meant where `found` stands in its place.
+    pub(crate) fn with_near(self, found: &str, near: &str) -> Self {
+        let mut place = self.place.clone();
+        let start = place.span.of(&place.text).find(found);
+        let said = self.with_help(Advice::DidYouMean(near.to_owned()));
+        let Some(start) = start else {
+            return said;
+        };
+        let start = place.span.start as usize + start;
+        place.span = Span::new(start, start + found.len());
+        said.with_fix(Fix::guess(place, near))
+    }
+
+    /// What to do, in words.
+    pub fn help(&self) -> Vec<String> {
+        self.advice.iter().map(Advice::to_string).collect()
+    }
+
+    /// Words its advice as a host does.
+    pub fn reword(&mut self, wording: Option<Wording>) {
+        let Some(wording) = wording else {
+            return;
+        };
+        for advice in &mut self.advice {
+            if let Some(words) = wording(advice) {
+                *advice = words.into();
+            }
+        }
     }
 
     /// The same with one more place.

@@ -1,15 +1,19 @@
 //! Statements about the user's programs and lists, as plain data.
 
+mod advice;
 mod codes;
 mod collected;
+mod fix;
 mod levels;
 mod message;
 mod number;
 mod severity;
 mod spelling;
 
+pub use advice::{Advice, Budget, Wording};
 pub use codes::Code;
 pub use collected::{Collected, MAX_MESSAGES};
+pub use fix::{Fix, Fixed, Safety};
 pub use levels::Levels;
 pub use message::{Diagnostic, Label};
 pub(crate) use number::Shown;

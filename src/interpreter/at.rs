@@ -113,8 +113,10 @@ impl At<'_> {
     }
 
     pub(super) fn diagnostic(&self, fault: Fault) -> Diagnostic {
-        let mut diagnostic = Diagnostic::new(fault.code, self.place(fault.span), fault.message);
-        diagnostic.help = fault.help;
+        let place = self.place(fault.span);
+        // The code of a macro is not the text of the program.
+        let in_text = |span| self.used.is_none().then(|| self.place(span));
+        let mut diagnostic = fault.into_diagnostic(place, in_text);
         if let Some(caller) = self.called_from {
             diagnostic = diagnostic.with_label(caller.clone(), "called from here");
         }

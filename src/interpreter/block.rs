@@ -314,6 +314,9 @@ impl Interpreter {
                 .with_help("end a subprogram with `M17` or `M29`");
                 self.work.diagnostics.push(at.diagnostic(fault));
             }
+            if at.level == 0 && at.used.is_none() && self.state.ending.is_none() {
+                self.work.end = Some(at.place(Span::new(0, at.text.len())));
+            }
             if let (None, Some(name)) = (self.state.ending, self.machine.programs.end.clone()) {
                 let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
                 self.state.frames.clear();

@@ -10,7 +10,7 @@ use super::at::At;
 use super::program::EntryIndex;
 use super::run::Interpreter;
 use super::state::State;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::syntax::Fault;
 use crate::text::Span;
 
@@ -108,7 +108,7 @@ impl Interpreter {
     pub(super) fn used_up(&mut self, at: &At<'_>) -> Option<Diagnostic> {
         let wrote = std::mem::take(&mut self.work.wrote);
         if self.state.level.get() > self.options.limits.work && self.is_worn_out() {
-            self.forget_all(&"--max-work".into());
+            self.forget_all(&"the budget of work".into());
             return Some(self.too_much_work(at));
         }
         let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);
@@ -132,7 +132,7 @@ impl Interpreter {
             Span::new(0, at.text.len()),
             format!("this block made more than {budget} units of work beyond its own text"),
         )
-        .with_help("look for macros that use each other, strings that grow, and long regions under an unknown condition, or raise the budget with `--max-work`");
+        .with_help(Advice::RaiseBudget(Budget::Work));
         let diagnostic = at.diagnostic(fault);
         match self.state.frames.last() {
             Some(frame) => self.with_loop(diagnostic, frame.unit, frame.next.saturating_sub(1)),
@@ -171,7 +171,7 @@ fn too_many_blocks(budget: u64, at: &At<'_>) -> Diagnostic {
             Span::new(0, at.text.len()),
             format!("more than {budget} blocks were executed; the dry run ends here"),
         )
-        .with_help("look for a loop that does not end, or raise the budget with `--max-blocks`"),
+        .with_help(Advice::RaiseBudget(Budget::Blocks)),
     )
 }
 
@@ -184,6 +184,6 @@ fn too_many_values(limit: usize, at: &At<'_>) -> Diagnostic {
             Span::new(0, at.text.len()),
             format!("the program holds more than {limit} values; a string counts once more for every 32 bytes"),
         )
-        .with_help("look for a loop that keeps creating variables, or raise the budget with `--max-values`"),
+        .with_help(Advice::RaiseBudget(Budget::Values)),
     )
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::program::{Entry, EntryIndex, Index, LabelName, Links, Section};
 use super::value::rounded;
-use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::diagnostic::{Advice, Budget, Code, Collected, Diagnostic};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
 use crate::syntax::{BlockReader, FastPath, Fault, Stretch, is_statement};
 use crate::text::{SourceFile, Span, TextLines};
@@ -178,9 +178,10 @@ impl Builder {
     }
 
     fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
-        let place = self.index.place(entry, fault.span);
-        let mut diagnostic = Diagnostic::new(fault.code, place, fault.message);
-        diagnostic.help = fault.help;
+        let place = |span| self.index.place(entry, span);
+        let diagnostic = fault
+            .clone()
+            .into_diagnostic(place(fault.span), |span| Some(place(span)));
         self.index.refused.push(diagnostic);
     }
 
@@ -284,7 +285,7 @@ impl Builder {
                     self.nesting
                 ),
             )
-            .with_help("allow deeper nesting with `--max-nesting`");
+            .with_help(Advice::RaiseBudget(Budget::Nesting));
             self.refuse(entry, fault);
         }
         if !matches!(kind, Kind::If | Kind::Switch) {

@@ -13,7 +13,7 @@ use super::sequence::Part;
 use super::start::stops;
 use super::state::{Frame, Repeated, RepeatedCall, Request, Step, after_motion_only};
 use super::value::Value;
-use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Budget, Code, Diagnostic, did_you_mean};
 use crate::machine::Keeps;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Call, CallForm, CallName, CallScope, Operand};
@@ -184,9 +184,7 @@ impl Interpreter {
                     self.options.limits.calls
                 ),
             )
-            .with_help(
-                "look for a program that calls itself, or raise the budget with `--max-calls`",
-            );
+            .with_help(Advice::RaiseBudget(Budget::Calls));
             self.work.diagnostics.push(at.diagnostic(fault));
             return None;
         }
@@ -408,9 +406,8 @@ impl Interpreter {
             }
             Ok(None) => Ok(()),
             Err(fault) => {
-                let mut diagnostic = Diagnostic::new(fault.code, place, fault.message);
-                diagnostic.help = fault.help;
-                Err(Box::new(diagnostic))
+                // The call stands in the configuration, not in a block.
+                Err(Box::new(fault.into_diagnostic(place, |_| None)))
             }
         }
     }
@@ -460,7 +457,7 @@ impl Interpreter {
             did_you_mean(name, known.inspect(|_| compared += 1))
         });
         let fault = match near {
-            Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+            Some(near) => fault.with_help(Advice::DidYouMean(near.to_owned())),
             None => fault.with_help(format!(
                 "a local subprogram begins with `%L {name}` in the same file"
             )),
@@ -491,7 +488,7 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
             .with_help("a called program must be a readable file of at most 1 GiB"),
         NoProgram::Outside => fault(Code::Fc321, "is outside the folders that programs may be called from")
             .with_help("these are the caller's folder, that of `frictcomp.toml` (the current folder if there is none), `program_dirs`, and everything below them; a file of the same name is also searched for there")
-            .with_help("add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"),
+            .with_help(Advice::AllowOutside),
     })
 }
 

@@ -6,7 +6,7 @@ use super::run::Interpreter;
 use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Kind, KindSet, Selection, State,
 };
-use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Code, Diagnostic, did_you_mean};
 use crate::machine::{AxisSet, Origin, Parameterisation};
 use crate::syntax::Fault;
 use crate::text::Span;
@@ -158,16 +158,14 @@ impl Interpreter {
                 let described = self.machine.is_described();
                 diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
                     Some(Origin::File { file, line }) => {
-                        format!("{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control")
+                        format!("{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control").into()
                     }
-                    _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control"),
+                    _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
                     // One list with all axes stands above (R1.37).
-                    _ => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list, or assume it with `--enable`"),
+                    _ => Advice::Configure(name.clone()),
                 });
                 if described {
-                    diagnostic = diagnostic.with_help(format!(
-                        "to continue as if it were set, run with `--enable {name}`"
-                    ));
+                    diagnostic = diagnostic.with_help(Advice::Enable(vec![name.clone()]));
                 }
             }
             CompensationError::UnknownAxis { .. } => {
@@ -199,7 +197,7 @@ impl Interpreter {
             same.copied()
         };
         if let Some(near) = near {
-            diagnostic = diagnostic.with_help(format!("did you mean `{near}`?"));
+            diagnostic = diagnostic.with_near(name, near);
         }
         if configured {
             let all = known.join(", ");

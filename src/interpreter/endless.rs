@@ -21,7 +21,7 @@ use super::run::Interpreter;
 use super::state::{Description, Frame, Repeated, State};
 use super::value::Value;
 use crate::comp::Compensation;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::syntax::ast::{Assignment, BinaryOperator, Block, Node, Operand};
 
 /// The pass after which a loop is looked at for the first time, then at each doubling.
@@ -249,7 +249,7 @@ impl Interpreter {
             format!("this loop never ends: after {passes} passes {but}; the dry run ends here");
         Diagnostic::new(Code::Fc910, index.block_place(opener), message)
             .with_help("nothing after the loop runs; to see it, remove the loop or give it an end")
-            .with_help("if a value of the machine ends the loop, test it in the condition and give it with `--set`")
+            .with_help(Advice::EndLoop)
     }
 
     /// How often the loop that begins at a block came round.

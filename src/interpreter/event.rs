@@ -156,6 +156,8 @@ pub struct Ended<'a> {
     pub by: EndedBy,
     /// Whether it would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,
+    /// The block of the main program that ends it, `M30` for instance.
+    pub at: Option<&'a Place>,
     /// What program end changed itself.
     pub changes: &'a [Change],
     /// What is to be said about the program and belongs to no executed block.

@@ -14,7 +14,7 @@ use super::memory::Memory;
 use super::region::Target;
 use super::state::State;
 use super::value::{Value, rounded};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Advice, Budget, Code};
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
 use crate::syntax::{Fault, MAX_LINE};
 use crate::text::Span;
@@ -74,7 +74,7 @@ impl Macros<'_> {
             let message = format!("macros are nested more than {} levels deep", self.limit);
             return Err(Box::new(
                 Fault::new(Code::Fc914, span, message)
-                    .with_help("allow deeper nesting with `--max-macros`"),
+                    .with_help(Advice::RaiseBudget(Budget::Macros)),
             ));
         }
         if expansions > MAX_EXPANSIONS {
@@ -514,9 +514,7 @@ fn never_written(span: Span, text: &str) -> Box<Fault> {
             span,
             format!("`{name}` is read but was never written"),
         )
-        .with_help(format!(
-            "assign it first, `{name} = …`, or give it with `--set {name}=VALUE`"
-        )),
+        .with_help(Advice::AssignVariable(name.to_owned())),
     )
 }
 

@@ -17,7 +17,7 @@ use super::region::Exit;
 use super::run::Interpreter;
 use super::state::{Departure, Seeking, Step};
 use super::value::Value;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Advice, Code};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
 use crate::syntax::{Fault, is_command};
 use crate::text::Span;
@@ -603,12 +603,12 @@ fn is_settable(name: &str) -> bool {
 }
 
 /// How a user makes a value known.
-pub(super) fn how_to_set(name: &str) -> String {
+pub(super) fn how_to_set(name: &str) -> Advice {
     if is_command(name) {
-        return format!("to check one case, assign the value in a block after `{name}`");
+        return format!("to check one case, assign the value in a block after `{name}`").into();
     }
     if !is_settable(name) {
-        return format!("FC210 or FC207 shows where `{name}` first occurs");
+        return format!("FC210 or FC207 shows where `{name}` first occurs").into();
     }
-    format!("give it with `--set {name}=VALUE` or in `[variables]` of frictcomp.toml")
+    Advice::SetVariable(name.to_owned())
 }

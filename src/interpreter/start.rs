@@ -243,6 +243,7 @@ impl Interpreter {
             seq: self.state.seq,
             by,
             endless: std::mem::take(&mut self.work.endless),
+            at: self.work.end.take().as_ref(),
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,

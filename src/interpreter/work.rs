@@ -8,7 +8,7 @@ use super::value::Value;
 use crate::comp::{AxisIndex, Change, KindSet};
 use crate::diagnostic::Diagnostic;
 use crate::syntax::{Fault, ast::Block};
-use crate::text::Span;
+use crate::text::{Place, Span};
 
 /// Buffers that are used again for each block.
 #[derive(Default)]
@@ -43,6 +43,8 @@ pub(super) struct Work {
     pub(super) unread: Cell<bool>,
     /// Macros that the block has expanded.
     pub(super) expansions: Cell<u32>,
+    /// The block of the main program that says that the program ends.
+    pub(super) end: Option<Place>,
     /// The budget that ended the run.
     pub(super) over: Option<Diagnostic>,
     /// Whether that is a loop that never ends.

@@ -3,10 +3,14 @@
 
 use super::memory::{Deed, KindMemory, Site};
 use super::{EndNote, LeftAway, Linter};
-use crate::comp::{AxisIndex, Compensation, Kind, State};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::comp::{AxisIndex, Kind, State};
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::interpreter::Ended;
+use crate::text::{Place, Span};
 
-pub(super) fn lint(linter: &Linter<'_>, left: &Compensation, past: &str) -> Vec<LeftAway> {
+pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, past: &str) -> Vec<LeftAway> {
+    let left = ended.compensation;
+    let before_end = ended.at.filter(|at| stands_alone(&at.text)).map(start_of);
     let mut found = Vec::new();
     for axis in (0..left.len()).map(AxisIndex::new) {
         for kind in Kind::ALL {
@@ -28,6 +32,7 @@ pub(super) fn lint(linter: &Linter<'_>, left: &Compensation, past: &str) -> Vec<
                     kind,
                     end,
                     past,
+                    before_end: before_end.as_ref(),
                 };
                 let diagnostic = match moved_before(linter, axis, did) {
                     _ if end == State::Unknown => subject.may_be_left(site),
@@ -36,7 +41,7 @@ pub(super) fn lint(linter: &Linter<'_>, left: &Compensation, past: &str) -> Vec<
                 };
                 let note = EndNote {
                     seq: site.seq,
-                    diagnostic,
+                    diagnostic: subject.with_way_home(diagnostic),
                 };
                 found.push(LeftAway { axis, kind, note });
             }
@@ -61,6 +66,8 @@ struct Subject<'a> {
     end: State,
     /// What ends the program.
     past: &'a str,
+    /// Where a block before the program end begins.
+    before_end: Option<&'a Place>,
 }
 
 impl Subject<'_> {
@@ -81,9 +88,9 @@ impl Subject<'_> {
     fn may_be_left(&self, site: &Site) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
         let home = self.linter.history.home(self.axis, self.kind);
-        let (away, way) = match home {
-            State::Inactive => (State::Active, "OFF"),
-            _ => (State::Inactive, "ON"),
+        let away = match home {
+            State::Inactive => State::Active,
+            _ => State::Inactive,
         };
         let message = format!(
             "`{keyword}` of axis `{name}` may be left {} past {}, which is not known offline; the \
@@ -92,10 +99,9 @@ impl Subject<'_> {
             self.past,
             home.as_str()
         );
-        let help = format!("bring it home before M30: `{name}[COMP {way} {keyword}]`");
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(help)
+            .with_help(format!("bring it home before M30: `{}`", self.way_home()))
     }
 
     fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {
@@ -117,12 +123,65 @@ impl Subject<'_> {
             .with_label(moved.place.clone(), "the axis moves here first")
     }
 
+    /// The command that makes the state that of the start of the control.
     fn way_home(&self) -> String {
-        let way = match self.end {
-            State::Inactive => "ON",
+        let home = self.linter.history.home(self.axis, self.kind);
+        let way = match (self.end, home) {
+            (State::Inactive, _) => "ON",
+            (State::Unknown, home) if home != State::Inactive => "ON",
             _ => "OFF",
         };
         let name = self.linter.name(self.axis);
         format!("{name}[COMP {way} {}]", self.kind.keyword())
+    }
+
+    /// The diagnostic with the command in a block before the program end.
+    fn with_way_home(&self, diagnostic: Diagnostic) -> Diagnostic {
+        match self.before_end {
+            Some(place) => {
+                let block = format!("{}\n", self.way_home());
+                diagnostic.with_fix(Fix::guess(place.clone(), block))
+            }
+            None => diagnostic,
+        }
+    }
+}
+
+/// Whether a block is nothing but a program end, so that another can stand before it.
+fn stands_alone(block: &str) -> bool {
+    let word = block.trim_start();
+    let number = word.strip_prefix(['N', 'n']).map(|rest| {
+        rest.trim_start_matches(|letter: char| letter.is_ascii_digit())
+            .trim_start()
+    });
+    let word = number.unwrap_or(word).to_ascii_uppercase();
+    let end = word
+        .strip_prefix("M30")
+        .or_else(|| word.strip_prefix("M02"));
+    end.is_some_and(|rest| {
+        rest.trim_start().is_empty() || rest.trim_start().starts_with([';', '('])
+    })
+}
+
+/// The empty place at the start of a block.
+fn start_of(block: &Place) -> Place {
+    Place {
+        span: Span::default(),
+        ..block.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_block_that_does_nothing_else_has_another_before_it() {
+        for block in ["M30", "N90 M30", "  n90 m02 ; end", "M30 (end)"] {
+            assert!(stands_alone(block), "{block}");
+        }
+        for block in ["G0 X0 M30", "/M30", "M300", "M30 M5", "N90", "$IF P1 M30"] {
+            assert!(!stands_alone(block), "{block}");
+        }
     }
 }

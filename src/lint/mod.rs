@@ -18,6 +18,7 @@ use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{AxisWord, Ended, EndedBy, Executed, Outcome};
 use crate::machine::Machine;
+use crate::text::{Place, Span};
 use memory::Memory;
 
 /// A diagnostic at the end of a program, with the executed block that it is about.
@@ -56,6 +57,10 @@ pub(crate) struct Linter<'m> {
     /// The name of the program behind `%`, or else its file.
     program: String,
     memory: Memory,
+    /// The file of the program.
+    file: String,
+    /// Where its first block begins.
+    begin: Option<Place>,
     /// The states of friction compensation that the program found, by axis.
     found: Vec<State>,
 }
@@ -68,6 +73,8 @@ impl<'m> Linter<'m> {
             machine,
             history,
             program: file.to_owned(),
+            file: file.to_owned(),
+            begin: None,
             found: Vec::new(),
         }
     }
@@ -97,6 +104,9 @@ impl<'m> Linter<'m> {
 
     /// Looks at an executed block and appends what there is to say.
     pub(crate) fn block(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
+        if executed.seq == 1 && **executed.file == *self.file {
+            self.begin = Some(memory::place(executed, Span::default()));
+        }
         if !executed.outcomes.is_empty() {
             self.commands(executed, said);
         }
@@ -136,11 +146,11 @@ impl<'m> Linter<'m> {
             .program_ended(&self.program, &self.memory, left);
         match ended.by {
             EndedBy::Budget if ended.endless => {
-                left_away::lint(self, left, "the reset that ends it")
+                left_away::lint(self, ended, "the reset that ends it")
             }
             EndedBy::Error | EndedBy::Budget => Vec::new(),
             EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile => {
-                left_away::lint(self, left, "program end")
+                left_away::lint(self, ended, "program end")
             }
         }
     }

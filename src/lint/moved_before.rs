@@ -2,7 +2,7 @@
 
 use super::{Linter, Maker};
 use crate::comp::{AxisIndex, Kind, State};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::Executed;
 
 /// A message shows a block with so many characters.
@@ -34,17 +34,20 @@ pub(super) fn lint(
         None => "a program that is not known".to_owned(),
     };
     let place = memory.moved.as_ref()?.place.clone();
-    Some(
-        Diagnostic::new(
-            Code::Fc403,
-            place,
-            format!("axis `{name}` {how}, left so by {who}"),
-        )
-        .with_axis(name)
-        .with_help(format!(
-            "set it at program start, `{name}[COMP ON FRICT]` or `{name}[COMP OFF FRICT]`"
-        )),
+    let commands = ["ON", "OFF"].map(|way| format!("{name}[COMP {way} FRICT]"));
+    let [on, off] = &commands;
+    let mut diagnostic = Diagnostic::new(
+        Code::Fc403,
+        place,
+        format!("axis `{name}` {how}, left so by {who}"),
     )
+    .with_axis(name)
+    .with_help(format!("set it at program start, `{on}` or `{off}`"));
+    if let Some(begin) = &linter.begin {
+        let fix = |command: &String| Fix::guess(begin.clone(), format!("{command}\n"));
+        diagnostic.fixes.extend(commands.iter().map(fix));
+    }
+    Some(diagnostic)
 }
 
 /// The text of a block as far as its first comment.

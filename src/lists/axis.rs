@@ -234,7 +234,7 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
                 ),
             );
             if let Some(meant) = did_you_mean(word.value, Kind::ALL.map(Kind::keyword)) {
-                diagnostic = diagnostic.with_help(format!("did you mean `{meant}`?"));
+                diagnostic = diagnostic.with_near(word.value, meant);
             }
             diagnostics.push(diagnostic);
             break;

@@ -92,7 +92,7 @@ impl Check<'_> {
         for diagnostic in &mut self.diagnostics {
             if diagnostic.severity == Severity::Error {
                 let consequence = "the list is not taken, friction compensation has no effect";
-                diagnostic.help.push(consequence.to_owned());
+                diagnostic.advice.push(consequence.into());
             }
         }
         let rejected = self

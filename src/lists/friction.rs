@@ -336,7 +336,7 @@ fn unknown_key(entry: &Entry, name: &str) -> Option<Diagnostic> {
     if let Some(meant) = did_you_mean(name, known) {
         let index = entry.indices.first().copied().unwrap_or_default();
         let meant = meant.replace("[]", &format!("[{index}]"));
-        diagnostic = diagnostic.with_help(format!("did you mean `{STRUCTURE}{meant}`?"));
+        diagnostic = diagnostic.with_near(entry.written_key(), &format!("{STRUCTURE}{meant}"));
     }
     Some(diagnostic)
 }

@@ -48,6 +48,11 @@ impl Entry {
         key
     }
 
+    /// The key as it stands there.
+    pub(super) fn written_key(&self) -> &str {
+        self.key_span.of(self.source.text())
+    }
+
     /// Where the key stands.
     pub fn key_place(&self) -> Place {
         self.source.place(self.key_span)

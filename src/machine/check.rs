@@ -11,7 +11,7 @@ use super::description::Machine;
 use super::files::ListFiles;
 use super::value_list::ValueList;
 use crate::comp::CncBuild;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::lists::{
     AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
     Verdict,
@@ -137,7 +137,7 @@ pub fn check_list(
             );
             diagnostics.push(
                 Diagnostic::new(Code::Fc124, source.place(Span::new(0, 0)), message)
-                    .with_help("`frictcomp explain FC124` says how these lists are written"),
+                    .with_help(Advice::ReadPage(Code::Fc124)),
             );
         }
     }

@@ -10,7 +10,7 @@ use super::sampler::Sampler;
 use super::segment::{Ends, SAME_PLACE, Segment};
 use super::trace::{Cause, Dwell, TraceSink};
 use crate::comp::{AxisIndex, Kind, State};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
 use crate::interpreter::{Form, Motion, PathFeed, Travel};
 use crate::machine::Machine;
 use crate::text::{Place, Span};
@@ -153,7 +153,7 @@ impl TrajectoryPlanner {
                 text: &std::mem::take(&mut self.text),
                 line: self.line,
             };
-            let help = "raise the budget with `--max-cycles`";
+            let help = Advice::RaiseBudget(Budget::Cycles);
             let message = "the trace is longer than its budget and ends here";
             self.say(&at, (Code::Fc915, message), help);
         }
@@ -260,9 +260,11 @@ impl TrajectoryPlanner {
         sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
         let message = format!("the trace leaves this motion out: {reason}");
-        let help = "write what is missing into the program (`F`, absolute positions), or give \
-                    values with `--set`; the trace restarts after it";
-        self.say(&At::of(row), (Code::Fc903, &message), help);
+        self.say(
+            &At::of(row),
+            (Code::Fc903, &message),
+            Advice::CompleteMotion,
+        );
         self.running = Running::No;
         self.look_ahead.stop(sink)
     }
@@ -355,7 +357,7 @@ impl TrajectoryPlanner {
 
     /// Says something about a block, once a place; of what holds for the rest of the program only
     /// the first.
-    fn say(&mut self, at: &At<'_>, (code, message): (Code, &str), help: &str) {
+    fn say(&mut self, at: &At<'_>, (code, message): (Code, &str), help: impl Into<Advice>) {
         let place = Place {
             file: at.file.into(),
             text: at.text.into(),

@@ -69,8 +69,9 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
     for label in outside {
         group = element(group, &label.place, |shown| vec![annotate(shown, label)]);
     }
-    for help in &diagnostic.help {
-        group = group.element(Level::HELP.message(wrap(help, look.width, HELP_INDENT)));
+    for advice in &diagnostic.advice {
+        group =
+            group.element(Level::HELP.message(wrap(&advice.to_string(), look.width, HELP_INDENT)));
     }
     let renderer = match look.paint {
         Paint::Plain => Renderer::plain(),

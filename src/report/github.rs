@@ -32,9 +32,9 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     escape(out, diagnostic.code.text(), b"%\r\n:,");
     out.extend_from_slice(b"::");
     escape(out, &diagnostic.message, b"%\r\n");
-    for help in &diagnostic.help {
+    for advice in &diagnostic.advice {
         out.extend_from_slice(b"%0Ahelp: ");
-        escape(out, help, b"%\r\n");
+        escape(out, &advice.to_string(), b"%\r\n");
     }
     out.push(b'\n');
 }

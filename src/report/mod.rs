@@ -25,6 +25,7 @@ mod text;
 pub mod tune;
 mod view;
 mod visible;
+mod wording;
 
 pub use csv::Csv;
 pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, render};
@@ -39,6 +40,7 @@ pub use text::{Runs, Text, TextOptions};
 pub use view::{Blocks, View};
 #[cfg(feature = "cli")]
 pub(crate) use visible::{leading, visible, visible_line};
+pub use wording::command_line;
 
 #[cfg(test)]
 mod tests;

@@ -242,7 +242,9 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.extend_from_slice(b",\"message\":");
     string(out, &diagnostic.message);
     out.extend_from_slice(b",\"help\":[");
-    separated(out, &diagnostic.help, |out, help| string(out, help));
+    separated(out, &diagnostic.advice, |out, advice| {
+        string(out, &advice.to_string());
+    });
     out.push(b']');
 }
 

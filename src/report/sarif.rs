@@ -91,9 +91,9 @@ fn indented(out: &mut Vec<u8>, value: &Value, column: usize) {
 
 fn result(diagnostic: &Diagnostic) -> Value {
     let mut text = diagnostic.message.clone();
-    for help in &diagnostic.help {
+    for advice in &diagnostic.advice {
         text.push_str("\nhelp: ");
-        text.push_str(help);
+        text.push_str(&advice.to_string());
     }
     let mut result = json!({
         "ruleId": diagnostic.code.text(),

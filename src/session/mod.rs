@@ -15,7 +15,7 @@ pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
-use crate::diagnostic::{Diagnostic, Levels, Severity};
+use crate::diagnostic::{Diagnostic, Levels, Severity, Wording};
 use crate::interpreter::{Event, Interpreter, Options, RunOutcome, Value};
 pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, StopPolicy,
@@ -49,6 +49,8 @@ pub struct SessionOptions {
     /// The axes that the programs switch, as far as a look ahead found them: what is proposed where
     /// no machine is described (R1.37).
     pub switched: Vec<String>,
+    /// How advice is worded; `None` for the general words.
+    pub wording: Option<Wording>,
 }
 
 /// The text of a program.
@@ -96,6 +98,7 @@ pub struct Session {
     /// The variables that the user gave.
     given: BTreeMap<String, Value>,
     remark: Option<String>,
+    wording: Option<Wording>,
     programs: u32,
     stopped: bool,
     tally: Tally,
@@ -123,7 +126,9 @@ impl Session {
         }
         let axes = machine.axes.len();
         Self {
-            remark: undescribed(&machine, &options.switched),
+            remark: undescribed(&machine, &options.switched)
+                .map(|advice| advice.in_words(options.wording)),
+            wording: options.wording,
             machine,
             interpreter,
             levels: options.levels,
@@ -243,7 +248,9 @@ impl Session {
         })?;
         for diagnostic in lists {
             self.tally.count(diagnostic);
-            sink.record(&Record::Machine(diagnostic))?;
+            let mut diagnostic = diagnostic.clone();
+            diagnostic.reword(self.wording);
+            sink.record(&Record::Machine(&diagnostic))?;
         }
         ControlFlow::Continue(())
     }
@@ -261,6 +268,7 @@ impl Session {
         let mut recorder = Recorder {
             machine: &machine,
             levels: &self.levels,
+            wording: self.wording,
             linter: Linter::new(&machine, &mut self.history, file),
             tally: &mut self.tally,
             notes: &mut self.notes,

@@ -6,11 +6,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, State};
-use crate::diagnostic::{Code, Diagnostic, Levels, Severity};
+use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::{Ended, Event, Executed, Note, NoteKind};
 use crate::lint::{Linter, Told};
 use crate::machine::Machine;
-use crate::syntax::{Comments, allow};
+use crate::syntax::Comments;
+use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span};
 use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Record, Row, Sink, StateView};
 
@@ -59,6 +60,7 @@ pub(super) struct Allow {
 pub(super) struct Recorder<'a> {
     pub(super) machine: &'a Machine,
     pub(super) levels: &'a Levels,
+    pub(super) wording: Option<Wording>,
     pub(super) linter: Linter<'a>,
     pub(super) tally: &'a mut Tally,
     pub(super) notes: &'a mut NoteBook,
@@ -140,7 +142,8 @@ impl Recorder<'_> {
     /// nothing to be remembered of it, and no comment in it can allow anything.
     #[inline]
     fn is_quiet(&self, executed: &Executed<'_>) -> bool {
-        executed.diagnostics.is_empty()
+        executed.seq > 1
+            && executed.diagnostics.is_empty()
             && executed.outcomes.is_empty()
             && executed.changes.is_empty()
             && executed.comments == Comments::Absent
@@ -189,7 +192,7 @@ impl Recorder<'_> {
     /// Applies the user's severities and `allow` comments, keeps messages once a place, and sorts.
     fn filter(&mut self, line: u32) {
         let (levels, allows, here) = (self.levels, &mut self.allows, &self.here);
-        let (before, tally) = (&mut self.before, &mut *self.tally);
+        let (before, tally, wording) = (&mut self.before, &mut *self.tally, self.wording);
         self.said.retain_mut(|diagnostic| {
             let Some(severity) = levels.severity(diagnostic.code) else {
                 return false;
@@ -200,7 +203,10 @@ impl Recorder<'_> {
                 return false;
             }
             match before.take(diagnostic) {
-                Verdict::Say => true,
+                Verdict::Say => {
+                    diagnostic.reword(wording);
+                    true
+                }
                 Verdict::Repeated => false,
                 Verdict::TooMany => {
                     tally.count(diagnostic);
@@ -232,7 +238,10 @@ impl Recorder<'_> {
         let allowance = allow::allowed(text);
         if let Some(fault) = allowance.fault {
             let diagnostic = Diagnostic::new(Code::Fc491, place(fault.span), fault.message);
-            self.said.push(diagnostic.with_help(fault.help));
+            self.said.push(match fault.help {
+                Help::Near(near) => diagnostic.with_near(fault.span.of(text), near),
+                Help::How(how) => diagnostic.with_help(how),
+            });
         }
         for code in allowance.codes {
             self.here.push(code);
@@ -333,6 +342,9 @@ impl Recorder<'_> {
             None => false,
         });
         notes.append(&mut rest);
+        for note in &mut notes {
+            note.diagnostic.reword(self.wording);
+        }
         let repeated = self.before.repeats();
         self.sink.record(&Record::End(End {
             program: self.program,
@@ -363,8 +375,10 @@ fn unused_allows(allows: &HashMap<(Arc<str>, u32, Code), Allow>) -> Vec<EndNote>
             };
             EndNote {
                 seq: allow.seq,
-                diagnostic: Diagnostic::new(Code::Fc490, allow.place.clone(), message)
-                    .with_help("remove the comment"),
+                diagnostic: without_comment(
+                    Diagnostic::new(Code::Fc490, allow.place.clone(), message)
+                        .with_help("remove the comment"),
+                ),
             }
         })
         .collect();
@@ -374,6 +388,18 @@ fn unused_allows(allows: &HashMap<(Arc<str>, u32, Code), Allow>) -> Vec<EndNote>
         order(a).cmp(&order(b)).then_with(words)
     });
     notes
+}
+
+/// The diagnostic on a comment that silences nothing, with the change that removes it.
+fn without_comment(diagnostic: Diagnostic) -> Diagnostic {
+    let mut place = diagnostic.place.clone();
+    match allow::lone_comment(&place.text) {
+        Some(span) => {
+            place.span = span;
+            diagnostic.with_fix(Fix::safe(place, ""))
+        }
+        None => diagnostic,
+    }
 }
 
 /// Whether a comment allows a diagnostic about the block that starts on a line.

@@ -7,6 +7,7 @@ use super::friction::GmsElement;
 use super::parameters::DriveParameters;
 use super::plant::{Plant, Preset, UnknownPreset};
 use crate::config::{ConfigError, DriveTable, PlantFile, Quantity};
+use crate::diagnostic::Advice;
 use crate::lists::Given;
 use crate::text::SourceFile;
 
@@ -108,10 +109,14 @@ fn parameter(drive: &mut DriveParameters, quantity: Quantity) -> Option<&mut f64
 /// What the values must be to each other.
 fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError> {
     let friction = &drive.friction;
-    let refuse = |quantity, message, help: &str| Err(table.refuse(quantity, message, help));
+    let refuse = |quantity, message, help: Advice| Err(table.refuse(quantity, message, help));
     if friction.coulomb_n <= 0.0 && friction.breakaway_n > 0.0 {
         let message = "`Fs` without `Fc`: nothing is left to slide against".to_owned();
-        return refuse(Quantity::Coulomb, message, "write both, or 0 for both");
+        return refuse(
+            Quantity::Coulomb,
+            message,
+            "write both, or 0 for both".into(),
+        );
     }
     if friction.breakaway_n < friction.coulomb_n {
         let message = format!(
@@ -119,7 +124,7 @@ fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError>
             friction.breakaway_n, friction.coulomb_n
         );
         let help = "the breakaway friction is at least the Coulomb friction";
-        return refuse(Quantity::Breakaway, message, help);
+        return refuse(Quantity::Breakaway, message, help.into());
     }
     // Both limits are those of the explicit step, which cannot follow a contact that swings faster.
     let most = drive.mass_kg / (STEP_S * STEP_S);
@@ -129,7 +134,7 @@ fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError>
             friction.stiffness_n_per_m, drive.mass_kg
         );
         let help = format!("`sigma0` is at most {most:.3e} here");
-        return refuse(Quantity::Stiffness, message, &help);
+        return refuse(Quantity::Stiffness, message, help.into());
     }
     let most = drive.mass_kg / STEP_S;
     let damping = friction.damping_n_s_per_m + friction.viscous_n_s_per_m;
@@ -140,7 +145,7 @@ fn check(drive: &DriveParameters, table: &DriveTable) -> Result<(), ConfigError>
             drive.mass_kg
         );
         let help = format!("`sigma1` + `fv` is at most {most:.3e} here");
-        return refuse(Quantity::Damping, message, &help);
+        return refuse(Quantity::Damping, message, help.into());
     }
     Ok(())
 }

@@ -26,7 +26,16 @@ pub(crate) struct AllowFault {
     /// One sentence.
     pub(crate) message: String,
     /// What to write.
-    pub(crate) help: String,
+    pub(crate) help: Help,
+}
+
+/// What to write in place of a word that is not understood.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Help {
+    /// This word.
+    Near(&'static str),
+    /// The whole comment, as this says.
+    How(&'static str),
 }
 
 /// A word behind the mark.
@@ -36,7 +45,7 @@ struct Word<'a> {
 }
 
 impl Word<'_> {
-    fn fault(&self, message: String, help: String) -> AllowFault {
+    fn fault(&self, message: String, help: Help) -> AllowFault {
         AllowFault {
             span: Span::new(self.start, self.start + self.text.len()),
             message,
@@ -64,7 +73,7 @@ pub(crate) fn allowed(text: &str) -> Allowance {
                 "`{}` is not a word that frictcomp knows, so the code is not allowed",
                 first.text
             );
-            allowance.fault = Some(first.fault(message, format!("did you mean `{ALLOW}`?")));
+            allowance.fault = Some(first.fault(message, Help::Near(ALLOW)));
         }
         return allowance;
     }
@@ -81,9 +90,27 @@ pub(crate) fn allowed(text: &str) -> Allowance {
     }
     if allowance.codes.is_empty() && allowance.fault.is_none() {
         let message = "`allow` names no code".to_owned();
-        allowance.fault = Some(first.fault(message, how()));
+        allowance.fault = Some(first.fault(message, Help::How(HOW)));
     }
     allowance
+}
+
+/// The comment of a text that speaks to this tool, with the blanks before it, where it allows a single
+/// code and nothing else of the text would go with it.
+pub(crate) fn lone_comment(text: &str) -> Option<Span> {
+    let mark = text.find(MARK)?;
+    if allowed(text).codes.len() != 1 {
+        return None;
+    }
+    let start = text[..mark].rfind([';', '('])?;
+    let rest = &text[start..];
+    let length = if rest.starts_with('(') {
+        rest.find(')')? + 1
+    } else {
+        rest.find('\n').unwrap_or(rest.len())
+    };
+    let before = text[..start].trim_end_matches([' ', '\t']).len();
+    Some(Span::new(before, start + length))
 }
 
 /// The words behind a place, with their places.
@@ -112,16 +139,12 @@ fn looks_like_code(word: &str) -> bool {
 fn unknown(word: &Word<'_>) -> AllowFault {
     let message = format!("`{}` is not a code, so it allows nothing", word.text);
     let codes = Code::ALL.iter().map(|code| code.text());
-    let help = match did_you_mean(word.text, codes) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => how(),
-    };
-    word.fault(message, help)
+    let near = did_you_mean(word.text, codes);
+    word.fault(message, near.map_or(Help::How(HOW), Help::Near))
 }
 
-fn how() -> String {
-    "write `frictcomp: allow`, the codes as the messages show them, and the reason".to_owned()
-}
+/// How the whole comment is written.
+const HOW: &str = "write `frictcomp: allow`, the codes as the messages show them, and the reason";
 
 #[cfg(test)]
 mod tests {
@@ -156,19 +179,31 @@ mod tests {
                 let word = fault.span.of(text).to_owned();
                 (word, fault.help)
             });
-            fault.unwrap_or_default()
+            fault.expect("a fault")
         };
         let (word, help) = fault("X1 ; frictcomp: alow FC402");
-        assert_eq!(
-            (word.as_str(), help.as_str()),
-            ("alow", "did you mean `allow`?")
-        );
+        assert_eq!((word.as_str(), help), ("alow", Help::Near("allow")));
         assert_eq!(fault("; frictcomp: Allow FC402").0, "Allow");
         assert_eq!(fault("; frictcomp: ignore FC402").0, "ignore");
         assert_eq!(fault("; frictcomp: allow FC4O1 known").0, "FC4O1");
         assert_eq!(fault("; frictcomp: allow FC401 FC499").0, "FC499");
         assert_eq!(fault("; frictcomp: allow because").0, "because");
         assert_eq!(fault("; frictcomp: allow").0, "allow");
+    }
+
+    #[test]
+    fn a_comment_that_allows_one_code_is_removed_whole() {
+        let removed = |text: &str| lone_comment(text).map(|span| span.of(text).to_owned());
+        assert_eq!(
+            removed("X1 (frictcomp: allow FC402 known) Y1"),
+            Some(" (frictcomp: allow FC402 known)".to_owned())
+        );
+        assert_eq!(
+            removed("X1 \\ ; frictcomp: allow FC402\nY1"),
+            Some(" ; frictcomp: allow FC402".to_owned())
+        );
+        assert_eq!(removed("; frictcomp: allow FC402 FC405"), None);
+        assert_eq!(removed("; frictcomp: allow"), None);
     }
 
     #[test]

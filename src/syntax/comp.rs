@@ -2,7 +2,7 @@
 
 use super::fault::Fault;
 use crate::comp::{CompCommand, Kind, KindSet, Selection};
-use crate::diagnostic::{Code, did_you_mean};
+use crate::diagnostic::{Code, Fix, did_you_mean};
 use crate::text::Span;
 
 /// The words that may stand in a COMP bracket behind `COMP`.
@@ -118,7 +118,8 @@ impl CompWords<'_> {
                     span,
                     format!("keyword `{word}` is not in upper case"),
                 )
-                .with_help(format!("write `{}`", word.to_ascii_uppercase())),
+                .with_help(format!("write `{}`", word.to_ascii_uppercase()))
+                .with_fix(Fix::safe(span, word.to_ascii_uppercase())),
             );
         }
     }
@@ -134,6 +135,34 @@ impl CompWords<'_> {
             "write `{axis}[COMP ON FRICT]`, `{axis}[COMP OFF FRICT]` or `{axis}[COMP OFF_ALL]`"
         ))
     }
+}
+
+/// Where a COMP command ends whose bracket is not closed: after the last of its words.
+pub(super) fn end_of_command(code: &str, start: usize) -> Option<usize> {
+    let is_letter = |letter: char| letter.is_ascii_alphabetic() || letter == '_';
+    let mut end = None;
+    let mut at = start;
+    for count in 0.. {
+        let rest = code.get(at..)?;
+        let word_start = at
+            + rest
+                .find(|letter| letter != ' ' && letter != '\t')
+                .unwrap_or(rest.len());
+        let rest = &code[word_start..];
+        let word = &rest[..rest.find(|letter| !is_letter(letter)).unwrap_or(rest.len())];
+        let known = match count {
+            0 => word.eq_ignore_ascii_case("COMP"),
+            _ => KEYWORDS
+                .iter()
+                .any(|keyword| keyword.eq_ignore_ascii_case(word)),
+        };
+        if !known {
+            break;
+        }
+        at = word_start + word.len();
+        end = (count > 0).then_some(at);
+    }
+    end
 }
 
 fn second_selection(span: Span, word: &str, first: &str) -> Fault {
@@ -177,7 +206,7 @@ fn unknown_word(span: Span, word: &str) -> Fault {
         return fault.with_help("kinds are separated by blanks, a comma is no separator");
     }
     match did_you_mean(word, KEYWORDS) {
-        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+        Some(near) => fault.with_near(span, near),
         None => fault.with_help(format!("the kinds are {kinds}")),
     }
 }

@@ -1,7 +1,7 @@
 //! What is wrong with the text of a block.
 
-use crate::diagnostic::Code;
-use crate::text::Span;
+use crate::diagnostic::{Advice, Code, Diagnostic, Fix};
+use crate::text::{Place, Span};
 
 /// A statement about the text of one block: a diagnostic whose span counts from the block's start.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -14,7 +14,9 @@ pub struct Fault {
     /// One sentence in lower case.
     pub message: String,
     /// What to do.
-    pub help: Vec<String>,
+    pub advice: Vec<Advice>,
+    /// Changes to the text of the block, each of which alone does what is advised.
+    pub fixes: Vec<Fix<Span>>,
 }
 
 impl Fault {
@@ -24,13 +26,47 @@ impl Fault {
             code,
             span,
             message: message.into(),
-            help: Vec::new(),
+            advice: Vec::new(),
+            fixes: Vec::new(),
         }
     }
 
     /// The same with one more piece of advice.
-    pub fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help.push(help.into());
+    pub fn with_help(mut self, advice: impl Into<Advice>) -> Self {
+        self.advice.push(advice.into());
         self
+    }
+
+    /// The same with one more change that does what is advised.
+    pub fn with_fix(mut self, fix: Fix<Span>) -> Self {
+        self.fixes.push(fix);
+        self
+    }
+
+    /// The same with the known word that may be meant where another one stands.
+    pub(crate) fn with_near(self, found: Span, near: &str) -> Self {
+        self.with_help(Advice::DidYouMean(near.to_owned()))
+            .with_fix(Fix::guess(found, near))
+    }
+
+    /// The diagnostic that it is at a place. What it would change is at the places that `at` makes
+    /// of spans; `None` where that text is not one of the program.
+    pub(crate) fn into_diagnostic(
+        self,
+        place: Place,
+        at: impl Fn(Span) -> Option<Place>,
+    ) -> Diagnostic {
+        let mut diagnostic = Diagnostic::new(self.code, place, self.message);
+        diagnostic.advice = self.advice;
+        for fix in self.fixes {
+            if let Some(place) = at(fix.place) {
+                diagnostic.fixes.push(Fix {
+                    place,
+                    text: fix.text,
+                    safety: fix.safety,
+                });
+            }
+        }
+        diagnostic
     }
 }

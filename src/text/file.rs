@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::index::LineIndex;
-use super::lines::BYTE_ORDER_MARK;
+use super::lines::{BYTE_ORDER_MARK, LineSource, PhysicalLine, TextLines};
 use super::place::Place;
 use super::span::Span;
 
@@ -56,6 +56,46 @@ impl SourceFile {
         &self.lines
     }
 
+    /// The span of a place in this file; `None` where the file does not hold the lines of the place.
+    pub fn find(&self, place: &Place) -> Option<Span> {
+        let (mut start, mut end) = (None, None);
+        // The lines of the place may end otherwise than those of the file.
+        let mut lines = TextLines::starting_at(&place.text, 0);
+        for number in place.first_line.. {
+            let more = lines.advance();
+            if !more && start.is_some() {
+                break;
+            }
+            let shown = if more {
+                lines.line()
+            } else {
+                PhysicalLine::default()
+            };
+            let held = self.lines.line_span(&self.text, number);
+            if self.lines.line(held.start) != number || !held.of(&self.text).starts_with(shown.text)
+            {
+                return None;
+            }
+            let inside = shown.offset..=shown.offset + shown.text.len();
+            let found = |offset: u32| {
+                let offset = offset as usize;
+                let shift = offset.checked_sub(shown.offset)?;
+                inside
+                    .contains(&offset)
+                    .then_some(held.start as usize + shift)
+            };
+            start = start.or_else(|| found(place.span.start));
+            end = end.or_else(|| found(place.span.end));
+            if let (Some(start), Some(end)) = (start, end) {
+                return Some(Span::new(start, end));
+            }
+            if !more {
+                break;
+            }
+        }
+        None
+    }
+
     /// The place of a span in this file, showing the lines that it touches.
     pub fn place(&self, span: Span) -> Place {
         let first_line = self.lines.line(span.start);
@@ -91,6 +131,19 @@ mod tests {
             assert_eq!(&*place.text, text);
             assert_eq!(place.span, Span::new(span.0, span.1));
         }
+    }
+
+    #[test]
+    fn a_place_is_found_again() {
+        let text = "N1\r\n(\u{dc}) X[COMP \\\r\nON]\rN3\n";
+        let file = SourceFile::new("a.nc", text);
+        for (start, end) in [(0, 2), (8, 10), (4, 22), (19, 22), (23, 25), (24, 24)] {
+            let span = Span::new(start, end);
+            assert_eq!(file.find(&file.place(span)), Some(span), "{start}..{end}");
+        }
+        let other = SourceFile::new("a.nc", "N1\r\n(U) X[COMP]");
+        assert_eq!(other.find(&file.place(Span::new(8, 10))), None);
+        assert_eq!(other.find(&file.place(Span::new(23, 25))), None);
     }
 
     #[test]

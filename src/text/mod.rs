@@ -11,6 +11,7 @@ mod span;
 
 pub use file::SourceFile;
 pub use index::LineIndex;
+#[cfg(feature = "cli")]
 pub(crate) use lines::line_end;
 pub use lines::{LineSource, PhysicalLine, TextLines};
 pub use place::Place;

@@ -70,7 +70,7 @@ fn wrong_axis_values_are_said() {
             "FC124 5:47"
         ]
     );
-    assert_eq!(report.diagnostics[4].help, ["did you mean `FRICT`?"]);
+    assert_eq!(report.diagnostics[4].help(), ["did you mean `FRICT`?"]);
 }
 
 #[test]

@@ -23,7 +23,7 @@ fn refused(text: &str) -> (String, String) {
         Ok(_) => panic!("accepted: {text}"),
         Err(error) => {
             assert_eq!(error.diagnostic.code, Code::Fc110);
-            (error.to_string(), error.diagnostic.help.join(" "))
+            (error.to_string(), error.diagnostic.help().join(" "))
         }
     }
 }

@@ -94,10 +94,10 @@ fn a_missing_list_says_where_it_was_looked_for() {
     assert_eq!(codes(&found.diagnostics), ["FC123 1:13", "FC123 2:13"]);
     assert_eq!(found.missing, 2);
     assert_eq!(
-        found.diagnostics[0].help[1],
+        found.diagnostics[0].help()[1],
         "only `(` opens a comment after a path"
     );
-    let help = &found.diagnostics[1].help;
+    let help = &found.diagnostics[1].help();
     assert_eq!(
         help,
         &["looked for `m/b.lis`, in the same way from each folder above"]

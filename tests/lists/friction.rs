@@ -248,7 +248,7 @@ fn negative_delays_count_as_0() {
     let found = codes(&report.diagnostics);
     assert_eq!(found, ["FC132 5:27", "FC132 6:31", "FC132 7:25"]);
     for diagnostic in &report.diagnostics {
-        assert_eq!(diagnostic.help, ["a negative value counts as 0"]);
+        assert_eq!(diagnostic.help(), ["a negative value counts as 0"]);
     }
     let list = accepted(text);
     let delays = (

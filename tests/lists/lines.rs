@@ -170,7 +170,7 @@ fn unknown_friction_keys_are_said_and_others_passed_over() {
     let help: Vec<_> = report
         .diagnostics
         .iter()
-        .map(|d| d.help.join(" "))
+        .map(|d| d.help().join(" "))
         .collect();
     assert_eq!(
         help,

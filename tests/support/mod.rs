@@ -55,7 +55,10 @@ impl Bench {
     pub(crate) fn on(toml: &str) -> Self {
         Self {
             machine: Machine::from_toml(toml).expect("the test's machine"),
-            options: SessionOptions::default(),
+            options: SessionOptions {
+                wording: Some(frictcomp::report::command_line),
+                ..SessionOptions::default()
+            },
             files: BTreeMap::new(),
             kinds: vec![Kind::Frict],
             handed: Handed::Whole,
@@ -152,7 +155,7 @@ impl Bench {
                     let place = diagnostic.place.start();
                     writeln!(self.0, "{} {place} {}", diagnostic.code, diagnostic.message)
                         .expect("text");
-                    for help in &diagnostic.help {
+                    for help in diagnostic.help() {
                         writeln!(self.0, "  help: {help}").expect("text");
                     }
                     for label in &diagnostic.labels {

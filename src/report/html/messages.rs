@@ -67,7 +67,7 @@ pub(super) fn item(message: &Message) -> Markup {
 
 fn help(message: &Message) -> Markup {
     let diagnostic = &message.diagnostic;
-    if diagnostic.help.is_empty() && diagnostic.labels.is_empty() {
+    if diagnostic.advice.is_empty() && diagnostic.labels.is_empty() {
         return html! {};
     }
     html! {
@@ -78,8 +78,8 @@ fn help(message: &Message) -> Markup {
                     (with_code(&label.text))
                 }
             }
-            @for help in &diagnostic.help {
-                li { "help: " (with_code(help)) }
+            @for advice in &diagnostic.advice {
+                li { "help: " (with_code(&advice.to_string())) }
             }
         }
     }

@@ -3,7 +3,7 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Fix};
 use crate::syntax::ast::{Assignment, Block, CallScope, Effect, Item, Target};
 use crate::syntax::brackets::brackets;
 use crate::syntax::fault::Fault;
@@ -145,7 +145,8 @@ impl Lowering<'_> {
             let word = span.of(self.code);
             self.block.faults.push(
                 Fault::new(Code::Fc404, span, format!("`{word}` is not in upper case"))
-                    .with_help(format!("write `{}`", word.to_ascii_uppercase())),
+                    .with_help(format!("write `{}`", word.to_ascii_uppercase()))
+                    .with_fix(Fix::safe(span, word.to_ascii_uppercase())),
             );
         }
     }

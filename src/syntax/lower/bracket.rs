@@ -3,10 +3,16 @@
 use pest::iterators::Pair;
 
 use super::block::{Lowering, not_closed, span_of, trimmed};
-use crate::diagnostic::{Code, did_you_mean};
+use crate::diagnostic::{Code, Fix, did_you_mean};
 use crate::syntax::ast::{Address, Effect, Item, Word};
 use crate::syntax::known::{axis_commands, is_axis_command, is_spindle_command, is_spindle_word};
-use crate::syntax::{comp::CompWords, expression, fault::Fault, grammar::Rule, mask::is_blank};
+use crate::syntax::{
+    comp::{CompWords, end_of_command},
+    expression,
+    fault::Fault,
+    grammar::Rule,
+    mask::is_blank,
+};
 use crate::text::Span;
 
 impl Lowering<'_> {
@@ -26,7 +32,12 @@ impl Lowering<'_> {
         if !closed {
             let open = self.code[axis.end as usize..].find('[').unwrap_or_default();
             self.unclosed = None;
-            self.refuse(not_closed(axis.end as usize + open), span);
+            let open = axis.end as usize + open;
+            let mut fault = not_closed(open);
+            if let Some(end) = end_of_command(self.code, open + 1) {
+                fault = fault.with_fix(Fix::guess(Span::new(end, end), "]"));
+            }
+            self.refuse(fault, span);
             return;
         }
         let words = words(self.code, body);
@@ -130,7 +141,7 @@ fn invalid_keyword(span: Span, word: &str) -> Fault {
         format!("invalid first keyword `{word}` in an axis bracket"),
     );
     match did_you_mean(word, known) {
-        Some(near) => fault.with_help(format!("did you mean `{near}`?")),
+        Some(near) => fault.with_near(span, near),
         None => fault.with_help("friction compensation is switched with `COMP ON FRICT`"),
     }
 }

@@ -127,9 +127,12 @@ impl Lowering<'_> {
             self.unread(Effect::Everything, span);
             return None;
         };
+        let start = span.start as usize;
+        let start = start + span.of(self.code).find(word).unwrap_or_default();
+        let word_span = Span::new(start, start + word.len());
         self.block.faults.push(
             Fault::new(Code::Fc207, span, format!("unknown statement `{word}`"))
-                .with_help(format!("did you mean `{near}`?")),
+                .with_near(word_span, near),
         );
         let place = expression::unread(span, self.block);
         Some(meant(near, place, span))

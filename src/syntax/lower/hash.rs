@@ -18,7 +18,7 @@ impl Lowering<'_> {
         let name_end = span.start as usize + length;
         self.note_case(Span::new(span.start as usize, name_end));
         let Some(touches) = hash_command(&name) else {
-            self.unknown_hash(&name, span);
+            self.unknown_hash(&name, length, span);
             return;
         };
         let rest = Span::new(name_end, span.end as usize);
@@ -46,10 +46,11 @@ impl Lowering<'_> {
     }
 
     /// A `#` command that no table names could do anything (R2.70).
-    fn unknown_hash(&mut self, name: &str, span: Span) {
+    fn unknown_hash(&mut self, name: &str, length: usize, span: Span) {
         let mut fault = not_known(name, span);
         if let Some(near) = did_you_mean(name, hash_commands()) {
-            fault = fault.with_help(format!("did you mean `{near}`?"));
+            let start = span.start as usize;
+            fault = fault.with_near(Span::new(start, start + length), near);
         }
         fault = fault.with_help(format!(
             "if it affects nothing that frictcomp follows, add `harmless = [\"{name}\"]` to `[machine]` in frictcomp.toml"

@@ -1,0 +1,137 @@
+//! What to do about a diagnostic, as data.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use super::codes::Code;
+
+/// A bound of the dry run that a host may raise (R2.60).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Budget {
+    /// Executed blocks.
+    Blocks,
+    /// Subprogram calls within each other.
+    Calls,
+    /// Control blocks within each other.
+    Nesting,
+    /// Macros within each other.
+    Macros,
+    /// Values that the program holds.
+    Values,
+    /// Work beyond the text of the executed blocks.
+    Work,
+    /// CNC cycles of a trace.
+    Cycles,
+}
+
+/// A piece of advice.
+///
+/// Its [`Display`](fmt::Display) is a clause in lower case that is true in every host. A host that
+/// has its own way to do the thing words it itself: the command line names an option, an editor
+/// offers an action.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Advice {
+    /// Something that only the user can do, in words.
+    Words(Cow<'static, str>),
+    /// This known word may be meant.
+    DidYouMean(String),
+    /// Look at what uses up the budget, or raise it.
+    RaiseBudget(Budget),
+    /// Assume that friction compensation of these axes is configured and parameterised.
+    Enable(Vec<String>),
+    /// Set P-AXIS-00522 of this axis in its list, or assume that it is set.
+    Configure(String),
+    /// Describe the machine, or assume friction compensation of the axes that the programs switch.
+    DescribeMachine(Vec<String>),
+    /// Give this parameter or variable its value.
+    SetVariable(String),
+    /// Write this parameter or variable before it is read, or give it its value.
+    AssignVariable(String),
+    /// Test the value of the machine that ends the loop in its condition, and give it.
+    EndLoop,
+    /// Write what a motion lacks into the program, or give the values.
+    CompleteMotion,
+    /// Let programs be called from the folder of this one, or from anywhere.
+    AllowOutside,
+    /// Begin with a new configuration.
+    WriteConfiguration,
+    /// Read the page of this code.
+    ReadPage(Code),
+}
+
+/// How a host words advice; `None` where the general words will do.
+pub type Wording = fn(&Advice) -> Option<String>;
+
+impl Advice {
+    /// The words of a host, or the general ones.
+    pub fn in_words(&self, wording: Option<Wording>) -> String {
+        let words = wording.and_then(|wording| wording(self));
+        words.unwrap_or_else(|| self.to_string())
+    }
+}
+
+impl From<&'static str> for Advice {
+    fn from(words: &'static str) -> Self {
+        Self::Words(words.into())
+    }
+}
+
+impl From<String> for Advice {
+    fn from(words: String) -> Self {
+        Self::Words(words.into())
+    }
+}
+
+impl fmt::Display for Advice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Words(words) => f.write_str(words),
+            Self::DidYouMean(word) => write!(f, "did you mean `{word}`?"),
+            Self::RaiseBudget(budget) => f.write_str(match budget {
+                Budget::Blocks => "look for a loop that does not end, or raise the budget of blocks",
+                Budget::Calls => "look for a program that calls itself, or raise the budget of calls",
+                Budget::Nesting => "allow deeper nesting of control blocks",
+                Budget::Macros => "allow deeper nesting of macros",
+                Budget::Values => "look for a loop that keeps creating variables, or raise the budget of values",
+                Budget::Work => "look for macros that use each other, strings that grow, and long regions under an unknown condition, or raise the budget of work",
+                Budget::Cycles => "raise the budget of CNC cycles",
+            }),
+            Self::Enable(axes) => {
+                let axes = axes.join(", ");
+                write!(f, "to continue as if it were set, assume friction compensation of {axes}")
+            }
+            Self::Configure(axis) => write!(
+                f,
+                "P-AXIS-00522 (lr_param.frict_comp) of axis `{axis}` is not set; set it to 1 in its axis list, or assume that it is"
+            ),
+            Self::DescribeMachine(switched) => {
+                f.write_str(
+                    "no machine is described, so P-AXIS-00522 counts as 0 on every axis: describe it, or assume friction compensation",
+                )?;
+                match switched.as_slice() {
+                    [] => Ok(()),
+                    axes => write!(f, " of {}", axes.join(", ")),
+                }
+            }
+            Self::SetVariable(name) => {
+                write!(f, "give `{name}` its value, in `[variables]` of frictcomp.toml for instance")
+            }
+            Self::AssignVariable(name) => {
+                write!(f, "assign it first, `{name} = …`, or give it its value")
+            }
+            Self::EndLoop => f.write_str(
+                "if a value of the machine ends the loop, test it in the condition and give it its value",
+            ),
+            Self::CompleteMotion => f.write_str(
+                "write what is missing into the program (`F`, absolute positions), or give the values; the trace restarts after it",
+            ),
+            Self::AllowOutside => f.write_str(
+                "add its folder to `program_dirs`, or allow calls from anywhere",
+            ),
+            Self::WriteConfiguration => f.write_str("begin with a new configuration"),
+            Self::ReadPage(code) => write!(f, "the page of {code} says more"),
+        }
+    }
+}

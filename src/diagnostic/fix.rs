@@ -1,0 +1,171 @@
+//! Changes to a text that do what a diagnostic advises.
+
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+use crate::text::{Place, SourceFile, Span};
+
+/// Whether a fix may be applied without a look at it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Safety {
+    /// The machine does the same before and after it.
+    Safe,
+    /// It guesses what is meant, or changes what the machine does: somebody has to look at it.
+    Unsafe,
+}
+
+/// A change to a text: what stands at a place is replaced.
+///
+/// The place of a fix in a [`Fault`](crate::syntax::Fault) is a [`Span`] of the block, that of a
+/// fix in a [`Diagnostic`](super::Diagnostic) a [`Place`] in a file. The fixes of one diagnostic
+/// are alternatives: each alone does what is advised.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Fix<P = Place> {
+    /// What is replaced; text is inserted at an empty place.
+    pub place: P,
+    /// What stands there afterwards, lines separated by `\n`.
+    pub text: String,
+    /// Whether it may be applied without a look at it.
+    pub safety: Safety,
+}
+
+impl<P> Fix<P> {
+    /// A fix that the machine does not notice.
+    pub fn safe(place: P, text: impl Into<String>) -> Self {
+        Self {
+            place,
+            text: text.into(),
+            safety: Safety::Safe,
+        }
+    }
+
+    /// A fix that somebody has to look at.
+    pub fn guess(place: P, text: impl Into<String>) -> Self {
+        Self {
+            place,
+            text: text.into(),
+            safety: Safety::Unsafe,
+        }
+    }
+
+    /// The same fix at the place that `to` makes of its own.
+    pub fn map<Q>(self, to: impl FnOnce(P) -> Q) -> Fix<Q> {
+        Fix {
+            place: to(self.place),
+            text: self.text,
+            safety: self.safety,
+        }
+    }
+}
+
+impl Fix<Span> {
+    /// The fix in a text where the span counts from another offset.
+    pub fn shifted(self, offset: u32) -> Self {
+        self.map(|span| span.shifted(offset))
+    }
+}
+
+/// A text after fixes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fixed {
+    /// The text.
+    pub text: String,
+    /// How many fixes were applied; the others overlap an earlier one, or their place is not in the
+    /// text.
+    pub applied: usize,
+}
+
+impl Fixed {
+    /// Applies fixes to a file, from its start to its end. Lines that a fix brings end as the
+    /// first line of the file does.
+    pub fn new<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) -> Self {
+        let text = source.text();
+        let mut placed: Vec<(Range<usize>, &str)> = fixes
+            .into_iter()
+            .filter_map(|fix| Some((source.find(&fix.place)?.range(), fix.text.as_str())))
+            .collect();
+        placed.sort_by_key(|(range, _)| (range.start, range.end));
+        placed.dedup();
+        let line_end = line_end(text);
+        let mut fixed = Self {
+            text: String::with_capacity(text.len()),
+            applied: 0,
+        };
+        let mut copied = 0;
+        for (range, replacement) in placed {
+            if range.start < copied {
+                continue;
+            }
+            fixed.text.push_str(&text[copied..range.start]);
+            fixed.text.push_str(&replacement.replace('\n', line_end));
+            copied = range.end;
+            fixed.applied += 1;
+        }
+        fixed.text.push_str(&text[copied..]);
+        fixed
+    }
+}
+
+/// How the first line of a text ends.
+fn line_end(text: &str) -> &'static str {
+    match text.find(['\r', '\n']).map(|at| &text[at..]) {
+        Some(end) if end.starts_with("\r\n") => "\r\n",
+        Some(end) if end.starts_with('\r') => "\r",
+        _ => "\n",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fix(source: &SourceFile, found: &str, text: &str) -> Fix {
+        let start = source.text().find(found).expect("it stands there");
+        Fix::guess(source.place(Span::new(start, start + found.len())), text)
+    }
+
+    #[test]
+    fn fixes_are_applied_from_start_to_end() {
+        let source = SourceFile::new("a.nc", "N1 X[COMP ON FRIKT]\r\n(\u{dc}) Y[CMP]\r\nM30");
+        let second = fix(&source, "CMP", "COMP");
+        let first = fix(&source, "FRIKT", "FRICT");
+        let fixed = Fixed::new(&source, [&second, &first]);
+        assert_eq!(
+            (fixed.text.as_str(), fixed.applied),
+            ("N1 X[COMP ON FRICT]\r\n(\u{dc}) Y[COMP]\r\nM30", 2)
+        );
+    }
+
+    #[test]
+    fn of_two_fixes_that_overlap_the_first_is_applied() {
+        let source = SourceFile::new("a.nc", "N1 ABC");
+        let (long, short) = (fix(&source, "ABC", "D"), fix(&source, "BC", "E"));
+        let fixed = Fixed::new(&source, [&short, &long, &long]);
+        assert_eq!((fixed.text.as_str(), fixed.applied), ("N1 D", 1));
+    }
+
+    #[test]
+    fn inserted_lines_end_as_the_file_does() {
+        for (text, expected) in [
+            ("A\r\nM30", "A\r\nX\r\nM30"),
+            ("A\rM30", "A\rX\rM30"),
+            ("M30", "X\nM30"),
+        ] {
+            let source = SourceFile::new("a.nc", text);
+            let mut insert = fix(&source, "M30", "X\n");
+            insert.place.span.end = insert.place.span.start;
+            assert_eq!(Fixed::new(&source, [&insert]).text, expected);
+        }
+    }
+
+    #[test]
+    fn a_fix_of_another_text_is_not_applied() {
+        let old = SourceFile::new("a.nc", "N1 ABC");
+        let fix = fix(&old, "ABC", "D");
+        let new = SourceFile::new("a.nc", "N1 ABD");
+        let fixed = Fixed::new(&new, [&fix]);
+        assert_eq!((fixed.text.as_str(), fixed.applied), ("N1 ABD", 0));
+    }
+}

@@ -1,0 +1,88 @@
+//! The words of the command line for advice: which option does it.
+
+use crate::diagnostic::{Advice, Budget};
+
+/// How the command line words advice; `None` where the general words will do.
+pub fn command_line(advice: &Advice) -> Option<String> {
+    Some(match advice {
+        Advice::RaiseBudget(budget) => raise(*budget).to_owned(),
+        Advice::Enable(axes) => {
+            let axes = axes.join(",");
+            format!("to continue as if it were set, run with `--enable {axes}`")
+        }
+        Advice::Configure(axis) => format!(
+            "P-AXIS-00522 (lr_param.frict_comp) of axis `{axis}` is not set; set it to 1 in its axis list, or assume it with `--enable`"
+        ),
+        Advice::DescribeMachine(switched) => {
+            let axes = match switched.as_slice() {
+                [] => String::new(),
+                axes => format!(" {}", axes.join(",")),
+            };
+            format!(
+                "no machine is described, so P-AXIS-00522 counts as 0 on every axis: describe it with `frictcomp init`, or assume friction compensation with `--enable{axes}`"
+            )
+        }
+        Advice::SetVariable(name) => {
+            format!("give it with `--set {name}=VALUE` or in `[variables]` of frictcomp.toml")
+        }
+        Advice::AssignVariable(name) => {
+            format!("assign it first, `{name} = …`, or give it with `--set {name}=VALUE`")
+        }
+        Advice::EndLoop => {
+            "if a value of the machine ends the loop, test it in the condition and give it with `--set`"
+                .to_owned()
+        }
+        Advice::CompleteMotion => {
+            "write what is missing into the program (`F`, absolute positions), or give values with `--set`; the trace restarts after it"
+                .to_owned()
+        }
+        Advice::AllowOutside => {
+            "add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"
+                .to_owned()
+        }
+        Advice::WriteConfiguration => {
+            "`frictcomp init` writes a configuration to start from".to_owned()
+        }
+        Advice::ReadPage(code) => {
+            format!("`frictcomp explain {code}` says how these lists are written")
+        }
+        _ => return None,
+    })
+}
+
+fn raise(budget: Budget) -> &'static str {
+    match budget {
+        Budget::Blocks => {
+            "look for a loop that does not end, or raise the budget with `--max-blocks`"
+        }
+        Budget::Calls => {
+            "look for a program that calls itself, or raise the budget with `--max-calls`"
+        }
+        Budget::Nesting => "allow deeper nesting with `--max-nesting`",
+        Budget::Macros => "allow deeper nesting with `--max-macros`",
+        Budget::Values => {
+            "look for a loop that keeps creating variables, or raise the budget with `--max-values`"
+        }
+        Budget::Work => {
+            "look for macros that use each other, strings that grow, and long regions under an unknown condition, or raise the budget with `--max-work`"
+        }
+        Budget::Cycles => "raise the budget with `--max-cycles`",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_axes_are_proposed_in_one_list() {
+        // R1.37
+        let words = |axes: &[&str]| {
+            let axes = axes.iter().map(|&axis| axis.to_owned()).collect();
+            command_line(&Advice::DescribeMachine(axes)).unwrap_or_default()
+        };
+        assert!(words(&["X", "Y"]).ends_with("`--enable X,Y`"));
+        assert!(words(&[]).ends_with("with `--enable`"));
+        assert!(words(&[]).contains("`frictcomp init`"));
+    }
+}

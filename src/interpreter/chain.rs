@@ -17,7 +17,7 @@ pub(super) enum Step {
 }
 
 /// The `#` commands that touch the chain, by their first words.
-const COMMANDS: [(&str, Step); 26] = [
+const COMMANDS: [(&str, Step); 28] = [
     ("#TRAFO", Step::Coordinates),
     ("#CS", Step::Coordinates),
     ("#ACS", Step::Coordinates),
@@ -44,6 +44,8 @@ const COMMANDS: [(&str, Step); 26] = [
     ("#SET IPO SOLLPOS", Step::Origin),
     ("#CALL AX", Step::Origin),
     ("#SET AX", Step::Origin),
+    ("#AX REQUEST", Step::Origin),
+    ("#AX DEF", Step::Origin),
 ];
 
 /// Commands that begin like those and touch nothing.

@@ -2,6 +2,7 @@
 
 use super::at::At;
 use super::event::Outcome;
+use super::exchange::Addressed;
 use super::run::Interpreter;
 use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Kind, KindSet, Selection, State,
@@ -14,7 +15,16 @@ use crate::text::Span;
 impl Interpreter {
     pub(super) fn comp(&mut self, command: &CompCommand, at: &At<'_>) {
         let before = self.work.changes.len();
-        let axis = self.find_axis(command);
+        let axis = match self.addressed(&command.axis) {
+            Ok(Addressed::Axis(axis)) => Ok(axis),
+            Ok(Addressed::Absent(Some(axis))) => {
+                return self.doubt(axis, command.selection.kinds());
+            }
+            Ok(Addressed::Any | Addressed::Absent(None)) => {
+                return self.doubt_any_axis(command.selection.kinds());
+            }
+            Err(error) => Err(error),
+        };
         let result = axis.and_then(|axis| {
             self.see(axis);
             self.state
@@ -38,13 +48,6 @@ impl Interpreter {
             result,
             changes: self.work.changes.len() - before,
         });
-    }
-
-    fn find_axis(&self, command: &CompCommand) -> Result<AxisIndex, CompensationError> {
-        let axis = self.state.compensation.resolve(&command.axis)?;
-        let nameless = self.machine.axis_set == AxisSet::AsTheyOccur;
-        debug_assert!(nameless || self.state.occurred[axis.get()]);
-        Ok(axis)
     }
 
     /// FC301: the same axis and kind twice in one block with opposite states.

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::call::Found;
 use super::coupling::Couplings;
 use super::event::EndedBy;
+use super::exchange::ChannelAxes;
 use super::expression::Place;
 use super::memory::Memory;
 use super::modal::Modal;
@@ -69,6 +70,7 @@ struct Mark {
     refused: BTreeSet<usize>,
     ending: Option<EndedBy>,
     named: BTreeMap<String, Value>,
+    channel_axes: ChannelAxes,
     described: Option<Box<Description>>,
 }
 
@@ -123,6 +125,7 @@ impl Mark {
             refused: state.refused.clone(),
             ending: state.ending,
             named: state.named.clone(),
+            channel_axes: state.channel_axes.clone(),
             described: state.described.clone(),
         }
     }
@@ -139,6 +142,7 @@ impl Mark {
             && self.refused == state.refused
             && self.ending == state.ending
             && self.named == state.named
+            && self.channel_axes == state.channel_axes
             && self.described == state.described;
         if !same {
             return None;

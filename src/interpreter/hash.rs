@@ -3,6 +3,7 @@
 use super::at::{At, Shown};
 use super::block::Intent;
 use super::chain;
+use super::exchange::is_exchange;
 use super::expression::Place;
 use super::implicit::is_file_name;
 use super::run::Interpreter;
@@ -64,6 +65,7 @@ impl Interpreter {
             }
             "#RT WHILE" => self.real_time_loop(hash.span, at, intent),
             "#RT ENDWHILE" => {}
+            name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
                 self.state.modal.hash(name);
                 for target in &hash.written {

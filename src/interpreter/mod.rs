@@ -21,6 +21,7 @@ mod coupling;
 mod endless;
 mod evaluate;
 mod event;
+mod exchange;
 mod expression;
 mod finder;
 mod fingerprint;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use super::coupling::Couplings;
+use super::exchange::ChannelAxes;
 use super::finder::NoProgram;
 use super::memory::Memory;
 use super::modal::{AxisPosition, Modal};
@@ -104,6 +105,7 @@ impl Interpreter {
             opaque: BTreeMap::new(),
             occurred,
             couplings: Couplings::default(),
+            channel_axes: ChannelAxes::default(),
             repeated: None,
             loops: Vec::new(),
             watching: false,

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::event::{Ended, EndedBy, Event, Observer};
+use super::exchange::ChannelAxes;
 use super::finder::Finder;
 use super::options::{Handed, RunOutcome, StopPolicy};
 use super::program::Index;
@@ -124,6 +125,7 @@ impl Interpreter {
         self.state.last = None;
         self.state.parked = None;
         self.state.named.clear();
+        self.state.channel_axes = ChannelAxes::default();
         self.state.described = None;
         self.state.ways = Ways::default();
         self.units.clear();

@@ -10,6 +10,7 @@ use super::call::Found;
 use super::coupling::Couplings;
 use super::endless::{Loop, Reads};
 use super::event::EndedBy;
+use super::exchange::ChannelAxes;
 use super::memory::Memory;
 use super::modal::{self, Modal};
 use super::program::EntryIndex;
@@ -40,6 +41,8 @@ pub(super) struct State {
     /// The axes that occurred.
     pub(super) occurred: Vec<bool>,
     pub(super) couplings: Couplings,
+    /// What the names of axes mean, until the program ends.
+    pub(super) channel_axes: ChannelAxes,
     /// The cycle that is repeated after blocks.
     pub(super) repeated: Option<Repeated>,
     /// The loops that came round, the outermost first.

@@ -42,7 +42,8 @@ impl Interpreter {
             modals.all(|modal| modal.fits(axes)),
             "positions of other axes",
         )?;
-        holds(state.couplings.fits(axes), "a coupling of other axes")
+        holds(state.couplings.fits(axes), "a coupling of other axes")?;
+        holds(state.channel_axes.fits(axes), "a name of another axis")
     }
 
     fn check_counters(&self) -> Doubt {

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use super::at::At;
 use super::budget::ITEM;
 use super::call::Wanted;
+use super::exchange::{Addressed, is_exchange};
 use super::expression::Place;
 use super::finder::Finder;
 use super::memory::unescaped;
@@ -186,12 +187,15 @@ impl Interpreter {
     fn suffer(&mut self, effect: &Effect, unit: usize, cause: &Arc<str>) {
         let modal = &mut self.state.modal;
         match effect {
-            Effect::Compensation(axis, kinds) => {
-                if let Ok(axis) = self.state.compensation.resolve(axis) {
+            Effect::Compensation(axis, kinds) => match self.addressed(axis) {
+                Ok(Addressed::Axis(axis)) => {
                     self.see(axis);
                     self.doubt(axis, *kinds);
                 }
-            }
+                Ok(Addressed::Absent(Some(axis))) => self.doubt(axis, *kinds),
+                Ok(Addressed::Any | Addressed::Absent(None)) => self.doubt_any_axis(*kinds),
+                Err(_) => {}
+            },
             Effect::G(number) => modal.forget_g(*number),
             Effect::Feeds => modal.feeds = [None; 3],
             Effect::Radius => modal.radius = None,
@@ -210,7 +214,12 @@ impl Interpreter {
                 self.state.memory.forget_macro(name, cause);
                 self.work.wrote = true;
             }
-            Effect::Hash(name) => modal.forget_hash(name),
+            Effect::Hash(name) => {
+                modal.forget_hash(name);
+                if is_exchange(name) {
+                    self.doubt_exchange();
+                }
+            }
             Effect::Function(letter, number) => {
                 self.forget_function((*letter, *number), unit, cause);
             }

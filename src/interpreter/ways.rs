@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::at::At;
 use super::budget::ITEM;
 use super::call::Found;
+use super::exchange::ChannelAxes;
 use super::expression::Place;
 use super::finder::Finder;
 use super::modal::Modal;
@@ -85,6 +86,7 @@ struct Standing {
     modal: Modal,
     repeated: Option<Repeated>,
     named: BTreeMap<String, Value>,
+    channel_axes: ChannelAxes,
     /// The macros, by the number of their changes.
     macros: u64,
 }
@@ -242,6 +244,9 @@ impl Way {
             &other.standing.named,
             &other.cause,
         );
+        self.standing
+            .channel_axes
+            .doubt(&other.standing.channel_axes);
         for tail in other.tails {
             if !self.tails.contains(&tail) {
                 self.tails.push(tail);
@@ -452,6 +457,7 @@ impl Interpreter {
                 modal: self.state.modal.clone(),
                 repeated: self.state.repeated.clone(),
                 named: self.state.named.clone(),
+                channel_axes: self.state.channel_axes.clone(),
                 macros: self.state.memory.macro_version(),
             },
             tails: Vec::new(),
@@ -579,6 +585,7 @@ impl Interpreter {
         }
         doubt_repeated(&mut self.state.repeated, standing.repeated.as_ref());
         doubt_names(&mut self.state.named, &standing.named, &cause);
+        self.state.channel_axes.doubt(&standing.channel_axes);
         let written = &self.state.ways.written.0;
         self.state.charge(ITEM + written.len());
         let later = written.iter().filter(|(_, seq)| **seq > since);

@@ -10,9 +10,11 @@ pub(crate) enum Touches {
     Nothing,
     /// It writes the parameters and variables that its brackets name.
     Values,
+    /// It says which axes the channel has, and under which names.
+    Axes,
 }
 
-use Touches::{Nothing, Values};
+use Touches::{Axes, Nothing, Values};
 
 /// PM, appendix, overview of additional functions.
 const APPENDIX: &str = "PM/5252011631026770315";
@@ -32,11 +34,11 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#AKIMA TRANS", Nothing, APPENDIX),
     ("#ANG", Nothing, APPENDIX),
     ("#ASPLINE", Nothing, EDITOR),
-    ("#AX DEF", Nothing, APPENDIX),
+    ("#AX DEF", Axes, APPENDIX),
     ("#AX LINK", Nothing, APPENDIX),
     ("#AX LOCK", Nothing, APPENDIX),
-    ("#AX RELEASE", Nothing, APPENDIX),
-    ("#AX REQUEST", Nothing, APPENDIX),
+    ("#AX RELEASE", Axes, APPENDIX),
+    ("#AX REQUEST", Axes, APPENDIX),
     ("#AX UNLOCK", Nothing, APPENDIX),
     ("#BACKWARD STORAGE CLEAR", Nothing, APPENDIX),
     ("#BCS", Nothing, APPENDIX),
@@ -44,7 +46,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#BLOCKSEARCH RELEASED", Nothing, APPENDIX),
     ("#BSPLINE", Nothing, EDITOR),
     ("#CACHE", Nothing, APPENDIX),
-    ("#CALL AX", Nothing, APPENDIX),
+    ("#CALL AX", Axes, APPENDIX),
     ("#CAX", Nothing, APPENDIX),
     ("#CAXTRACK", Nothing, APPENDIX),
     ("#CHANNEL INIT", Nothing, APPENDIX),
@@ -118,7 +120,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#KIN DATA", Nothing, EDITOR),
     ("#KIN ID", Nothing, EDITOR),
     ("#LASER", Nothing, EDITOR),
-    ("#LOAD CONFIG", Nothing, EDITOR),
+    ("#LOAD CONFIG", Axes, EDITOR),
     ("#MACHINE DATA", Nothing, EDITOR),
     ("#MAIN SPINDLE", Nothing, EDITOR),
     ("#MANUAL LIMITS", Nothing, EDITOR),
@@ -138,7 +140,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#PSET", Nothing, EDITOR),
     ("#PTP", Nothing, EDITOR),
     ("#PUNCH", Nothing, EDITOR),
-    ("#PUT AX", Nothing, EDITOR),
+    ("#PUT AX", Axes, EDITOR),
     ("#RETAIN CYCLE CHANGES", Nothing, "PM/206859019"),
     ("#RND", Nothing, EDITOR),
     ("#ROTATION", Nothing, EDITOR),
@@ -151,7 +153,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#SCENE", Nothing, EDITOR),
     ("#SEGMENTATION", Nothing, EDITOR),
     ("#SET ASPLINE", Nothing, EDITOR),
-    ("#SET AX", Nothing, EDITOR),
+    ("#SET AX", Axes, EDITOR),
     ("#SET AX LINK", Nothing, EDITOR),
     ("#SET CORNER PARAM", Nothing, EDITOR),
     ("#SET DEC LR SOLL", Nothing, EDITOR),

@@ -1,4 +1,5 @@
 mod budgets;
+mod exchange;
 mod expressions;
 mod flow;
 mod implicit;

@@ -219,6 +219,14 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[Reported(Code::Fc207), Reported(Code::Fc210)],
     },
     Assumption {
+        rule: "R2.70",
+        sentence: "an axis that axis exchange gives to another channel keeps its compensation; an axis \
+            without a configured number keeps its own name",
+        changes: "its states after it came back, and which axis a name means",
+        shows: "the block records",
+        when: &[],
+    },
+    Assumption {
         rule: "R2.71",
         sentence: "a control statement with an unreadable condition still opens its control block, a \
             misspelt one as the statement that it resembles",

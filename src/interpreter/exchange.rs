@@ -1,0 +1,254 @@
+//! Axis exchange: which axes the channel has, and under which names
+//! (TF5200 programming manual, 206977419 and its neighbours).
+//!
+//! A name stands for the machine's axis of that name until the program says otherwise. An axis that
+//! is given back keeps its compensation: what another channel does with it is said where the
+//! programs of that channel are checked.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::at::{At, Shown};
+use super::run::Interpreter;
+use super::value::{Value, rounded};
+use crate::comp::{AxisIndex, CompensationError, KindSet};
+use crate::syntax::ast::{Block, Hash};
+
+/// The names of the channel's axes, as far as the program changed them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct ChannelAxes {
+    names: BTreeMap<String, Meaning>,
+    /// Whether nobody knows what any name means.
+    doubtful: bool,
+}
+
+/// What a name of an axis means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+enum Meaning {
+    /// This axis of the machine, whatever its own name is.
+    Axis(AxisIndex),
+    /// An axis that the channel has given back.
+    Released(Option<AxisIndex>),
+    /// Some axis.
+    Unknown,
+}
+
+/// Which axis a COMP command switches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Addressed {
+    /// This one.
+    Axis(AxisIndex),
+    /// One that the channel does not have; the control refuses it.
+    Absent(Option<AxisIndex>),
+    /// Any of them.
+    Any,
+}
+
+/// What an exchange command does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Exchange {
+    /// The named axes come.
+    Request,
+    /// The named axes go.
+    Release,
+    /// The named axes come, all others go.
+    Define,
+    /// The axes are again those of an earlier moment.
+    Restore,
+}
+
+/// The exchange commands by their first words.
+const COMMANDS: [(&str, Exchange); 7] = [
+    ("#CALL AX", Exchange::Request),
+    ("#AX REQUEST", Exchange::Request),
+    ("#PUT AX", Exchange::Release),
+    ("#AX RELEASE", Exchange::Release),
+    ("#SET AX", Exchange::Define),
+    ("#AX DEF", Exchange::Define),
+    ("#LOAD CONFIG", Exchange::Restore),
+];
+
+fn exchange(name: &str) -> Option<Exchange> {
+    let begins = |words: &str| {
+        let rest = name.strip_prefix(words);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    let is_coupling = name.starts_with("#SET AX LINK");
+    let row = COMMANDS.iter().find(|(words, _)| begins(words));
+    row.filter(|_| !is_coupling).map(|(_, exchange)| *exchange)
+}
+
+/// Whether a `#` command exchanges axes.
+pub(super) fn is_exchange(name: &str) -> bool {
+    exchange(name).is_some()
+}
+
+impl ChannelAxes {
+    /// Whether it names no axis beyond so many.
+    pub(super) fn fits(&self, axes: usize) -> bool {
+        self.names.values().all(|meaning| match meaning {
+            Meaning::Axis(axis) | Meaning::Released(Some(axis)) => axis.get() < axes,
+            Meaning::Released(None) | Meaning::Unknown => true,
+        })
+    }
+
+    /// The names may or may not be those of another way through the program.
+    pub(super) fn doubt(&mut self, other: &Self) {
+        self.doubtful |= self != other;
+    }
+}
+
+impl Interpreter {
+    /// The axis that a COMP command switches under the names of the moment.
+    pub(super) fn addressed(&self, name: &str) -> Result<Addressed, CompensationError> {
+        let axes = &self.state.channel_axes;
+        if axes.doubtful {
+            return Ok(Addressed::Any);
+        }
+        Ok(match axes.names.get(name) {
+            None => Addressed::Axis(self.state.compensation.resolve(name)?),
+            Some(Meaning::Axis(axis)) => Addressed::Axis(*axis),
+            Some(Meaning::Released(axis)) => Addressed::Absent(*axis),
+            Some(Meaning::Unknown) => Addressed::Any,
+        })
+    }
+
+    /// A COMP command switched kinds of an axis, nobody knows of which.
+    pub(super) fn doubt_any_axis(&mut self, kinds: KindSet) {
+        for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
+            self.doubt(axis, kinds);
+        }
+    }
+
+    /// Executes an exchange command.
+    pub(super) fn exchange_axes(&mut self, hash: &Hash, at: &At<'_>) {
+        let Some(exchange) = exchange(&hash.name) else {
+            return;
+        };
+        self.state.modal.hash(&hash.name);
+        let rest = hash.rest.of(at.text);
+        let every = |word: &str| hash.name.ends_with(word) || rest.trim_start().starts_with(word);
+        if every("DEFAULT") {
+            self.state.channel_axes = ChannelAxes::default();
+        }
+        match exchange {
+            Exchange::Restore if self.state.channel_axes == ChannelAxes::default() => {}
+            Exchange::Restore => self.doubt_exchange(),
+            Exchange::Request => self.request_axes(rest, at),
+            Exchange::Release if every("ALL") => self.release_axes(|_| true),
+            Exchange::Release => {
+                let named: Vec<&str> = groups(rest).flatten().collect();
+                self.release_axes(|name| named.contains(&name));
+            }
+            Exchange::Define => {
+                if !every("DEFAULT") {
+                    let named: Vec<&str> =
+                        groups(rest).filter_map(|group| axis_of(&group).0).collect();
+                    self.release_axes(|name| !named.contains(&name));
+                }
+                self.request_axes(rest, at);
+            }
+        }
+    }
+
+    fn request_axes(&mut self, rest: &str, at: &At<'_>) {
+        for group in groups(rest) {
+            let (Some(name), number) = axis_of(&group) else {
+                continue;
+            };
+            let number = number.and_then(|number| self.axis_number(number, at));
+            let meaning = self.requested(name, number);
+            let names = &mut self.state.channel_axes.names;
+            let own = self.machine.find(name);
+            if own.is_some() && meaning == own.map(Meaning::Axis) {
+                names.remove(name);
+            } else {
+                names.insert(name.to_owned(), meaning.unwrap_or(Meaning::Unknown));
+            }
+        }
+    }
+
+    /// What a name means after a request with this logical axis number, if that is known. An axis
+    /// of the machine without a number is taken to be the one of its name.
+    fn requested(&self, name: &str, number: Option<u32>) -> Option<Meaning> {
+        let number = number?;
+        let axes = self.machine.axes.iter();
+        let by_number = axes.clone().position(|axis| axis.number == Some(number));
+        let by_name = axes
+            .clone()
+            .position(|axis| axis.name == name && axis.number.is_none());
+        let found = by_number.or(by_name)?;
+        Some(Meaning::Axis(AxisIndex::new(found)))
+    }
+
+    fn release_axes(&mut self, goes: impl Fn(&str) -> bool) {
+        let machine = self.machine.axes.iter().enumerate();
+        let own =
+            machine.map(|(position, axis)| (&axis.name, Meaning::Axis(AxisIndex::new(position))));
+        let mut known: BTreeMap<String, Meaning> =
+            own.map(|(name, meaning)| (name.clone(), meaning)).collect();
+        let names = &mut self.state.channel_axes.names;
+        known.append(names);
+        for (name, meaning) in known {
+            let released = match meaning {
+                Meaning::Axis(axis) => Meaning::Released(Some(axis)),
+                Meaning::Unknown => Meaning::Released(None),
+                Meaning::Released(_) => meaning,
+            };
+            let own = self.machine.find(&name).map(Meaning::Axis);
+            if goes(&name) {
+                names.insert(name, released);
+            } else if own != Some(meaning) {
+                names.insert(name, meaning);
+            }
+        }
+    }
+
+    /// An exchange that may or may not have been executed.
+    pub(super) fn doubt_exchange(&mut self) {
+        self.state.channel_axes.doubtful = true;
+    }
+
+    /// A logical axis number, `1` or `P1+1`.
+    fn axis_number(&mut self, text: &str, at: &At<'_>) -> Option<u32> {
+        let mut block = Block::default();
+        let operand = crate::syntax::parse_expression(text, &mut block)?;
+        let shown = Shown::default();
+        let inner = At {
+            text,
+            shown: &shown,
+            ..*at
+        };
+        match self.value(operand, &block, &inner) {
+            Ok(Value::Number(number)) => rounded(number).and_then(|n| u32::try_from(n).ok()),
+            _ => None,
+        }
+    }
+}
+
+/// The words of each bracket, `[X, 1, 0][Y, 2, 1]`.
+fn groups(text: &str) -> impl Iterator<Item = Vec<&str>> {
+    let brackets = text.split('[').skip(1);
+    brackets.map(|group| {
+        let inside = group.split(']').next().unwrap_or_default();
+        inside.split(',').map(str::trim).collect()
+    })
+}
+
+/// The name and the logical number of a bracket, `X, 1, 0` or `NAME=X NR=1 IDX=0`; no name where
+/// it holds switches for conflicts, `NAM, NBR, IDX`.
+fn axis_of<'a>(group: &[&'a str]) -> (Option<&'a str>, Option<&'a str>) {
+    let first = group.first().copied().unwrap_or_default();
+    if first.contains('=') {
+        let value = |key: &str| {
+            let mut words = group.iter().flat_map(|word| word.split_whitespace());
+            words.find_map(|word| word.strip_prefix(key)?.strip_prefix('='))
+        };
+        return (value("NAME"), value("NR"));
+    }
+    if first.is_empty() || matches!(first, "NAM" | "NBR" | "IDX" | "FAST") {
+        return (None, None);
+    }
+    (Some(first), group.get(1).copied())
+}

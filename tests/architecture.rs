@@ -152,7 +152,7 @@ fn sources() -> Vec<File> {
     files.collect()
 }
 
-/// The lines of code with their numbers: no comments, and nothing behind the first
+/// The lines of code with their numbers: no comments, and nothing after the first
 /// `#[cfg(test)]`, by which files of this crate end.
 fn code(file: &File) -> impl Iterator<Item = (usize, &str)> {
     let all_tests = file.path.contains("/tests/");
@@ -163,7 +163,7 @@ fn code(file: &File) -> impl Iterator<Item = (usize, &str)> {
         .map(|(number, line)| (number + 1, line.split("//").next().unwrap_or_default()))
 }
 
-/// The rooms that a line of code names behind `crate::`.
+/// The rooms that a line of code names after `crate::`.
 fn named_rooms(line: &str) -> Vec<&str> {
     line.match_indices("crate::")
         .filter_map(|(at, found)| {

@@ -353,7 +353,7 @@ fn numbers_have_units_and_ranges() {
     for (arguments, words) in [
         (
             &["circle", "--radius", "-5"][..],
-            "a radius of -5 mm is not possible, it must be between",
+            "a radius of -5 mm is not possible; it must be between",
         ),
         (
             &["circle", "--feed", "-5"],

@@ -373,7 +373,7 @@ fn the_minimum_zone_is_smaller_than_that_about_least_squares() {
 
 #[test]
 fn the_glitch_is_that_of_its_window() {
-    // R5.22: 5 µm outwards 3° behind Y+, 2 µm inwards 9° behind X-, outside the window.
+    // R5.22: 5 µm outwards 3° after Y+, 2 µm inwards 9° after X-, outside the window.
     let spike = |angle: f64, at: f64, height: f64| {
         height * (1.0 - (angle - at.to_radians()).abs() / 0.01).max(0.0)
     };

@@ -123,7 +123,7 @@ fn several_axes_in_one_block() {
 
 #[test]
 fn commands_are_continued() {
-    // R1.5: comments and blanks behind the sign, block numbers, comment and blank lines between.
+    // R1.5: comments and blanks after the sign, block numbers, comment and blank lines between.
     let program = "N10 X[COMP OFF \\ ; comment\nN20 (comment) FRICT] \\ (more)  \n; a line of its own\n\nN30 Y[ \\\nCOMP OFF\\\n\tFRICT]\nN40 M30";
     assert_snapshot!(Bench::new().run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective

@@ -1,4 +1,4 @@
-//! Lists: any text as a list of any kind, with any text behind the lists that it names.
+//! Lists: any text as a list of any kind, with any text after the lists that it names.
 #![no_main]
 
 use frictcomp::machine::{Configuration, check_list};

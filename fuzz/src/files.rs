@@ -11,7 +11,7 @@ pub const MAIN: &str = "main";
 /// Stands in an input between the two files.
 pub(crate) const SEPARATOR: char = '\u{1e}';
 
-/// The file that is run or read, and the one that stands behind every other name.
+/// The file that is run or read, and the one that stands after every other name.
 #[derive(Debug, Clone, Copy)]
 pub struct Files<'a> {
     pub main: &'a str,
@@ -29,7 +29,7 @@ impl<'a> Files<'a> {
         self.main.len() + self.other.len()
     }
 
-    /// The text behind every other name.
+    /// The text of every other name.
     pub fn other_text(self) -> Option<&'a str> {
         (!self.other.is_empty()).then_some(self.other)
     }

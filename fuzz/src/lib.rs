@@ -19,7 +19,7 @@ pub use files::{Files, MAIN};
 pub use grammar::{Theme, program};
 pub use snapshots::check_snapshot;
 
-/// The program that an input means: behind a NUL byte decisions of the grammar, else its text.
+/// The program that an input means: after a NUL byte decisions of the grammar, else its text.
 pub fn text_of(input: &[u8], theme: Theme) -> Option<String> {
     match input.split_first() {
         Some((0, decisions)) => Some(program(&mut Dice::new(decisions), theme)),

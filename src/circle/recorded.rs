@@ -48,13 +48,13 @@ pub struct Recording {
 #[non_exhaustive]
 pub enum RecordedError {
     /// A file of ten rows.
-    #[error("{0} points are too few for a circle, {MIN_POINTS} are needed")]
+    #[error("{0} points are too few for a circle; at least {MIN_POINTS} are needed")]
     TooFew(usize),
     /// A straight line, or a point.
     #[error("the points are not on a circle")]
     NoCircle,
     /// A quarter of a circle.
-    #[error("the points cover {0:.0}\u{b0} of the circle, a full turn is needed")]
+    #[error("the points cover {0:.0}\u{b0} of the circle; a full turn is needed")]
     NotATurn(f64),
     /// A circle of which a part was not recorded.
     #[error(

@@ -44,10 +44,10 @@ impl Default for Circle {
 #[non_exhaustive]
 pub enum CircleError {
     /// `--radius 0`
-    #[error("a radius of {} mm is not possible, it must be between 0.1 and 100000 mm", Shown(*.0))]
+    #[error("a radius of {} mm is not possible; it must be between 0.1 and 100000 mm", Shown(*.0))]
     Radius(f64),
     /// `--feed 0`
-    #[error("a feed of {} mm/min is not possible, it must be between 0.1 and 1000000 mm/min", Shown(*.0))]
+    #[error("a feed of {} mm/min is not possible; it must be between 0.1 and 1000000 mm/min", Shown(*.0))]
     Feed(f64),
     /// `--cycle-time-ms 0.1`
     #[error(

@@ -22,7 +22,7 @@ pub(super) fn no_toml(source: &SourceFile, error: &toml::de::Error) -> ConfigErr
     {
         refused.with_help(format!("put the name in quotes: `\"{key}\" = ...`"))
     } else if line.contains('=') && !line.contains(['"', '\'']) {
-        refused.with_help("texts stand in quotes: `startup = \"lists/hochlauf.lis\"`")
+        refused.with_help("put texts in quotes: `startup = \"lists/hochlauf.lis\"`")
     } else {
         refused.with_help(Advice::WriteConfiguration)
     }

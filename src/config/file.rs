@@ -152,7 +152,8 @@ fn levels(root: &Section<'_>) -> Result<Levels, ConfigError> {
             }
         };
         if !levels.set(code, level) {
-            let message = format!("{code} is an error of the control, it keeps its severity");
+            let message =
+                format!("{code} is an error of the control; its severity cannot be changed");
             return Err(ConfigError::at(&name, message)
                 .with_help("only codes that begin with `FC` may be changed"));
         }

@@ -157,7 +157,7 @@ fn checked(
         "" => String::new(),
         unit => format!(" {unit}"),
     };
-    let message = format!("`{key}` is {shown}{unit}, it must be between {least} and {most}");
+    let message = format!("`{key}` is {shown}{unit}; it must be between {least} and {most}");
     Err(ConfigError::at(place, message).with_help("all values are in SI units: kg, N, m, s"))
 }
 
@@ -173,7 +173,7 @@ fn elements(table: &Section<'_>) -> Result<Option<Vec<[f64; 2]>>, ConfigError> {
     let place = table.given(keys::ELEMENTS).unwrap_or_else(|| table.whole());
     if pairs.is_empty() || pairs.len() > MAX_ELEMENTS {
         let message = format!(
-            "`gms` has {} elements, it has 1 to {MAX_ELEMENTS}",
+            "`gms` has {} elements; it takes 1 to {MAX_ELEMENTS}",
             pairs.len()
         );
         return Err(ConfigError::at(&place, message));
@@ -191,7 +191,7 @@ fn elements(table: &Section<'_>) -> Result<Option<Vec<[f64; 2]>>, ConfigError> {
     let sum: f64 = elements.iter().map(|[share, _]| share).sum();
     if (sum - 1.0).abs() > 1e-6 {
         let message = format!("the shares of `gms` add up to {sum}");
-        return Err(ConfigError::at(&place, message).with_help("they make 1"));
+        return Err(ConfigError::at(&place, message).with_help("they must add up to 1"));
     }
     Ok(Some(elements))
 }

@@ -258,7 +258,7 @@ impl<'a> Section<'a> {
             DeValue::Table(_) => "a table".to_owned(),
             _ => shortened(span(value).of(self.source.text())),
         };
-        let message = format!("`{key}` is {found}, it should be {wanted}");
+        let message = format!("`{key}` is {found}; it must be {wanted}");
         let error = ConfigError::new(self.source, span(value), message);
         match example(key) {
             Some(example) => error.with_help(example),

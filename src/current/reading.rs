@@ -75,7 +75,7 @@ const OPTIONS: [(&str, Choose); 6] = [
 
 /// A word that is no option of a reading.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{word}` is no reading{help}")]
+#[error("`{word}` is not a reading{help}")]
 pub struct UnknownReading {
     /// What was written.
     pub word: String,
@@ -89,7 +89,7 @@ impl UnknownReading {
             word: word.to_owned(),
             help: match did_you_mean(word, known) {
                 Some(near) => format!(", did you mean `{near}`?"),
-                None => format!("; there are {}", known.join(", ")),
+                None => format!("; the readings are {}", known.join(", ")),
             },
         }
     }

@@ -12,7 +12,7 @@ const MAX_TEXT: usize = 400;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Maker {
-    /// The name of the main program behind `%`, or else its file.
+    /// The name of the main program after `%`, or else its file.
     pub program: String,
     /// The file that holds the block, as the user named it.
     pub file: String,

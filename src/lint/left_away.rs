@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::Ended;
 use crate::text::{Place, Span};
 
-pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, past: &str) -> Vec<LeftAway> {
+pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<LeftAway> {
     let left = ended.compensation;
     let before_end = ended.at.filter(|at| stands_alone(&at.text)).map(start_of);
     let mut found = Vec::new();
@@ -31,7 +31,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, past: &str) -> Vec<Le
                     axis,
                     kind,
                     end,
-                    past,
+                    ending,
                     before_end: before_end.as_ref(),
                 };
                 let diagnostic = match moved_before(linter, axis, did) {
@@ -65,7 +65,7 @@ struct Subject<'a> {
     kind: Kind,
     end: State,
     /// What ends the program.
-    past: &'a str,
+    ending: &'a str,
     /// Where a block before the program end begins.
     before_end: Option<&'a Place>,
 }
@@ -74,17 +74,17 @@ impl Subject<'_> {
     fn left_changed(&self, site: &Site) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
         let message = format!(
-            "`{keyword}` of axis `{name}` is left {} past {}; the control starts with it {}",
+            "`{keyword}` of axis `{name}` is left {} after {}; the control starts with it {}",
             self.end.as_str(),
-            self.past,
+            self.ending,
             self.linter.history.home(self.axis, self.kind).as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!("bring it home before M30: `{}`", self.way_home()))
+            .with_help(format!("restore it before M30: `{}`", self.way_home()))
     }
 
-    /// What hangs on a value that only the machine knows may be left away as well.
+    /// What depends on a value that only the machine knows may be left away as well.
     fn may_be_left(&self, site: &Site) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
         let home = self.linter.history.home(self.axis, self.kind);
@@ -93,15 +93,15 @@ impl Subject<'_> {
             _ => State::Inactive,
         };
         let message = format!(
-            "`{keyword}` of axis `{name}` may be left {} past {}, which is not known offline; the \
+            "`{keyword}` of axis `{name}` may be left {} after {}, which is not known offline; the \
              control starts with it {}",
             away.as_str(),
-            self.past,
+            self.ending,
             home.as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!("bring it home before M30: `{}`", self.way_home()))
+            .with_help(format!("restore it before M30: `{}`", self.way_home()))
     }
 
     fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {
@@ -117,7 +117,7 @@ impl Subject<'_> {
         Diagnostic::new(Code::Fc407, place.clone(), message)
             .with_axis(name)
             .with_help(format!(
-                "set it before the first motion, and bring it home before M30: `{}`",
+                "set it before the first motion, and restore it before M30: `{}`",
                 self.way_home()
             ))
             .with_label(moved.place.clone(), "the axis moves here first")

@@ -54,7 +54,7 @@ const ON_COMMAND: [fn(&Linter<'_>, &Taken<'_>) -> Option<Diagnostic>; 2] =
 pub(crate) struct Linter<'m> {
     machine: &'m Machine,
     history: &'m mut History,
-    /// The name of the program behind `%`, or else its file.
+    /// The name of the program after `%`, or else its file.
     program: String,
     memory: Memory,
     /// The file of the program.

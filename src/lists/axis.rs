@@ -167,7 +167,7 @@ fn no_value(entry: &Entry, expected: &str) -> Diagnostic {
     Diagnostic::new(
         Code::Fc130,
         word.place(),
-        format!("`{}` is {found}, the value is not used", entry.key()),
+        format!("`{}` is {found}; the value is not used", entry.key()),
     )
     .with_help(format!("write {expected}"))
 }
@@ -229,7 +229,7 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
                 Code::Fc124,
                 word.place(),
                 format!(
-                    "`{}` is not a kind of compensation, the words from here on are passed over",
+                    "`{}` is not a kind of compensation; the words from here on are passed over",
                     word.value
                 ),
             );

@@ -91,7 +91,7 @@ impl Check<'_> {
         let list = self.values();
         for diagnostic in &mut self.diagnostics {
             if diagnostic.severity == Severity::Error {
-                let consequence = "the list is not taken, friction compensation has no effect";
+                let consequence = "the list is rejected, so friction compensation has no effect";
                 diagnostic.advice.push(consequence.into());
             }
         }
@@ -182,7 +182,7 @@ impl Check<'_> {
                 Code::Fc132,
                 given.place(),
                 format!(
-                    "`frict_comp.{}` is {value}, the documented range is {} to {}",
+                    "`frict_comp.{}` is {value}; the documented range is {} to {}",
                     field.name(),
                     documented.start(),
                     documented.end()
@@ -240,7 +240,7 @@ impl Check<'_> {
             (Some(mode), _) => Diagnostic::new(
                 Code::PErr110592,
                 given.place(),
-                format!("`frict_comp.mode` is {mode}, the control knows the modes 0 and 3"),
+                format!("`frict_comp.mode` is {mode}; the control knows only the modes 0 and 3"),
             )
             .with_help("3 is friction compensation by an additive current, 0 is off"),
         };
@@ -260,7 +260,7 @@ impl Check<'_> {
                 Code::Fc134,
                 given.place(),
                 format!(
-                    "`frict_comp.table[{index}]` is not used, `frict_comp.table_entries` is \
+                    "`frict_comp.table[{index}]` is not used: `frict_comp.table_entries` is \
                      {entries}"
                 ),
             ));
@@ -339,7 +339,7 @@ impl Check<'_> {
         );
         if let (Some(build), Some(Number::Real(_))) = (self.conditions.build, given.value.number) {
             diagnostic = diagnostic.with_help(format!(
-                "real numbers are accepted since V3.1.3132.0 and V4.29.0, this machine has {build}"
+                "fractions are accepted since V3.1.3132.0 and V4.29.0; this machine has {build}"
             ));
         }
         self.diagnostics.push(diagnostic);

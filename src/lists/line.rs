@@ -101,7 +101,7 @@ impl Entry {
         word.with(truth)
     }
 
-    /// The value as a set of words, `A | B |` (R3.4). Behind the last word all is comment.
+    /// The value as a set of words, `A | B |` (R3.4). After the last word all is comment.
     pub fn words(&self) -> Vec<Given<&str>> {
         let value = self.value_span.of(self.source.text());
         let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
@@ -216,9 +216,9 @@ impl Entries {
                     Diagnostic::new(
                         Code::Fc121,
                         entry.key_place(),
-                        format!("`{}` is given twice, the last value holds", entry.key()),
+                        format!("`{}` is given twice; the last value applies", entry.key()),
                     )
-                    .with_label(earlier.key_place(), "given here before"),
+                    .with_label(earlier.key_place(), "first given here"),
                 );
                 repeated.push(before);
             }
@@ -281,9 +281,9 @@ impl Reader<'_> {
         }
         if let Some(&first) = odd.get(MAX_ODD) {
             let more = odd.len() - MAX_ODD;
-            let message = format!("{more} more lines from here on are no entries of a list");
+            let message = format!("{more} more lines from here on are not list entries");
             let diagnostic = Diagnostic::new(Code::Fc124, self.source.place(first), message)
-                .with_help("is this a list of the control?");
+                .with_help("check that this file is a list of the control");
             self.diagnostics.push(diagnostic);
         }
         ended
@@ -298,7 +298,7 @@ impl Reader<'_> {
             Diagnostic::new(
                 Code::Fc124,
                 self.source.place(meant),
-                format!("{why}, the line is passed over"),
+                format!("{why}; the line is passed over"),
             )
             .with_help("an entry is `key value`, a comment begins with `#`"),
         );
@@ -366,7 +366,7 @@ impl Reader<'_> {
             let index = index.trim();
             match index.parse() {
                 Ok(index) if !pattern.ends_with('.') => indices.push(index),
-                _ => return Line::Odd("an index is no number that a table can have"),
+                _ => return Line::Odd("this is not a valid table index"),
             }
             pattern.push_str("[]");
             rest = after;
@@ -377,13 +377,13 @@ impl Reader<'_> {
         let is_path = pattern.contains(['.', '[', '_']);
         let opens = pattern.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
         if !opens {
-            return Line::Odd("this is no key of a list");
+            return Line::Odd("this is not a list key");
         }
         if !separated {
-            return Line::Odd("a key and its value are not parted by a blank");
+            return Line::Odd("there is no blank between the key and its value");
         }
         if value.is_empty() && !is_path {
-            return Line::Odd("a word without a value is no entry");
+            return Line::Odd("the key has no value");
         }
         let value_start = if value.is_empty() {
             key_end

@@ -312,7 +312,7 @@ fn axis_name(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<S
     let given = text(entry)?;
     let word = given.value.split_whitespace().next().unwrap_or_default();
     if word.len() < given.value.len() {
-        let message = format!("`{}` is not an axis name, `{word}` is used", given.value);
+        let message = format!("`{}` is not an axis name; `{word}` is used", given.value);
         let diagnostic = Diagnostic::new(Code::Fc124, given.place(), message)
             .with_help("only `(` opens a comment after a text");
         diagnostics.push(diagnostic);

@@ -230,7 +230,7 @@ impl AxisDraft {
                     Code::Fc138,
                     anchor.place(),
                     format!(
-                        "`{}` is a spindle, friction compensation is for linear and rotary axes",
+                        "`{}` is a spindle; friction compensation is for linear and rotary axes",
                         axis.name
                     ),
                 )

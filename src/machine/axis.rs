@@ -104,8 +104,8 @@ impl Axis {
             None => String::new(),
         };
         let message = format!(
-            "`{}` reserves {} points for axis `{}`{number}, at the start of the control it was \
-             {earlier}: the list is not loaded, the earlier one remains in force",
+            "`{}` reserves {} points for axis `{}`{number}, but {earlier} were reserved at the \
+             start of the control; the list is not loaded, and the earlier one stays in force",
             place.file, self.max_points, self.name
         );
         Some(

@@ -38,7 +38,7 @@ impl Loader<'_> {
                         Code::Fc124,
                         asked.place(),
                         format!(
-                            "no list names the axis of `{}`, it is left out",
+                            "no list names the axis of `{}`; it is left out",
                             asked.value
                         ),
                     )
@@ -129,7 +129,7 @@ impl Loader<'_> {
                 return true;
             }
             let place = axis.values.name.as_ref().map(Given::place);
-            let message = format!("`{}` is not an axis name, it is left out", axis.name);
+            let message = format!("`{}` is not an axis name; it is left out", axis.name);
             let diagnostic = place.map(|place| Diagnostic::new(Code::Fc124, place, message));
             let advised = diagnostic.map(|it| it.with_help(AXIS_NAME_HELP));
             self.diagnostics.extend(advised);
@@ -147,7 +147,7 @@ impl Loader<'_> {
                 let second = axes.remove(at);
                 let place = second.values.name.as_ref().map(Given::place);
                 let message = format!(
-                    "axis `{}` exists already, this one is left out",
+                    "axis `{}` already exists; this one is left out",
                     second.name
                 );
                 self.diagnostics

@@ -38,7 +38,7 @@ pub(crate) enum Help {
     How(&'static str),
 }
 
-/// A word behind the mark.
+/// A word after the mark.
 struct Word<'a> {
     text: &'a str,
     start: usize,
@@ -113,13 +113,13 @@ pub(crate) fn lone_comment(text: &str) -> Option<Span> {
     Some(Span::new(before, start + length))
 }
 
-/// The words behind a place, with their places.
+/// The words after a place, with their places.
 fn words(text: &str, from: usize) -> impl Iterator<Item = Word<'_>> {
     let separates = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ')');
     let mut rest = from;
     std::iter::from_fn(move || {
-        let behind = text.get(rest..)?;
-        let start = rest + behind.find(|letter| !separates(letter))?;
+        let after = text.get(rest..)?;
+        let start = rest + after.find(|letter| !separates(letter))?;
         let length = text[start..].find(separates).unwrap_or(text.len() - start);
         rest = start + length;
         let text = &text[start..rest];
@@ -127,7 +127,7 @@ fn words(text: &str, from: usize) -> impl Iterator<Item = Word<'_>> {
     })
 }
 
-/// `FC499`, `fc4O1`, `P-ERR-1`: letters of a code and a digit behind them.
+/// `FC499`, `fc4O1`, `P-ERR-1`: letters of a code and a digit after them.
 fn looks_like_code(word: &str) -> bool {
     let upper = word.to_ascii_uppercase();
     let number = upper

@@ -32,9 +32,9 @@ pub(super) fn brackets(code: &str) -> Result<Option<usize>, Fault> {
             return Err(Fault::new(
                 Code::Fc913,
                 Span::new(at, at + 1),
-                format!("expressions nest more than {MAX_BRACKETS} deep"),
+                format!("expressions are nested more than {MAX_BRACKETS} levels deep"),
             )
-            .with_help("compute parts of it in blocks of their own"));
+            .with_help("compute parts of the expression in blocks of their own"));
         }
     }
     Ok(open.first().copied())

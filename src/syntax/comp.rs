@@ -5,7 +5,7 @@ use crate::comp::{CompCommand, Kind, KindSet, Selection};
 use crate::diagnostic::{Code, Fix, did_you_mean};
 use crate::text::Span;
 
-/// The words that may stand in a COMP bracket behind `COMP`.
+/// The words that may stand in a COMP bracket after `COMP`.
 const KEYWORDS: [&str; 11] = [
     "ON",
     "OFF",
@@ -26,7 +26,7 @@ pub(super) struct CompWords<'a> {
     pub(super) axis: Span,
     /// From the axis name to the closing bracket.
     pub(super) whole: Span,
-    /// `COMP` and everything behind it.
+    /// `COMP` and everything after it.
     pub(super) words: &'a [Span],
 }
 
@@ -57,7 +57,7 @@ impl CompWords<'_> {
                 "NO_MOVE" => no_move = true,
                 _ => match (Kind::from_keyword(word), selection) {
                     (Some(kind), Some((_, by))) if by.eq_ignore_ascii_case("OFF_ALL") => {
-                        faults.push(kind_behind_off_all(span, kind));
+                        faults.push(kind_after_off_all(span, kind));
                         return None;
                     }
                     (Some(kind), _) => {
@@ -174,7 +174,7 @@ fn second_selection(span: Span, word: &str, first: &str) -> Fault {
     .with_help("give each selection its own bracket, `X[COMP ON FRICT] X[COMP OFF LEAD]`")
 }
 
-fn kind_behind_off_all(span: Span, kind: Kind) -> Fault {
+fn kind_after_off_all(span: Span, kind: Kind) -> Fault {
     let keyword = kind.keyword();
     Fault::new(
         Code::Fc203,
@@ -191,7 +191,7 @@ fn named_twice(span: Span, kind: Kind) -> Fault {
     Fault::new(
         Code::Fc406,
         span,
-        format!("kind `{keyword}` is named twice in this bracket, it counts once"),
+        format!("kind `{keyword}` is named twice in this bracket; it counts once"),
     )
 }
 
@@ -203,7 +203,7 @@ fn unknown_word(span: Span, word: &str) -> Fault {
         format!("unknown compensation kind `{word}`"),
     );
     if word.contains(',') {
-        return fault.with_help("kinds are separated by blanks, a comma is no separator");
+        return fault.with_help("separate the kinds with blanks, not commas");
     }
     match did_you_mean(word, KEYWORDS) {
         Some(near) => fault.with_near(span, near),

@@ -29,7 +29,7 @@ pub(super) struct Plain {
 }
 
 /// Parses the first line of a text into an empty block. Declines, with the block empty, whatever is
-/// not plain: only upper-case letters with a number behind each, blanks, and one comment per place.
+/// not plain: only upper-case letters with a number after each, blanks, and one comment per place.
 #[inline]
 pub(super) fn parse(text: &str, block: &mut Block) -> Option<Plain> {
     let bytes = text.as_bytes();
@@ -65,7 +65,7 @@ fn words(bytes: &[u8], block: &mut Block) -> Option<Plain> {
 }
 
 /// Takes the block number at a place and returns where it ends. One that has a sign, or stands
-/// behind anything, is the grammar's business.
+/// after anything, is the grammar's business.
 #[inline]
 fn block_number(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> {
     let first = block.number.is_none() && block.words.is_empty();
@@ -82,7 +82,7 @@ fn block_number(bytes: &[u8], start: usize, block: &mut Block) -> Option<usize> 
     Some(end)
 }
 
-/// Appends the word at a place and those behind it, as long as one blank or none stands between
+/// Appends the word at a place and those after it, as long as one blank or none stands between
 /// them; returns where the last one ends. What is glued to its number, or continues it as an expression,
 /// begins neither a word nor a comment and is declined there.
 ///
@@ -217,13 +217,13 @@ fn whole(number: u64) -> f64 {
 struct Digits {
     /// All of them as one whole number, below 10^15.
     mantissa: u64,
-    /// How many stand behind the point.
+    /// How many stand after the point.
     decimals: usize,
     /// The bytes of the number.
     length: usize,
 }
 
-/// The eight bytes that begin at a place, the first one lowest; zeros behind the end of the text.
+/// The eight bytes that begin at a place, the first one lowest; zeros after the end of the text.
 #[inline]
 fn eight_bytes(bytes: &[u8], start: usize) -> Option<u64> {
     let rest = bytes.get(start..)?;
@@ -263,7 +263,7 @@ fn short_digits(eight: u64) -> Option<Digits> {
         if end == u64::BITS {
             return None;
         }
-        // What stands behind the point moves over it.
+        // What stands after the point moves over it.
         let before = (1 << whole) - 1;
         ((digits & before) | ((digits >> 8) & !before), end - 8, end)
     } else {
@@ -271,7 +271,7 @@ fn short_digits(eight: u64) -> Option<Digits> {
     };
     let mantissa = match count {
         0 => return None,
-        // Zeros in front instead of what stands behind.
+        // Zeros in front instead of what stands after.
         count => eight_digits(digits << (u64::BITS - count)),
     };
     Some(Digits {

@@ -44,18 +44,16 @@ impl FlowScan {
     }
 
     /// `#IF`; a piece that ends before that is taken as one.
-    fn opens_branch(behind: &[u8]) -> bool {
-        let letters = behind.iter().zip(b"IF");
+    fn opens_branch(after: &[u8]) -> bool {
+        let letters = after.iter().zip(b"IF");
         letters
             .into_iter()
             .all(|(found, letter)| found.eq_ignore_ascii_case(letter))
     }
 
-    /// `%L` with a separator behind it; a piece that ends before that is taken as one.
-    fn opens_subprogram(behind: &[u8]) -> bool {
-        let mut rest = behind
-            .iter()
-            .skip_while(|byte| matches!(byte, b' ' | b'\t'));
+    /// `%L` with a separator after it; a piece that ends before that is taken as one.
+    fn opens_subprogram(after: &[u8]) -> bool {
+        let mut rest = after.iter().skip_while(|byte| matches!(byte, b' ' | b'\t'));
         match (rest.next(), rest.next()) {
             (None, _) | (Some(b'L' | b'l'), None) => true,
             (Some(b'L' | b'l'), Some(next)) => matches!(next, b' ' | b'\t'),

@@ -12,13 +12,13 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
         let length = trimmed
             .find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
             .unwrap_or(trimmed.len());
-        let (word, behind) = trimmed.split_at(length);
+        let (word, after) = trimmed.split_at(length);
         let is_word = word.starts_with(|c: char| c.is_ascii_alphabetic());
         let is_parameter = word.len() > 1
             && word.starts_with(['P', 'p'])
             && word[1..].bytes().all(|byte| byte.is_ascii_digit());
-        let is_value = is_parameter || behind.starts_with('.');
-        let is_argument = name.len() > 1 && behind.trim_start().starts_with('=');
+        let is_value = is_parameter || after.starts_with('.');
+        let is_argument = name.len() > 1 && after.trim_start().starts_with('=');
         if !is_word || is_value || is_argument {
             return (name, end);
         }
@@ -26,8 +26,8 @@ pub(crate) fn hash_name(code: &str) -> (String, usize) {
             name.push(' ');
         }
         name.push_str(&word.to_ascii_uppercase());
-        end = code.len() - behind.len();
-        rest = behind;
+        end = code.len() - after.len();
+        rest = after;
     }
 }
 

@@ -261,7 +261,7 @@ pub(super) const FLOW_WORDS: [&str; 19] = [
     "$GOTO",
 ];
 
-/// First keywords in an axis bracket behind which nothing touches the compensation (R2.23; PM,
+/// First keywords in an axis bracket after which nothing touches the compensation (R2.23; PM,
 /// chapters on independent axes, oscillation, distance control, lifting, polynomials; PM/5252363631026771979).
 const AXIS_COMMANDS: [&str; 11] = [
     "INDP_SYN",
@@ -296,7 +296,7 @@ const SPINDLE_COMMANDS: [&str; 10] = [
 /// radius of circles, block numbers, spindle speed, tools.
 const LETTERS: &[u8] = b"DEFGHIJKMNRST";
 
-/// Words behind `S.` (PM/208038923).
+/// Words after `S.` (PM/208038923).
 const SPINDLE_WORDS: [&str; 2] = ["POS", "OFFSET"];
 
 /// Whether a keyword of an axis bracket opens a command that is passed over.

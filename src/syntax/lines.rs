@@ -166,7 +166,9 @@ impl<S: LineSource> BlockReader<S> {
             );
             let mut fault = Fault::new(Code::Fc101, span, message);
             if blank.is_some() {
-                fault = fault.with_help("it looks like a blank but is not one: type a blank");
+                fault = fault.with_help(
+                    "it looks like a blank but is a different character; replace it with a blank",
+                );
             }
             block.faults.push(fault);
         }
@@ -215,7 +217,7 @@ impl<S: LineSource> BlockReader<S> {
         block.faults.push(Fault::new(
             Code::Fc206,
             Span::new(0, self.text.find('\n').unwrap_or_default()),
-            format!("a block is continued over more than {MAX_REGION} bytes"),
+            format!("this continued block has more than {MAX_REGION} bytes"),
         ));
         foreign
     }
@@ -297,7 +299,9 @@ fn cap_faults(faults: &mut Vec<Fault>) {
     faults.push(Fault::new(
         Code::Fc905,
         place,
-        format!("the first {MAX_FAULTS} faults of this block are shown; there are {more} more"),
+        format!(
+            "the first {MAX_FAULTS} messages about this block are shown; there are {more} more"
+        ),
     ));
 }
 
@@ -317,11 +321,11 @@ fn too_long(line: &str) -> bool {
 }
 
 /// `%NAME`, `% NAME`, `%L NAME` (R2.10).
-fn program_line(code: &str, behind: &str) -> Stretch {
+fn program_line(code: &str, after: &str) -> Stretch {
     let separators = [
         ' ', '\t', '\u{0}', '\u{3}', '(', ';', '"', ']', ',', '#', '$',
     ];
-    let rest = behind.trim_start_matches(is_blank);
+    let rest = after.trim_start_matches(is_blank);
     let (local, name) = match rest.strip_prefix(['L', 'l']) {
         Some(name) if name.starts_with([' ', '\t']) => (true, name.trim_start_matches(is_blank)),
         _ => (false, rest),

@@ -35,7 +35,7 @@ pub fn parse_comp(text: &str) -> Result<CompCommand, Fault> {
         _ => Err(Fault::new(
             Code::Fc207,
             Span::new(0, text.len()),
-            "this is no single COMP command",
+            "this is not a single COMP command",
         )
         .with_help("write `X[COMP ON FRICT]`")),
     }

@@ -10,9 +10,11 @@ pub(crate) fn not_known(text: &str, span: Span) -> Fault {
     Fault::new(
         Code::Fc210,
         span,
-        format!("`{shown}` is not known here; what it could change is unknown from here"),
+        format!(
+            "`{shown}` is not known to frictcomp; whatever it could change is unknown from here on"
+        ),
     )
-    .with_help("if the control knows it, check by hand what it does to the compensation")
+    .with_help("if the control knows it, check yourself what it does to compensation")
 }
 
 /// Whether the parts of a name, `V` left out, make a variable: a sign begins only the name of a

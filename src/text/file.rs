@@ -104,7 +104,7 @@ impl SourceFile {
             .lines
             .line_span(&self.text, first_line)
             .to(self.lines.line_span(&self.text, last_line));
-        // A span that goes on behind the end of its last line ends with it.
+        // A span that goes on after the end of its last line ends with it.
         let inside = |offset: u32| offset.clamp(lines.start, lines.end) - lines.start;
         Place {
             file: self.name.clone(),

@@ -1,4 +1,4 @@
-//! Programs behind words, programs that only the machine has, and what passing over them leaves:
+//! Programs after words, programs that only the machine has, and what passing over them leaves:
 //! R2.14, R2.75, R2.83.
 
 use insta::assert_snapshot;
@@ -213,7 +213,7 @@ fn programs_that_only_the_machine_has() {
         transcript.contains("FC902 3:1-15") && !transcript.contains("FC902 1:"),
         "{transcript}"
     );
-    // As a modal cycle, before a program, in an unknown region, behind a word.
+    // As a modal cycle, before a program, in an unknown region, after a word.
     let modal =
         machine(external).run(&["L CYCLE [NAME=a.ecy MODAL_MOVE]\nX[COMP ON FRICT]\nY1\nM30"]);
     assert!(ends(&modal)[0].contains("X:unknown"), "{modal}");

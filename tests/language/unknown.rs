@@ -221,7 +221,7 @@ fn values_that_the_user_gives_are_known() {
     ");
 }
 
-/// The state of X and Y behind a program, as far as it is not at home.
+/// The state of X and Y after a program, as far as it is not at home.
 fn at_the_end(files: &[&str]) -> [bool; 2] {
     let said = Bench::new().run(files);
     ["X", "Y"].map(|axis| said.contains(&format!("{axis}:active>unknown")))
@@ -233,7 +233,7 @@ fn a_macro_that_may_have_been_defined_anew_may_do_anything() {
     let define = "\"A\"=\"X[COMP ON FRICT]\"\n";
     let again = "\"A\"=\"Y[COMP OFF FRICT]\"\n";
     let unknown = |body: &str| format!("$IF V.E.A\n{body}$ENDIF\n");
-    // Defined in the region, used behind it, in it, or in a program that it calls.
+    // Defined in the region, used after it, in it, or in a program that it calls.
     for program in [
         format!("{define}{}\"A\"\nM30", unknown(again)),
         format!("{define}{}M30", unknown(&format!("{again}\"A\"\n"))),

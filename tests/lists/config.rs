@@ -216,7 +216,7 @@ fn what_does_not_exist_is_refused_with_its_place() {
         (
             "[machine]\nstartup = lists/h.lis\n",
             "2:11",
-            "texts stand in quotes",
+            "put texts in quotes",
         ),
         (
             "[[machine]]\ncycle_time_ms = 1\n",

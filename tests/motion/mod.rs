@@ -159,7 +159,7 @@ pub(crate) fn assert_limits(machine: &str, names: &[&str], trace: &Trace) {
         for part in parts.windows(2) {
             let cycles = &trace.positions[part[0]..part[1]];
             let positions: Vec<f64> = cycles.iter().map(|cycle| cycle[column]).collect();
-            // The axis stands before and behind.
+            // The axis stands before and after.
             let rest = |at: Option<&f64>| vec![*at.expect("a cycle"); 3];
             let positions = [
                 rest(positions.first()),

@@ -35,7 +35,7 @@ fn what_may_be_left_is_said() {
         "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.E.B == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     let said_of = said(&[program]);
     assert!(
-        said_of.contains("FC401 4:1 `FRICT` of axis `X` may be left inactive past program end"),
+        said_of.contains("FC401 4:1 `FRICT` of axis `X` may be left inactive after program end"),
         "{said_of}"
     );
     let home = said(&["$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30"]);
@@ -48,7 +48,9 @@ fn a_loop_without_an_end_is_left_by_a_reset() {
     let program = "X[COMP OFF FRICT]\n$WHILE 1\nX1\n$ENDWHILE\nM30";
     let left = said(&[program]);
     assert!(
-        left.contains("FC401 1:1 `FRICT` of axis `X` is left inactive past the reset that ends it"),
+        left.contains(
+            "FC401 1:1 `FRICT` of axis `X` is left inactive after the reset that ends it"
+        ),
         "{left}"
     );
 }

@@ -87,7 +87,7 @@ pub enum Address {
 pub struct Word {
     /// The address.
     pub address: Address,
-    /// The value behind it; some machines take an axis letter alone.
+    /// The value after it; some machines take an axis letter alone.
     pub value: Option<Operand>,
     /// The word.
     pub span: Span,
@@ -96,7 +96,7 @@ pub struct Word {
 /// Something in a block.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Item {
-    /// A word behind something else.
+    /// A word after something else.
     Word(Word),
     /// A COMP command.
     Comp(CompCommand),

@@ -198,7 +198,7 @@ pub enum Function {
     Find,
     /// The code of a text's character at a position, the first when left out.
     Ord,
-    /// A text with another one put in behind a position.
+    /// A text with another one put in after a position.
     Insert,
     /// A text without a count of characters from a position.
     Delete,

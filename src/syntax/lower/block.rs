@@ -124,7 +124,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// A label stands in front of everything else; a bracket behind words is none (R2.70).
+    /// A label stands in front of everything else; a bracket after words is none (R2.70).
     pub(super) fn label(&mut self, name: Span, span: Span) {
         if self.block.words.is_empty() && self.block.items.is_empty() {
             self.block.items.push(Item::Label(name));

@@ -80,7 +80,7 @@ impl Lowering<'_> {
 }
 
 /// How long the first declaration of a region is: one line, or more where a bracket stays open, as the
-/// values of an array may. A bracket behind the last `]` is never closed and ends with its line.
+/// values of an array may. A bracket after the last `]` is never closed and ends with its line.
 fn declaration_end(text: &str, last_bracket: usize) -> usize {
     let mut depth = 0_usize;
     for (at, byte) in text.bytes().enumerate() {

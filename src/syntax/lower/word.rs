@@ -40,7 +40,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Letters with a number behind each, and blanks between them.
+    /// Letters with a number after each, and blanks between them.
     pub(super) fn plain_words(&mut self, words: Span) {
         let mut start = words.start as usize;
         for word in words.of(self.code).as_bytes().split(|byte| *byte == b' ') {

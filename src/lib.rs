@@ -33,6 +33,7 @@ pub mod circle;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod comp;
+#[cfg(feature = "toml")]
 mod config;
 pub mod current;
 pub mod diagnostic;

@@ -9,7 +9,6 @@ use super::axis::AxisTable;
 use super::error::ConfigError;
 use super::machine::MachineTable;
 use super::section::{Section, Shape};
-use super::setting::Setting;
 use crate::diagnostic::{Code, Levels, Severity};
 use crate::lists::{Given, Written};
 use crate::text::SourceFile;
@@ -22,11 +21,20 @@ pub(crate) struct ConfigFile {
     /// `[[axis]]`.
     pub(crate) axes: Vec<AxisTable>,
     /// `[variables]`.
-    pub(crate) variables: Vec<(String, Setting)>,
+    pub(crate) variables: Vec<(String, Variable)>,
     /// `[lint]`.
     pub(crate) levels: Levels,
     /// The extensions of programs in `[check]`, in lower case and without a dot.
     pub(crate) extensions: Vec<String>,
+}
+
+/// The value of a variable.
+#[derive(Debug, Clone)]
+pub(crate) enum Variable {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(String),
 }
 
 /// The whole file.
@@ -84,13 +92,13 @@ fn extensions(root: &Section<'_>) -> Result<Vec<String>, ConfigError> {
     given.into_iter().map(extension).collect()
 }
 
-fn variables(root: &Section<'_>) -> Result<Vec<(String, Setting)>, ConfigError> {
+fn variables(root: &Section<'_>) -> Result<Vec<(String, Variable)>, ConfigError> {
     let Some(variables) = root.table("variables", &VARIABLES)? else {
         return Ok(Vec::new());
     };
-    let mut settings = Vec::new();
+    let mut found = Vec::new();
     for name in variables.names() {
-        let setting = match variables.number(name.value) {
+        let variable = match variables.number(name.value) {
             Some(Given {
                 value:
                     Written {
@@ -98,15 +106,15 @@ fn variables(root: &Section<'_>) -> Result<Vec<(String, Setting)>, ConfigError> 
                         ..
                     },
                 ..
-            }) => Setting::Number(number.to_f64()),
+            }) => Variable::Number(number.to_f64()),
             _ => match variables.string(name.value) {
-                Ok(Some(text)) => Setting::Text(text.value),
+                Ok(Some(text)) => Variable::Text(text.value),
                 _ => return Err(no_variable(&variables, &name)),
             },
         };
-        settings.push((name.value.to_owned(), setting));
+        found.push((name.value.to_owned(), variable));
     }
-    Ok(settings)
+    Ok(found)
 }
 
 /// A variable that is neither a number nor a text; most often its name lacks the quotes, so that

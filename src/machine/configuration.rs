@@ -7,7 +7,7 @@ use super::described::describe;
 use super::description::{AxisSet, Machine};
 use super::files::ListFiles;
 use super::loader::Loader;
-use crate::config::Setting;
+use super::setting::Setting;
 use crate::diagnostic::{Code, Diagnostic, Levels};
 use crate::lists::{Conditions, Entries, ListKind, Parameter};
 use crate::text::{SourceFile, Span};

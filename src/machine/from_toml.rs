@@ -8,8 +8,9 @@ use super::description::{Machine, Parameters};
 use super::files::{ListFiles, NoLists};
 use super::loader::Loader;
 use super::programs::canonical_word;
+use super::setting::Setting;
 use super::startup::MAX_AXES;
-use crate::config::{AxisTable, ConfigError, ConfigFile, MachineTable};
+use crate::config::{AxisTable, ConfigError, ConfigFile, MachineTable, Variable};
 use crate::lists::{AxisValues, Given, ListKind, Parameter};
 use crate::text::SourceFile;
 
@@ -22,7 +23,7 @@ impl Configuration {
     pub fn from_toml(file: SourceFile, files: &mut dyn ListFiles) -> Result<Self, ConfigError> {
         let file = ConfigFile::parse(&Arc::new(file))?;
         let mut configuration = Self {
-            settings: file.variables,
+            settings: file.variables.into_iter().map(setting).collect(),
             levels: file.levels,
             extensions: file.extensions,
             ..Self::default()
@@ -98,6 +99,14 @@ impl Configuration {
         programs.keep_compensation = table.keep_compensation;
         programs.keep_positions = table.keep_positions;
     }
+}
+
+fn setting((name, value): (String, Variable)) -> (String, Setting) {
+    let setting = match value {
+        Variable::Number(number) => Setting::Number(number),
+        Variable::Text(text) => Setting::Text(text),
+    };
+    (name, setting)
 }
 
 impl AxisDraft {

@@ -12,6 +12,7 @@ mod from_toml;
 mod harmless;
 mod loader;
 mod programs;
+mod setting;
 mod startup;
 mod value_list;
 
@@ -24,8 +25,8 @@ pub use files::{ListFiles, NoList, NoLists};
 pub use harmless::HarmlessWords;
 pub(crate) use programs::canonical_word;
 pub use programs::{ConfiguredPrograms, Keeps};
+pub use setting::Setting;
 
 #[cfg(feature = "toml")]
 pub use crate::config::ConfigError;
-pub use crate::config::Setting;
 pub use crate::lists::{AxisType, Origin};

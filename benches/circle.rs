@@ -5,28 +5,18 @@
 
 #![allow(clippy::print_stdout)] // The table is what it is for.
 
+mod measure;
+
 use std::hint::black_box;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use frictcomp::circle::{Circle, CircularTest, Job};
 use frictcomp::current::Reading;
 use frictcomp::simulation::{FrictionModel, Preset, plant_list};
+use measure::Bench;
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
-
-/// Repetitions; the fastest counts, since other work on the machine only adds.
-const RUNS: usize = 7;
-
-fn fastest(mut work: impl FnMut()) -> Duration {
-    let once = |()| {
-        let start = Instant::now();
-        work();
-        start.elapsed()
-    };
-    let times = std::iter::repeat_n((), RUNS).map(once);
-    times.min().unwrap_or_default()
-}
 
 /// So many exponentials, one after the other.
 fn exponentials(count: u32) {
@@ -48,6 +38,7 @@ fn row(name: &str, took: Duration, base: Duration, goal: Duration) {
 }
 
 fn main() {
+    let bench = Bench::new(7);
     let plant = Preset::Stiff.plant();
     let test = CircularTest {
         circle: Circle {
@@ -59,13 +50,13 @@ fn main() {
         model: FrictionModel::Lugre,
         reading: Reading::default(),
     };
-    let base = fastest(|| exponentials(1_809_557));
+    let base = bench.fastest(|| exponentials(1_809_557));
     println!(
         "{:<44}{:>9.1} ms",
         "2 exponentials a step and axis",
         base.as_secs_f64() * 1e3
     );
-    let circle = fastest(|| {
+    let circle = bench.fastest(|| {
         black_box(test.run(Job::ALL[2])).expect("a circle");
     });
     row(
@@ -74,7 +65,7 @@ fn main() {
         base,
         Duration::from_millis(60),
     );
-    let tune = fastest(|| {
+    let tune = bench.fastest(|| {
         let status = Command::new(TOOL)
             .args(["tune", "--feeds", "500,1000,2000,5000"])
             .stdout(Stdio::null())

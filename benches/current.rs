@@ -5,10 +5,12 @@
 
 #![allow(clippy::print_stdout)] // The table is what it is for.
 
+mod measure;
+
 use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use frictcomp::comp::{AxisIndex, State};
 use frictcomp::current::{AdditiveCurrent, Commanded, Followers, Reading};
@@ -18,21 +20,20 @@ use frictcomp::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlan
 use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
+use measure::{Bench, median};
 
 /// The cycles of the trace: 1000 s, a reversal every half second.
 const CYCLES: u32 = 1_000_000;
 
 fn main() {
-    let runs = std::env::var("FRICTCOMP_BENCH_RUNS");
-    let runs = runs.ok().and_then(|runs| runs.parse().ok()).unwrap_or(5);
-    let bench = Bench {
-        runs,
+    let jobs = Jobs {
+        bench: Bench::new(5),
         trace: Trace::new(),
     };
     println!("{:<44}{:>9}{:>16}   goal", "job", "ratio", "speed");
-    bench.currents();
-    bench.motion("circles", &circles(200));
-    bench.motion("short blocks", &polyline(200_000));
+    jobs.currents();
+    jobs.motion("circles", &circles(200));
+    jobs.motion("short blocks", &polyline(200_000));
 }
 
 /// A commanded trace that swings.
@@ -51,23 +52,17 @@ impl Trace {
     }
 }
 
-struct Bench {
-    runs: u32,
+struct Jobs {
+    bench: Bench,
     trace: Trace,
 }
 
-impl Bench {
+impl Jobs {
     /// The median time of a piece of work, which says how many cycles it did.
     fn median(&self, mut work: impl FnMut() -> u64) -> (u64, Duration) {
-        let mut taken = Vec::new();
         let mut cycles = 0;
-        for _ in 0..self.runs.max(1) {
-            let start = Instant::now();
-            cycles = black_box(work());
-            taken.push(start.elapsed());
-        }
-        taken.sort();
-        (cycles, taken[taken.len() / 2])
+        let times = self.bench.times(|| cycles = black_box(work()));
+        (cycles, median(times))
     }
 
     /// Seconds of a cycle of the baseline: a sum over the trace.

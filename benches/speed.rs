@@ -15,6 +15,7 @@
 #![allow(clippy::print_stdout)] // The table is what it is for.
 
 mod generate;
+mod measure;
 
 use std::error::Error;
 use std::fs::File;
@@ -27,6 +28,7 @@ use std::time::{Duration, Instant};
 use frictcomp::syntax::{BlockReader, FastPath, ast::Block};
 use frictcomp::text::TextLines;
 use generate::Shape;
+use measure::{Bench, median};
 
 /// The arguments that make this program one of the yardsticks.
 const SPLIT: &str = "split-lines";
@@ -91,23 +93,23 @@ fn main() -> Outcome<()> {
         }
         _ => {}
     }
-    let bench = Bench {
+    let jobs = Jobs {
         folder: tempfile::tempdir()?,
         blocks: setting("FRICTCOMP_BENCH_BLOCKS", 1_000_000)?,
-        runs: setting("FRICTCOMP_BENCH_RUNS", 5)?,
+        bench: Bench::new(5),
     };
     println!(
         "{:<44}{:>9}{:>12}{:>10}   goal",
         "job", "ratio", "speed", "peak"
     );
     for shape in [Shape::ThreeAxes, Shape::FiveAxes] {
-        bench.straight(shape)?;
+        jobs.straight(shape)?;
     }
-    bench.damaged()?;
-    bench.memory()?;
-    bench.loops()?;
-    bench.many_files()?;
-    bench.start_up()
+    jobs.damaged()?;
+    jobs.memory()?;
+    jobs.loops()?;
+    jobs.many_files()?;
+    jobs.start_up()
 }
 
 fn write(shape: Shape, blocks: u32, path: &Path) -> Outcome<()> {
@@ -131,10 +133,10 @@ fn setting(name: &str, default: u32) -> Outcome<u32> {
     }
 }
 
-struct Bench {
+struct Jobs {
     folder: tempfile::TempDir,
     blocks: u32,
-    runs: u32,
+    bench: Bench,
 }
 
 /// The times of a job and of its yardstick, run in turn.
@@ -144,7 +146,7 @@ struct Pair {
     base: Duration,
 }
 
-impl Bench {
+impl Jobs {
     fn file(&self, shape: Shape, blocks: u32) -> Outcome<PathBuf> {
         let path = self.folder.path().join(format!("{shape:?}-{blocks}.nc"));
         if !path.exists() {
@@ -160,7 +162,7 @@ impl Bench {
         mut base: impl FnMut() -> Command,
     ) -> Outcome<Pair> {
         let mut times = Vec::new();
-        for _ in 0..self.runs.max(1) {
+        for _ in 0..self.bench.runs {
             times.push((spawn(&mut job())?, spawn(&mut base())?));
         }
         let mut ratios: Vec<f64> = times.iter().map(|(job, base)| ratio(*job, *base)).collect();
@@ -399,12 +401,6 @@ fn peak(job: &Job, file: &Path) -> Option<f64> {
     let said = String::from_utf8(output.stderr).ok()?;
     let kibibytes: f64 = said.lines().last()?.trim().parse().ok()?;
     Some(kibibytes / 1024.0)
-}
-
-fn median(times: impl Iterator<Item = Duration>) -> Duration {
-    let mut times: Vec<Duration> = times.collect();
-    times.sort();
-    times[times.len() / 2]
 }
 
 fn ratio(time: Duration, base: Duration) -> f64 {

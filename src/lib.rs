@@ -2,7 +2,7 @@
 //!
 //! A program switches friction compensation per axis with `X[COMP ON FRICT]`, and the state
 //! outlives the program. This crate executes programs without a machine and says for every block
-//! what it changed and which axis has friction compensation active behind it.
+//! what it changed and which axis has friction compensation active after it.
 //!
 //! A host with an interpreter of its own needs only [`syntax::parse_comp`] and
 //! [`comp::Compensation`]:

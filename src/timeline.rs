@@ -79,7 +79,7 @@ pub struct Row<'a> {
     pub modal: &'a Modal,
     /// What the block makes the machine do, where the session takes motions.
     pub motion: Option<&'a Motion>,
-    /// What there is to say about the block; written right behind it.
+    /// What there is to say about the block; written right after it.
     pub diagnostics: &'a [Diagnostic],
 }
 
@@ -198,7 +198,7 @@ pub enum Record<'a> {
         program: u32,
         /// The file as the user named it.
         file: &'a str,
-        /// The name behind `%`.
+        /// The name after `%`.
         name: Option<&'a str>,
         /// The state that it starts with.
         state: StateView<'a>,

@@ -1,5 +1,5 @@
 %FINISH
-; wrong: nothing stands behind the multiplication sign
+; wrong: nothing follows the multiplication sign
 N10 P1 = 3 *
 N20 G01 X50 F1500
 N30 M30

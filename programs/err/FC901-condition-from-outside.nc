@@ -1,5 +1,5 @@
 %VARIANTS
-; wrong: nobody says which part it is, so X is unknown behind N40
+; wrong: nobody says which part it is, so X is unknown after N40
 N10 G90
 N20 $IF V.E.PART == 3
 N30 X[COMP OFF FRICT]

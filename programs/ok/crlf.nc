@@ -1,5 +1,5 @@
 %CRLF
-; Line ends of Windows, also behind a continued line
+; Line ends of Windows, also after a continued line
 N10 X[COMP OFF \
 N20 FRICT]
 N30 G01 X50 F1500

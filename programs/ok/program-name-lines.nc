@@ -1,4 +1,4 @@
-%L RETRACT (local subprogram: a blank stands behind the L)
+%L RETRACT (local subprogram: a blank follows the L)
 N10 G00 Z100
 N20 M17
 

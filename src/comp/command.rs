@@ -8,9 +8,9 @@ use crate::text::Span;
 /// What a COMP bracket selects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Selection {
-    /// `ON` and the kinds behind it.
+    /// `ON` and the kinds after it.
     On(KindSet),
-    /// `OFF` and the kinds behind it.
+    /// `OFF` and the kinds after it.
     Off(KindSet),
     /// `OFF_ALL`.
     OffAll,

@@ -208,7 +208,7 @@ impl Compensation {
         self.program_end()
     }
 
-    /// Makes kinds of an axis unknown, because a command that decides them hangs on a value that
+    /// Makes kinds of an axis unknown, because a command that decides them depends on a value that
     /// only the machine knows (R2.51), and appends what changed.
     pub fn forget(&mut self, axis: AxisIndex, kinds: KindSet, changes: &mut Vec<Change>) {
         let state = &mut self.axes[axis.get()];

@@ -21,13 +21,13 @@ pub enum CompensationError {
         axis: String,
     },
     /// `X[COMP ON FRICT]` between `#ENABLE AX LINK` and `#DISABLE AX LINK` of a coupling with X.
-    #[error("axis `{axis}` is in an active coupling, COMP is not allowed")]
+    #[error("axis `{axis}` is in an active coupling; COMP is not allowed")]
     Coupled {
         /// The axis of the command.
         axis: String,
     },
     /// `S[COMP ON FRICT]`.
-    #[error("`{axis}` is a spindle, spindles have no COMP")]
+    #[error("`{axis}` is a spindle; spindles have no COMP")]
     Spindle {
         /// The spindle's name.
         axis: String,

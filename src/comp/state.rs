@@ -19,7 +19,7 @@ pub enum State {
     Inactive,
     /// The axis parameter that enables it is 0.
     Unconfigured,
-    /// The command that decides it hangs on a value that only the machine knows.
+    /// The command that decides it depends on a value that only the machine knows.
     Unknown,
 }
 

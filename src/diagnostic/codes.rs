@@ -2,7 +2,7 @@
 //!
 //! The control's own numbers (`P-ERR-…`) stand here only where a document ties the number to the
 //! cause; all others begin with `FC` (R9.23): 1xx files, configuration and lists, 2xx syntax, 3xx
-//! meaning, 4xx lints, 5xx drive (FC501 to FC503 are kept for checks to come), 9xx unknown values and budgets. Numbers are never used again.
+//! meaning, 4xx lints, 5xx drive (FC501 to FC503 are kept for checks to come), 9xx unknown values and budgets. A number is never used again.
 
 use std::fmt;
 
@@ -71,7 +71,7 @@ codes! {
     Fc134 "FC134" Warning "more table lines than table_entries";
     Fc135 "FC135" Warning "value list on an axis that is not configured";
     Fc136 "FC136" Warning "first table point comes too late";
-    Fc137 "FC137" Warning "value beyond 16 bit";
+    Fc137 "FC137" Warning "value exceeds 16 bits";
     Fc138 "FC138" Warning "friction values on a spindle";
     Fc201 "FC201" Error "incomplete COMP command";
     Fc202 "FC202" Error "unknown compensation kind";

@@ -42,7 +42,7 @@ struct RunFile {
 pub enum ResumeError {
     /// Another version wrote it.
     #[error(
-        "the snapshot has schema {found}, this version reads schema {}",
+        "the snapshot has schema {found}; this version reads schema {}",
         Snapshot::SCHEMA
     )]
     Schema {

@@ -15,7 +15,7 @@ pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
             " stays active for the next program: switch it off with {name}[COMP OFF FRICT]"
         )),
         State::Ineffective => Some(
-            " is selected without effect, it has no accepted value list (explain FC303)".to_owned(),
+            " is selected without effect: it has no accepted value list (explain FC303)".to_owned(),
         ),
         State::Unknown => Some(format!(
             " is not known offline: begin the next program with {name}[COMP ON FRICT] or OFF"
@@ -29,10 +29,10 @@ pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
 pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static str> {
     match by {
         Some(EndedBy::Error) => {
-            Some("Stopped by an error: these are the states at the stop, the rest did not run.")
+            Some("Stopped by an error: these are the states at the stop; the rest did not run.")
         }
         Some(EndedBy::Budget) => {
-            Some("Stopped by a budget: these are the states at the stop, the rest did not run.")
+            Some("Stopped by a budget: these are the states at the stop; the rest did not run.")
         }
         _ if errors > 0 => {
             Some("The control stops at the first error: correct it, then look at the states again.")

@@ -55,7 +55,7 @@ pub struct SessionOptions {
 
 /// The text of a program.
 pub enum Program<'a> {
-    /// Lines that come one after another. Behind the first block that can be reached again the rest
+    /// Lines that come one after another. After the first block that can be reached again the rest
     /// is taken into memory; what keeps that rest from running is found only there, see
     /// [`crate::syntax::FlowScan`].
     Lines(&'a mut dyn LineSource),

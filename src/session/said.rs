@@ -153,7 +153,7 @@ impl Said {
             Some(EndNote {
                 seq,
                 diagnostic: Diagnostic::new(Code::Fc905, file.place.clone()?, message)
-                    .with_help("correct what is shown, and run again"),
+                    .with_help("correct what is shown and run again"),
             })
         });
         notes.collect()

@@ -20,7 +20,7 @@ pub const STATE_SCHEMA: u32 = 2;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum StateError {
     /// It has another schema.
-    #[error("the state has schema {found}, this version reads schema 1 and {STATE_SCHEMA}")]
+    #[error("the state has schema {found}; this version reads schema 1 and {STATE_SCHEMA}")]
     Schema {
         /// The schema that it has.
         found: u32,
@@ -66,10 +66,10 @@ pub struct SavedState {
     /// Coupling groups with the names of their axes.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub couplings: BTreeMap<String, Vec<String>>,
-    /// Arrays of which some element was written and nobody knows which.
+    /// Arrays in which some element was written, though it is not known which.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lost: BTreeMap<String, Arc<str>>,
-    /// Set when some kept P parameter was written and nobody knows which.
+    /// Set when some kept P parameter was written, though it is not known which.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lost_parameters: Option<Arc<str>>,
 }
@@ -220,7 +220,7 @@ fn fingerprint_of(axis: &Axis, configured: KindSet) -> String {
 fn difference(saved: &[String], here: &[String]) -> Option<String> {
     if saved.len() != here.len() {
         return Some(format!(
-            "it has {} axes, this machine has {}",
+            "it has {} axes; this machine has {}",
             saved.len(),
             here.len()
         ));
@@ -234,5 +234,5 @@ fn difference(saved: &[String], here: &[String]) -> Option<String> {
         .iter()
         .zip(&sorted(here))
         .find(|(saved, here)| saved != here)
-        .map(|(saved, here)| format!("it has `{saved}`, this machine has `{here}`"))
+        .map(|(saved, here)| format!("it has `{saved}`; this machine has `{here}`"))
 }

@@ -20,6 +20,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! [`run`], [`check`] and [`currents`] are the questions that most hosts ask.
 //! [`interpreter::Interpreter`] runs a program block by block and can be saved and resumed;
 //! [`session::Session`] runs programs one after the other, with lints, and gives the records of
 //! [`timeline`], of which a [`motion::TrajectoryPlanner`] makes commanded traces and a
@@ -27,7 +28,8 @@
 //! from `frictcomp.toml`.
 //!
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are
-//! handed to it. The command line, the feature `cli`, is on by default.
+//! handed to it. The feature `report` adds formats and pictures, `host` what touches files and
+//! threads. The command line, the feature `cli`, is on by default.
 
 pub mod circle;
 #[cfg(feature = "cli")]
@@ -37,15 +39,20 @@ pub mod comp;
 mod config;
 pub mod current;
 pub mod diagnostic;
+mod facade;
+#[cfg(feature = "host")]
+pub mod host;
 pub mod interpreter;
 mod lint;
 pub mod lists;
 pub mod machine;
 pub mod motion;
-#[cfg(feature = "cli")]
+#[cfg(feature = "report")]
 pub mod report;
 pub mod session;
 pub mod simulation;
 pub mod syntax;
 pub mod text;
 pub mod timeline;
+
+pub use facade::{check, currents, run};

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 17] = [
+const ROOMS: [(&str, &[&str]); 19] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -72,9 +72,23 @@ const ROOMS: [(&str, &[&str]); 17] = [
             "timeline",
         ],
     ),
-    ("current", &["diagnostic", "comp", "lists"]),
+    (
+        "current",
+        &[
+            "diagnostic",
+            "comp",
+            "lists",
+            "machine",
+            "timeline",
+            "motion",
+        ],
+    ),
     ("simulation", &["text", "diagnostic", "lists", "config"]),
     ("circle", &["diagnostic", "lists", "current", "simulation"]),
+    (
+        "facade",
+        &["text", "machine", "timeline", "session", "current"],
+    ),
     (
         "report",
         &[
@@ -86,6 +100,23 @@ const ROOMS: [(&str, &[&str]); 17] = [
             "machine",
             "interpreter",
             "timeline",
+            "current",
+            "simulation",
+            "circle",
+        ],
+    ),
+    (
+        "host",
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "syntax",
+            "lists",
+            "machine",
+            "timeline",
+            "session",
+            "motion",
             "current",
             "simulation",
             "circle",
@@ -107,12 +138,13 @@ const ROOMS: [(&str, &[&str]); 17] = [
             "simulation",
             "circle",
             "report",
+            "host",
         ],
     ),
 ];
 
 /// Rooms that may touch files, the terminal and the environment.
-const OUTER: [&str; 3] = ["cli", "report", "main"];
+const OUTER: [&str; 4] = ["cli", "host", "report", "main"];
 
 /// A file above this many lines is split.
 const MAX_LINES: usize = 800;
@@ -265,6 +297,14 @@ fn reports_compute_nothing_and_open_nothing() {
         &["std::fs", "std::env", "Interpreter::", "Session::"],
         |file| file.room == "report",
     );
+}
+
+#[test]
+fn a_host_prints_nothing_and_knows_no_option() {
+    let of_the_command_line = [
+        "print!", "println!", "stdout(", "stderr(", "clap", "\"--", "`--",
+    ];
+    assert_absent(&of_the_command_line, |file| file.room == "host");
 }
 
 #[test]

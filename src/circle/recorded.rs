@@ -8,6 +8,7 @@ use super::compare::Side;
 use super::direction::Direction;
 use super::figures::{Nominal, Paths};
 use super::profile::{Gap, Gatherer, RadialProfile};
+use crate::diagnostic::Shown;
 
 /// Points of a turn at least.
 pub const MIN_POINTS: usize = 72;
@@ -61,6 +62,14 @@ pub enum RecordedError {
         "points are missing: {0:.0}\u{b0} of the circle are in gaps of more than {WIDEST_GAP}\u{b0}"
     )]
     Gaps(f64),
+    /// Three recordings.
+    #[error("{0} recordings were given")]
+    Count(usize),
+    /// `--radius 0`
+    #[error(
+        "a radius of {} mm is not possible, it must be between 0.001 and 1000000 mm", Shown(*.0)
+    )]
+    CommandedRadius(f64),
     /// Two counter-clockwise circles.
     #[error("both recordings run {}", .0.as_str())]
     SameDirection(Direction),
@@ -82,6 +91,8 @@ impl RecordedError {
                 "record one full turn with some overlap, without pauses of the recorder"
             }
             Self::NoCircle => "check that the columns hold the actual positions of two axes",
+            Self::Count(_) => "give one of each direction, two at most",
+            Self::CommandedRadius(_) => "write the commanded radius, `--radius 100`",
             Self::SameDirection(_) => "give one recording of each direction",
             Self::Radius { .. } => "check `--radius` and the unit of the columns",
         }
@@ -136,6 +147,22 @@ impl RecordedCircle {
 }
 
 impl Recording {
+    /// Whether so many circles of such a radius can be evaluated together.
+    ///
+    /// # Errors
+    /// More than two circles, or a radius that no circle has.
+    pub fn check(circles: usize, commanded_mm: Option<f64>) -> Result<(), RecordedError> {
+        if circles > 2 {
+            return Err(RecordedError::Count(circles));
+        }
+        match commanded_mm {
+            Some(radius) if !(0.001..=1e6).contains(&radius) => {
+                Err(RecordedError::CommandedRadius(radius))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The figures of one circle, or of one in each direction; each about its own least-squares
     /// centre. `commanded_mm` is the radius that the circles were commanded with.
     ///

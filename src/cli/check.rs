@@ -10,21 +10,20 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::console::{Console, Printed, Target};
-use super::discovery::{LoadedMachine, MachineArgs, Machines};
-use super::dry_run::{Alone, Axes, ExecutionArgs, run_alone};
-use super::failure::{Failure, Failures};
-use super::files::{Input, Naming};
-use super::ledger::Ledger;
-use super::listing::{Lister, ListingArgs, total};
+use super::execution::ExecutionArgs;
+use super::failure::Failure;
+use super::failures::Failures;
+use super::listing::{Lister, ListingArgs, of_records, passed_over, total};
+use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::notes::{self, Note};
 use super::outputs::Outputs;
-use super::unread::say_unread;
-use super::{switched, walk, workers};
-use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::report::wrap;
-use crate::session::{NoteKind, Notes, StopPolicy};
-use crate::text::Position;
-use crate::timeline::{Record, Repeat, Sink};
+use crate::diagnostic::Severity;
+use crate::host::{
+    Alone, Axes, HostError, Input, Ledger, LoadedMachine, Naming, find_programs, in_order,
+    processors, run_alone,
+};
+use crate::report::{ListingFormat, command_line, wrap};
+use crate::session::{Findings, NoteKind, Notes, StopPolicy};
 
 /// Print all messages of all programs; each program runs from the start of the control
 #[derive(Debug, Args)]
@@ -53,9 +52,8 @@ pub(super) struct CheckArgs {
 pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let console = args.listing.console(console);
-    let mut machines = Machines::new(&args.machine, &ledger);
-    machines.weigh(&args.listing.severities)?;
-    let found = walk::programs(&args.paths, |folder| machines.extensions(folder));
+    let mut machines = args.machine.weighed(&args.listing.severities, &ledger)?;
+    let found = find_programs(&args.paths, |folder| machines.extensions(folder));
     let mut failures = Failures::from(found.failures);
     let inputs = found.inputs;
     for input in &inputs {
@@ -69,7 +67,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     let jobs: Vec<Job> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
     outputs.check()?;
     if let Some(kind) = args.notes() {
-        let format = args.listing.format.of_records("this list")?;
+        let format = of_records(args.listing.format, "this list")?;
         notes::list(kind, (format, target), |lines| {
             for (input, loaded) in jobs {
                 if let Err(failure) = args.take_notes(kind, (input, loaded), lines) {
@@ -88,12 +86,12 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         return Ok(super::exit::CLEAN);
     }
     outputs.finish()?;
-    for remark in machines.loaded().filter_map(LoadedMachine::remark) {
+    for remark in machines.loaded().filter_map(remark) {
         console.remark(&remark);
     }
-    say_unread(&args.machine, &ledger, console);
-    if args.listing.format.is_text() && listing.tally().files > 0 {
-        let passed_over = walk::passed_over(found.passed_over);
+    args.machine.say_unread(&ledger, console);
+    if args.listing.format == ListingFormat::Text && listing.tally().files > 0 {
+        let passed_over = passed_over(found.passed_over);
         console.remark(&(total(listing.tally()) + &passed_over));
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
@@ -106,10 +104,11 @@ fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], (target, console): (&mut 
         let described = loaded.as_ref().map_or(true, |it| it.machine.is_described());
         (!described).then_some(*input)
     });
-    let Some(remark) = switched::remark(undescribed) else {
+    let Some(remark) = undescribed_remark(undescribed) else {
         return;
     };
-    if args.listing.format.is_text() && !args.listing.quiet && !args.listing.statistics {
+    if args.listing.format == ListingFormat::Text && !args.listing.quiet && !args.listing.statistics
+    {
         // A writer that takes no more says so at the next line.
         let _ = writeln!(target.writer, "{}\n", wrap(&remark, target.look.width, 0));
     } else {
@@ -118,7 +117,7 @@ fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], (target, console): (&mut 
 }
 
 /// A program and the machine that it runs on.
-type Job<'a> = (&'a Input, Result<Arc<LoadedMachine>, Failure>);
+type Job<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
 
 impl CheckArgs {
     fn notes(&self) -> Option<NoteKind> {
@@ -144,7 +143,7 @@ impl CheckArgs {
             naming: Naming::AsGiven,
             axes: Axes::AsTheyOccur,
         };
-        let session = run_alone(input, &loaded, alone, &mut Found::default())?;
+        let session = run_alone(input, &loaded, alone, &mut Findings::default())?;
         for (name, place) in session.notes(kind) {
             lines.insert(Note {
                 name: name.to_owned(),
@@ -165,30 +164,31 @@ impl CheckArgs {
     /// Checks the programs, many at once, and lists what was found in their order.
     fn check_all(&self, jobs: Vec<Job<'_>>, listing: &mut Lister<'_>, failures: &mut Failures) {
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
-        let workers = self.jobs.unwrap_or_else(workers::processors);
+        let workers = self.jobs.unwrap_or_else(processors);
         let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
-        let check = |(input, loaded): Job<'_>| {
+        let check = |(input, loaded): Job<'_>| -> Result<_, HostError> {
             let loaded = loaded?;
             let found = check_file(input, &loaded, &self.execution)?;
             Ok((loaded, found))
         };
-        workers::in_order(jobs.into_iter(), workers, check, |checked| {
+        in_order(jobs.into_iter(), workers, check, |checked| {
             let (loaded, found) = match checked {
                 Ok(checked) => checked,
-                Err(failure) => {
-                    failures.push(failure);
+                Err(error) => {
+                    failures.push(Failure::from(error));
                     return ControlFlow::Continue(());
                 }
             };
             let mut flow = ControlFlow::Continue(());
             if !listed.contains(&loaded.origin) {
                 listed.push(loaded.origin.clone());
-                for diagnostic in loaded.errors() {
-                    flow = listing.diagnostic(diagnostic);
+                for mut diagnostic in loaded.errors().cloned() {
+                    diagnostic.reword(Some(command_line));
+                    flow = listing.diagnostic(&diagnostic);
                 }
             }
             listing.file();
-            for diagnostic in found.diagnostics.values() {
+            for diagnostic in found.findings.diagnostics() {
                 flow = listing.diagnostic(diagnostic);
             }
             for (severity, more) in &found.unsaid {
@@ -199,115 +199,26 @@ impl CheckArgs {
     }
 }
 
-/// Every diagnostic of one program, in the order of the places, each once.
+/// What a program has to say.
+struct Found {
+    findings: Findings,
+    /// How many more messages there are, by severity (R2.85).
+    unsaid: BTreeMap<Severity, u64>,
+}
+
+/// Runs one program from the start of the control.
 fn check_file(
     input: &Input,
     loaded: &LoadedMachine,
     execution: &ExecutionArgs,
-) -> Result<Found, Failure> {
-    let options = execution.options(loaded, StopPolicy::CheckAll);
-    let mut found = Found::default();
-    let session = run_alone(
-        input,
-        loaded,
-        Alone {
-            options,
-            naming: Naming::AsGiven,
-            axes: Axes::AsTheyOccur,
-        },
-        &mut found,
-    )?;
-    found.unsaid = session.counts().clone();
-    for (severity, said) in &found.said {
-        let counted = found.unsaid.entry(*severity).or_default();
-        *counted = counted.saturating_sub(*said);
-    }
-    Ok(found)
-}
-
-/// What makes two diagnostics the same.
-type Key = (Arc<str>, Position, Position, Code, String);
-
-/// Keeps each diagnostic once, however often a loop brings it up.
-#[derive(Default)]
-struct Found {
-    diagnostics: BTreeMap<Key, Diagnostic>,
-    /// How many came, by severity.
-    said: BTreeMap<Severity, u64>,
-    /// How many more the session counted: a file says so many and no more (R2.85).
-    unsaid: BTreeMap<Severity, u64>,
-}
-
-impl Found {
-    fn add(&mut self, diagnostic: &Diagnostic) {
-        *self.said.entry(diagnostic.severity).or_default() += 1;
-        let place = &diagnostic.place;
-        let key = (
-            place.file.clone(),
-            place.start(),
-            place.end(),
-            diagnostic.code,
-            diagnostic.message.clone(),
-        );
-        self.diagnostics
-            .entry(key)
-            .or_insert_with(|| diagnostic.clone());
-    }
-
-    /// Says how often a message came true that is said once.
-    fn count(&mut self, repeat: &Repeat) {
-        let from = (
-            Arc::from(repeat.file.as_str()),
-            repeat.start,
-            repeat.start,
-            Code::ALL[0],
-            String::new(),
-        );
-        let here = self.diagnostics.range_mut(from..);
-        let here = here
-            .take_while(|((file, start, ..), _)| **file == *repeat.file && *start == repeat.start);
-        for ((_, _, _, code, message), said) in here {
-            if *code == repeat.code && *message == repeat.message {
-                said.message = format!("{message} ({} times)", repeat.times);
-            }
-        }
-    }
-}
-
-impl Sink for Found {
-    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        match record {
-            Record::Block(row) => row.diagnostics.iter().for_each(|said| self.add(said)),
-            Record::End(end) => {
-                end.notes.iter().for_each(|note| self.add(&note.diagnostic));
-                end.repeated.iter().for_each(|repeat| self.count(repeat));
-            }
-            // What the lists say is listed once a machine, not once a program.
-            Record::Machine(said) => *self.said.entry(said.severity).or_default() += 1,
-            Record::Session { .. } | Record::Program { .. } | Record::Summary(_) => {}
-        }
-        ControlFlow::Continue(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::text::{SourceFile, Span};
-
-    #[test]
-    fn a_diagnostic_is_kept_once_and_in_the_order_of_the_text() {
-        let file = SourceFile::new("a.nc", "N1 X\nN2 Y");
-        let at = |start| Diagnostic::new(Code::Fc402, file.place(Span::new(start, start + 1)), "x");
-        let mut found = Found::default();
-        for start in [5, 3, 5, 0, 3] {
-            found.add(&at(start));
-        }
-        let starts: Vec<String> = found
-            .diagnostics
-            .values()
-            .map(|diagnostic| diagnostic.place.start().to_string())
-            .collect();
-        assert_eq!(starts, ["1:1", "1:4", "2:1"]);
-    }
+) -> Result<Found, HostError> {
+    let alone = Alone {
+        options: execution.options(loaded, StopPolicy::CheckAll),
+        naming: Naming::AsGiven,
+        axes: Axes::AsTheyOccur,
+    };
+    let mut findings = Findings::default();
+    let session = run_alone(input, loaded, alone, &mut findings)?;
+    let unsaid = findings.unsaid(session.counts());
+    Ok(Found { findings, unsaid })
 }

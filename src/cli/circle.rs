@@ -5,24 +5,21 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::console::Console;
-use super::current::value_list;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
-use super::jobs::Jobs;
-use super::ledger::Ledger;
-use super::memory;
-use super::outputs::Outputs;
-use super::plants::{Model, plant};
-use super::recorded;
-use crate::circle::{Circle, CircularTest, Comparison, Job};
+use super::machine::value_list;
+use super::outputs::{Outputs, write_text};
+use super::progress;
+use crate::circle::{Circle, CircularTest};
 use crate::current::Reading;
+use crate::host::{Ledger, compare, find_plant, memory_for_simulation, read_circles};
 use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
 use crate::report::fitted;
 use crate::report::html::render_circle;
 use crate::report::pictures::circle;
 use crate::report::svg::Frame;
-use crate::simulation::plant_list;
+use crate::simulation::{FrictionModel, plant_list};
 
 /// Drive a circle with two simulated axes, with friction compensation off and on
 ///
@@ -47,7 +44,7 @@ pub(super) struct CircleArgs {
     plant: String,
     /// The friction model
     #[arg(long, default_value = "lugre")]
-    model: Model,
+    model: FrictionModel,
     /// The compensation value list of both axes; by default the friction curve of the plant
     #[arg(long, value_name = "LIST")]
     value_list: Option<PathBuf>,
@@ -87,27 +84,23 @@ enum Format {
 
 /// Runs the command.
 pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
-    memory::for_simulation()?;
+    memory_for_simulation()?;
     let ledger = Ledger::default();
     let mut outputs = Outputs::new(&ledger, console);
     let mut result = outputs.result(args.output.as_deref())?;
-    let svg = args.svg.as_deref().map(|path| outputs.file("--svg", path));
-    let svg = svg.transpose()?;
-    let html = args
-        .html
-        .as_deref()
-        .map(|path| outputs.file("--html", path));
-    let html = html.transpose()?;
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
     let report = if args.trace.is_empty() {
         let (test, origin) = simulation(args, &ledger)?;
         outputs.check()?;
-        simulated(test, origin)?
+        let comparison = compare(&test, &progress::watch())?;
+        CircleReport::simulated(test, comparison, origin)
     } else {
         args.trace
             .iter()
             .for_each(|path| ledger.reads("trace", path));
         outputs.check()?;
-        CircleReport::recorded(recorded::read(&args.trace, args.radius)?)
+        CircleReport::recorded(read_circles(&args.trace, args.radius)?)
     };
     let text = match args.format {
         Format::Text => fitted(&render_text(&report), result.look.width),
@@ -115,10 +108,10 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         Format::Csv => render_csv(&report),
     };
     if let Some(mut svg) = svg {
-        svg.text(&circle(&report).render(Frame::Alone))?;
+        write_text(&mut svg, &circle(&report).render(Frame::Alone))?;
     }
     if let Some(mut html) = html {
-        render_circle(&report, &mut html).map_err(|error| Failure::output(&error))?;
+        render_circle(&report, &mut html).map_err(Failure::output)?;
     }
     result.text(&text)?;
     outputs.finish()?;
@@ -127,7 +120,7 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
 
 /// What is simulated, and where the value lists come from.
 fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListOrigin), Failure> {
-    let plant = plant(&args.plant, ledger)?;
+    let plant = find_plant(&args.plant, ledger)?;
     let (lists, origin) = match &args.value_list {
         Some(path) => {
             let list = value_list(path, ledger)?;
@@ -148,16 +141,9 @@ fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListO
                 .unwrap_or(Circle::default().cycle_time_s),
         },
         plant,
-        model: args.model.into(),
+        model: args.model,
         lists,
         reading: args.reading,
     };
     Ok((test, origin))
-}
-
-fn simulated(test: CircularTest, origin: ListOrigin) -> Result<CircleReport, Failure> {
-    let laps = Jobs::new("circle").map(&Job::ALL, |&job| test.run(job));
-    let laps = laps.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let comparison = Comparison::of(laps);
-    Ok(CircleReport::simulated(test, comparison, origin))
 }

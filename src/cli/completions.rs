@@ -15,10 +15,13 @@ pub(super) struct CompletionsArgs {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &CompletionsArgs, console: Console) -> Result<u8, Failure> {
+pub(super) fn run(
+    args: &CompletionsArgs,
+    mut tool: clap::Command,
+    console: Console,
+) -> Result<u8, Failure> {
     let mut script = Vec::new();
-    let mut command = super::description();
-    clap_complete::generate(args.shell, &mut command, "frictcomp", &mut script);
+    clap_complete::generate(args.shell, &mut tool, "frictcomp", &mut script);
     console.print(&String::from_utf8_lossy(&script))?;
     Ok(exit::CLEAN)
 }

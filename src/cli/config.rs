@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use super::console::Console;
-use super::discovery::{CONFIG_NAME, LoadedMachine, MachineArgs, Machines};
 use super::exit;
 use super::failure::{Failure, shown};
-use super::ledger::Ledger;
+use super::machine::{MachineArgs, remark};
 use super::painted::parts;
 use crate::comp::{AxisIndex, Kind};
 use crate::diagnostic::Diagnostic;
+use crate::host::{CONFIG_NAME, Ledger, LoadedMachine};
 use crate::machine::{AxisSet, AxisType, Origin, Parameterisation};
 use crate::report::lists::render_parameters;
 use crate::report::visible_line;
@@ -37,7 +37,7 @@ pub(super) struct ShowArgs {
 /// Runs the command.
 pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failure> {
     let ConfigCommand::Show(args) = command;
-    let mut machines = Machines::new(&args.machine, &Ledger::default());
+    let mut machines = args.machine.machines(&Ledger::default());
     let loaded = machines.for_folder(&args.folder)?;
     let mut output = String::new();
     append_machine(&mut output, &loaded);
@@ -50,7 +50,7 @@ pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failu
     console.print_painted(&console.fitted(&output), parts)?;
     let errors: Vec<Diagnostic> = loaded.errors().cloned().collect();
     console.show(&errors);
-    if let Some(remark) = loaded.remark() {
+    if let Some(remark) = remark(&loaded) {
         Console::talk(&remark);
     }
     Ok(if errors.is_empty() {

@@ -47,7 +47,7 @@ enum Remarks {
 
 /// A place for data and how text looks there.
 pub(super) struct Target {
-    pub(super) writer: Box<dyn Write>,
+    pub(super) writer: Box<dyn Write + Send>,
     pub(super) look: Look,
 }
 
@@ -67,7 +67,7 @@ impl Target {
         match written.and_then(|()| self.writer.flush()) {
             Ok(()) => Ok(Printed::Read),
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Printed::Unread),
-            Err(error) => Err(Failure::output(&error)),
+            Err(error) => Err(Failure::output(error)),
         }
     }
 }
@@ -125,9 +125,9 @@ impl Console {
             },
             // Old Windows consoles need their own calls; elsewhere nothing stands between.
             writer: match paint(choice) {
-                Paint::Styled => Box::new(OverProgress(AutoStream::new(stdout.lock(), choice))),
-                Paint::Plain if stdout.is_terminal() => Box::new(OverProgress(stdout.lock())),
-                Paint::Plain => Box::new(stdout.lock()),
+                Paint::Styled => Box::new(OverProgress(AutoStream::new(stdout, choice))),
+                Paint::Plain if stdout.is_terminal() => Box::new(OverProgress(stdout)),
+                Paint::Plain => Box::new(stdout),
             },
         }
     }

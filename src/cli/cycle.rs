@@ -3,11 +3,7 @@
 use clap::Args;
 
 use super::failure::Failure;
-use crate::diagnostic::Shown;
-
-/// The shortest and the longest CNC cycle in ms.
-const SHORTEST: f64 = 0.001;
-const LONGEST: f64 = 1000.0;
+use crate::motion::check_cycle;
 
 /// The CNC cycle.
 #[derive(Debug, Clone, Default, Args)]
@@ -30,19 +26,7 @@ impl CycleArgs {
     /// The cycle in seconds, where it is given.
     pub(super) fn seconds(&self) -> Result<Option<f64>, Failure> {
         let milliseconds = self.cycle_time_ms.map(|cycle| cycle / 1000.0);
-        milliseconds.or(self.cycle_time).map(checked).transpose()
+        let seconds = milliseconds.or(self.cycle_time);
+        Ok(seconds.map(check_cycle).transpose()?)
     }
-}
-
-/// A cycle in seconds that can be one.
-pub(super) fn checked(seconds: f64) -> Result<f64, Failure> {
-    let milliseconds = seconds * 1000.0;
-    if (SHORTEST..=LONGEST).contains(&milliseconds) {
-        return Ok(seconds);
-    }
-    Err(Failure::new(format!(
-        "a CNC cycle of {} ms is not possible, it must be between {SHORTEST} and {LONGEST} ms",
-        Shown(milliseconds)
-    ))
-    .with_help("write the milliseconds of a cycle, `--cycle-time-ms 1`"))
 }

@@ -9,17 +9,15 @@ use clap::Args;
 use similar::{Algorithm, ChangeTag, capture_diff_slices};
 
 use super::console::{Console, Printed};
-use super::discovery::{MachineArgs, Machines};
-use super::dry_run::{Alone, Axes, ExecutionArgs, run_alone};
+use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::{Failure, shown};
-use super::files::{Input, Naming};
-use super::ledger::Ledger;
+use super::machine::{MachineArgs, undescribed_remark};
 use super::painted::difference;
 use super::settings;
-use super::switched;
 use crate::comp::{KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::host::{Alone, Axes, Input, Ledger, Naming, run_alone};
 use crate::report::visible_line;
 use crate::session::StopPolicy;
 use crate::timeline::{EndedBy, Record, Row, Sink};
@@ -197,7 +195,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
 /// The changes of one version, and what stands above the result where its machine is not described.
 fn switches(args: &DiffArgs, input: &Input) -> Result<(Switches, Option<String>), Failure> {
     input.probe()?;
-    let mut machines = Machines::new(&args.machine, &Ledger::default());
+    let mut machines = args.machine.machines(&Ledger::default());
     machines.look_ahead(std::slice::from_ref(input));
     let loaded = machines.for_folder(input.folder())?;
     let options = args.execution.options(&loaded, StopPolicy::FirstError);
@@ -220,7 +218,7 @@ fn switches(args: &DiffArgs, input: &Input) -> Result<(Switches, Option<String>)
     let remark = if loaded.machine.is_described() {
         None
     } else {
-        switched::remark([&Input::new(&args.old), &Input::new(&args.new)])
+        undescribed_remark([&Input::new(&args.old), &Input::new(&args.new)])
     };
     Ok((switches, remark))
 }

@@ -3,8 +3,11 @@
 use std::io;
 use std::path::Path;
 
-use super::console::Console;
+use crate::circle::CircleError;
+use crate::current::FollowError;
 use crate::diagnostic::Diagnostic;
+use crate::host::HostError;
+use crate::motion::CycleError;
 use crate::report::visible_line;
 
 /// A path as it is shown in a text of several lines (R9.76).
@@ -39,85 +42,87 @@ impl Failure {
     }
 
     /// A file that cannot be read.
-    pub(super) fn reading(path: &Path, error: &io::Error) -> Self {
-        let shown = path.display();
-        match error.kind() {
-            io::ErrorKind::NotFound => Self::new(format!("there is no file `{shown}`"))
-                .with_help("check the path; it is taken from the current folder"),
-            io::ErrorKind::PermissionDenied => {
-                Self::new(format!("`{shown}` cannot be read: permission denied"))
-                    .with_help("check your permission to read it")
-            }
-            io::ErrorKind::IsADirectory => Self::directory(path),
-            _ => Self::new(format!("`{shown}` cannot be read: {error}")),
-        }
-    }
-
-    /// A folder in the place of a program.
-    pub(super) fn directory(path: &Path) -> Self {
-        let shown = path.display();
-        Self::new(format!("`{shown}` is a folder, not a program")).with_help(format!(
-            "name its programs, or use `frictcomp check {shown}`, which walks through folders"
-        ))
+    pub(super) fn reading(path: &Path, error: io::Error) -> Self {
+        HostError::read(path, error).into()
     }
 
     /// A file that cannot be written.
-    pub(super) fn writing(path: &Path, error: &io::Error) -> Self {
-        let shown = path.display();
-        match error.kind() {
-            io::ErrorKind::NotFound => Self::new(format!(
-                "`{shown}` cannot be written: its folder does not exist"
-            ))
-            .with_help("create the folder, or name another file"),
-            io::ErrorKind::PermissionDenied => {
-                Self::new(format!("`{shown}` cannot be written: permission denied"))
-                    .with_help("check your permission to write there, or name another file")
-            }
-            io::ErrorKind::IsADirectory => {
-                Self::new(format!("`{shown}` cannot be written: it is a folder"))
-                    .with_help("name a file in it")
-            }
-            _ => Self::new(format!("`{shown}` cannot be written: {error}")),
-        }
+    pub(super) fn writing(path: &Path, error: io::Error) -> Self {
+        HostError::write(path, error).into()
     }
 
     /// Output that cannot be written.
-    pub(super) fn output(error: &io::Error) -> Self {
-        Self::new(format!("the output cannot be written: {error}"))
+    pub(super) fn output(error: io::Error) -> Self {
+        HostError::Output(error).into()
     }
 }
 
-/// What could not be done of several things; the rest is done all the same (R9.77).
-#[derive(Debug, Default)]
-pub(super) struct Failures(Vec<Failure>);
-
-impl From<Vec<Failure>> for Failures {
-    fn from(failures: Vec<Failure>) -> Self {
-        Self(failures)
-    }
-}
-
-impl Failures {
-    /// One more. One reason may stop many programs and is said once.
-    pub(super) fn push(&mut self, failure: Failure) {
-        if self.0.iter().all(|it| it.message != failure.message) {
-            self.0.push(failure);
+impl From<HostError> for Failure {
+    fn from(error: HostError) -> Self {
+        Self {
+            message: error.to_string(),
+            help: error
+                .help()
+                .or_else(|| options_for(&error))
+                .into_iter()
+                .collect(),
+            diagnostics: error.diagnostics().to_vec(),
         }
     }
+}
 
-    /// Whether everything was done.
-    pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+/// What to do on the command line, where the host has no advice of its own.
+fn options_for(error: &HostError) -> Option<String> {
+    let help = match error {
+        HostError::FolderAsProgram(folder) => {
+            return Some(format!(
+                "name its programs, or use `frictcomp check {}`, which walks through folders",
+                folder.display()
+            ));
+        }
+        HostError::NotAStartupList { path, .. } if crate::host::is_configuration(path) => {
+            "`--config` takes a `frictcomp.toml`"
+        }
+        HostError::NotAStartupList { .. } => {
+            "`--startup` takes the list that names all others, `hochlauf.lis`"
+        }
+        HostError::AxisName(_) => "write `--enable X,Y`",
+        HostError::NoPlant(_) => {
+            return Some(format!(
+                "there are {}, and files: `--plant FILE.toml`",
+                crate::simulation::Preset::names()
+            ));
+        }
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+impl From<CircleError> for Failure {
+    fn from(error: CircleError) -> Self {
+        Self::new(error.to_string()).with_help(error.help())
     }
+}
 
-    /// Says what could not be done: the status of a command that could do the rest.
-    pub(super) fn status(mut self, console: Console, done: u8) -> Result<u8, Failure> {
-        let Some(last) = self.0.pop() else {
-            return Ok(done);
+impl From<CycleError> for Failure {
+    fn from(error: CycleError) -> Self {
+        Self::new(error.to_string())
+            .with_help("write the milliseconds of a cycle, `--cycle-time-ms 1`")
+    }
+}
+
+impl From<FollowError> for Failure {
+    fn from(error: FollowError) -> Self {
+        let help = match &error {
+            FollowError::NoAxis(unknown) => unknown.help("its axes are"),
+            FollowError::Assumed(_) => {
+                Some("name its compensation value list with `--value-list`".to_owned())
+            }
         };
-        for failure in &self.0 {
-            console.explain(failure);
+        Self {
+            message: error.to_string(),
+            help: help.into_iter().collect(),
+            diagnostics: Vec::new(),
         }
-        Err(last)
     }
 }

@@ -7,15 +7,19 @@ use clap::Args;
 use similar::TextDiff;
 
 use super::console::{Console, Printed};
-use super::discovery::{LoadedMachine, MachineArgs, Machines};
-use super::dry_run::{Alone, Axes, ExecutionArgs, run_alone};
-use super::failure::{Failure, Failures, shown};
-use super::files::{Input, Naming, read_bytes};
-use super::ledger::{Ledger, folder};
-use super::outputs::Outputs;
+use super::execution::ExecutionArgs;
+use super::exit;
+use super::failure::{Failure, shown};
+use super::failures::Failures;
+use super::listing::passed_over;
+use super::machine::MachineArgs;
+use super::outputs::{Outputs, write_text};
 use super::painted::difference;
 use super::severities::SeverityArgs;
-use super::{exit, walk};
+use crate::host::{
+    Alone, Axes, Input, Ledger, LoadedMachine, Machines, Naming, find_programs, folder, read_bytes,
+    run_alone,
+};
 use crate::report::{Report, Text, TextOptions};
 use crate::session::StopPolicy;
 
@@ -62,7 +66,7 @@ enum Verdict {
 /// The programs of one call and what they run on.
 struct Bench<'a> {
     args: &'a GoldenArgs,
-    machines: Machines<'a>,
+    machines: Machines,
     ledger: Ledger,
     /// The folders that the user named, in which timelines may lie.
     trees: Vec<PathBuf>,
@@ -74,9 +78,8 @@ struct Bench<'a> {
 pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let console = if args.quiet { console.quiet() } else { console };
-    let mut machines = Machines::new(&args.machine, &ledger);
-    machines.weigh(&args.severities)?;
-    let found = walk::programs(&args.paths, |folder| machines.extensions(folder));
+    let mut machines = args.machine.weighed(&args.severities, &ledger)?;
+    let found = find_programs(&args.paths, |folder| machines.extensions(folder));
     let mut failures = Failures::from(found.failures);
     let mut pairs = Vec::new();
     for input in found.inputs {
@@ -102,7 +105,7 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
         machines,
         ledger,
         trees: args.paths.iter().filter_map(tree).collect(),
-        passed_over: walk::passed_over(found.passed_over),
+        passed_over: passed_over(found.passed_over),
     };
     let status = if args.update {
         bench.update(&pairs, console, &mut failures)?
@@ -213,10 +216,10 @@ impl Bench<'_> {
                     continue;
                 }
             };
-            let write = |outputs: &mut Outputs| {
+            let write = |outputs: &mut Outputs| -> Result<(), Failure> {
                 let mut file = outputs.file(UPDATE, &pair.golden)?;
-                file.text(&now)?;
-                file.sync()
+                write_text(&mut file, &now)?;
+                Ok(file.sync()?)
             };
             match write(&mut outputs) {
                 Ok(()) => written += 1,
@@ -283,7 +286,7 @@ fn timeline(
         },
         &mut report,
     )?;
-    report.finish().map_err(|error| Failure::output(&error))?;
+    report.finish().map_err(Failure::output)?;
     drop(report);
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
@@ -303,7 +306,7 @@ fn read_golden(path: &Path) -> Result<Option<String>, Failure> {
             Ok(Some(text.replace("\r\n", "\n")))
         }
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(Failure::reading(path, &error)),
+        Err(error) => Err(Failure::reading(path, error)),
     }
 }
 

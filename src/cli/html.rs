@@ -1,15 +1,8 @@
 //! The HTML report of `run`: the digest of the session, and its sources read once more.
 
-use std::fs::File;
-use std::io;
-use std::path::Path;
-
-use super::discovery::LoadedMachine;
 use super::failure::Failure;
-use super::files::read_text;
-use super::lines::LineReader;
-use super::outputs::OutputFile;
 use crate::comp::KindSet;
+use crate::host::{LoadedMachine, OutputFile, reopen};
 use crate::report::html::{Given, RunDigest, Sources, render_run};
 use crate::text::LineSource;
 
@@ -44,8 +37,7 @@ impl HtmlFile {
             parameters: &loaded.reports,
             programs: &loaded.programs,
         };
-        render_run(&self.digest, &given, &mut Files, &mut self.file)
-            .map_err(|error| Failure::output(&error))
+        render_run(&self.digest, &given, &mut Files, &mut self.file).map_err(Failure::output)
     }
 }
 
@@ -54,15 +46,6 @@ struct Files;
 
 impl Sources for Files {
     fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>> {
-        let path = Path::new(name);
-        if !path.is_file() {
-            return None;
-        }
-        let lines = LineReader::new(File::open(path).ok()?);
-        if lines.is_wide() {
-            let text = read_text(path).ok()?;
-            return Some(Box::new(LineReader::new(io::Cursor::new(text))));
-        }
-        Some(Box::new(lines))
+        reopen(name)
     }
 }

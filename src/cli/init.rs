@@ -9,19 +9,16 @@ use clap::Args;
 use ignore::WalkBuilder;
 
 use super::console::Console;
-use super::discovery::{CONFIG_NAME, relative};
 use super::exit;
 use super::failure::Failure;
-use super::files::read_text;
-use super::grounds::normal;
-use super::list_files::{Lists, read_list};
-use super::unfinished::{UnfinishedFile, take_away_left};
-use super::walk;
 use crate::diagnostic::Code;
+use crate::host::{
+    CONFIG_NAME, Input, ListsOnDisk, UnfinishedFile, find_programs, normal, read_list, read_text,
+    relative, take_away_left,
+};
 use crate::lists::ListKind;
 use crate::machine::{Configuration, check_list};
 use crate::syntax::{AxisUse, axis_uses};
-use crate::text::SourceFile;
 
 /// Write a commented `frictcomp.toml` to start from
 ///
@@ -94,14 +91,8 @@ fn find_startup(folder: &Path) -> Result<Option<PathBuf>, Failure> {
             .extension()
             .is_some_and(|it| it.eq_ignore_ascii_case("lis"));
         if is_list
-            && let Ok(text) = read_list(path)
-            && check_list(
-                SourceFile::new("", text),
-                None,
-                &mut crate::machine::NoLists,
-            )
-            .kind
-                == Some(ListKind::Startup)
+            && let Ok(list) = read_list(path)
+            && check_list(list, None, &mut crate::machine::NoLists).kind == Some(ListKind::Startup)
         {
             found.push(path.strip_prefix(".").unwrap_or(path).to_owned());
         }
@@ -122,8 +113,7 @@ fn find_startup(folder: &Path) -> Result<Option<PathBuf>, Failure> {
 
 /// The start-up list if it is one.
 fn checked(path: &Path) -> Result<PathBuf, Failure> {
-    let source = SourceFile::new(path.display().to_string(), read_list(path)?);
-    let configuration = Configuration::from_startup(source, &mut Lists);
+    let configuration = Configuration::from_startup(read_list(path)?, &mut ListsOnDisk);
     let wrong = configuration
         .diagnostics
         .iter()
@@ -139,7 +129,7 @@ fn checked(path: &Path) -> Result<PathBuf, Failure> {
 fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, Failure> {
     let absolute = |path: &Path| {
         let found = std::path::absolute(path).map(|path| normal(&path));
-        found.map_err(|error| Failure::reading(path, &error))
+        found.map_err(|error| Failure::reading(path, error))
     };
     Ok(relative(&absolute(path)?, &absolute(folder)?))
 }
@@ -147,9 +137,9 @@ fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, Failure> {
 /// What the programs below a folder do with axes. What cannot be read is no program to learn from.
 fn programs(folder: &Path) -> BTreeMap<String, AxisUse> {
     let mut uses: BTreeMap<String, AxisUse> = BTreeMap::new();
-    let inputs = walk::programs(&[folder.to_owned()], |_| None).inputs;
+    let inputs = find_programs(&[folder.to_owned()], |_| None).inputs;
     for input in inputs {
-        let super::files::Input::File(path) = input else {
+        let Input::File(path) = input else {
             continue;
         };
         let Ok(text) = read_text(&path) else {
@@ -172,7 +162,7 @@ fn write_new(target: &Path, text: &str) -> Result<(), Failure> {
     });
     written.map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => there(target),
-        _ => Failure::writing(target, &error),
+        _ => Failure::writing(target, error),
     })
 }
 

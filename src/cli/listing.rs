@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::{Value, json};
 
 use super::console::{Console, Printed, Target};
@@ -22,7 +22,7 @@ use crate::report::{Listing, ListingFormat, Tally};
 pub(super) struct ListingArgs {
     /// The format of the messages
     #[arg(long, default_value = "text")]
-    pub(super) format: Format,
+    pub(super) format: ListingFormat,
     /// Write the messages to this file
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
@@ -39,60 +39,22 @@ pub(super) struct ListingArgs {
     pub(super) severities: SeverityArgs,
 }
 
-/// A format of diagnostics (R9.25).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum Format {
-    /// Source lines with carets, for people.
-    #[default]
-    Text,
-    /// One line per message.
-    Concise,
-    /// One JSON document.
-    Json,
-    /// One JSON object per line.
-    Ndjson,
-    /// GitHub workflow commands.
-    Github,
-    /// SARIF 2.1.0.
-    Sarif,
-}
-
-impl From<Format> for ListingFormat {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::Text => Self::Text,
-            Format::Concise => Self::Concise,
-            Format::Json => Self::Json,
-            Format::Ndjson => Self::Ndjson,
-            Format::Github => Self::Github,
-            Format::Sarif => Self::Sarif,
-        }
+/// Refuses the formats that are for diagnostics only.
+pub(super) fn of_records(format: ListingFormat, what: &str) -> Result<ListingFormat, Failure> {
+    if format.is_for_diagnostics() {
+        return Err(Failure::new(format!(
+            "`--format github` and `sarif` are for diagnostics, not for {what}"
+        ))
+        .with_help("write `--format text`, `concise`, `json` or `ndjson`"));
     }
-}
-
-impl Format {
-    /// Whether it is for people.
-    pub(super) fn is_text(self) -> bool {
-        self == Self::Text
-    }
-
-    /// Refuses the formats that are for diagnostics only.
-    pub(super) fn of_records(self, what: &str) -> Result<Self, Failure> {
-        match self {
-            Self::Github | Self::Sarif => Err(Failure::new(format!(
-                "`--format github` and `sarif` are for diagnostics, not for {what}"
-            ))
-            .with_help("write `--format text`, `concise`, `json` or `ndjson`")),
-            format => Ok(format),
-        }
-    }
+    Ok(format)
 }
 
 /// Records as text lines, NDJSON or one document.
-pub(super) fn records(format: Format, text: &str, records: &[Value]) -> String {
+pub(super) fn records(format: ListingFormat, text: &str, records: &[Value]) -> String {
     match format {
-        Format::Json => format!("{:#}\n", json!({ "schema": 1, "records": records })),
-        Format::Ndjson => records
+        ListingFormat::Json => format!("{:#}\n", json!({ "schema": 1, "records": records })),
+        ListingFormat::Ndjson => records
             .iter()
             .fold(String::new(), |lines, it| lines + &it.to_string() + "\n"),
         _ => text.to_owned(),
@@ -107,9 +69,9 @@ impl ListingArgs {
 
     /// Begins the list.
     pub(super) fn lister(&self, target: Target) -> Result<Lister<'_>, Failure> {
-        let (format, look) = (self.format.into(), target.look);
-        let (writer, counted): (Box<dyn Write>, _) = if self.statistics {
-            self.format.of_records("statistics")?;
+        let (format, look) = (self.format, target.look);
+        let (writer, counted): (Box<dyn Write + Send>, _) = if self.statistics {
+            of_records(self.format, "statistics")?;
             (Box::new(io::sink()), Some(target))
         } else {
             (target.writer, None)
@@ -126,7 +88,7 @@ impl ListingArgs {
 /// A list on its way out.
 pub(super) struct Lister<'a> {
     args: &'a ListingArgs,
-    listing: Listing<Box<dyn Write>>,
+    listing: Listing<Box<dyn Write + Send>>,
     /// Where the counts go, in place of the list.
     counted: Option<Target>,
     counts: BTreeMap<(Code, Severity), u64>,
@@ -165,9 +127,7 @@ impl Lister<'_> {
 
     /// Writes the end of the list.
     pub(super) fn finish(&mut self) -> Result<Printed, Failure> {
-        self.listing
-            .finish()
-            .map_err(|error| Failure::output(&error))?;
+        self.listing.finish().map_err(Failure::output)?;
         if let Some(target) = &mut self.counted {
             let (format, counts) = (self.args.format, &self.counts);
             let text: String = counts
@@ -243,6 +203,15 @@ fn record((code, severity): (Code, Severity), count: u64) -> Value {
         "count": count,
         "title": code.title(),
     })
+}
+
+/// What to say of files that are no programs.
+pub(super) fn passed_over(files: u64) -> String {
+    match files {
+        0 => String::new(),
+        1 => "; 1 other file passed over".to_owned(),
+        several => format!("; {several} other files passed over"),
+    }
 }
 
 /// What was found, in one line.

@@ -5,23 +5,23 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::console::{Console, Printed};
-use super::discovery::{CONFIG_NAME, nearest_config};
 use super::exit;
-use super::failure::{Failure, Failures};
-use super::grounds::{Elsewhere, Grounds};
-use super::ledger::Ledger;
-use super::list_files::{Lists, read_list};
-use super::listing::{Format, ListingArgs, total};
-use super::outputs::Outputs;
+use super::failure::Failure;
+use super::failures::Failures;
+use super::listing::{ListingArgs, total};
+use super::machine::elsewhere;
+use super::outputs::{Outputs, write_text};
 use super::painted::parts;
 use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Severity};
-use crate::machine::{AcceptedList, Configuration, ListsReport, check_list};
-use crate::report::command_line;
+use crate::host::{
+    CONFIG_NAME, Grounds, Ledger, check_list_file, is_configuration, nearest_config,
+};
+use crate::machine::{AcceptedList, ListsReport};
 use crate::report::lists::render_parameters;
 use crate::report::pictures::value_curves;
 use crate::report::svg::Frame;
-use crate::text::SourceFile;
+use crate::report::{ListingFormat, command_line};
 
 /// Read and check axis, value, channel and start-up lists
 ///
@@ -56,24 +56,24 @@ impl ListsArgs {
     /// Says which options have no effect with the others (R9.71).
     fn check_options(&self) -> Result<(), Failure> {
         let format = self.listing.format;
-        if self.show && !matches!(format, Format::Text | Format::Json | Format::Ndjson) {
+        if self.show
+            && !matches!(
+                format,
+                ListingFormat::Text | ListingFormat::Json | ListingFormat::Ndjson
+            )
+        {
             return Err(Failure::new("`--show` has no effect with this `--format`")
                 .with_help("write `--format text`, `json` or `ndjson`"));
         }
-        self.listing.severities.check()
+        Ok(())
     }
 
     /// The folders whose lists are shown: the current one and those of the files.
     fn grounds(&self, files: &[PathBuf]) -> Grounds {
-        let elsewhere = if self.allow_outside {
-            Elsewhere::Allowed
-        } else {
-            Elsewhere::Kept
-        };
         let named = files.iter().filter_map(|path| path.parent());
         let real: Vec<PathBuf> = files.iter().flat_map(|path| path.canonicalize()).collect();
         let real = real.iter().filter_map(|path| path.parent());
-        let grounds = Grounds::new(elsewhere).with(Path::new(""));
+        let grounds = Grounds::new(elsewhere(self.allow_outside)).with(Path::new(""));
         named.chain(real).fold(grounds, Grounds::with)
     }
 
@@ -93,38 +93,15 @@ impl ListsArgs {
 
 /// Checks a list, or every list that a configuration names.
 fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
-    let source = SourceFile::new(path.display().to_string(), read_list(path)?);
-    if path.extension().is_none_or(|extension| extension != "toml") {
-        return Ok(check_list(source, build, &mut Lists));
-    }
-    if build.is_some() {
+    let report = check_list_file(path, build)?;
+    if build.is_some() && is_configuration(path) {
         let message = format!(
             "the build of `{}` is given in the file itself",
             path.display()
         );
         return Err(Failure::new(message).with_help("leave `--cnc-build` out"));
     }
-    let name = source.name().clone();
-    Ok(match Configuration::from_toml(source, &mut Lists) {
-        Ok(configuration) => ListsReport {
-            kind: None,
-            accepted: AcceptedList::of(&configuration.machine),
-            diagnostics: configuration.diagnostics,
-            reports: configuration.reports,
-            programs: configuration.programs,
-            files: std::iter::once(name).chain(configuration.files).collect(),
-            missing: configuration.missing,
-        },
-        Err(error) => ListsReport {
-            kind: None,
-            diagnostics: vec![*error.diagnostic],
-            reports: Vec::new(),
-            programs: Vec::new(),
-            accepted: Vec::new(),
-            files: vec![name],
-            missing: 0,
-        },
-    })
+    Ok(report)
 }
 
 /// The curves of all accepted value lists.
@@ -153,6 +130,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let console = args.listing.console(console);
     args.check_options()?;
+    let codes = args.listing.severities.filter()?;
     let files = args.files()?;
     let grounds = args.grounds(&files);
     let mut outputs = Outputs::new(&ledger, console);
@@ -169,7 +147,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
             }
         };
         grounds.conceal(&mut report.diagnostics);
-        args.listing.severities.sift(&mut report.diagnostics);
+        codes.sift(&mut report.diagnostics);
         for diagnostic in &mut report.diagnostics {
             diagnostic.reword(Some(command_line));
             if args.strict && diagnostic.code == Code::Fc132 {
@@ -184,14 +162,14 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     outputs.check()?;
     let width = console.stdout().look.width;
     let mut table = String::new();
-    if args.show && args.listing.format == Format::Text {
+    if args.show && args.listing.format == ListingFormat::Text {
         for report in &reports {
             render_parameters(&report.reports, &report.programs, width, &mut table)
                 .map_err(|_| Failure::new("the table of the parameters cannot be written"))?;
         }
     }
     if let Some(path) = &args.svg {
-        outputs.file("--svg", path)?.text(&draw(&reports)?)?;
+        write_text(&mut outputs.file("--svg", path)?, &draw(&reports)?)?;
     }
     let mut listing = args.listing.lister(target)?;
     for report in &reports {
@@ -213,7 +191,7 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     }
     console.print_painted(&table, parts)?;
     outputs.finish()?;
-    if args.listing.format == Format::Text && listing.tally().files > 0 {
+    if args.listing.format == ListingFormat::Text && listing.tally().files > 0 {
         let missing = reports.iter().map(|report| report.missing).sum();
         console.remark(&(total(listing.tally()) + &lacking(missing)));
         listing.hint().iter().for_each(|hint| console.remark(hint));

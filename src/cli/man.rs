@@ -8,8 +8,8 @@ use clap::Args;
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
-use super::ledger::Ledger;
-use super::outputs::Outputs;
+use super::outputs::{Outputs, write_text};
+use crate::host::Ledger;
 
 /// Print the manual page, or write one for each command
 #[derive(Debug, Args)]
@@ -20,19 +20,18 @@ pub(super) struct ManArgs {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &ManArgs, console: Console) -> Result<u8, Failure> {
+pub(super) fn run(args: &ManArgs, tool: clap::Command, console: Console) -> Result<u8, Failure> {
     let Some(folder) = &args.output else {
-        let (_, page) = page(super::description())?;
+        let (_, page) = page(tool)?;
         console.print(&page)?;
         return Ok(exit::CLEAN);
     };
-    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, &error))?;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, error))?;
     let mut outputs = Outputs::new(&Ledger::default(), console);
-    for command in commands(super::description()) {
+    for command in commands(tool) {
         let (name, text) = page(command)?;
-        outputs
-            .file("man --output", &folder.join(name))?
-            .text(&text)?;
+        let mut file = outputs.file("man --output", &folder.join(name))?;
+        write_text(&mut file, &text)?;
     }
     outputs.finish()?;
     Ok(exit::CLEAN)
@@ -61,7 +60,6 @@ fn page(command: clap::Command) -> Result<(String, String), Failure> {
     let man = clap_mangen::Man::new(command);
     let name = man.get_filename();
     let mut page = Vec::new();
-    man.render(&mut page)
-        .map_err(|error| Failure::output(&error))?;
+    man.render(&mut page).map_err(Failure::output)?;
     Ok((name, String::from_utf8_lossy(&page).into_owned()))
 }

@@ -9,48 +9,30 @@ mod console;
 mod current;
 mod cycle;
 mod diff;
-mod discovery;
-mod dry_run;
 mod examples;
+mod execution;
 mod exit;
 mod explain;
 mod fail_on;
 mod failure;
-mod files;
-mod finder;
+mod failures;
 mod golden;
-mod grounds;
 mod html;
 mod init;
-mod interrupt;
-mod jobs;
-mod ledger;
-mod lines;
-mod list_files;
 mod listing;
 mod lists;
-mod lookahead;
+mod machine;
 mod man;
-mod memory;
 mod notes;
 mod outputs;
 mod painted;
-mod plants;
 mod progress;
 mod quiet;
-mod recorded;
 mod run;
 mod settings;
 mod severities;
-mod state;
-mod steady;
-mod switched;
 mod tune;
-mod unfinished;
-mod unread;
-mod walk;
-mod watch;
-mod workers;
+mod values;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -61,6 +43,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::{Color, Console};
 use failure::Failure;
 
+use crate::host::{clean_up_when_stopped, survive_file_size_limit};
 use crate::report::{visible, visible_line};
 
 /// Dry-run ISG and TwinCAT CNC programs and show, block by block, which axes have friction
@@ -107,7 +90,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return ExitCode::from(say_usage(&error, &hidden)),
     };
-    interrupt::survive_file_size_limit();
+    survive_file_size_limit();
+    clean_up_when_stopped(exit::FAILED);
     let console = Console::new(arguments.color, arguments.width);
     let status = dispatch(&arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
@@ -140,7 +124,7 @@ fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
     }
     match error.print().and_then(|()| std::io::stdout().flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Console::new(Color::Auto, None).explain(&Failure::output(&error));
+            Console::new(Color::Auto, None).explain(&Failure::output(error));
             exit::FAILED
         }
         _ => exit::CLEAN,
@@ -161,8 +145,8 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Codes(args) => codes::run(args, console),
         Command::Init(args) => init::run(args),
         Command::Config(command) => config::run(command, console),
-        Command::Completions(args) => completions::run(args, console),
-        Command::Man(args) => man::run(args, console),
+        Command::Completions(args) => completions::run(args, description(), console),
+        Command::Man(args) => man::run(args, description(), console),
     }
 }
 

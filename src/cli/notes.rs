@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::console::Target;
 use super::failure::Failure;
-use super::listing::{Format, records};
-use crate::report::{leading, shown_json};
+use super::listing::records;
+use crate::report::{ListingFormat, leading, shown_json};
 use crate::session::NoteKind;
 use crate::text::Position;
 
@@ -43,7 +43,7 @@ impl Note {
 /// Writes the notes that `take` gathers, in the order of their names.
 pub(super) fn list(
     kind: NoteKind,
-    (format, mut target): (Format, Target),
+    (format, mut target): (ListingFormat, Target),
     take: impl FnOnce(&mut BTreeSet<Note>),
 ) -> Result<(), Failure> {
     let mut notes = BTreeSet::new();

@@ -2,7 +2,10 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+
+use crate::host::{Progress, Watch, Watcher};
 
 /// A run that takes longer shows its progress, and so often.
 const QUIET: Duration = Duration::from_secs(1);
@@ -11,40 +14,49 @@ const PAUSE: Duration = Duration::from_millis(200);
 /// Whether the line stands on the terminal.
 static IS_SHOWN: AtomicBool = AtomicBool::new(false);
 
-/// The progress of a run; the line goes when it is dropped.
+/// A terminal on which a long run shows its progress; the line goes when this is dropped.
 #[derive(Debug)]
-pub(super) struct Progress {
-    /// When the run began, where somebody watches.
-    begun: Option<Instant>,
-    shown: Option<Instant>,
+pub(super) struct Terminal {
+    begun: Instant,
+    shown: Mutex<Option<Instant>>,
 }
 
-impl Progress {
-    /// The progress of a run that begins now.
-    pub(super) fn new() -> Self {
-        Self {
-            begun: io::stderr().is_terminal().then(Instant::now),
-            shown: None,
-        }
+impl Terminal {
+    /// The terminal of a run that begins now, where somebody watches.
+    pub(super) fn watched() -> Option<Self> {
+        io::stderr().is_terminal().then(|| Self {
+            begun: Instant::now(),
+            shown: Mutex::new(None),
+        })
+    }
+}
+
+/// The terminal as who watches a run that begins now.
+pub(super) fn watch() -> Watch {
+    match Terminal::watched() {
+        Some(terminal) => Watch::by(Arc::new(terminal)),
+        None => Watch::default(),
+    }
+}
+
+impl Watcher for Terminal {
+    fn is_due(&self) -> bool {
+        // Who comes while another thread shows something need not wait.
+        let last = self.shown.try_lock().map(|shown| *shown);
+        self.begun.elapsed() > QUIET
+            && last.is_ok_and(|last| last.is_none_or(|last| last.elapsed() > PAUSE))
     }
 
-    /// Whether somebody watches.
-    pub(super) fn is_watched(&self) -> bool {
-        self.begun.is_some()
-    }
-
-    /// Shows how far the run is, when it is time for that.
-    pub(super) fn show(&mut self, far: impl FnOnce() -> String) {
-        let is_long = self.begun.is_some_and(|begun| begun.elapsed() > QUIET);
-        if is_long && self.shown.is_none_or(|last| last.elapsed() > PAUSE) {
-            let _ = write!(io::stderr().lock(), "\r{}\x1b[K", far());
+    fn show(&self, progress: &Progress) {
+        if let Ok(mut shown) = self.shown.try_lock() {
+            let _ = write!(io::stderr().lock(), "\r{progress}\x1b[K");
             IS_SHOWN.store(true, Ordering::Relaxed);
-            self.shown = Some(Instant::now());
+            *shown = Some(Instant::now());
         }
     }
 }
 
-impl Drop for Progress {
+impl Drop for Terminal {
     fn drop(&mut self) {
         clear();
     }

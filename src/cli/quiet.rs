@@ -11,7 +11,7 @@ use crate::timeline::{Record, Sink};
 
 /// Lists the diagnostics that give the exit status.
 pub(super) struct Quiet {
-    listing: Listing<Box<dyn Write>>,
+    listing: Listing<Box<dyn Write + Send>>,
     fail_on: FailOn,
 }
 

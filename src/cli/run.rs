@@ -7,24 +7,22 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::console::{Console, Target};
-use super::discovery::{LoadedMachine, MachineArgs, Machines};
-use super::dry_run::{ExecutionArgs, Surroundings, run_program};
+use super::execution::ExecutionArgs;
 use super::fail_on::FailOn;
 use super::failure::Failure;
-use super::files::{Input, Naming};
 use super::html::HtmlFile;
-use super::ledger::Ledger;
 use super::listing::explain;
-use super::lookahead::AxesAhead;
+use super::machine::{MachineArgs, remark};
 use super::outputs::Outputs;
 use super::quiet::Quiet;
 use super::settings;
 use super::severities::SeverityArgs;
-use super::state::StateFile;
-use super::switched;
-use super::unread::say_unread;
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::host::{
+    AxesAhead, Input, Ledger, LoadedMachine, Naming, StateFile, Surroundings, run_program,
+    switched_axes,
+};
 use crate::machine::{AxisSet, Setting};
 use crate::report::html::RunDigest;
 use crate::report::{
@@ -214,18 +212,16 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.output.as_deref())?;
-    let html = args.html.as_deref();
-    let html = html.map(|path| outputs.file("--html", path)).transpose()?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
     let mut html = html.map(|file| HtmlFile::new(file, args.kinds));
-    let mut machines = Machines::new(&args.machine, &ledger);
-    machines.weigh(&args.severities)?;
+    let mut machines = args.machine.weighed(&args.severities, &ledger)?;
     machines.look_ahead(&inputs);
     if let Some(path) = args.state.as_deref() {
         // Another run of the same machine may bring the programs that name the others.
         machines.expect_more(StateFile::axes(path));
     }
     let loaded = machines.for_folder(inputs[0].folder())?;
-    if let Some(remark) = loaded.remark() {
+    if let Some(remark) = remark(&loaded) {
         console.remark(&remark);
     }
     if args.format == Format::Csv {
@@ -242,14 +238,14 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         }
     }
     if let Some(path) = args.state.as_deref() {
-        StateFile::claim(path, &mut outputs);
+        outputs.claim_state(path);
     }
     outputs.check()?;
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
     let mut options = args.execution.options(&loaded, args.stop_policy());
     if !loaded.machine.is_described() {
-        options.switched = switched::axes(&inputs);
+        options.switched = switched_axes(&inputs);
     }
     if args.format == Format::Csv {
         // A row is a block: the remark has no row.
@@ -285,10 +281,10 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         html.write(&given, &loaded)?;
     }
     if let (Played::Whole, Some(file)) = (played, &start.state) {
-        file.save(&start.session.save(), &mut outputs)?;
+        outputs.save(file, &start.session.save())?;
     }
     outputs.finish()?;
-    say_unread(&args.machine, &ledger, console);
+    args.machine.say_unread(&ledger, console);
     if let (Format::Text, Some(code)) = (args.format, hint) {
         console.remark(&explain(code));
     }
@@ -327,7 +323,7 @@ fn play(
     });
     let said = sink.weightiest.map(|(_, code)| code);
     let mut report = shared.into_inner();
-    report.finish().map_err(|error| Failure::output(&error))?;
+    report.finish().map_err(Failure::output)?;
     if report.is_closed() && !goes_on_alone {
         return Ok((Played::Unread, None));
     }

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::failure::Failure;
-use crate::diagnostic::{Code, Diagnostic, Levels, Severity, did_you_mean};
+use crate::diagnostic::{Code, CodeFilter, Severity, did_you_mean};
 
 /// Which codes count, for this call; what the control itself reports always does.
 #[derive(Debug, Clone, Default, Args)]
@@ -22,45 +22,19 @@ pub(super) struct SeverityArgs {
 }
 
 impl SeverityArgs {
-    /// Says which option has no effect beside another one.
-    pub(super) fn check(&self) -> Result<(), Failure> {
-        let without_effect = self.severity.iter().find(|(code, _)| !self.keeps(*code));
-        match without_effect {
-            Some((code, _)) => Err(Failure::new(format!(
+    /// Which codes count.
+    pub(super) fn filter(&self) -> Result<CodeFilter, Failure> {
+        let mut filter = CodeFilter::default();
+        filter.ignore.clone_from(&self.ignore);
+        filter.select.clone_from(&self.select);
+        filter.severity.clone_from(&self.severity);
+        match filter.without_effect() {
+            Some(code) => Err(Failure::new(format!(
                 "`--severity {code}` has no effect: the code is not reported"
             ))
             .with_help("remove it from `--ignore`, or add it to `--select`")),
-            None => Ok(()),
+            None => Ok(filter),
         }
-    }
-
-    /// Changes the severities of a configuration.
-    pub(super) fn apply(&self, levels: &mut Levels) {
-        for &code in Code::ALL {
-            if !self.keeps(code) {
-                levels.set(code, None);
-            }
-        }
-        for &(code, severity) in &self.severity {
-            levels.set(code, Some(severity));
-        }
-    }
-
-    /// Changes what was said already, about lists.
-    pub(super) fn sift(&self, said: &mut Vec<Diagnostic>) {
-        said.retain(|diagnostic| self.keeps(diagnostic.code));
-        for diagnostic in said {
-            let given = self.severity.iter().rev();
-            let given = given.clone().find(|(code, _)| *code == diagnostic.code);
-            if let Some((_, severity)) = given {
-                diagnostic.severity = *severity;
-            }
-        }
-    }
-
-    fn keeps(&self, code: Code) -> bool {
-        let selected = self.select.is_empty() || self.select.contains(&code);
-        code.is_controller() || (selected && !self.ignore.contains(&code))
     }
 }
 
@@ -105,28 +79,6 @@ fn parse_severity(text: &str) -> Result<(Code, Severity), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn codes_are_left_out_and_weighed() {
-        // R9.72
-        let mut levels = Levels::default();
-        let args = SeverityArgs {
-            select: vec![Code::Fc401],
-            severity: vec![(Code::Fc401, Severity::Error)],
-            ..SeverityArgs::default()
-        };
-        args.check().unwrap();
-        args.apply(&mut levels);
-        assert_eq!(levels.severity(Code::Fc401), Some(Severity::Error));
-        assert_eq!(levels.severity(Code::Fc402), None);
-        assert_eq!(levels.severity(Code::PErr70495), Some(Severity::Error));
-        let args = SeverityArgs {
-            ignore: vec![Code::Fc401],
-            severity: vec![(Code::Fc401, Severity::Error)],
-            ..SeverityArgs::default()
-        };
-        assert!(args.check().is_err());
-    }
 
     #[test]
     fn codes_are_given_as_they_are_printed() {

@@ -8,14 +8,12 @@ use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
-use super::jobs::Jobs;
-use super::ledger::Ledger;
-use super::memory;
-use super::outputs::Outputs;
-use super::plants::{Model, plant};
-use crate::circle::{Circle, Ranges, Search, Task, Tuned};
+use super::outputs::{Outputs, write_text};
+use super::progress;
+use crate::circle::{Circle, Ranges, Task};
 use crate::comp::CncBuild;
 use crate::current::Reading;
+use crate::host::{Ledger, find_plant, memory_for_simulation, tune};
 use crate::lists::{Field, Points, write_value_list};
 use crate::report::pictures::tuning;
 use crate::report::svg::Frame;
@@ -66,7 +64,7 @@ pub(super) struct TuneArgs {
     radius: f64,
     /// The friction model
     #[arg(long, default_value = "lugre")]
-    model: Model,
+    model: FrictionModel,
     #[command(flatten)]
     cycle: CycleArgs,
     /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
@@ -110,7 +108,7 @@ enum Format {
 
 /// Runs the command.
 pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
-    memory::for_simulation()?;
+    memory_for_simulation()?;
     let circles = circles(args)?;
     if args.plant.len() > MAX_PLANTS {
         let message = format!("{} plants were given", args.plant.len());
@@ -119,20 +117,16 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     let mut outputs = Outputs::new(&ledger, console);
     outputs.print("the result")?;
-    let list = args
-        .output
-        .as_deref()
-        .map(|path| outputs.file("--output", path));
-    let list = list.transpose()?;
-    let svg = args.svg.as_deref().map(|path| outputs.file("--svg", path));
-    let svg = svg.transpose()?;
+    let list = outputs.optional("--output", args.output.as_deref())?;
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let plants: Vec<Plant> = args
         .plant
         .iter()
-        .map(|word| plant(word, &ledger))
+        .map(|name| find_plant(name, &ledger))
         .collect::<Result<_, _>>()?;
     outputs.check()?;
-    let model = FrictionModel::from(args.model);
+    let model = args.model;
+    let watch = progress::watch();
     let mut reports = Vec::new();
     for plant in plants {
         let name = plant.name.clone();
@@ -148,14 +142,14 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             model: model.as_str(),
             diameter_mm: 2.0 * args.radius,
             reading: args.reading.to_string(),
-            tuned: tune(&task)?,
+            tuned: tune(&task, &watch)?,
         });
     }
     if let (Some(mut list), Some(first)) = (list, reports.first()) {
-        list.text(&value_list(first, args.cnc_build))?;
+        write_text(&mut list, &value_list(first, args.cnc_build))?;
     }
     if let Some(mut svg) = svg {
-        svg.text(&tuning(&reports).render(Frame::Alone))?;
+        write_text(&mut svg, &tuning(&reports).render(Frame::Alone))?;
     }
     console.print(&match args.format {
         Format::Text => console.fitted(&render_text(&reports)),
@@ -207,24 +201,4 @@ fn ranges(free: &[Free]) -> Ranges {
             Free::ReversalLookahead => Field::ReversalLookahead,
         })
     })
-}
-
-/// The search of the library with its trials on all cores.
-fn tune(task: &Task) -> Result<Tuned, Failure> {
-    let jobs = Jobs::new("tune");
-    let mut search = Search::new(&task.ranges);
-    while let Some(trials) = search.next_trials() {
-        let bound = search.bound();
-        let heights = jobs.map(&trials, |&candidate| task.worst_um(candidate, bound));
-        search.take(
-            &trials,
-            &heights.into_iter().collect::<Result<Vec<_>, _>>()?,
-        );
-    }
-    let best = search.best();
-    let glitches = jobs.map(&task.wholes(), |&(circle, variant)| {
-        task.whole_um(circle, best, variant)
-    });
-    let glitches = glitches.into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(Tuned::new(task, &search, &glitches))
 }

@@ -55,6 +55,8 @@ pub enum Advice {
     CompleteMotion,
     /// Let programs be called from the folder of this one, or from anywhere.
     AllowOutside,
+    /// Let the text of lists outside the folders of the machine and the programs be shown.
+    ShowOutside,
     /// Begin with a new configuration.
     WriteConfiguration,
     /// Read the page of this code.
@@ -130,6 +132,7 @@ impl fmt::Display for Advice {
             Self::AllowOutside => f.write_str(
                 "add its folder to `program_dirs`, or allow calls from anywhere",
             ),
+            Self::ShowOutside => f.write_str("allow files outside the project to be shown"),
             Self::WriteConfiguration => f.write_str("begin with a new configuration"),
             Self::ReadPage(code) => write!(f, "the page of {code} says more"),
         }

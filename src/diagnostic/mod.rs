@@ -3,19 +3,23 @@
 mod advice;
 mod codes;
 mod collected;
+mod filter;
 mod fix;
 mod levels;
 mod message;
 mod number;
 mod severity;
 mod spelling;
+mod unknown_name;
 
 pub use advice::{Advice, Budget, Wording};
 pub use codes::Code;
 pub use collected::{Collected, MAX_MESSAGES};
+pub use filter::CodeFilter;
 pub use fix::{Fix, Fixed, Safety};
 pub use levels::Levels;
 pub use message::{Diagnostic, Label};
 pub(crate) use number::Shown;
 pub use severity::Severity;
 pub(crate) use spelling::did_you_mean;
+pub use unknown_name::UnknownName;

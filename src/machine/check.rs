@@ -152,6 +152,32 @@ pub fn check_list(
     }
 }
 
+/// Checks a `frictcomp.toml` with every list that it names.
+#[cfg(feature = "toml")]
+pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> ListsReport {
+    let name = file.name().clone();
+    match Configuration::from_toml(file, files) {
+        Ok(configuration) => ListsReport {
+            kind: None,
+            accepted: AcceptedList::of(&configuration.machine),
+            diagnostics: configuration.diagnostics,
+            reports: configuration.reports,
+            programs: configuration.programs,
+            files: std::iter::once(name).chain(configuration.files).collect(),
+            missing: configuration.missing,
+        },
+        Err(error) => ListsReport {
+            kind: None,
+            diagnostics: vec![*error.diagnostic],
+            reports: Vec::new(),
+            programs: Vec::new(),
+            accepted: Vec::new(),
+            files: vec![name],
+            missing: 0,
+        },
+    }
+}
+
 /// The report of a list by itself, without parameters.
 fn head(values: &AxisValues) -> AxisReport {
     AxisReport {

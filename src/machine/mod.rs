@@ -18,6 +18,8 @@ mod value_list;
 
 pub use assemble::AxisReport;
 pub use axis::{Axis, Parameterisation};
+#[cfg(feature = "toml")]
+pub use check::check_configuration;
 pub use check::{AcceptedList, ListsReport, check_list};
 pub use configuration::Configuration;
 pub use description::{AxisSet, Machine, Parameters};

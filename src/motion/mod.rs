@@ -9,6 +9,7 @@
 //! Positions are in mm or degrees, as the axis is linear or rotary; velocities, accelerations and
 //! jerks in the same per s, s² and s³.
 
+mod cycle;
 mod junction;
 mod limits;
 mod look_ahead;
@@ -20,6 +21,7 @@ mod segment;
 mod share;
 mod trace;
 
+pub use cycle::{CycleError, check_cycle};
 pub use limits::{Assumed, AxisLimits};
 pub use planner::{PlannerOptions, TrajectoryPlanner};
 pub use profile::{Bounds, PathState, VelocityProfile};

@@ -31,6 +31,47 @@ pub enum ListingFormat {
     Sarif,
 }
 
+impl ListingFormat {
+    /// Every format.
+    pub const ALL: [Self; 6] = [
+        Self::Text,
+        Self::Concise,
+        Self::Json,
+        Self::Ndjson,
+        Self::Github,
+        Self::Sarif,
+    ];
+
+    /// The name of the format.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Text => "text",
+            Self::Concise => "concise",
+            Self::Json => "json",
+            Self::Ndjson => "ndjson",
+            Self::Github => "github",
+            Self::Sarif => "sarif",
+        }
+    }
+
+    /// What it is, in a few words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Text => "Source lines with carets, for people",
+            Self::Concise => "One line per message",
+            Self::Json => "One JSON document",
+            Self::Ndjson => "One JSON object per line",
+            Self::Github => "GitHub workflow commands",
+            Self::Sarif => "SARIF 2.1.0",
+        }
+    }
+
+    /// Whether it is for diagnostics only, without records of other kinds.
+    pub fn is_for_diagnostics(self) -> bool {
+        matches!(self, Self::Github | Self::Sarif)
+    }
+}
+
 /// How many files were looked at and how many diagnostics of each severity were said.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Tally {

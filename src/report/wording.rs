@@ -40,6 +40,7 @@ pub fn command_line(advice: &Advice) -> Option<String> {
             "add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"
                 .to_owned()
         }
+        Advice::ShowOutside => "`--allow-outside` shows it".to_owned(),
         Advice::WriteConfiguration => {
             "`frictcomp init` writes a configuration to start from".to_owned()
         }

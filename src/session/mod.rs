@@ -2,6 +2,7 @@
 //!
 //! The state that one program leaves is the state that the next one starts with.
 
+mod findings;
 mod recorder;
 mod said;
 mod saved;
@@ -11,6 +12,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+pub use findings::Findings;
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 pub use undescribed::undescribed;
 

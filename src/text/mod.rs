@@ -1,14 +1,21 @@
 //! Text and places in it: spans, lines and columns, physical lines one after another.
 //!
 //! Nothing here knows what an NC block or a list entry is. Offsets are bytes in UTF-8 text; lines
-//! and columns are made only when something is printed.
+//! and columns are made only when something is printed. What bytes of files mean, the code pages of old
+//! systems, comes with the feature `report` or `host`.
 
+#[cfg(any(feature = "report", feature = "host"))]
+mod decode;
 mod file;
 mod index;
 mod lines;
 mod place;
 mod span;
 
+#[cfg(any(feature = "report", feature = "host"))]
+pub use decode::decode;
+#[cfg(feature = "host")]
+pub(crate) use decode::decode_lines;
 pub use file::SourceFile;
 pub use index::LineIndex;
 #[cfg(feature = "cli")]

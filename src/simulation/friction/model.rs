@@ -28,6 +28,15 @@ impl FrictionModel {
     /// Every model, the simplest first.
     pub const ALL: [Self; 3] = [Self::Stribeck, Self::Lugre, Self::Gms];
 
+    /// What it is, in a few words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Stribeck => "The static Stribeck curve",
+            Self::Lugre => "LuGre, a single bristle",
+            Self::Gms => "Generalized Maxwell-slip, elements that stick and slip",
+        }
+    }
+
     /// The name on the command line and in reports.
     pub fn as_str(self) -> &'static str {
         match self {

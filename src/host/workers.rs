@@ -13,15 +13,32 @@ const AHEAD: usize = 16;
 type Job<T, R> = (T, SyncSender<R>);
 
 /// As many workers as there are processors for this process.
-pub(super) fn processors() -> NonZeroUsize {
+pub fn processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
+
+/// Does each piece of work once, on all processors. Which of them does it makes no difference to the
+/// results. `done` hears how many results are there.
+pub fn map<T: Sync, R: Send>(
+    pieces: &[T],
+    work: impl Fn(&T) -> R + Sync,
+    mut done: impl FnMut(usize),
+) -> Vec<R> {
+    let most = NonZeroUsize::new(pieces.len()).unwrap_or(NonZeroUsize::MIN);
+    let mut results = Vec::with_capacity(pieces.len());
+    in_order(pieces.iter(), processors().min(most), work, |result| {
+        results.push(result);
+        done(results.len());
+        ControlFlow::Continue(())
+    });
+    results
 }
 
 /// Gives each item to one of `workers` threads and the results to `take`, in the order of the items.
 /// The items are drawn by this thread, and never so fast that more than a bounded number of results
 /// wait. `Break` ends the work. Where the system starts fewer threads, those do the work; without
 /// any, this thread does it.
-pub(super) fn in_order<T: Send, R: Send>(
+pub fn in_order<T: Send, R: Send>(
     items: impl Iterator<Item = T>,
     workers: NonZeroUsize,
     work: impl Fn(T) -> R + Sync,
@@ -107,6 +124,16 @@ mod tests {
             });
             assert!(taken.into_iter().eq(0..500));
         }
+    }
+
+    #[test]
+    fn results_keep_the_order_of_the_pieces() {
+        let pieces: Vec<u64> = (0..100).collect();
+        let mut counts = Vec::new();
+        let squares = map(&pieces, |n| n * n, |done| counts.push(done));
+        assert!(squares.into_iter().eq(pieces.iter().map(|n| n * n)));
+        assert!(counts.into_iter().eq(1..=100));
+        assert!(map(&[0_u8; 0], |n| *n, |_| ()).is_empty());
     }
 
     #[test]

@@ -49,7 +49,7 @@ impl Drop for Held {
 /// A file that is written beside the old one. Dropped before [`take_place`](Self::take_place), it
 /// leaves the old one as it was.
 #[derive(Debug)]
-pub(super) struct UnfinishedFile {
+pub struct UnfinishedFile {
     stage: Stage,
     target: PathBuf,
 }
@@ -69,7 +69,7 @@ impl UnfinishedFile {
     ///
     /// # Errors
     /// The old file may not be written or is a link to nothing, or there can be no new one.
-    pub(super) fn begin(path: &Path) -> io::Result<Self> {
+    pub fn begin(path: &Path) -> io::Result<Self> {
         let target = target(path)?;
         let file = create(folder(&target))?;
         if let Ok(old) = std::fs::metadata(&target) {
@@ -82,7 +82,10 @@ impl UnfinishedFile {
     }
 
     /// Everything is written: it goes to the disk.
-    pub(super) fn sync(&mut self) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// It cannot be written to the disk.
+    pub fn sync(&mut self) -> io::Result<()> {
         if let Stage::Open(file) = &mut self.stage {
             file.flush()?;
             file.as_file().sync_all()?;
@@ -98,12 +101,18 @@ impl UnfinishedFile {
     }
 
     /// The file takes the old one's place.
-    pub(super) fn take_place(&mut self) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// It cannot be written, or moved.
+    pub fn take_place(&mut self) -> io::Result<()> {
         self.place(|file, target| file.persist(target))
     }
 
     /// The file takes a place where there is none; one that is there by now stays.
-    pub(super) fn take_free_place(&mut self) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// It cannot be written, or the place is taken.
+    pub fn take_free_place(&mut self) -> io::Result<()> {
         self.place(|file, target| file.persist_noclobber(target))
     }
 
@@ -202,7 +211,7 @@ fn create(folder: &Path) -> io::Result<NamedTempFile> {
 
 /// Takes away what killed runs of the same user left in the folder of a file. An unfinished file of a
 /// run that lives is locked.
-pub(super) fn take_away_left(beside: &UnfinishedFile, seen: &mut BTreeSet<PathBuf>) {
+pub fn take_away_left(beside: &UnfinishedFile, seen: &mut BTreeSet<PathBuf>) {
     let folder = folder(&beside.target);
     let Stage::Open(own) = &beside.stage else {
         return;

@@ -4,25 +4,11 @@
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 
-use super::files::Input;
-use crate::machine::Machine;
-use crate::report::command_line;
-use crate::session::undescribed;
-
-/// The sentence above what is said about programs that run without a described machine, where any of
-/// them switches friction compensation.
-pub(super) fn remark<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Option<String> {
-    let axes = axes(inputs);
-    if axes.is_empty() {
-        return None;
-    }
-    let advice = undescribed(&Machine::unconfigured(), &axes)?;
-    Some(advice.in_words(Some(command_line)))
-}
+use super::input::Input;
 
 /// The axes whose friction compensation the programs switch, sorted. What cannot be read is said
 /// when it is run; of what comes through a pipe nothing is known yet.
-pub(super) fn axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<String> {
+pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<String> {
     let mut found = Vec::new();
     for input in inputs {
         if let Input::File(path) = input

@@ -7,26 +7,27 @@ use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::files::{Input, Naming, decode, read_bytes};
 use super::grounds::{Elsewhere, Grounds, normal};
+use super::input::{Input, Naming};
 use super::ledger::{Ledger, PROGRAM};
+use super::read::read_bytes;
 use crate::session::{Finder, NoProgram};
-use crate::text::SourceFile;
+use crate::text::{SourceFile, decode};
 
 /// Where the programs that are called may lie besides their caller's folder.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Reach {
+pub struct Reach {
     /// The folders of `program_dirs`, which are searched in this order.
-    pub(super) program_dirs: Vec<PathBuf>,
+    pub program_dirs: Vec<PathBuf>,
     /// The folder of the configuration; empty, the current one, without.
-    pub(super) project: PathBuf,
+    pub project: PathBuf,
     /// What becomes of programs that lie elsewhere.
-    pub(super) elsewhere: Elsewhere,
+    pub elsewhere: Elsewhere,
 }
 
 impl Reach {
     /// The project, the configured folders and everything below them.
-    pub(super) fn grounds(&self) -> Grounds {
+    pub fn grounds(&self) -> Grounds {
         let grounds = Grounds::new(self.elsewhere).with(&self.project);
         self.program_dirs
             .iter()
@@ -35,7 +36,7 @@ impl Reach {
 }
 
 /// Finds called programs beside the caller and in the configured folders.
-pub(super) struct ProgramFinder {
+pub struct ProgramFinder {
     folders: Vec<PathBuf>,
     grounds: Grounds,
     naming: Naming,
@@ -51,7 +52,7 @@ pub(super) struct ProgramFinder {
 
 impl ProgramFinder {
     /// A finder for the programs that `main` calls.
-    pub(super) fn new(main: &Input, reach: &Reach, naming: Naming) -> Self {
+    pub fn new(main: &Input, reach: &Reach, naming: Naming) -> Self {
         let mut known = HashMap::new();
         let mut names = HashMap::new();
         if let Input::File(path) = main {
@@ -71,7 +72,7 @@ impl ProgramFinder {
     }
 
     /// The same, which notes what it reads.
-    pub(super) fn noting(self, ledger: &Ledger) -> Self {
+    pub fn noting(self, ledger: &Ledger) -> Self {
         let ledger = ledger.clone();
         Self { ledger, ..self }
     }

@@ -4,18 +4,19 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 
-use super::failure::Failure;
+use super::error::HostError;
 use super::ledger::{Ledger, PROGRAM};
-use super::lines::{LineReader, MOST_KEPT, decode_lines, too_big};
+use super::lines::LineReader;
+use super::read::{read_text, read_whole};
 use super::steady::Steady;
-use crate::text::SourceFile;
+use crate::text::{LineSource, SourceFile, decode};
 
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
 
 /// How files are named in records and diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Naming {
+pub enum Naming {
     /// As the user named them.
     AsGiven,
     /// By their last part only, so that the folder does not matter.
@@ -23,7 +24,8 @@ pub(super) enum Naming {
 }
 
 impl Naming {
-    pub(super) fn name(self, path: &Path) -> String {
+    /// The name of a file.
+    pub fn name(self, path: &Path) -> String {
         match (self, path.file_name()) {
             (Self::FileName, Some(name)) => name.to_string_lossy().into_owned(),
             _ => path.display().to_string(),
@@ -33,7 +35,7 @@ impl Naming {
 
 /// A program that the user named.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Input {
+pub enum Input {
     /// A file.
     File(PathBuf),
     /// Standard input, `-`.
@@ -41,7 +43,7 @@ pub(super) enum Input {
 }
 
 /// A program that is ready to run.
-pub(super) enum Opened<'a> {
+pub enum Opened<'a> {
     /// A file without flow, or what can be read only once: the lines come one after another.
     Lines(LineReader<Box<dyn Read + 'a>>),
     /// A program with flow.
@@ -63,7 +65,7 @@ impl<R: Read> Read for Waiting<'_, R> {
 
 impl Input {
     /// What the user means by an argument.
-    pub(super) fn new(argument: &Path) -> Self {
+    pub fn new(argument: &Path) -> Self {
         if argument == Path::new("-") {
             Self::Stdin
         } else {
@@ -72,7 +74,7 @@ impl Input {
     }
 
     /// Its name in records and diagnostics.
-    pub(super) fn name(&self, naming: Naming) -> String {
+    pub fn name(&self, naming: Naming) -> String {
         match self {
             Self::File(path) => naming.name(path),
             Self::Stdin => STDIN.to_owned(),
@@ -80,7 +82,7 @@ impl Input {
     }
 
     /// The folder in which the search for a configuration begins.
-    pub(super) fn folder(&self) -> &Path {
+    pub fn folder(&self) -> &Path {
         match self {
             Self::File(path) => path.parent().unwrap_or(path),
             Self::Stdin => Path::new(""),
@@ -88,22 +90,25 @@ impl Input {
     }
 
     /// Says why the program cannot be run, as far as that is known before it runs.
-    pub(super) fn probe(&self) -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// There is none, it may not be read, or is a folder.
+    pub fn probe(&self) -> Result<(), HostError> {
         let Self::File(path) = self else {
             return Ok(());
         };
-        let metadata = std::fs::metadata(path).map_err(|error| Failure::reading(path, &error))?;
+        let metadata = std::fs::metadata(path).map_err(|error| HostError::read(path, error))?;
         if metadata.is_dir() {
-            return Err(Failure::directory(path));
+            return Err(HostError::FolderAsProgram(path.clone()));
         }
         if metadata.is_file() {
-            File::open(path).map_err(|error| Failure::reading(path, &error))?;
+            File::open(path).map_err(|error| HostError::read(path, error))?;
         }
         Ok(())
     }
 
     /// Notes the program among the files that are read.
-    pub(super) fn note(&self, ledger: &Ledger) {
+    pub fn note(&self, ledger: &Ledger) {
         let path = match self {
             Self::File(path) => path,
             Self::Stdin => Path::new(STDIN),
@@ -113,14 +118,17 @@ impl Input {
 
     /// Opens the program. Standard input or a pipe calls `before_waiting` whenever it may have to
     /// wait for more.
-    pub(super) fn open<'a>(
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn open<'a>(
         &self,
         naming: Naming,
         before_waiting: &'a dyn Fn(),
-    ) -> Result<Opened<'a>, Failure> {
+    ) -> Result<Opened<'a>, HostError> {
         match self {
             Self::File(path) => open_file(path, self.name(naming), before_waiting)
-                .map_err(|error| Failure::reading(path, &error)),
+                .map_err(|error| HostError::read(path, error)),
             Self::Stdin => Ok(match standard_input() {
                 // A file behind `<` must stay as it is, as one that is named must.
                 Some((file, metadata)) => arriving(Steady::new(file, &metadata), before_waiting),
@@ -128,6 +136,21 @@ impl Input {
             }),
         }
     }
+}
+
+/// The lines of a program that was run, by its name in records. `None` for what can be read only
+/// once, a pipe.
+pub fn reopen(name: &str) -> Option<Box<dyn LineSource>> {
+    let path = Path::new(name);
+    if !path.is_file() {
+        return None;
+    }
+    let lines = LineReader::new(File::open(path).ok()?);
+    if lines.is_wide() {
+        let text = read_text(path).ok()?;
+        return Some(Box::new(LineReader::new(io::Cursor::new(text))));
+    }
+    Some(Box::new(lines))
 }
 
 /// Standard input, where it is a file and no pipe.
@@ -170,95 +193,14 @@ fn open_file<'a>(
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
 }
 
-/// Reads a file of a length that is kept in memory.
-fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> {
-    let most = u64::try_from(MOST_KEPT).expect("1 GiB is below 2^64");
-    if length > most {
-        return Err(too_big());
-    }
-    let mut bytes = Vec::new();
-    reader.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() > MOST_KEPT {
-        return Err(too_big());
-    }
-    Ok(bytes)
-}
-
 /// Lines that are given out as they arrive.
 fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
     Opened::Lines(LineReader::new(Box::new(Waiting { reader, before }) as Box<dyn Read>).narrow())
 }
 
-/// The text of a file, decoded as a stream of its lines is. A byte order mark at its start is passed
-/// over.
-pub(super) fn decode(bytes: Vec<u8>) -> String {
-    if let Some(text) = decode_wide(&bytes) {
-        return text;
-    }
-    let mut text = match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            let mut text = String::with_capacity(error.as_bytes().len());
-            decode_lines(error.as_bytes(), &mut false, &mut text);
-            text
-        }
-    };
-    if text.starts_with('\u{feff}') {
-        text.drain(..'\u{feff}'.len_utf8());
-    }
-    text
-}
-
-/// The text of bytes whose byte order mark says UTF-16, as some editors of Windows save.
-fn decode_wide(bytes: &[u8]) -> Option<String> {
-    let (encoding, mark) = encoding_rs::Encoding::for_bom(bytes)?;
-    let is_wide = encoding != encoding_rs::UTF_8;
-    is_wide.then(|| {
-        encoding
-            .decode_without_bom_handling(&bytes[mark..])
-            .0
-            .into_owned()
-    })
-}
-
-/// Opens what is a file and nothing else: a pipe would be waited for, a device has no end.
-///
-/// # Errors
-/// There is none, it may not be read, is a folder or no regular file.
-pub(super) fn open_regular(path: &Path) -> io::Result<(File, Metadata)> {
-    // Asked before it is opened: opening a pipe waits for its other end.
-    let metadata = std::fs::metadata(path)?;
-    if metadata.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    if !metadata.is_file() {
-        return Err(io::Error::other("it is not a regular file"));
-    }
-    let file = File::open(path)?;
-    let metadata = file.metadata()?;
-    Ok((file, metadata))
-}
-
-/// Reads and decodes a whole file.
-pub(super) fn read_text(path: &Path) -> Result<String, Failure> {
-    read_bytes(path)
-        .map(decode)
-        .map_err(|error| Failure::reading(path, &error))
-}
-
-/// Reads a whole file.
-///
-/// # Errors
-/// There is none, it may not be read, is a folder, or is too big to be kept.
-pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let (file, metadata) = open_regular(path)?;
-    read_whole(file, metadata.len())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::LineSource;
 
     #[test]
     fn only_programs_with_flow_are_read_whole() {
@@ -284,8 +226,8 @@ mod tests {
     fn what_cannot_be_run_is_said_before() {
         let root = tempfile::tempdir().unwrap();
         let failure = Input::new(root.path()).probe().unwrap_err();
-        assert!(failure.message.contains("is a folder"));
+        assert!(failure.to_string().contains("is a folder"));
         let failure = Input::new(&root.path().join("no.nc")).probe().unwrap_err();
-        assert!(failure.message.starts_with("there is no file"));
+        assert!(failure.to_string().starts_with("there is no file"));
     }
 }

@@ -2,12 +2,12 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Advice, Diagnostic};
 use crate::text::Place;
 
 /// What becomes of files outside the folders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Elsewhere {
+pub enum Elsewhere {
     /// Called programs are refused, the text of lists is not shown.
     #[default]
     Kept,
@@ -17,7 +17,7 @@ pub(super) enum Elsewhere {
 
 /// Folders, each with everything below it.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Grounds {
+pub struct Grounds {
     /// As they are named, from the root on.
     named: Vec<PathBuf>,
     /// With all links resolved.
@@ -27,7 +27,7 @@ pub(super) struct Grounds {
 
 impl Grounds {
     /// No folder yet.
-    pub(super) fn new(elsewhere: Elsewhere) -> Self {
+    pub fn new(elsewhere: Elsewhere) -> Self {
         Self {
             elsewhere,
             ..Self::default()
@@ -35,7 +35,7 @@ impl Grounds {
     }
 
     /// The same with one more folder; an empty path is the current one.
-    pub(super) fn with(mut self, folder: &Path) -> Self {
+    pub fn with(mut self, folder: &Path) -> Self {
         let folder = or_here(folder);
         self.named
             .extend(absolute(folder).map(|path| folded(&path)));
@@ -45,7 +45,7 @@ impl Grounds {
 
     /// Whether a file may lie here by its name alone. Nothing is looked up for it: a look at a
     /// network share signs in there, and whether a file exists elsewhere is no one's business.
-    pub(super) fn may_hold(&self, path: &Path) -> bool {
+    pub fn may_hold(&self, path: &Path) -> bool {
         if self.elsewhere == Elsewhere::Allowed {
             return true;
         }
@@ -58,7 +58,7 @@ impl Grounds {
     }
 
     /// Whether a file lies here once all links are resolved.
-    pub(super) fn holds(&self, path: &Path) -> bool {
+    pub fn holds(&self, path: &Path) -> bool {
         self.elsewhere == Elsewhere::Allowed
             || path
                 .canonicalize()
@@ -66,7 +66,7 @@ impl Grounds {
     }
 
     /// Takes out of diagnostics what they show of files elsewhere; place and code stay.
-    pub(super) fn conceal(&self, diagnostics: &mut [Diagnostic]) {
+    pub fn conceal(&self, diagnostics: &mut [Diagnostic]) {
         for diagnostic in diagnostics {
             let is_elsewhere =
                 |place: &Place| !place.text.is_empty() && !self.holds(Path::new(&*place.file));
@@ -81,7 +81,7 @@ impl Grounds {
                 "{}; the file lies outside the project, its text is not shown",
                 diagnostic.code.title()
             );
-            diagnostic.advice = vec!["`--allow-outside` shows it".into()];
+            diagnostic.advice = vec![Advice::ShowOutside];
             diagnostic.fixes.clear();
             blank(&mut diagnostic.place);
             for label in &mut diagnostic.labels {
@@ -123,7 +123,7 @@ pub(super) fn absolute(path: &Path) -> Option<PathBuf> {
 
 /// The path without `.` and with `..` resolved by name; what goes up from a relative path's start
 /// stays.
-pub(super) fn normal(path: &Path) -> PathBuf {
+pub fn normal(path: &Path) -> PathBuf {
     let mut normal = PathBuf::new();
     for part in path.components() {
         match part {

@@ -3,22 +3,15 @@
 use std::io::{self, Read, Seek};
 use std::ops::Range;
 
-use encoding_rs::WINDOWS_1252;
-
-use crate::syntax::FlowScan;
-use crate::text::{LineSource, PhysicalLine, line_end};
+use super::read::{MOST_KEPT, too_big};
+use crate::syntax::{FlowScan, MAX_LINE};
+use crate::text::{LineSource, PhysicalLine, decode_lines, line_end};
 
 /// Bytes that are read at once.
 const BUFFER: usize = 128 * 1024;
 
-/// A block is at most so long (R2.4 takes a line up to here); one more shows that it is longer.
-const LONGEST: usize = 4000;
-
 /// So many bytes hold at least one character more than the longest line.
-const KEPT: usize = 4 * (LONGEST + 1);
-
-/// More bytes than that are not kept in memory.
-pub(super) const MOST_KEPT: usize = 1 << 30;
+const KEPT: usize = 4 * (MAX_LINE + 1);
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
@@ -35,7 +28,7 @@ enum LineEnds {
 ///
 /// A line that is not UTF-8 is taken as code page 1252, and so is every later line of the same
 /// file that is not ASCII.
-pub(super) struct LineReader<R> {
+pub struct LineReader<R> {
     reader: R,
     buffer: Vec<u8>,
     /// The bytes that were read and not decoded yet.
@@ -59,14 +52,14 @@ pub(super) struct LineReader<R> {
 
 impl<R: Read> LineReader<R> {
     /// The lines of a reader; a byte order mark at its start is passed over.
-    pub(super) fn new(reader: R) -> Self {
+    pub fn new(reader: R) -> Self {
         Self::with_buffer(reader, BUFFER)
     }
 
     /// The lines of a reader that gives so many bytes. A short one gets a small buffer: big ones that
     /// come and go with each of many files are given back to the system in between, which takes
     /// longer than to read them.
-    pub(super) fn of_length(reader: R, length: u64) -> Self {
+    pub fn of_length(reader: R, length: u64) -> Self {
         let length = usize::try_from(length).unwrap_or(BUFFER);
         Self::with_buffer(reader, length.saturating_add(1).clamp(KEPT, BUFFER))
     }
@@ -96,13 +89,13 @@ impl<R: Read> LineReader<R> {
     }
 
     /// Whether the text begins with a byte order mark of UTF-16.
-    pub(super) fn is_wide(&self) -> bool {
+    pub fn is_wide(&self) -> bool {
         let first = &self.buffer[self.unread.clone()];
         first.starts_with(b"\xff\xfe") || first.starts_with(b"\xfe\xff")
     }
 
     /// The same lines, of which those of a text that cannot be given out as it comes are an error.
-    pub(super) fn narrow(mut self) -> Self {
+    pub fn narrow(mut self) -> Self {
         if self.is_wide() {
             let reason = "it is UTF-16, which is not read from a pipe; save it as UTF-8";
             self.failure = Some(io::Error::other(reason));
@@ -113,12 +106,12 @@ impl<R: Read> LineReader<R> {
     }
 
     /// The reader, wherever it stands.
-    pub(super) fn into_reader(self) -> R {
+    pub fn into_reader(self) -> R {
         self.reader
     }
 
     /// The same lines, of whatever kind the reader is.
-    pub(super) fn boxed<'a>(self) -> LineReader<Box<dyn Read + 'a>>
+    pub fn boxed<'a>(self) -> LineReader<Box<dyn Read + 'a>>
     where
         R: 'a,
     {
@@ -139,7 +132,7 @@ impl<R: Read> LineReader<R> {
     }
 
     /// The error that ended the lines before the end of the file.
-    pub(super) fn take_failure(&mut self) -> Option<io::Error> {
+    pub fn take_failure(&mut self) -> Option<io::Error> {
         self.failure.take()
     }
 
@@ -239,8 +232,8 @@ impl<R: Read> LineReader<R> {
     /// Shortens a line that may have too many characters to one more than it may have.
     fn shorten(&mut self) {
         let text = &self.text[self.line.clone()];
-        self.cut = text.chars().nth(LONGEST).is_some();
-        if let Some((end, _)) = text.char_indices().nth(LONGEST + 1) {
+        self.cut = text.chars().nth(MAX_LINE).is_some();
+        if let Some((end, _)) = text.char_indices().nth(MAX_LINE + 1) {
             self.line.end = self.line.start + end;
         }
     }
@@ -248,7 +241,10 @@ impl<R: Read> LineReader<R> {
 
 impl<R: Read + Seek> LineReader<R> {
     /// Looks through all lines to come, and comes back. What fits into the buffer is read once.
-    pub(super) fn scan(&mut self) -> io::Result<FlowScan> {
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn scan(&mut self) -> io::Result<FlowScan> {
         let mut scan = FlowScan::default();
         while self.unread.len() < self.buffer.len() && !self.at_end {
             self.fill();
@@ -284,7 +280,7 @@ impl<R: Read> LineSource for LineReader<R> {
         };
         let length = found.unwrap_or(rest.len());
         self.take(length);
-        if length > LONGEST {
+        if length > MAX_LINE {
             self.shorten();
         }
         true
@@ -320,32 +316,6 @@ impl<R: Read> LineSource for LineReader<R> {
             if text.len() > self.most_kept {
                 self.failure = Some(too_big());
                 return;
-            }
-        }
-    }
-}
-
-/// The error for a text that is too big to be kept in memory.
-pub(super) fn too_big() -> io::Error {
-    let reason = "it has more than 1 GiB, which is too much to be kept in memory";
-    io::Error::new(io::ErrorKind::FileTooLarge, reason)
-}
-
-/// Appends whole lines in UTF-8. The first line that is none is taken as code page 1252, and so is
-/// every later one that is not ASCII.
-pub(super) fn decode_lines(bytes: &[u8], legacy: &mut bool, text: &mut String) {
-    match std::str::from_utf8(bytes) {
-        Ok(all) if !*legacy || all.is_ascii() => text.push_str(all),
-        _ => {
-            for line in bytes.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
-                match std::str::from_utf8(line) {
-                    Ok(line) if !*legacy || line.is_ascii() => text.push_str(line),
-                    _ => {
-                        *legacy = true;
-                        let (line, _) = WINDOWS_1252.decode_without_bom_handling(line);
-                        text.push_str(&line);
-                    }
-                }
             }
         }
     }
@@ -473,7 +443,7 @@ mod tests {
     fn a_file_is_decoded_as_its_lines_are() {
         // R2.1
         let bytes = b"\xef\xbb\xbfN1\n\xef\xbb\xbfN2 (\xc3\x9c)\rN3 (\xdc)\r\nN4 (\xc3\x9c)\n";
-        let whole = crate::cli::files::decode(bytes.to_vec());
+        let whole = crate::text::decode(bytes.to_vec());
         let streamed = lines(&mut LineReader::new(&bytes[..]));
         assert_eq!(lines(&mut TextLines::new(&whole)), streamed);
         assert_eq!(streamed[1].0, "\u{feff}N2 (\u{dc})");

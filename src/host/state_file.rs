@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use serde::Deserialize;
 
-use super::failure::Failure;
-use super::files::read_bytes;
-use super::outputs::Outputs;
+use super::error::HostError;
+use super::outputs::OutputFiles;
+use super::read::read_bytes;
 use super::unfinished::target;
 use crate::session::{STATE_SCHEMA, SavedState, StateError};
 
@@ -27,34 +27,34 @@ struct Schema {
 
 /// A state file that no other run touches until this is dropped.
 #[derive(Debug)]
-pub(super) struct StateFile {
+pub struct StateFile {
     path: PathBuf,
     /// Holds the lock; the file itself stays, since removing it would let two runs lock two files.
     _lock: File,
 }
 
 impl StateFile {
-    /// Claims the files that hold the state and the lock.
-    pub(super) fn claim(path: &Path, outputs: &mut Outputs) {
-        outputs.claim("--state", path);
-        outputs.claim("the lock of --state", &suffixed(path, ".lock"));
+    /// The file that is locked in place of a state file, which is replaced while it is in use.
+    pub fn lock_path(path: &Path) -> PathBuf {
+        suffixed(path, ".lock")
     }
 
-    /// Locks the state file, whether it exists already or not.
-    pub(super) fn lock(path: &Path) -> Result<Self, Failure> {
+    /// Locks the state file, whether it exists already or not. Waits some seconds for a run that has
+    /// locked it.
+    ///
+    /// # Errors
+    /// Another run has it, or it cannot be written.
+    pub fn lock(path: &Path) -> Result<Self, HostError> {
         Self::lock_within(path, PATIENCE)
     }
 
-    fn lock_within(path: &Path, patience: Duration) -> Result<Self, Failure> {
+    fn lock_within(path: &Path, patience: Duration) -> Result<Self, HostError> {
         // A link stays a link: the file that it names is replaced.
-        let path = target(path).map_err(|error| Failure::writing(path, &error))?;
-        let beside = suffixed(&path, ".lock");
+        let path = target(path).map_err(|error| HostError::write(path, error))?;
+        let beside = Self::lock_path(&path);
         for path in [&path, &beside] {
             if path.exists() && !path.is_file() {
-                return Err(Failure::new(format!(
-                    "`{}` cannot hold a state, it is not a regular file",
-                    path.display()
-                )));
+                return Err(HostError::StateNotRegular(path.clone()));
             }
         }
         let lock = File::options()
@@ -62,7 +62,7 @@ impl StateFile {
             .truncate(false)
             .write(true)
             .open(&beside)
-            .map_err(|error| Failure::writing(&beside, &error))?;
+            .map_err(|error| HostError::write(&beside, error))?;
         let start = Instant::now();
         loop {
             match lock.try_lock() {
@@ -70,21 +70,15 @@ impl StateFile {
                 Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
                     std::thread::sleep(PAUSE);
                 }
-                Err(TryLockError::WouldBlock) => {
-                    return Err(Failure::new(format!(
-                        "another run uses the state file `{}`",
-                        path.display()
-                    ))
-                    .with_help("wait until it has ended, or give each run a state file"));
-                }
-                Err(TryLockError::Error(error)) => return Err(Failure::writing(&beside, &error)),
+                Err(TryLockError::WouldBlock) => return Err(HostError::StateInUse(path)),
+                Err(TryLockError::Error(error)) => return Err(HostError::write(&beside, error)),
             }
         }
     }
 
     /// The axes that the last run left; none where the file cannot be read, which is said when it
     /// is loaded.
-    pub(super) fn axes(path: &Path) -> Vec<String> {
+    pub fn axes(path: &Path) -> Vec<String> {
         let text = read_bytes(path).unwrap_or_default();
         let saved: Option<SavedState> = serde_json::from_slice(&text).ok();
         let axes = saved.map(|saved| saved.axes).unwrap_or_default();
@@ -92,11 +86,14 @@ impl StateFile {
     }
 
     /// What the last run left; `None` before the first.
-    pub(super) fn load(&self) -> Result<Option<SavedState>, Failure> {
+    ///
+    /// # Errors
+    /// It cannot be read, is damaged, or comes from a later version.
+    pub fn load(&self) -> Result<Option<SavedState>, HostError> {
         let text = match read_bytes(&self.path) {
             Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(Failure::reading(&self.path, &error)),
+            Err(error) => return Err(HostError::read(&self.path, error)),
         };
         let damaged = |error| self.unusable(&format!("it is damaged ({error})"));
         // A later version may have keys that this one does not know: its number comes first.
@@ -107,24 +104,26 @@ impl StateFile {
         serde_json::from_slice(&text).map(Some).map_err(damaged)
     }
 
-    /// The failure for a state that the session does not take. The file stays as it is.
-    pub(super) fn refused(&self, error: &StateError) -> Failure {
+    /// The error for a state that the session does not take. The file stays as it is.
+    pub fn refused(&self, error: &StateError) -> HostError {
         self.unusable(&error.to_string())
     }
 
-    fn unusable(&self, reason: &str) -> Failure {
-        Failure::new(format!(
-            "the state file `{}` cannot be used: {reason}",
-            self.path.display()
-        ))
-        .with_help("name another file, or remove this one to begin from a start of the control")
+    fn unusable(&self, reason: &str) -> HostError {
+        HostError::State {
+            path: self.path.clone(),
+            reason: reason.to_owned(),
+        }
     }
 
     /// Replaces the state when the outputs take their place. Whenever the tool is killed, the old or
     /// the new file is there, whole.
-    pub(super) fn save(&self, state: &SavedState, outputs: &mut Outputs) -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn save(&self, state: &SavedState, outputs: &mut OutputFiles) -> Result<(), HostError> {
         let mut text = serde_json::to_vec_pretty(state)
-            .map_err(|error| Failure::writing(&self.path, &error.into()))?;
+            .map_err(|error| HostError::write(&self.path, error.into()))?;
         text.push(b'\n');
         outputs.begin(&self.path)?.bytes(&text)
     }
@@ -138,7 +137,6 @@ fn suffixed(path: &Path, suffix: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use super::super::console::{Color, Console};
     use super::super::ledger::Ledger;
     use super::*;
 
@@ -154,10 +152,9 @@ mod tests {
         let path = folder.path().join("state.json");
         let file = StateFile::lock(&path).unwrap();
         assert!(file.load().unwrap().is_none());
-        let console = Console::new(Color::Never, None);
-        let mut outputs = Outputs::new(&Ledger::default(), console);
+        let mut outputs = OutputFiles::new(&Ledger::default());
         file.save(&state(), &mut outputs).unwrap();
-        outputs.finish().unwrap();
+        outputs.finish(|_| ()).unwrap();
         drop(file);
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.ends_with("}\n"), "{text}");
@@ -174,8 +171,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state.json");
         std::fs::write(&path, "{\"schema\":").unwrap();
-        let failure = StateFile::lock(&path).unwrap().load().unwrap_err();
-        assert!(failure.message.contains("damaged"), "{}", failure.message);
+        let error = StateFile::lock(&path).unwrap().load().unwrap_err();
+        assert!(error.to_string().contains("damaged"), "{error}");
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "{\"schema\":");
     }
 
@@ -186,7 +183,7 @@ mod tests {
         let path = folder.path().join("state.json");
         let first = StateFile::lock(&path).unwrap();
         let second = StateFile::lock_within(&path, Duration::from_millis(60));
-        assert!(second.unwrap_err().message.contains("another run"));
+        assert!(second.unwrap_err().to_string().contains("another run"));
         drop(first);
         assert!(StateFile::lock_within(&path, Duration::ZERO).is_ok());
     }

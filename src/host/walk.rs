@@ -5,31 +5,30 @@ use std::path::{Path, PathBuf};
 
 use ignore::WalkBuilder;
 
-use super::failure::Failure;
-use super::files::Input;
+use super::error::HostError;
+use super::input::Input;
 
 /// Extensions of NC programs, in lower case.
-pub(super) const EXTENSIONS: [&str; 9] =
-    ["nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap"];
+const EXTENSIONS: [&str; 9] = ["nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap"];
 
 /// What was found below the paths.
 #[derive(Debug, Default)]
-pub(super) struct Found {
+pub struct FoundPrograms {
     /// The programs in a fixed order: files as the user named them, folders walked by name.
-    pub(super) inputs: Vec<Input>,
+    pub inputs: Vec<Input>,
     /// The paths that gave nothing (R9.77).
-    pub(super) failures: Vec<Failure>,
+    pub failures: Vec<HostError>,
     /// Files of folders whose extension is not that of a program.
-    pub(super) passed_over: u64,
+    pub passed_over: u64,
 }
 
 /// Finds the programs. What a repository ignores is passed over; a file that is named counts whatever
 /// its extension. `extensions` gives those of the programs in a folder.
-pub(super) fn programs(
+pub fn find_programs(
     paths: &[PathBuf],
     mut extensions: impl FnMut(&Path) -> Option<Vec<String>>,
-) -> Found {
-    let mut found = Found::default();
+) -> FoundPrograms {
+    let mut found = FoundPrograms::default();
     for path in paths {
         if path.is_dir() {
             let extensions = extensions(path);
@@ -48,7 +47,7 @@ pub(super) fn programs(
     found
 }
 
-impl Found {
+impl FoundPrograms {
     fn walk(&mut self, folder: &Path, extensions: &[String]) {
         let (before, failed) = (self.inputs.len(), self.failures.len());
         let walk = WalkBuilder::new(folder)
@@ -58,9 +57,10 @@ impl Found {
             let entry = match entry {
                 Ok(entry) => entry,
                 Err(error) => {
-                    let shown = folder.display();
-                    let message = format!("`{shown}` cannot be searched completely: {error}");
-                    self.failures.push(Failure::new(message));
+                    self.failures.push(HostError::Search {
+                        folder: folder.to_owned(),
+                        reason: error.to_string(),
+                    });
                     continue;
                 }
             };
@@ -74,22 +74,11 @@ impl Found {
             }
         }
         if self.inputs.len() == before && self.failures.len() == failed {
-            let shown = folder.display();
-            let failure = Failure::new(format!("there is no program below `{shown}`"));
-            self.failures.push(failure.with_help(format!(
-                "programs end in .{}; `[check] extensions` in frictcomp.toml names others",
-                extensions.join(", .")
-            )));
+            self.failures.push(HostError::NoPrograms {
+                folder: folder.to_owned(),
+                extensions: extensions.to_vec(),
+            });
         }
-    }
-}
-
-/// What to say of files that are no programs.
-pub(super) fn passed_over(files: u64) -> String {
-    match files {
-        0 => String::new(),
-        1 => "; 1 other file passed over".to_owned(),
-        several => format!("; {several} other files passed over"),
     }
 }
 
@@ -110,7 +99,7 @@ fn shown(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use super::super::files::Naming;
+    use super::super::input::Naming;
     use super::*;
 
     #[test]
@@ -123,20 +112,20 @@ mod tests {
             std::fs::write(path(name), "").unwrap();
         }
         let paths = [path(""), path("missing.nc"), path("c.txt"), path("b.NC")];
-        let found = programs(&paths, |_| None);
-        let names = |found: &Found| -> Vec<String> {
+        let found = find_programs(&paths, |_| None);
+        let names = |found: &FoundPrograms| -> Vec<String> {
             let inputs = found.inputs.iter();
             inputs.map(|it| it.name(Naming::FileName)).collect()
         };
         assert_eq!(names(&found), ["a.mpf", "b.NC", "z.cyc", "c.txt"]);
         assert_eq!((found.failures.len(), found.passed_over), (1, 1));
-        let found = programs(&paths[..1], |_| Some(vec!["TXT".to_owned()]));
+        let found = find_programs(&paths[..1], |_| Some(vec!["TXT".to_owned()]));
         assert_eq!(
             (names(&found), found.passed_over),
             (vec!["c.txt".to_owned()], 3)
         );
         std::fs::create_dir(path("empty")).unwrap();
-        let found = programs(&[path("empty")], |_| None);
-        assert!(found.failures[0].message.contains("no program below"));
+        let found = find_programs(&[path("empty")], |_| None);
+        assert!(found.failures[0].to_string().contains("no program below"));
     }
 }

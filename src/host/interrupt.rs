@@ -1,10 +1,22 @@
 //! What happens when a run is stopped from outside: its unfinished files go first (R9.31).
+//!
+//! Signals belong to the process. A host that has a use of its own for them leaves them alone, and a
+//! later run takes the files away.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+use std::sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError};
 
 /// The files that are not whole yet. A handler of signals reaches nothing else.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// The exit status of a process that is stopped, where the host wants its files taken away.
+static STATUS: OnceLock<u8> = OnceLock::new();
+
+/// Takes the unfinished files away when the process is stopped, which then ends as it would have.
+/// `status` is the exit status on systems that know no signals.
+pub fn clean_up_when_stopped(status: u8) {
+    let _ = STATUS.set(status);
+}
 
 /// The unfinished files; nobody stops the run while this is held.
 pub(super) struct Unfinished(MutexGuard<'static, Vec<PathBuf>>);
@@ -13,7 +25,9 @@ impl Unfinished {
     /// Waits until nobody else changes them.
     pub(super) fn lock() -> Self {
         static WATCH: Once = Once::new();
-        WATCH.call_once(system::watch);
+        if let Some(status) = STATUS.get() {
+            WATCH.call_once(|| system::watch(*status));
+        }
         Self::guard()
     }
 
@@ -40,7 +54,7 @@ impl Unfinished {
 }
 
 /// Makes a limit of the size of files an error of the write that meets it, not the end of the run.
-pub(super) fn survive_file_size_limit() {
+pub fn survive_file_size_limit() {
     system::survive_file_size_limit();
 }
 
@@ -54,7 +68,7 @@ mod system {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    use super::Unfinished;
+    use crate::host::interrupt::Unfinished;
 
     const STOPS: [i32; 4] = [SIGINT, SIGTERM, SIGHUP, SIGQUIT];
 
@@ -65,7 +79,7 @@ mod system {
 
     /// Waits for signals in a thread. Where there can be none, a stopped run leaves its files to the
     /// next one.
-    pub(super) fn watch() {
+    pub(super) fn watch(_: u8) {
         let (ready, waits) = mpsc::channel();
         let watching = std::thread::Builder::new().spawn(move || {
             let Ok(mut signals) = Signals::new(heeded()) else {
@@ -103,15 +117,15 @@ mod system {
 
 #[cfg(windows)]
 mod system {
-    use super::Unfinished;
+    use crate::host::interrupt::Unfinished;
 
     pub(super) fn survive_file_size_limit() {}
 
-    pub(super) fn watch() {
+    pub(super) fn watch(status: u8) {
         // Without a handler a stopped run leaves its files to the next one.
-        let _ = ctrlc::set_handler(|| {
+        let _ = ctrlc::set_handler(move || {
             Unfinished::guard().take_away();
-            std::process::exit(i32::from(super::super::exit::FAILED));
+            std::process::exit(i32::from(status));
         });
     }
 }
@@ -120,5 +134,5 @@ mod system {
 mod system {
     pub(super) fn survive_file_size_limit() {}
 
-    pub(super) fn watch() {}
+    pub(super) fn watch(_: u8) {}
 }

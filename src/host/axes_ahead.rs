@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use super::files::Input;
+use super::input::Input;
 
 /// Bytes that are looked at together.
 const PIECE: usize = 256 * 1024;
@@ -15,7 +15,7 @@ const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
 /// The axes that a look over the text of programs found. The interpreter decides what is one: the
 /// look only says which to expect.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct AxesAhead {
+pub struct AxesAhead {
     found: Vec<&'static str>,
     /// Names that were asked for, and whether they are there.
     asked: Vec<(String, bool)>,
@@ -27,7 +27,7 @@ pub(super) struct AxesAhead {
 
 impl AxesAhead {
     /// Looks over programs for the usual axes and for further names.
-    pub(super) fn of<'a>(
+    pub fn of<'a>(
         inputs: impl IntoIterator<Item = &'a Input>,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Self {
@@ -50,18 +50,18 @@ impl AxesAhead {
     }
 
     /// The usual axes that occur, in the order of the machine.
-    pub(super) fn names(&self) -> impl Iterator<Item = &'static str> {
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
         LETTERS.into_iter().filter(|name| self.found.contains(name))
     }
 
     /// Other runs name the usual axes, and those of an earlier one.
-    pub(super) fn expect_more(&mut self, left: Vec<String>) {
+    pub fn expect_more(&mut self, left: Vec<String>) {
         let usual = LETTERS.into_iter().map(str::to_owned);
         self.elsewhere = usual.chain(left).collect();
     }
 
     /// Whether an axis may occur.
-    pub(super) fn may_hold(&self, name: &str) -> bool {
+    pub fn may_hold(&self, name: &str) -> bool {
         let asked = self
             .asked
             .iter()

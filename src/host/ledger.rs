@@ -1,4 +1,4 @@
-//! What a command reads and what it writes, so that no output destroys an input (R9.70).
+//! What is read and what is written, so that no output destroys an input (R9.70).
 
 use std::collections::BTreeMap;
 use std::collections::hash_map::{Entry, HashMap};
@@ -6,32 +6,34 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::failure::Failure;
+use super::error::HostError;
 
-/// The files that one command reads. Its copies are the same ledger: called programs are known only
+/// The files that a piece of work reads. Its copies are the same ledger: called programs are known only
 /// while others run already.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Ledger(Arc<Mutex<BTreeMap<PathBuf, &'static str>>>);
+pub struct Ledger(Arc<Mutex<BTreeMap<PathBuf, &'static str>>>);
 
 /// What a program is noted as.
 pub(super) const PROGRAM: &str = "program";
 
-/// A file that a command writes, and the option that names it.
+/// A file that is written, and what it is called in errors.
 #[derive(Debug, Clone)]
-pub(super) struct Claim {
-    pub(super) option: &'static str,
-    pub(super) path: PathBuf,
+pub struct Claim {
+    /// What it is called in errors.
+    pub name: &'static str,
+    /// The file.
+    pub path: PathBuf,
 }
 
 impl Claim {
     fn shown(&self) -> String {
-        format!("{} {}", self.option, self.path.display())
+        format!("{} {}", self.name, self.path.display())
     }
 }
 
 impl Ledger {
     /// Notes a file that is read, and as what.
-    pub(super) fn reads(&self, what: &'static str, path: &Path) {
+    pub fn reads(&self, what: &'static str, path: &Path) {
         let mut inputs = self.inputs();
         if !inputs.contains_key(path) {
             inputs.insert(path.to_owned(), what);
@@ -40,7 +42,10 @@ impl Ledger {
 
     /// Says which output is a file that is read, or another output; links, hard links and other
     /// spellings included.
-    pub(super) fn check(&self, outputs: &[Claim]) -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// One is.
+    pub fn check(&self, outputs: &[Claim]) -> Result<(), HostError> {
         let mut written: HashMap<Identity, &Claim> = HashMap::new();
         for output in outputs {
             let Some(identity) = Identity::of_output(&output.path) else {
@@ -51,11 +56,10 @@ impl Ledger {
                     vacant.insert(output);
                 }
                 Entry::Occupied(other) => {
-                    let (one, two) = (other.get().shown(), output.shown());
-                    return Err(
-                        Failure::new(format!("`{one}` and `{two}` are the same file"))
-                            .with_help("give each output its own file"),
-                    );
+                    return Err(HostError::SameFile {
+                        one: other.get().shown(),
+                        other: output.shown(),
+                    });
                 }
             }
         }
@@ -65,26 +69,25 @@ impl Ledger {
         for (input, what) in self.inputs().iter() {
             let identity = Identity::of_file(input);
             if let Some(output) = identity.and_then(|identity| written.get(&identity)) {
-                let shown = output.shown();
-                let input = input.display();
-                return Err(Failure::new(format!(
-                    "`{shown}` would overwrite the {what} `{input}`"
-                ))
-                .with_help("name another file for the output"));
+                return Err(HostError::Overwrites {
+                    output: output.shown(),
+                    what,
+                    input: input.clone(),
+                });
             }
         }
         Ok(())
     }
 
     /// The programs that were read.
-    pub(super) fn programs(&self) -> Vec<PathBuf> {
+    pub fn programs(&self) -> Vec<PathBuf> {
         let inputs = self.inputs();
         let programs = inputs.iter().filter(|(_, what)| **what == PROGRAM);
         programs.map(|(path, _)| path.clone()).collect()
     }
 
     /// Whether a program came from where it cannot be read again.
-    pub(super) fn has_streams(&self) -> bool {
+    pub fn has_streams(&self) -> bool {
         let inputs = self.inputs();
         inputs.keys().any(|path| !path.is_file())
     }
@@ -148,7 +151,7 @@ fn key(path: &Path) -> Option<FileKey> {
 }
 
 /// The folder of a file, `.` for a bare name.
-pub(super) fn folder(path: &Path) -> &Path {
+pub fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -165,11 +168,12 @@ mod tests {
             ledger.reads(PROGRAM, path);
         }
         let claim = |path: &&Path| Claim {
-            option: "-o",
+            name: "-o",
             path: path.to_path_buf(),
         };
         let outputs: Vec<Claim> = outputs.iter().map(claim).collect();
-        ledger.check(&outputs).err().map(|failure| failure.message)
+        let refused = ledger.check(&outputs).err();
+        refused.map(|error| error.to_string())
     }
 
     #[test]

@@ -1,17 +1,18 @@
-//! The list files of the disk (R3.12).
+//! The lists on the disk (R3.12).
 
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use super::failure::Failure;
-use super::files::{decode, read_bytes};
+use super::error::HostError;
+use super::read::read_bytes;
 use crate::machine::{ListFiles, NoList};
-use crate::text::SourceFile;
+use crate::text::{SourceFile, decode};
 
-/// The list files of the disk.
-pub(super) struct Lists;
+/// The lists on the disk.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ListsOnDisk;
 
-impl ListFiles for Lists {
+impl ListFiles for ListsOnDisk {
     fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
         let found = as_spelt(Path::new(path)).ok_or(NoList::Missing)?;
         match read_regular(&found) {
@@ -37,14 +38,15 @@ impl ListFiles for Lists {
 }
 
 /// Reads a list or a configuration that the user names.
-pub(super) fn read_list(path: &Path) -> Result<String, Failure> {
-    read_regular(path).map_err(|error| match error.kind() {
-        io::ErrorKind::IsADirectory => {
-            Failure::new(format!("`{}` is a folder, not a list", path.display()))
-                .with_help("name the file in it")
-        }
-        _ => Failure::reading(path, &error),
-    })
+///
+/// # Errors
+/// There is none, it may not be read, is a folder, or is too big to be kept.
+pub fn read_list(path: &Path) -> Result<SourceFile, HostError> {
+    let text = read_regular(path).map_err(|error| match error.kind() {
+        io::ErrorKind::IsADirectory => HostError::FolderAsList(path.to_owned()),
+        _ => HostError::read(path, error),
+    })?;
+    Ok(SourceFile::new(path.display().to_string(), text))
 }
 
 /// The text of a regular file.

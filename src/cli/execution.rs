@@ -1,0 +1,65 @@
+//! What limits a dry run on the command line.
+
+use clap::Args;
+
+use super::settings::{self, SkipLevels};
+use crate::host::LoadedMachine;
+use crate::report::command_line;
+use crate::session::{Limits, Motions, Notes, SessionOptions, StopPolicy};
+
+/// What a dry run skips and where it ends.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Execution")]
+pub(super) struct ExecutionArgs {
+    /// Skip blocks that begin with `/`, by level: `1,3-5` or `all`
+    #[arg(long, value_name = "LEVELS", value_parser = settings::parse_levels)]
+    skip: Option<SkipLevels>,
+    /// The largest number of executed blocks
+    #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    max_blocks: u64,
+    /// The largest amount of work beyond the text of the blocks, caused by macros, growing strings
+    /// and regions under unknown conditions
+    #[arg(long, value_name = "N", default_value_t = Limits::default().work)]
+    max_work: u64,
+    /// The largest number of values that a program may hold
+    #[arg(long, value_name = "N", default_value_t = Limits::default().values)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    max_values: u32,
+    /// The deepest nesting of subprogram calls
+    #[arg(long, value_name = "N", default_value_t = Limits::default().calls)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    max_calls: u32,
+    /// The deepest nesting of `$` control blocks
+    #[arg(long, value_name = "N", default_value_t = Limits::default().nesting)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    max_nesting: u32,
+    /// The deepest nesting of macros, at most 64
+    #[arg(long, value_name = "N", default_value_t = Limits::default().macros)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=64))]
+    max_macros: u32,
+}
+
+impl ExecutionArgs {
+    /// The options of a session on a machine.
+    pub(super) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
+        SessionOptions {
+            stop,
+            skip: self.skip.unwrap_or_default().0,
+            limits: Limits {
+                blocks: self.max_blocks,
+                work: self.max_work,
+                values: self.max_values,
+                calls: self.max_calls,
+                nesting: self.max_nesting,
+                macros: self.max_macros,
+            },
+            levels: loaded.levels.clone(),
+            settings: loaded.settings.clone(),
+            notes: Notes::None,
+            motions: Motions::None,
+            switched: Vec::new(),
+            wording: Some(command_line),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Which codes count (R9.72).
+
+use super::codes::Code;
+use super::levels::Levels;
+use super::message::Diagnostic;
+use super::severity::Severity;
+
+/// Which codes count, and how much. What the control itself reports always does.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct CodeFilter {
+    /// Codes that are not reported.
+    pub ignore: Vec<Code>,
+    /// The only codes that are reported; all where there are none.
+    pub select: Vec<Code>,
+    /// Severities in place of those that the codes have. The last one counts.
+    pub severity: Vec<(Code, Severity)>,
+}
+
+impl CodeFilter {
+    /// Whether a code is reported.
+    pub fn keeps(&self, code: Code) -> bool {
+        let selected = self.select.is_empty() || self.select.contains(&code);
+        code.is_controller() || (selected && !self.ignore.contains(&code))
+    }
+
+    /// A code with a severity that has no effect, because the code is not reported.
+    pub fn without_effect(&self) -> Option<Code> {
+        let codes = self.severity.iter().map(|(code, _)| *code);
+        codes.into_iter().find(|code| !self.keeps(*code))
+    }
+
+    /// Changes the severities of a configuration.
+    pub fn apply(&self, levels: &mut Levels) {
+        for &code in Code::ALL {
+            if !self.keeps(code) {
+                levels.set(code, None);
+            }
+        }
+        for &(code, severity) in &self.severity {
+            levels.set(code, Some(severity));
+        }
+    }
+
+    /// Changes what was said already, about lists.
+    pub fn sift(&self, said: &mut Vec<Diagnostic>) {
+        said.retain(|diagnostic| self.keeps(diagnostic.code));
+        for diagnostic in said {
+            let mut given = self.severity.iter().rev();
+            if let Some((_, severity)) = given.find(|(code, _)| *code == diagnostic.code) {
+                diagnostic.severity = *severity;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_left_out_and_weighed() {
+        // R9.72
+        let mut levels = Levels::default();
+        let filter = CodeFilter {
+            select: vec![Code::Fc401],
+            severity: vec![(Code::Fc401, Severity::Error)],
+            ..CodeFilter::default()
+        };
+        assert_eq!(filter.without_effect(), None);
+        filter.apply(&mut levels);
+        assert_eq!(levels.severity(Code::Fc401), Some(Severity::Error));
+        assert_eq!(levels.severity(Code::Fc402), None);
+        assert_eq!(levels.severity(Code::PErr70495), Some(Severity::Error));
+        let filter = CodeFilter {
+            ignore: vec![Code::Fc401],
+            severity: vec![(Code::Fc401, Severity::Error)],
+            ..CodeFilter::default()
+        };
+        assert_eq!(filter.without_effect(), Some(Code::Fc401));
+    }
+}

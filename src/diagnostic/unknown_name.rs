@@ -1,0 +1,34 @@
+//! Names that are not known.
+
+use super::spelling::did_you_mean;
+
+/// A name that is not known, and those that are.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownName {
+    /// The name as it was given.
+    pub name: String,
+    /// The known name that is probably meant.
+    pub near: Option<String>,
+    /// The names that are known.
+    pub known: Vec<String>,
+}
+
+impl UnknownName {
+    /// A name that is none of those that are known.
+    pub fn new<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Self {
+        Self {
+            name: name.to_owned(),
+            near: did_you_mean(name, known.clone()).map(str::to_owned),
+            known: known.map(str::to_owned).collect(),
+        }
+    }
+
+    /// The name that is probably meant, else those that there are: `its axes are X, Y`.
+    pub fn help(&self, known: &str) -> Option<String> {
+        match &self.near {
+            Some(near) => Some(format!("did you mean `{near}`?")),
+            None if self.known.is_empty() => None,
+            None => Some(format!("{known} {}", self.known.join(", "))),
+        }
+    }
+}

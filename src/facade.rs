@@ -1,0 +1,106 @@
+//! The three questions that most hosts ask, each in one call. Who needs more, several programs in one
+//! session, a saved state, currents beside records, takes [`Session`] itself.
+
+use std::ops::ControlFlow;
+
+use crate::current::{CurrentCycle, CurrentOptions, FollowError, ProgramCurrents, axes_to_follow};
+use crate::machine::Machine;
+use crate::session::{
+    Finder, Findings, Motions, NoFiles, Program, Session, SessionOptions, StopPolicy,
+};
+use crate::text::SourceFile;
+use crate::timeline::Sink;
+
+/// Runs a program from the start of the control, which gives its records to `sink`, and returns the
+/// session with the state that the program leaves.
+///
+/// ```
+/// use frictcomp::comp::Kind;
+/// use frictcomp::machine::Machine;
+/// use frictcomp::session::Findings;
+/// use frictcomp::text::SourceFile;
+///
+/// let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
+/// let mut findings = Findings::default();
+/// let session = frictcomp::run(program, Machine::enabled(["X"]), &mut findings);
+/// let state = session.state();
+/// let (x, _) = state.axes().next().expect("the only axis");
+/// assert_eq!(state.state(x, Kind::Frict).as_str(), "inactive");
+/// ```
+pub fn run(program: SourceFile, machine: Machine, sink: &mut dyn Sink) -> Session {
+    let session = Session::new(machine, SessionOptions::default());
+    run_in(session, program, (&mut NoFiles, sink))
+}
+
+/// Runs a program from the start of the control and returns every message about it, each once, in the
+/// order of the text. A failing command is passed over, so that the rest of the program is seen.
+///
+/// ```
+/// use frictcomp::machine::Machine;
+/// use frictcomp::session::{NoFiles, SessionOptions};
+/// use frictcomp::text::SourceFile;
+///
+/// let program = SourceFile::new("a.nc", "N10 Y[COMP ON FRICT]\nN20 M30\n");
+/// let (machine, options) = (Machine::enabled(["X"]), SessionOptions::default());
+/// let findings = frictcomp::check(program, machine, options, &mut NoFiles);
+/// let codes: Vec<&str> = findings.diagnostics().map(|said| said.code.text()).collect();
+/// assert_eq!(codes, ["P-ERR-70495"]);
+/// ```
+pub fn check(
+    program: SourceFile,
+    machine: Machine,
+    options: SessionOptions,
+    finder: &mut dyn Finder,
+) -> Findings {
+    let mut findings = Findings::default();
+    let options = SessionOptions {
+        stop: StopPolicy::CheckAll,
+        ..options
+    };
+    let session = Session::new(machine, options);
+    run_in(session, program, (finder, &mut findings));
+    findings
+}
+
+/// Runs a program from the start of the control and gives the additive currents of some axes to
+/// `sink`, CNC cycle by CNC cycle, until it breaks.
+///
+/// # Errors
+/// The machine has no axis of a name, or no value list for it.
+pub fn currents(
+    program: SourceFile,
+    mut machine: Machine,
+    axes: &[String],
+    sink: impl FnMut(&CurrentCycle<'_>) -> ControlFlow<()>,
+) -> Result<(), FollowError> {
+    let followed = axes_to_follow(axes, &mut machine, None)?;
+    let options = CurrentOptions::default();
+    let mut currents = ProgramCurrents::new(&machine, &followed, options, sink);
+    let options = SessionOptions {
+        motions: Motions::Taken,
+        ..SessionOptions::default()
+    };
+    let session = Session::new(machine, options);
+    run_in(session, program, (&mut NoFiles, &mut currents));
+    currents.finish();
+    Ok(())
+}
+
+fn run_in(
+    mut session: Session,
+    program: SourceFile,
+    (finder, sink): (&mut dyn Finder, &mut dyn Sink),
+) -> Session {
+    let name = program.name().clone();
+    let mut flow = session.begin(&[], sink);
+    if flow.is_continue() {
+        flow = match session.program(&name, Program::Whole(program), finder, sink) {
+            ControlFlow::Continue(_) => ControlFlow::Continue(()),
+            ControlFlow::Break(()) => ControlFlow::Break(()),
+        };
+    }
+    if flow.is_continue() {
+        let _ = session.finish(sink);
+    }
+    session
+}

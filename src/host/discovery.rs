@@ -1,0 +1,443 @@
+//! Which machine a program runs on: `frictcomp.toml`, a start-up list, or none.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use super::axes_ahead::{AxesAhead, may_be_axis};
+use super::error::HostError;
+use super::finder::Reach;
+use super::grounds::{Elsewhere, Grounds, absolute};
+use super::input::Input;
+use super::ledger::Ledger;
+use super::list_files::{ListsOnDisk, read_list};
+use super::watch::{Watch, Watcher};
+use crate::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
+use crate::lists::Parameter;
+use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
+
+/// The name of the configuration file.
+pub const CONFIG_NAME: &str = "frictcomp.toml";
+
+/// Which configuration counts.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum ConfigurationChoice {
+    /// The nearest `frictcomp.toml` from the folder of the program upwards.
+    #[default]
+    Nearest,
+    /// This file.
+    File(PathBuf),
+    /// None, whatever lies there.
+    Isolated,
+}
+
+/// Where the machine of programs comes from, and what is different from its configuration.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct MachineOptions {
+    /// The configuration.
+    pub configuration: ConfigurationChoice,
+    /// The start-up list that gives the axes in place of the configuration.
+    pub startup: Option<PathBuf>,
+    /// The axes on which P-AXIS-00522 = 1 and an accepted value list are assumed.
+    pub enable: Vec<String>,
+    /// What becomes of programs and lists outside the folders.
+    pub elsewhere: Elsewhere,
+    /// Values of variables that only the machine knows.
+    pub settings: Vec<(String, Setting)>,
+    /// Which codes count.
+    pub codes: CodeFilter,
+}
+
+/// A machine and what else its configuration says.
+#[derive(Debug, Clone, Default)]
+pub struct LoadedMachine {
+    /// The machine.
+    pub machine: Machine,
+    /// Values of variables that only the machine knows.
+    pub settings: Vec<(String, Setting)>,
+    /// The user's severities.
+    pub levels: Levels,
+    /// Where called programs may lie.
+    pub reach: Reach,
+    /// What there is to say about the lists.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The effective parameters, by axis.
+    pub reports: Vec<AxisReport>,
+    /// The programs and macros that the configuration names, and where.
+    pub programs: Vec<Parameter>,
+    /// The configuration or the start-up list that was read.
+    pub origin: Option<PathBuf>,
+    /// How many lists were read, and how many are named and are not there.
+    pub lists: (usize, usize),
+    /// The extensions of files that are programs.
+    pub extensions: Option<Vec<String>>,
+    /// Where the files of a run on this machine are noted.
+    pub ledger: Ledger,
+    /// Who watches the runs on this machine.
+    pub watch: Arc<Watch>,
+}
+
+impl LoadedMachine {
+    fn new(configuration: Configuration, path: &Path, ledger: &Ledger) -> Self {
+        ledger.reads("configuration", path);
+        for file in &configuration.files {
+            ledger.reads("list", Path::new(&**file));
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let folders = configuration.program_dirs.iter();
+        Self {
+            machine: configuration.machine,
+            settings: configuration.settings,
+            levels: configuration.levels,
+            reach: Reach {
+                program_dirs: folders.map(|written| folder.join(written)).collect(),
+                project: folder.to_owned(),
+                elsewhere: Elsewhere::Kept,
+            },
+            diagnostics: configuration.diagnostics,
+            reports: configuration.reports,
+            programs: configuration.programs,
+            origin: Some(path.to_owned()),
+            lists: (configuration.files.len(), configuration.missing),
+            extensions: match configuration.extensions {
+                given if given.is_empty() => None,
+                given => Some(given),
+            },
+            ledger: ledger.clone(),
+            watch: Arc::default(),
+        }
+    }
+
+    /// The machine without a configuration.
+    fn unconfigured(ledger: &Ledger) -> Self {
+        Self {
+            machine: Machine::unconfigured(),
+            ledger: ledger.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// What stops the control at start-up or keeps it from taking a list.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics
+            .iter()
+            .filter(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+}
+
+/// The machines of programs; each configuration is read once.
+#[derive(Debug)]
+pub struct Machines {
+    options: MachineOptions,
+    ledger: Ledger,
+    /// The axes of the programs, where somebody asks for axes.
+    ahead: Option<AxesAhead>,
+    watch: Arc<Watch>,
+    loaded: BTreeMap<Option<PathBuf>, Arc<LoadedMachine>>,
+    /// The nearest configuration of each folder that was asked for.
+    nearest: BTreeMap<PathBuf, Option<PathBuf>>,
+}
+
+impl Machines {
+    /// No machine yet. The files that are read are noted in the ledger.
+    pub fn new(options: MachineOptions, ledger: &Ledger) -> Self {
+        Self {
+            options,
+            ledger: ledger.clone(),
+            ahead: None,
+            watch: Arc::default(),
+            loaded: BTreeMap::new(),
+            nearest: BTreeMap::new(),
+        }
+    }
+
+    /// The same, with somebody who watches the programs that run on the machines.
+    pub fn watched_by(mut self, watcher: Arc<dyn Watcher>) -> Self {
+        self.watch = Arc::new(Watch::by(watcher));
+        self
+    }
+
+    /// The machine of a program in a folder.
+    ///
+    /// # Errors
+    /// The configuration or the start-up list cannot be used, or an axis is unknown.
+    pub fn for_folder(&mut self, folder: &Path) -> Result<Arc<LoadedMachine>, HostError> {
+        let config = match &self.options.configuration {
+            ConfigurationChoice::File(path) => Some(path.clone()),
+            ConfigurationChoice::Isolated => None,
+            ConfigurationChoice::Nearest => self.nearest(folder),
+        };
+        if let Some(loaded) = self.loaded.get(&config) {
+            return Ok(Arc::clone(loaded));
+        }
+        let options = &self.options;
+        let mut loaded = options.load(config.as_deref(), &self.ledger)?;
+        options.enable_axes(&mut loaded, self.ahead.as_ref())?;
+        options.codes.apply(&mut loaded.levels);
+        options.codes.sift(&mut loaded.diagnostics);
+        loaded.watch = Arc::clone(&self.watch);
+        let loaded = Arc::new(loaded);
+        self.loaded.insert(config, Arc::clone(&loaded));
+        Ok(loaded)
+    }
+
+    /// The programs are known: compensation is assumed on axes that they name.
+    pub fn look_ahead(&mut self, inputs: &[Input]) {
+        self.watch.expect(inputs.len());
+        if !self.options.enable.is_empty() {
+            let names = self.options.enable.iter().map(|name| name.trim());
+            self.ahead = Some(AxesAhead::of(inputs, names));
+            self.loaded.clear();
+        }
+    }
+
+    /// Programs of other runs name the usual axes, and those that an earlier run left.
+    pub fn expect_more(&mut self, left: Vec<String>) {
+        if let Some(ahead) = &mut self.ahead {
+            ahead.expect_more(left);
+        }
+    }
+
+    /// The extensions of programs below a folder, where its configuration names them.
+    pub fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
+        let loaded = self.for_folder(folder).ok()?;
+        loaded.extensions.clone()
+    }
+
+    fn nearest(&mut self, folder: &Path) -> Option<PathBuf> {
+        if let Some(found) = self.nearest.get(folder) {
+            return found.clone();
+        }
+        let found = nearest_config(folder);
+        self.nearest.insert(folder.to_owned(), found.clone());
+        found
+    }
+
+    /// Every machine that was asked for, in the order of its configuration's path.
+    pub fn loaded(&self) -> impl Iterator<Item = &LoadedMachine> {
+        self.loaded.values().map(Arc::as_ref)
+    }
+}
+
+impl MachineOptions {
+    /// Reads the configuration and applies what differs from it.
+    fn load(&self, config: Option<&Path>, ledger: &Ledger) -> Result<LoadedMachine, HostError> {
+        let mut loaded = match config {
+            Some(path) => self.read_config(path, ledger)?,
+            None => LoadedMachine::unconfigured(ledger),
+        };
+        loaded.reach.elsewhere = self.elsewhere;
+        if let Some(path) = &self.startup {
+            let axes = self.read_startup(path, ledger)?;
+            loaded.machine = axes.machine;
+            loaded.diagnostics = axes.diagnostics;
+            loaded.reports = axes.reports;
+            loaded.programs = axes.programs;
+            loaded.origin = axes.origin;
+            loaded.lists = axes.lists;
+        }
+        loaded.settings.extend(self.settings.iter().cloned());
+        Ok(loaded)
+    }
+
+    /// Reads a `frictcomp.toml` and the lists that it names.
+    fn read_config(&self, path: &Path, ledger: &Ledger) -> Result<LoadedMachine, HostError> {
+        match Configuration::from_toml(read_list(path)?, &mut ListsOnDisk) {
+            Ok(configuration) => {
+                let mut loaded = LoadedMachine::new(configuration, path, ledger);
+                let grounds = self.grounds(path, &loaded.reach);
+                grounds.conceal(&mut loaded.diagnostics);
+                Ok(loaded)
+            }
+            Err(error) => {
+                let reach = Reach {
+                    project: path.parent().unwrap_or(path).to_owned(),
+                    ..Reach::default()
+                };
+                let mut diagnostics = vec![*error.diagnostic];
+                self.grounds(path, &reach).conceal(&mut diagnostics);
+                Err(HostError::Configuration {
+                    path: path.to_owned(),
+                    diagnostics,
+                })
+            }
+        }
+    }
+
+    /// Reads a start-up list and the lists that it names.
+    fn read_startup(&self, path: &Path, ledger: &Ledger) -> Result<LoadedMachine, HostError> {
+        let configuration = Configuration::from_startup(read_list(path)?, &mut ListsOnDisk);
+        let wrong = configuration.diagnostics.iter().find(|said| {
+            let whole_file = *said.place.file == *path.display().to_string();
+            said.code == Code::Fc125 && whole_file && said.place.start().line == 1
+        });
+        if let Some(wrong) = wrong
+            && configuration.machine.axis_set == AxisSet::AsTheyOccur
+        {
+            return Err(HostError::NotAStartupList {
+                path: path.to_owned(),
+                message: wrong.message.clone(),
+            });
+        }
+        let mut loaded = LoadedMachine::new(configuration, path, ledger);
+        let grounds = self.grounds(path, &loaded.reach);
+        grounds.conceal(&mut loaded.diagnostics);
+        Ok(loaded)
+    }
+
+    /// Assumes friction compensation on the axes that the user names.
+    fn enable_axes(
+        &self,
+        loaded: &mut LoadedMachine,
+        ahead: Option<&AxesAhead>,
+    ) -> Result<(), HostError> {
+        for name in self.enable.iter().map(|name| name.trim()) {
+            check_name(name)?;
+            if loaded.machine.axis_set == AxisSet::AsTheyOccur {
+                check_occurs(name, ahead)?;
+            }
+            enable(&mut loaded.machine, name)?;
+            assume(&mut loaded.reports, &loaded.machine, name);
+            // What is assumed need not be found missing.
+            loaded.diagnostics.retain(|said| {
+                let assumed = matches!(said.code, Code::Fc135 | Code::Fc303);
+                !(assumed && said.axis.as_deref() == Some(name))
+            });
+        }
+        Ok(())
+    }
+
+    /// The folders whose lists are shown: the current one, that of a file and those of programs.
+    fn grounds(&self, path: &Path, reach: &Reach) -> Grounds {
+        let reach = Reach {
+            elsewhere: self.elsewhere,
+            ..reach.clone()
+        };
+        let grounds = reach.grounds().with(Path::new(""));
+        // A file that the user names lies where it lies; one that was found may be a link.
+        match (&self.configuration, path.canonicalize()) {
+            (ConfigurationChoice::File(_), Ok(real)) => {
+                grounds.with(real.parent().unwrap_or(&real))
+            }
+            _ => grounds,
+        }
+    }
+}
+
+/// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
+/// pipes may name axes that nobody sees ahead.
+fn check_occurs(name: &str, ahead: Option<&AxesAhead>) -> Result<(), HostError> {
+    let may_occur = match ahead {
+        Some(ahead) if ahead.may_hold(name) => true,
+        Some(ahead) => {
+            let names: Vec<&str> = ahead.names().collect();
+            let unknown = UnknownName::new(name, names.iter().copied());
+            return Err(HostError::AxisNotNamed(unknown));
+        }
+        None => may_be_axis(name),
+    };
+    if may_occur {
+        Ok(())
+    } else {
+        Err(HostError::AxisName(name.to_owned()))
+    }
+}
+
+fn check_name(name: &str) -> Result<(), HostError> {
+    let word = name.starts_with(|letter: char| letter.is_ascii_alphabetic())
+        && name
+            .chars()
+            .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if word {
+        Ok(())
+    } else {
+        Err(HostError::AxisName(name.to_owned()))
+    }
+}
+
+fn enable(machine: &mut Machine, name: &str) -> Result<(), HostError> {
+    if machine.enable(name) {
+        return Ok(());
+    }
+    let known = machine.axes.iter().map(|axis| axis.name.as_str());
+    Err(HostError::NoAxis(UnknownName::new(name, known)))
+}
+
+/// Shows an assumed P-AXIS-00522 among the parameters of its axis.
+fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
+    let axis = machine.axes.iter().find(|axis| axis.name == name);
+    if axis.is_none_or(|axis| axis.frict_comp_origin != Origin::Assumed) {
+        return;
+    }
+    let report = reports.iter_mut().filter(|report| report.axis == name);
+    let rows = report.flat_map(|report| &mut report.parameters);
+    for row in rows.filter(|row| row.number == "P-AXIS-00522") {
+        "1".clone_into(&mut row.value);
+        row.origin = Origin::Assumed;
+    }
+}
+
+/// The nearest configuration from a folder upwards, as a path from the current folder.
+pub fn nearest_config(folder: &Path) -> Option<PathBuf> {
+    let found = absolute(folder)?
+        .ancestors()
+        .map(|ancestor| ancestor.join(CONFIG_NAME))
+        .find(|candidate| candidate.is_file())?;
+    let here = std::env::current_dir().ok()?;
+    Some(relative(&found, &here))
+}
+
+/// A path seen from a folder, so that no output holds an absolute path (R9.16).
+pub fn relative(path: &Path, folder: &Path) -> PathBuf {
+    let shared = path
+        .components()
+        .zip(folder.components())
+        .take_while(|(one, other)| one == other)
+        .count();
+    if shared == 0 {
+        return path.to_owned();
+    }
+    let up = folder
+        .components()
+        .skip(shared)
+        .map(|_| Component::ParentDir);
+    up.chain(path.components().skip(shared)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_configuration_counts() {
+        let root = tempfile::tempdir().unwrap();
+        let deep = root.path().join("a/b");
+        std::fs::create_dir_all(&deep).unwrap();
+        std::fs::write(root.path().join(CONFIG_NAME), "").unwrap();
+        let far = nearest_config(&deep).unwrap();
+        assert!(far.ends_with(CONFIG_NAME) && !far.ends_with("a/frictcomp.toml"));
+        std::fs::write(root.path().join("a").join(CONFIG_NAME), "").unwrap();
+        assert!(nearest_config(&deep).unwrap().ends_with("a/frictcomp.toml"));
+    }
+
+    #[test]
+    fn paths_are_seen_from_the_current_folder() {
+        let seen = |path, folder| relative(Path::new(path), Path::new(folder));
+        assert_eq!(seen("/a/b/c.toml", "/a/b"), Path::new("c.toml"));
+        assert_eq!(seen("/a/c.toml", "/a/b/d"), Path::new("../../c.toml"));
+        assert_eq!(seen("/a/b/c.toml", "/a"), Path::new("b/c.toml"));
+    }
+
+    #[test]
+    fn an_axis_that_the_machine_lacks_is_not_enabled() {
+        let mut machine = Machine::unconfigured();
+        machine.axis_set = AxisSet::Configured;
+        assert!(enable(&mut machine, "X").is_ok());
+        let error = enable(&mut machine, "XX").unwrap_err();
+        assert_eq!(error.to_string(), "the machine has no axis `XX`");
+        assert_eq!(error.help().as_deref(), Some("did you mean `X`?"));
+        assert!(check_name("X[").is_err());
+    }
+}

@@ -1,0 +1,235 @@
+//! Why the work with files could not be done.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::trace_error::TraceError;
+use crate::diagnostic::{Diagnostic, UnknownName};
+use crate::simulation::UnknownPreset;
+
+/// Why the work with files could not be done: one sentence in lower case.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum HostError {
+    /// A file that is not there, or that may not be read.
+    #[error("{}", reading(.path, .reason))]
+    Read {
+        /// The file as it was named.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// A file in a folder that does not exist, or that may not be written.
+    #[error("{}", writing(.path, .reason))]
+    Write {
+        /// The file as it was named.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// A full disk.
+    #[error("the output cannot be written: {0}")]
+    Output(io::Error),
+    /// A folder where a program is wanted.
+    #[error("`{}` is a folder, not a program", .0.display())]
+    FolderAsProgram(PathBuf),
+    /// A folder where a list is wanted.
+    #[error("`{}` is a folder, not a list", .0.display())]
+    FolderAsList(PathBuf),
+    /// A folder of which a part may not be read.
+    #[error("`{}` cannot be searched completely: {reason}", .folder.display())]
+    Search {
+        /// The folder that is searched.
+        folder: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A folder of texts.
+    #[error("there is no program below `{}`", .folder.display())]
+    NoPrograms {
+        /// The folder that was searched.
+        folder: PathBuf,
+        /// The extensions that programs have there.
+        extensions: Vec<String>,
+    },
+    /// A `frictcomp.toml` with a mistake.
+    #[error("the configuration `{}` cannot be used", .path.display())]
+    Configuration {
+        /// The file.
+        path: PathBuf,
+        /// The lines that are the reason.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// An axis list where a start-up list is wanted.
+    #[error("{message}")]
+    NotAStartupList {
+        /// The file.
+        path: PathBuf,
+        /// What it is instead.
+        message: String,
+    },
+    /// `X[` where the name of an axis is wanted.
+    #[error("`{0}` is not an axis name")]
+    AxisName(String),
+    /// `XX` on a machine with X, Y and Z.
+    #[error("the machine has no axis `{}`", .0.name)]
+    NoAxis(UnknownName),
+    /// Compensation that is assumed on an axis that no program names.
+    #[error("no program names an axis `{}`", .0.name)]
+    AxisNotNamed(UnknownName),
+    /// Two outputs in one file.
+    #[error("`{one}` and `{other}` are the same file")]
+    SameFile {
+        /// One output.
+        one: String,
+        /// The other one.
+        other: String,
+    },
+    /// An output that is an input.
+    #[error("`{output}` would overwrite the {what} `{}`", .input.display())]
+    Overwrites {
+        /// The output.
+        output: String,
+        /// What the input is.
+        what: &'static str,
+        /// The input.
+        input: PathBuf,
+    },
+    /// A folder where the state is wanted.
+    #[error("`{}` cannot hold a state, it is not a regular file", .0.display())]
+    StateNotRegular(PathBuf),
+    /// A state that another run has locked.
+    #[error("another run uses the state file `{}`", .0.display())]
+    StateInUse(PathBuf),
+    /// A state that is damaged, or of another machine.
+    #[error("the state file `{}` cannot be used: {reason}", .path.display())]
+    State {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A value list that the control would not take.
+    #[error("the value list `{}` cannot be used: {reason}", .path.display())]
+    ValueList {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: &'static str,
+        /// The lines that are the reason.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// A plant that is neither a preset nor a file.
+    #[error(transparent)]
+    NoPlant(UnknownPreset),
+    /// A plant file with a mistake.
+    #[error("the plant `{}` cannot be used", .path.display())]
+    Plant {
+        /// The file.
+        path: PathBuf,
+        /// The lines that are the reason.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// A recorded trace that cannot be read.
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    /// A limit of memory that is too low for a simulation.
+    #[error("not enough memory: a simulation needs {mebibytes} MiB")]
+    Memory {
+        /// What it needs.
+        mebibytes: usize,
+    },
+}
+
+impl HostError {
+    /// A file that cannot be read.
+    pub fn read(path: &Path, reason: io::Error) -> Self {
+        if reason.kind() == io::ErrorKind::IsADirectory {
+            return Self::FolderAsProgram(path.to_owned());
+        }
+        let path = path.to_owned();
+        Self::Read { path, reason }
+    }
+
+    /// A file that cannot be written.
+    pub fn write(path: &Path, reason: io::Error) -> Self {
+        let path = path.to_owned();
+        Self::Write { path, reason }
+    }
+
+    /// The lines of a file of the user that are the reason.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        match self {
+            Self::Configuration { diagnostics, .. }
+            | Self::ValueList { diagnostics, .. }
+            | Self::Plant { diagnostics, .. } => diagnostics,
+            _ => &[],
+        }
+    }
+
+    /// What to do about it, where that does not depend on the program that asks.
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            Self::Read { reason, .. } => match reason.kind() {
+                io::ErrorKind::NotFound => "check the path; it is taken from the current folder",
+                io::ErrorKind::PermissionDenied => "check your permission to read it",
+                _ => return None,
+            },
+            Self::Write { reason, .. } => match reason.kind() {
+                io::ErrorKind::NotFound => "create the folder, or name another file",
+                io::ErrorKind::PermissionDenied => {
+                    "check your permission to write there, or name another file"
+                }
+                io::ErrorKind::IsADirectory => "name a file in it",
+                _ => return None,
+            },
+            Self::FolderAsList(_) => "name the file in it",
+            Self::NoPrograms { extensions, .. } => {
+                return Some(format!(
+                    "programs end in .{}; `[check] extensions` in frictcomp.toml names others",
+                    extensions.join(", .")
+                ));
+            }
+            Self::NoAxis(unknown) => return unknown.help("its axes are"),
+            Self::AxisNotNamed(unknown) => return unknown.help("they name"),
+            Self::SameFile { .. } => "give each output its own file",
+            Self::Overwrites { .. } => "name another file for the output",
+            Self::StateInUse(_) => "wait until it has ended, or give each run a state file",
+            Self::State { .. } => {
+                "name another file, or remove this one to begin from a start of the control"
+            }
+            Self::NoPlant(unknown) => return Some(format!("did you mean `{}`?", unknown.near()?)),
+            Self::Trace(error) => return error.help(),
+            Self::Memory { .. } => {
+                "close other programs, or raise the limit of the shell (`ulimit -v`)"
+            }
+            _ => return None,
+        };
+        Some(help.to_owned())
+    }
+}
+
+fn reading(path: &Path, reason: &io::Error) -> String {
+    let shown = path.display();
+    match reason.kind() {
+        io::ErrorKind::NotFound => format!("there is no file `{shown}`"),
+        io::ErrorKind::PermissionDenied => format!("`{shown}` cannot be read: permission denied"),
+        _ => format!("`{shown}` cannot be read: {reason}"),
+    }
+}
+
+fn writing(path: &Path, reason: &io::Error) -> String {
+    let shown = path.display();
+    match reason.kind() {
+        io::ErrorKind::NotFound => {
+            format!("`{shown}` cannot be written: its folder does not exist")
+        }
+        io::ErrorKind::PermissionDenied => {
+            format!("`{shown}` cannot be written: permission denied")
+        }
+        io::ErrorKind::IsADirectory => format!("`{shown}` cannot be written: it is a folder"),
+        _ => format!("`{shown}` cannot be written: {reason}"),
+    }
+}

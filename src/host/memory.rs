@@ -1,0 +1,36 @@
+//! Memory that a simulation needs, asked for before it begins.
+
+use super::error::HostError;
+
+/// What a circular test needs beside the program itself, with room to spare.
+const SIMULATION: usize = 24 << 20;
+
+/// Asks for the memory that a simulation needs, since the system would end the process in the middle
+/// of one.
+///
+/// # Errors
+/// There is not enough.
+pub fn memory_for_simulation() -> Result<(), HostError> {
+    available(SIMULATION)
+}
+
+fn available(bytes: usize) -> Result<(), HostError> {
+    let mut room: Vec<u8> = Vec::new();
+    room.try_reserve_exact(bytes)
+        .map_err(|_| HostError::Memory {
+            mebibytes: bytes >> 20,
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_there_is_said() {
+        // R2.60
+        assert!(available(1 << 10).is_ok());
+        let failure = available(usize::MAX / 2).expect_err("more than any machine has");
+        assert!(failure.to_string().starts_with("not enough memory"));
+    }
+}

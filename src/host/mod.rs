@@ -1,0 +1,67 @@
+//! Everything that touches files or threads and is no command line: for the command line, an editor,
+//! Python, and whoever runs programs from a disk.
+//!
+//! [`Machines`] finds the machine of a program from `frictcomp.toml` or the control's lists;
+//! [`find_programs`] walks folders, an [`Input`] is one program, [`run_alone`] and [`run_program`]
+//! run it with everything that it calls. [`StateFile`] holds what one run leaves for the next,
+//! [`OutputFiles`] take their place all at once, [`read_commanded`] and [`read_circles`] read what was
+//! recorded on a machine, and [`compare`] and [`tune`] simulate on all processors.
+//!
+//! Nothing here prints or knows an option: who watches long work gives a [`Watcher`], and what cannot
+//! be done is a [`HostError`].
+
+mod axes_ahead;
+mod discovery;
+mod dry_run;
+mod error;
+mod finder;
+mod grounds;
+mod input;
+mod interrupt;
+mod ledger;
+mod lines;
+mod list_files;
+mod memory;
+mod outputs;
+mod parameter_files;
+mod read;
+mod simulations;
+mod state_file;
+mod steady;
+mod switched_axes;
+mod trace_error;
+mod traces;
+mod unfinished;
+mod unread;
+mod walk;
+mod watch;
+mod workers;
+
+pub use axes_ahead::AxesAhead;
+pub use discovery::{
+    CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
+    relative,
+};
+pub use dry_run::{Alone, Axes, Surroundings, begin, run_alone, run_program};
+pub use error::HostError;
+pub use finder::{ProgramFinder, Reach};
+pub use grounds::{Elsewhere, Grounds, normal};
+pub use input::{Input, Naming, Opened, reopen};
+pub use interrupt::{clean_up_when_stopped, survive_file_size_limit};
+pub use ledger::{Claim, Ledger, folder};
+pub use lines::LineReader;
+pub use list_files::{ListsOnDisk, read_list};
+pub use memory::memory_for_simulation;
+pub use outputs::{OutputFile, OutputFiles};
+pub use parameter_files::{check_list_file, find_plant, is_configuration, read_value_list};
+pub use read::{read_bytes, read_text};
+pub use simulations::{compare, tune};
+pub use state_file::StateFile;
+pub use switched_axes::switched_axes;
+pub use trace_error::TraceError;
+pub use traces::{read_circles, read_commanded};
+pub use unfinished::{UnfinishedFile, take_away_left};
+pub use unread::{UnreadVariable, unread_variables};
+pub use walk::{FoundPrograms, find_programs};
+pub use watch::{Done, LineTracker, Passes, Progress, Watch, Watcher};
+pub use workers::{in_order, map, processors};

@@ -1,0 +1,69 @@
+//! Value lists, plants and whole configurations, each from a file that the user names.
+
+use std::path::Path;
+
+use super::error::HostError;
+use super::ledger::Ledger;
+use super::list_files::{ListsOnDisk, read_list};
+use super::read::read_text;
+use crate::comp::CncBuild;
+use crate::lists::{FrictionList, ReadList};
+use crate::machine::{ListsReport, check_configuration, check_list};
+use crate::simulation::{Plant, Preset};
+use crate::text::SourceFile;
+
+/// Reads the values that a list by itself would give the control.
+///
+/// # Errors
+/// The file cannot be read, or the control would not take it.
+pub fn read_value_list(path: &Path, ledger: &Ledger) -> Result<ReadList, HostError> {
+    ledger.reads("value list", path);
+    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+    FrictionList::read(source).map_err(|refused| HostError::ValueList {
+        path: path.to_owned(),
+        reason: refused.reason,
+        diagnostics: refused.diagnostics,
+    })
+}
+
+/// The plant of a name: a preset, or a TOML file.
+///
+/// # Errors
+/// There is no such preset, or the file cannot be used.
+pub fn find_plant(name: &str, ledger: &Ledger) -> Result<Plant, HostError> {
+    let unknown = match name.parse::<Preset>() {
+        Ok(preset) => return Ok(preset.plant()),
+        Err(unknown) => unknown,
+    };
+    let path = Path::new(name);
+    let is_file = path.extension().is_some() || path.exists();
+    if !is_file {
+        return Err(HostError::NoPlant(unknown));
+    }
+    ledger.reads("plant", path);
+    let source = SourceFile::new(name.to_owned(), read_text(path)?);
+    Plant::from_toml(source).map_err(|error| HostError::Plant {
+        path: path.to_owned(),
+        diagnostics: vec![*error.diagnostic],
+    })
+}
+
+/// Whether a file is a `frictcomp.toml` and no list of the control.
+pub fn is_configuration(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// Checks a list under a kernel version, where that is known, or a `frictcomp.toml`, which says its
+/// own; a start-up list and a configuration with every list that they name.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn check_list_file(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, HostError> {
+    let source = read_list(path)?;
+    Ok(if is_configuration(path) {
+        check_configuration(source, &mut ListsOnDisk)
+    } else {
+        check_list(source, build, &mut ListsOnDisk)
+    })
+}

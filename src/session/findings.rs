@@ -1,0 +1,108 @@
+//! Every diagnostic of a program, each once, in the order of the text.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::text::Position;
+use crate::timeline::{Record, Repeat, Sink};
+
+/// What makes two diagnostics the same.
+type Key = (Arc<str>, Position, Position, Code, String);
+
+/// What a dry run has to say about a program: a sink that keeps each diagnostic once, however often a
+/// loop brings it up.
+#[derive(Debug, Clone, Default)]
+pub struct Findings {
+    diagnostics: BTreeMap<Key, Diagnostic>,
+    /// How many came, by severity.
+    said: BTreeMap<Severity, u64>,
+}
+
+impl Findings {
+    /// The diagnostics, in the order of their places.
+    pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics.values()
+    }
+
+    /// How many more of each severity a session counted: a file says so many and no more (R2.85).
+    pub fn unsaid(&self, counts: &BTreeMap<Severity, u64>) -> BTreeMap<Severity, u64> {
+        let unsaid = |(severity, count): (&Severity, &u64)| {
+            let said = self.said.get(severity).copied().unwrap_or_default();
+            (*severity, count.saturating_sub(said))
+        };
+        counts.iter().map(unsaid).collect()
+    }
+
+    fn add(&mut self, diagnostic: &Diagnostic) {
+        *self.said.entry(diagnostic.severity).or_default() += 1;
+        let place = &diagnostic.place;
+        let key = (
+            place.file.clone(),
+            place.start(),
+            place.end(),
+            diagnostic.code,
+            diagnostic.message.clone(),
+        );
+        self.diagnostics
+            .entry(key)
+            .or_insert_with(|| diagnostic.clone());
+    }
+
+    /// Says how often a message came true that is said once.
+    fn count(&mut self, repeat: &Repeat) {
+        let from = (
+            Arc::from(repeat.file.as_str()),
+            repeat.start,
+            repeat.start,
+            Code::ALL[0],
+            String::new(),
+        );
+        let here = self.diagnostics.range_mut(from..);
+        let here = here
+            .take_while(|((file, start, ..), _)| **file == *repeat.file && *start == repeat.start);
+        for ((_, _, _, code, message), said) in here {
+            if *code == repeat.code && *message == repeat.message {
+                said.message = format!("{message} ({} times)", repeat.times);
+            }
+        }
+    }
+}
+
+impl Sink for Findings {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Block(row) => row.diagnostics.iter().for_each(|said| self.add(said)),
+            Record::End(end) => {
+                end.notes.iter().for_each(|note| self.add(&note.diagnostic));
+                end.repeated.iter().for_each(|repeat| self.count(repeat));
+            }
+            // What the lists say is listed once a machine, not once a program.
+            Record::Machine(said) => *self.said.entry(said.severity).or_default() += 1,
+            Record::Session { .. } | Record::Program { .. } | Record::Summary(_) => {}
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::{SourceFile, Span};
+
+    #[test]
+    fn a_diagnostic_is_kept_once_and_in_the_order_of_the_text() {
+        let file = SourceFile::new("a.nc", "N1 X\nN2 Y");
+        let at = |start| Diagnostic::new(Code::Fc402, file.place(Span::new(start, start + 1)), "x");
+        let mut findings = Findings::default();
+        for start in [5, 3, 5, 0, 3] {
+            findings.add(&at(start));
+        }
+        let starts: Vec<String> = findings
+            .diagnostics()
+            .map(|diagnostic| diagnostic.place.start().to_string())
+            .collect();
+        assert_eq!(starts, ["1:1", "1:4", "2:1"]);
+    }
+}

@@ -1,0 +1,55 @@
+//! Bytes of files as text: UTF-8, the code page 1252 of old systems, or UTF-16.
+
+use encoding_rs::WINDOWS_1252;
+
+/// The text of a file, decoded as a stream of its lines is. A byte order mark at its start is passed
+/// over.
+pub fn decode(bytes: Vec<u8>) -> String {
+    if let Some(text) = decode_wide(&bytes) {
+        return text;
+    }
+    let mut text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let mut text = String::with_capacity(error.as_bytes().len());
+            decode_lines(error.as_bytes(), &mut false, &mut text);
+            text
+        }
+    };
+    if text.starts_with('\u{feff}') {
+        text.drain(..'\u{feff}'.len_utf8());
+    }
+    text
+}
+
+/// The text of bytes whose byte order mark says UTF-16, as some editors of Windows save.
+fn decode_wide(bytes: &[u8]) -> Option<String> {
+    let (encoding, mark) = encoding_rs::Encoding::for_bom(bytes)?;
+    let is_wide = encoding != encoding_rs::UTF_8;
+    is_wide.then(|| {
+        encoding
+            .decode_without_bom_handling(&bytes[mark..])
+            .0
+            .into_owned()
+    })
+}
+
+/// Appends whole lines in UTF-8. The first line that is none is taken as code page 1252, and so is
+/// every later one that is not ASCII.
+pub(crate) fn decode_lines(bytes: &[u8], legacy: &mut bool, text: &mut String) {
+    match std::str::from_utf8(bytes) {
+        Ok(all) if !*legacy || all.is_ascii() => text.push_str(all),
+        _ => {
+            for line in bytes.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
+                match std::str::from_utf8(line) {
+                    Ok(line) if !*legacy || line.is_ascii() => text.push_str(line),
+                    _ => {
+                        *legacy = true;
+                        let (line, _) = WINDOWS_1252.decode_without_bom_handling(line);
+                        text.push_str(&line);
+                    }
+                }
+            }
+        }
+    }
+}

@@ -17,7 +17,7 @@ struct AxisState {
     manual: KindSet,
     selected: KindSet,
     unknown: KindSet,
-    coupled: bool,
+    coupling: Coupling,
 }
 
 impl AxisState {
@@ -95,7 +95,7 @@ impl Compensation {
                 manual: axis.manual,
                 selected: axis.configured.without(axis.manual),
                 unknown: KindSet::NONE,
-                coupled: false,
+                coupling: Coupling::None,
             });
             compensation.names.push(axis.name);
             compensation.spindles.push(axis.is_spindle);
@@ -168,7 +168,8 @@ impl Compensation {
     ) -> Result<(), CompensationError> {
         let name = &self.names[axis.get()];
         let state = &mut self.axes[axis.get()];
-        if state.coupled {
+        let coupling = state.coupling;
+        if coupling == Coupling::Active {
             return Err(CompensationError::Coupled { axis: name.clone() });
         }
         let on = matches!(selection, Selection::On(_));
@@ -179,8 +180,12 @@ impl Compensation {
         let membership = if on { Membership::In } else { Membership::Out };
         for kind in selection.kinds().intersection(state.configured).iter() {
             changes.extend(state.change(axis, kind, |state| {
-                state.selected.assign(kind, membership);
-                state.unknown.remove(kind);
+                if coupling == Coupling::None {
+                    state.selected.assign(kind, membership);
+                    state.unknown.remove(kind);
+                } else if state.selected.contains(kind) != on {
+                    state.unknown.insert(kind);
+                }
             }));
         }
         Ok(())
@@ -217,9 +222,15 @@ impl Compensation {
         }
     }
 
-    /// Says that an axis entered or left a coupling; COMP is refused while it is in one.
+    /// Says whether an axis is in a coupling: COMP is refused while it is, and what COMP leaves is
+    /// unknown while nobody knows.
     pub fn set_coupled(&mut self, axis: AxisIndex, coupling: Coupling) {
-        self.axes[axis.get()].coupled = coupling == Coupling::Active;
+        self.axes[axis.get()].coupling = coupling;
+    }
+
+    /// Whether an axis is in a coupling.
+    pub fn coupling(&self, axis: AxisIndex) -> Coupling {
+        self.axes[axis.get()].coupling
     }
 
     /// The kinds of an axis that are selected, for the state file.
@@ -252,10 +263,12 @@ impl Compensation {
 }
 
 /// Whether an axis takes part in a coupling.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Coupling {
     /// It does.
     Active,
+    /// It does or it does not, which only the machine knows.
+    Perhaps,
     /// It does not.
     None,
 }

@@ -9,6 +9,7 @@ use super::event::{EndedBy, Event, Executed, Observer};
 use super::finder::Finder;
 use super::modal::Group;
 use super::options::StopPolicy;
+use super::program::EntryIndex;
 use super::run::Interpreter;
 use super::start::{ended_by, stops};
 use super::state::{Departure, Last, Request, Step};
@@ -127,10 +128,15 @@ impl Interpreter {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
             Some(Step::End(ended_by(&self.work.diagnostics)))
-        } else if calls.is_empty() && intent.goes_on() && self.state.repeated.is_none() {
+        } else if calls.is_empty() && intent.goes_on() && self.state.cycles.is_empty() {
             None
         } else {
-            self.step(intent, calls, at, finder)
+            match self.step(intent, calls, at, finder) {
+                Some(Step::Jump(target)) if self.is_behind(target) => {
+                    Some(self.come_round(target, at, finder))
+                }
+                step => step,
+            }
         };
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
@@ -302,10 +308,7 @@ impl Interpreter {
             intent.step = Some(Step::Call(calls));
         }
         if let Some(by) = intent.end {
-            if self.state.ending.is_none() {
-                self.meet_at_end(finder);
-            }
-            if at.level > 0 && self.state.ending.is_none() {
+            if self.state.ending.is_none() && at.level > 0 {
                 let fault = Fault::new(
                     Code::Fc315,
                     Span::new(0, at.text.len()),
@@ -317,15 +320,7 @@ impl Interpreter {
             if at.level == 0 && at.used.is_none() && self.state.ending.is_none() {
                 self.work.end = Some(at.place(Span::new(0, at.text.len())));
             }
-            if let (None, Some(name)) = (self.state.ending, self.machine.programs.end.clone()) {
-                let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
-                self.state.frames.clear();
-                if let Some(request) = self.resolve(wanted, at, finder) {
-                    self.state.ending = Some(by);
-                    return Some(Step::Call(vec![request]));
-                }
-            }
-            return Some(Step::End(self.state.ending.take().unwrap_or(by)));
+            return Some(self.program_end(by, at, finder));
         }
         if intent.returns {
             return Some(Step::Return);
@@ -335,6 +330,33 @@ impl Interpreter {
             return self.repetition(step, moved, at, finder);
         }
         step
+    }
+
+    /// The program ends, after the configured program that runs before its end (R2.15).
+    pub(super) fn program_end(
+        &mut self,
+        by: EndedBy,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        if self.state.ending.is_none() {
+            self.meet_at_end(finder);
+            if let Some(name) = self.machine.programs.end.clone() {
+                let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
+                self.state.frames.clear();
+                if let Some(request) = self.resolve(wanted, at, finder) {
+                    self.state.ending = Some(by);
+                    return Step::Call(vec![request]);
+                }
+            }
+        }
+        Step::End(self.state.ending.take().unwrap_or(by))
+    }
+
+    /// Whether a block of the running program stands before the next one.
+    fn is_behind(&self, target: EntryIndex) -> bool {
+        let frame = self.state.frames.last();
+        frame.is_some_and(|frame| target < frame.next)
     }
 
     #[inline(never)]

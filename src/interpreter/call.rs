@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::at::At;
+use super::cycles::{ModalCycles, Repeated, RepeatedCall, after_motion_only};
 use super::finder::{Finder, NoProgram};
 use super::options::StopPolicy;
 use super::program::Index;
 use super::run::Interpreter;
 use super::sequence::Part;
 use super::start::stops;
-use super::state::{Frame, Repeated, RepeatedCall, Request, Step, after_motion_only};
+use super::state::{Frame, Request, Retains, Step};
 use super::value::Value;
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic, did_you_mean};
 use crate::machine::Keeps;
@@ -168,7 +169,7 @@ impl Interpreter {
             }
         }
         if let Some(after_motion_only) = wanted.repeat {
-            self.state.repeated = Some(Repeated {
+            self.state.cycles = ModalCycles::of(Repeated {
                 call: RepeatedCall::Program(found),
                 own: wanted.own.clone(),
                 after_motion_only,
@@ -225,7 +226,7 @@ impl Interpreter {
             self.work.diagnostics.push(at.diagnostic(fault));
         }
         if let Some(after_motion_only) = wanted.repeat {
-            self.state.repeated = Some(Repeated {
+            self.state.cycles = ModalCycles::of(Repeated {
                 call: RepeatedCall::External(name),
                 own: wanted.own,
                 after_motion_only,
@@ -259,9 +260,9 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
-        let Some(repeated) = &self.state.repeated else {
+        if self.state.cycles.is_empty() {
             return step;
-        };
+        }
         let mut calls = match step {
             Some(Step::Call(calls)) => calls,
             // What was called with this block is the cycle itself.
@@ -270,46 +271,50 @@ impl Interpreter {
                 Vec::new()
             }
         };
-        let (RepeatedCall::Program(found) | RepeatedCall::Perhaps(found)) = repeated.call else {
-            return self.repeat_external(calls, moved);
-        };
-        let inside = self.state.frames.iter().any(|frame| {
-            frame.level > 0 && (frame.unit, frame.section) == (found.unit, found.section)
-        });
-        let called = calls.iter().any(|call| call.found == found);
-        let due = moved || !repeated.after_motion_only;
-        if due && !inside && !called {
-            if let RepeatedCall::Perhaps(_) = repeated.call {
-                let section = &self.units[found.unit].index.sections[found.section];
-                let region = section.start..section.end;
-                let cause = self.units[found.unit].index.source.name().clone();
-                self.forget_region(found.unit, region, &cause);
-                self.forget_called(finder);
-            } else {
-                calls.push(Request {
-                    found,
-                    passage: None,
-                    own: repeated.own.clone(),
-                    form: CallForm::Cycle,
-                    called_from: at.place(Span::new(0, at.text.len())),
-                });
+        for cycle in self.state.cycles.known().to_vec() {
+            if moved || !cycle.after_motion_only {
+                calls.extend(self.repeat(cycle, &calls, at, finder));
             }
         }
         (!calls.is_empty()).then_some(Step::Call(calls))
     }
 
-    /// A modal cycle that is on the machine only leaves its traces behind each block.
-    fn repeat_external(&mut self, calls: Vec<Request>, moved: bool) -> Option<Step> {
-        let Some(repeated) = &self.state.repeated else {
-            return None;
+    /// A modal cycle after a block that made some calls.
+    fn repeat(
+        &mut self,
+        cycle: Repeated,
+        calls: &[Request],
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Request> {
+        let found = match &cycle.call {
+            RepeatedCall::Program(found) | RepeatedCall::Perhaps(found) => *found,
+            RepeatedCall::External(name) => {
+                self.leave_to_machine(name);
+                return None;
+            }
         };
-        if let RepeatedCall::External(name) = &repeated.call
-            && (moved || !repeated.after_motion_only)
-        {
-            let name = name.clone();
-            self.leave_to_machine(&name);
+        let inside = self.state.frames.iter().any(|frame| {
+            frame.level > 0 && (frame.unit, frame.section) == (found.unit, found.section)
+        });
+        if inside || calls.iter().any(|call| call.found == found) {
+            return None;
         }
-        (!calls.is_empty()).then_some(Step::Call(calls))
+        if let RepeatedCall::Perhaps(_) = cycle.call {
+            let section = &self.units[found.unit].index.sections[found.section];
+            let region = section.start..section.end;
+            let cause = self.units[found.unit].index.source.name().clone();
+            self.forget_region(found.unit, region, &cause);
+            self.forget_called(finder);
+            return None;
+        }
+        Some(Request {
+            found,
+            passage: None,
+            own: cycle.own,
+            form: CallForm::Cycle,
+            called_from: at.place(Span::new(0, at.text.len())),
+        })
     }
 
     pub(super) fn find(
@@ -436,6 +441,7 @@ impl Interpreter {
             seeking: None,
             called_from: Some(request.called_from),
             restores,
+            retains: Retains::Nothing,
             waiting: Vec::new(),
             passage: request.passage,
         });

@@ -40,6 +40,8 @@ pub struct Carried {
     pub lost_macros: BTreeMap<String, Arc<str>>,
     /// The coupling groups that `#SET AX LINK` defined, with the names of their axes.
     pub couplings: BTreeMap<String, Vec<String>>,
+    /// The axes that coupling groups may name which nobody knows any more.
+    pub lost_couplings: Vec<String>,
 }
 
 impl Interpreter {
@@ -51,6 +53,12 @@ impl Interpreter {
             couplings: couplings
                 .map(|(group, axes)| (group.to_owned(), axes.iter().map(name).collect()))
                 .collect(),
+            lost_couplings: self
+                .state
+                .couplings
+                .lost()
+                .map(|axis| name(&axis))
+                .collect(),
             ..self.state.memory.carried(self.machine.parameters)
         }
     }
@@ -61,6 +69,11 @@ impl Interpreter {
             let found = names.iter().filter_map(|name| self.machine.find(name));
             let axes = found.collect();
             self.state.couplings.define(group, axes);
+        }
+        if !carried.lost_couplings.is_empty() {
+            let names = carried.lost_couplings.iter();
+            let axes = names.filter_map(|name| self.machine.find(name));
+            self.state.couplings.lose(axes);
         }
         self.state.memory.take_over(carried);
         self.journal.begin_anew();

@@ -5,7 +5,7 @@ use super::event::Outcome;
 use super::exchange::Addressed;
 use super::run::Interpreter;
 use crate::comp::{
-    AxisIndex, CncBuild, CompCommand, CompensationError, Kind, KindSet, Selection, State,
+    AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
 };
 use crate::diagnostic::{Advice, Code, Diagnostic, did_you_mean};
 use crate::machine::{AxisSet, Origin, Parameterisation};
@@ -34,6 +34,7 @@ impl Interpreter {
         });
         match &result {
             Ok(axis) => {
+                self.warn_coupled(command, *axis, at);
                 self.warn_opposite(command, *axis, at);
                 self.warn_build(command, at);
                 self.warn_ineffective(command, *axis, at);
@@ -48,6 +49,22 @@ impl Interpreter {
             result,
             changes: self.work.changes.len() - before,
         });
+    }
+
+    /// FC902: an axis that may be in a coupling, and COMP be refused (R1.9, R2.51).
+    fn warn_coupled(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+        if self.state.compensation.coupling(axis) != Coupling::Perhaps {
+            return;
+        }
+        let name = &command.axis;
+        let message = format!(
+            "whether axis `{name}` is in an active coupling is not known offline; if it is, the \
+             control refuses this command, and what the command switches is unknown"
+        );
+        let fault = Fault::new(Code::Fc902, command.span, message)
+            .with_help("release all couplings first, with `#DISABLE AX LINK ALL`");
+        let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+        self.work.diagnostics.push(diagnostic);
     }
 
     /// FC301: the same axis and kind twice in one block with opposite states.

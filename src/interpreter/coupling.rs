@@ -1,12 +1,15 @@
 //! Axis couplings (R2.47): which groups `#SET AX LINK` defined and which of them are in force.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use crate::comp::AxisIndex;
+use crate::comp::{AxisIndex, Coupling};
 
 /// The coupling groups of a run.
+///
+/// Where a coupling command may or may not have been executed, no group is known any more until it
+/// is defined anew, and every axis that a group ever named may be coupled or not.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Couplings {
     groups: BTreeMap<String, Group>,
@@ -16,6 +19,14 @@ pub(super) struct Couplings {
     holding: BTreeMap<AxisIndex, u32>,
     /// How often a group was enabled.
     turns: u64,
+    /// Every axis that a group ever named.
+    named: BTreeSet<AxisIndex>,
+    /// Whether groups may be defined that are not known.
+    vague: bool,
+    /// Whether such groups may be in force.
+    doubted: bool,
+    /// Rises with every change.
+    version: u64,
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -31,30 +42,90 @@ impl Couplings {
         self.groups.len()
     }
 
-    /// The groups that are defined, with their axes.
+    /// The groups that are known, with their axes.
     pub(super) fn groups(&self) -> impl Iterator<Item = (&str, &[AxisIndex])> {
         let groups = self.groups.iter();
         groups.map(|(name, group)| (name.as_str(), group.axes.as_slice()))
     }
 
-    /// Whether a group in force couples the axis.
-    pub(super) fn holds(&self, axis: AxisIndex) -> bool {
-        self.holding.contains_key(&axis)
+    /// The axes that groups may name which are not known.
+    pub(super) fn lost(&self) -> impl Iterator<Item = AxisIndex> {
+        self.named.iter().copied().filter(|_| self.vague)
     }
 
-    /// Defines a group anew; one that is in force stays so with its new axes.
-    pub(super) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) {
-        let was_enabled = self.release(group);
-        self.groups.insert(
-            group.to_owned(),
-            Group {
-                axes,
-                enabled: None,
-            },
-        );
+    /// Rises with every change.
+    pub(super) fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Whether a group in force couples the axis.
+    pub(super) fn of(&self, axis: AxisIndex) -> Coupling {
+        if self.holding.contains_key(&axis) {
+            Coupling::Active
+        } else if self.doubted && self.named.contains(&axis) {
+            Coupling::Perhaps
+        } else {
+            Coupling::None
+        }
+    }
+
+    /// Defines a group anew; one that is in force stays so with its new axes. Returns the axes whose
+    /// coupling may have changed.
+    pub(super) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) -> Vec<AxisIndex> {
+        self.version = self.version.wrapping_add(1);
+        let (was_enabled, mut changed) = self.take_out(group);
+        changed.extend(&axes);
+        self.named.extend(&axes);
+        let defined = Group {
+            axes,
+            ..Group::default()
+        };
+        self.groups.insert(group.to_owned(), defined);
         if let Some(turn) = was_enabled {
             self.enable_at(group, turn);
         }
+        changed
+    }
+
+    /// Groups may name these axes of which nobody knows which.
+    pub(super) fn lose(&mut self, axes: impl IntoIterator<Item = AxisIndex>) {
+        self.named.extend(axes);
+        self.vague = true;
+    }
+
+    /// Some coupling command may have been executed. Returns the axes whose coupling may have
+    /// changed.
+    pub(super) fn doubt(&mut self) -> Vec<AxisIndex> {
+        self.release_all();
+        self.version = self.version.wrapping_add(1);
+        self.groups.clear();
+        self.vague = true;
+        self.doubted = true;
+        self.named.iter().copied().collect()
+    }
+
+    /// Groups with these axes may have been defined, or defined anew: that changes a coupling only
+    /// where some group may be in force.
+    pub(super) fn doubt_definitions(&mut self, axes: &[AxisIndex]) -> Vec<AxisIndex> {
+        self.lose(axes.iter().copied());
+        if self.doubted || !self.enabled.is_empty() {
+            return self.doubt();
+        }
+        self.version = self.version.wrapping_add(1);
+        self.groups.clear();
+        Vec::new()
+    }
+
+    /// Whether the blocks that follow find the same couplings.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let groups = |couplings: &Self| {
+            let groups = couplings.groups.iter();
+            let groups = groups.map(|(name, group)| (name.clone(), group.axes.clone()));
+            groups.collect::<Vec<_>>()
+        };
+        self.enabled.values().eq(other.enabled.values())
+            && (&self.named, self.vague, self.doubted) == (&other.named, other.vague, other.doubted)
+            && groups(self) == groups(other)
     }
 
     /// Whether it names no other axes than so many.
@@ -62,21 +133,29 @@ impl Couplings {
         let members = self.groups.values().flat_map(|group| &group.axes);
         members
             .chain(self.holding.keys())
+            .chain(&self.named)
             .all(|axis| axis.get() < axes)
     }
 
-    /// Puts a group into force; whether it is defined.
-    pub(super) fn enable(&mut self, group: &str) -> bool {
-        if !self.groups.contains_key(group) {
-            return false;
-        }
+    /// Puts a group into force; the axes whose coupling may have changed, where it may be defined.
+    pub(super) fn enable(&mut self, group: &str) -> Option<Vec<AxisIndex>> {
+        let Some(known) = self.groups.get(group) else {
+            let lost = self.vague && !self.named.is_empty();
+            return lost.then(|| {
+                self.version = self.version.wrapping_add(1);
+                self.doubted = true;
+                self.named.iter().copied().collect()
+            });
+        };
+        let axes = known.axes.clone();
         self.release(group);
         self.turns = self.turns.wrapping_add(1);
         self.enable_at(group, self.turns);
-        true
+        Some(axes)
     }
 
     fn enable_at(&mut self, group: &str, turn: u64) {
+        self.version = self.version.wrapping_add(1);
         if let Some(known) = self.groups.get_mut(group) {
             known.enabled = Some(turn);
             for &axis in &known.axes {
@@ -87,10 +166,21 @@ impl Couplings {
         }
     }
 
-    /// Releases a group; the turn at which it was enabled, if it was in force.
-    pub(super) fn release(&mut self, group: &str) -> Option<u64> {
-        let known = self.groups.get_mut(group)?;
-        let turn = known.enabled.take()?;
+    /// Releases a group; the axes whose coupling may have changed.
+    pub(super) fn release(&mut self, group: &str) -> Vec<AxisIndex> {
+        self.take_out(group).1
+    }
+
+    /// Releases a group; the turn at which it was enabled, and its axes, if it was in force.
+    fn take_out(&mut self, group: &str) -> (Option<u64>, Vec<AxisIndex>) {
+        let known = self.groups.get_mut(group);
+        let Some((known, turn)) = known.and_then(|known| {
+            let turn = known.enabled.take()?;
+            Some((known, turn))
+        }) else {
+            return (None, Vec::new());
+        };
+        self.version = self.version.wrapping_add(1);
         self.enabled.remove(&turn);
         for axis in &known.axes {
             let times = self.holding.get(axis).copied().unwrap_or_default();
@@ -100,22 +190,29 @@ impl Couplings {
                 self.holding.remove(axis);
             }
         }
-        Some(turn)
+        (Some(turn), known.axes.clone())
     }
 
-    /// Releases the group that was enabled last.
-    pub(super) fn release_last(&mut self) {
-        if let Some((_, group)) = self.enabled.pop_last() {
-            self.release(&group);
+    /// Releases the group that was enabled last; the axes whose coupling may have changed.
+    pub(super) fn release_last(&mut self) -> Vec<AxisIndex> {
+        match self.enabled.pop_last() {
+            Some((_, group)) => self.release(&group),
+            None => Vec::new(),
         }
     }
 
-    /// Releases every group; whether any was in force.
-    pub(super) fn release_all(&mut self) -> bool {
-        let any = !self.enabled.is_empty();
-        while !self.enabled.is_empty() {
-            self.release_last();
+    /// Releases every group, known or not; the axes whose coupling may have changed.
+    pub(super) fn release_all(&mut self) -> Vec<AxisIndex> {
+        if !self.doubted && self.enabled.is_empty() {
+            return Vec::new();
         }
-        any
+        self.version = self.version.wrapping_add(1);
+        self.doubted = false;
+        self.enabled.clear();
+        self.holding.clear();
+        for group in self.groups.values_mut() {
+            group.enabled = None;
+        }
+        self.named.iter().copied().collect()
     }
 }

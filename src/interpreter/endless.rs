@@ -1,26 +1,34 @@
-//! Loops that never end (R2.84).
+//! Loops that never end by themselves (R2.84).
 //!
 //! A run depends on its state and on nothing else. Where a loop comes round and the state is what
 //! it was some passes ago, every further pass does what those did: the loop is known to be
 //! endless. Parameters that only count, `P1 = P1 + 1`, and that nothing else reads may differ.
 //! What is compared is all of the state, so what a pass can see need not be known.
+//!
+//! Where a value that is not known offline may lead out of such a loop, the loop is not endless:
+//! the run goes on where that way goes (R2.51, R2.52).
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::at::At;
 use super::call::Found;
 use super::coupling::Couplings;
+use super::cycles::ModalCycles;
 use super::event::EndedBy;
 use super::exchange::ChannelAxes;
 use super::expression::Place;
+use super::finder::Finder;
 use super::memory::Memory;
 use super::modal::Modal;
 use super::program::EntryIndex;
 use super::region::Target;
 use super::run::Interpreter;
-use super::state::{Description, Frame, Repeated, State};
+use super::state::{Description, Frame, State, Step};
 use super::value::Value;
+use super::ways::{Leaving, WayOut};
 use crate::comp::Compensation;
 use crate::diagnostic::{Advice, Code, Diagnostic};
 use crate::syntax::ast::{Assignment, BinaryOperator, Block, Node, Operand};
@@ -37,6 +45,13 @@ const MAX_WEIGHT: usize = 10_000;
 /// Different values that are kept of what was read; with more, everything counts as read.
 const MAX_READS: usize = 256;
 
+/// The passes after which a loop is left that a value of the machine may end, whatever its state.
+const MOST_PASSES: u64 = 1 << 20;
+
+/// How often a loop is run until its state repeats. One that is left more often stands in another
+/// loop, and loops in each other must not multiply their passes.
+const RUN_THROUGH: u32 = 2;
+
 /// The widest step of something that only counts. It would take longer than any run to leave the
 /// range of numbers.
 const WIDEST_STEP: f64 = 1e9;
@@ -48,12 +63,25 @@ pub(super) struct Loop {
     depth: usize,
     unit: usize,
     section: usize,
-    /// The block to which it goes back, and the one from which.
-    target: EntryIndex,
+    /// The block that opens it, or to which it goes back, and the last one from which it does.
+    head: EntryIndex,
     from: EntryIndex,
     passes: u64,
+    /// The executed block at which it came round first.
+    since: u64,
     /// The state at the start of an earlier pass.
     mark: Option<Box<Mark>>,
+    /// What only counts, once it is known that nothing else changes any more.
+    endless: Option<Vec<Target>>,
+}
+
+/// A loop that was left where a value of the machine may end it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct LeftLoop {
+    unit: usize,
+    head: EntryIndex,
+    times: u32,
+    cause: Arc<str>,
 }
 
 /// Everything that the blocks of a program can see or change.
@@ -66,7 +94,7 @@ struct Mark {
     frames: Vec<Frame>,
     occurred: Vec<bool>,
     couplings: Couplings,
-    repeated: Option<Repeated>,
+    cycles: ModalCycles,
     refused: BTreeSet<usize>,
     ending: Option<EndedBy>,
     named: BTreeMap<String, Value>,
@@ -121,7 +149,7 @@ impl Mark {
             frames: state.frames.clone(),
             occurred: state.occurred.clone(),
             couplings: state.couplings.clone(),
-            repeated: state.repeated.clone(),
+            cycles: state.cycles.clone(),
             refused: state.refused.clone(),
             ending: state.ending,
             named: state.named.clone(),
@@ -137,8 +165,8 @@ impl Mark {
             && self.modal == state.modal
             && self.compensation == state.compensation
             && self.occurred == state.occurred
-            && self.couplings == state.couplings
-            && self.repeated == state.repeated
+            && self.couplings.is_like(&state.couplings)
+            && self.cycles == state.cycles
             && self.refused == state.refused
             && self.ending == state.ending
             && self.named == state.named
@@ -155,10 +183,10 @@ impl Mark {
 }
 
 impl Loop {
-    /// Whether the loop lies around a jump, or is the one that jumps.
-    fn is_around(&self, (unit, section): (usize, usize), (target, from): Jump) -> bool {
-        let around = self.target < target && from <= self.from;
-        self.unit == unit && self.section == section && (self.target == target || around)
+    /// Whether the loop lies around a jump back, or is the one that jumps.
+    fn is_around(&self, place: Found, head: EntryIndex, from: EntryIndex) -> bool {
+        let around = self.head < head && from <= self.from;
+        self.place() == place && (self.head == head || around)
     }
 
     /// Whether the state is compared at this pass, or kept to be compared with.
@@ -167,78 +195,197 @@ impl Loop {
     }
 }
 
-/// The block to which a jump goes, and the one from which.
-type Jump = (EntryIndex, EntryIndex);
+/// Why a loop need not be run any further.
+#[derive(Debug)]
+enum Enough {
+    /// Its state repeats.
+    Repeated,
+    /// It was run through often enough; the value that may end it.
+    TooMany(Arc<str>),
+}
 
 impl Interpreter {
-    /// Takes note that a program jumps back. FC910 when it will do so for ever.
+    /// A block jumps back: what the control does next, which is something else where only a value
+    /// of the machine ends the loop.
     pub(super) fn come_round(
         &mut self,
         target: EntryIndex,
-        from: EntryIndex,
-    ) -> Option<Diagnostic> {
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        let left = self.note_pass(target).and_then(|why| {
+            if let Enough::TooMany(cause) = &why {
+                self.forget_loop(cause, finder);
+            }
+            let out = self.way_out()?;
+            self.leave_loop(&why, out, at, finder)
+        });
+        left.unwrap_or(Step::Jump(target))
+    }
+
+    /// Counts a pass of a loop; why it need not be run any further, where that is so.
+    fn note_pass(&mut self, target: EntryIndex) -> Option<Enough> {
         let depth = self.state.frames.len();
-        let frame = self.state.frames.last()?;
-        let (unit, section) = (frame.unit, frame.section);
-        let jump = (target, from);
+        let place = self.current_program()?;
+        let from = self.state.frames.last()?.next.checked_sub(1)?;
+        let index = &self.units[place.unit].index;
+        // A `$FOR` goes back to the block after its opener.
+        let head = if index.is_linked(from) {
+            index.links(from).opener
+        } else {
+            target
+        };
         while let Some(last) = self.state.loops.last() {
-            let stays = last.depth < depth
-                || (last.depth == depth && last.is_around((unit, section), jump));
+            let stays =
+                last.depth < depth || (last.depth == depth && last.is_around(place, head, from));
             if stays {
                 break;
             }
             self.state.loops.pop();
         }
         let known = self.state.loops.last();
-        if known.is_none_or(|last| last.depth < depth || last.target != target) {
+        if known.is_none_or(|last| last.depth < depth || last.head != head) {
             self.state.loops.push(Loop {
                 depth,
-                unit,
-                section,
-                target,
+                unit: place.unit,
+                section: place.section,
+                head,
                 from,
                 passes: 0,
+                since: self.state.seq,
                 mark: None,
+                endless: None,
             });
         }
         let last = self.state.loops.last_mut()?;
         last.from = last.from.max(from);
         last.passes += 1;
-        if last.is_due() {
-            return self.look(from);
+        let (passes, is_due) = (last.passes, last.is_due());
+        if passes == 1
+            && let Some(cause) = self.left_often(place.unit, head)
+        {
+            return Some(Enough::TooMany(cause));
         }
-        None
+        if !is_due {
+            return None;
+        }
+        if self.repeats() {
+            return Some(Enough::Repeated);
+        }
+        let out = self.way_out().filter(|_| passes >= MOST_PASSES)?;
+        Some(Enough::TooMany(out.cause))
     }
 
-    /// Compares the state with that of an earlier pass, or keeps it for that.
+    /// Whether the state is that of an earlier pass; if there is none, it is kept for that.
     #[cold]
-    fn look(&mut self, from: EntryIndex) -> Option<Diagnostic> {
-        let mut last = self.state.loops.pop()?;
-        let mut found = None;
+    fn repeats(&mut self) -> bool {
+        let Some(mut last) = self.state.loops.pop() else {
+            return false;
+        };
         if let Some(mark) = &last.mark {
-            found = mark.counters(&self.state);
+            last.endless = mark.counters(&self.state);
             if last.passes >= mark.pass + LONGEST_PERIOD {
                 last.mark = None;
             }
         } else if self.state.memory.weight() <= MAX_WEIGHT {
             last.mark = Some(Box::new(Mark::of(&self.state, last.passes)));
         }
-        let said = found.map(|counters| self.endless(&last, from, &counters));
+        let repeats = last.endless.is_some();
         self.state.loops.push(last);
         self.state.watching = self.state.loops.iter().any(|known| known.mark.is_some());
         if !self.state.watching {
             *self.state.reads.borrow_mut() = Reads::default();
         }
-        said
+        repeats
     }
 
-    fn endless(&self, known: &Loop, from: EntryIndex, counters: &[Target]) -> Diagnostic {
-        let index = &self.units[known.unit].index;
-        let opener = if index.is_linked(from) {
-            index.links(from).opener
-        } else {
-            known.target
+    /// The value that may end a loop which was left often enough.
+    fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
+        let mut left = self.state.left_loops.iter();
+        let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
+        (found.times >= RUN_THROUGH).then(|| found.cause.clone())
+    }
+
+    /// Where the innermost loop may be left.
+    fn way_out(&self) -> Option<WayOut> {
+        let last = self.state.loops.last()?;
+        self.state.ways.out_of(last.depth, last.from, last.since)
+    }
+
+    /// Makes unknown what the innermost loop could change in the passes that are not run.
+    #[cold]
+    fn forget_loop(&mut self, cause: &Arc<str>, finder: &mut dyn Finder) {
+        let Some(last) = self.state.loops.last() else {
+            return;
         };
+        let (unit, head, from) = (last.unit, last.head, last.from);
+        let region = self.forget_region(unit, head..from.saturating_add(1), cause);
+        self.note_exits(&region, (head, from), (cause, None));
+        self.forget_called(finder);
+        self.take_departing();
+        if !self.work.changes.is_empty() {
+            self.version += 1;
+        }
+    }
+
+    /// Goes out of the innermost loop, and says so (FC902).
+    #[cold]
+    fn leave_loop(
+        &mut self,
+        why: &Enough,
+        out: WayOut,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Step> {
+        let known = self.state.loops.pop()?;
+        let (unit, head) = (known.unit, known.head);
+        let mut left = self.state.left_loops.iter_mut();
+        match left.find(|it| (it.unit, it.head) == (unit, head)) {
+            Some(left) => left.times = left.times.saturating_add(1),
+            None => self.state.left_loops.push(LeftLoop {
+                unit,
+                head,
+                times: 1,
+                cause: out.cause.clone(),
+            }),
+        }
+        let decides = super::flow::unknown_value(&out.cause);
+        let passes = match known.passes {
+            1 => "one pass".to_owned(),
+            passes => format!("{passes} passes"),
+        };
+        let message = match why {
+            Enough::Repeated => format!(
+                "this loop ends only where {decides}, says so; the dry run leaves it after {passes}"
+            ),
+            Enough::TooMany(_) => format!(
+                "this loop may end where {decides}, says so; the dry run leaves it after {passes}, \
+                 what it could change is unknown"
+            ),
+        };
+        let said = Diagnostic::new(
+            Code::Fc902,
+            self.units[unit].index.block_place(head),
+            message,
+        );
+        let said = said.with_help(super::flow::how_to_set(&out.cause));
+        self.work.diagnostics.push(said);
+        Some(match out.to {
+            Leaving::To(block) => Step::Jump(block),
+            Leaving::Return => Step::Return,
+            Leaving::End => self.program_end(EndedBy::M30, at, finder),
+        })
+    }
+
+    /// FC910 where the innermost loop is known to be endless.
+    pub(super) fn endless_loop(&self) -> Option<Diagnostic> {
+        let known = self.state.loops.last()?;
+        let counters = known.endless.as_ref()?;
+        Some(self.endless(known, counters))
+    }
+
+    fn endless(&self, known: &Loop, counters: &[Target]) -> Diagnostic {
+        let place = self.units[known.unit].index.block_place(known.head);
         let passes = known.passes;
         let names: Vec<String> = counters.iter().map(|name| format!("`{name}`")).collect();
         let but = if names.is_empty() {
@@ -251,7 +398,7 @@ impl Interpreter {
         };
         let message =
             format!("this loop never ends: after {passes} passes {but}; the dry run ends here");
-        Diagnostic::new(Code::Fc910, index.block_place(opener), message)
+        Diagnostic::new(Code::Fc910, place, message)
             .with_help("nothing after the loop runs; to see it, remove the loop or give it an end")
             .with_help(Advice::EndLoop)
     }
@@ -260,8 +407,7 @@ impl Interpreter {
     pub(super) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
         let loops = self.state.loops.iter().rev();
         let mut known = loops.filter(|known| known.unit == unit);
-        // A `$FOR` goes back to the block after its opener.
-        let found = known.find(|known| known.target == opener || known.target == opener + 1);
+        let found = known.find(|known| known.head == opener);
         found.map(|known| known.passes)
     }
 

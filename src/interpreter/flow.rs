@@ -15,7 +15,7 @@ use super::options::RunOutcome;
 use super::program::{EntryIndex, LabelName};
 use super::region::Exit;
 use super::run::Interpreter;
-use super::state::{Departure, Seeking, Step};
+use super::state::{Departure, Retains, Seeking, Step};
 use super::value::Value;
 use crate::diagnostic::{Advice, Code};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
@@ -103,10 +103,7 @@ impl Interpreter {
             // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
             Step::Begin => {}
             Step::Jump(entry) => {
-                let next = self.state.frames.last().map_or(0, |frame| frame.next);
-                if entry < next
-                    && let Some(endless) = self.come_round(entry, next - 1)
-                {
+                if let Some(endless) = self.endless_loop() {
                     self.work.over = Some(endless);
                     self.work.endless = true;
                     return ControlFlow::Break(EndedBy::Budget);
@@ -170,7 +167,11 @@ impl Interpreter {
                 .memory
                 .leave_call(usize::try_from(frame.level).unwrap_or(usize::MAX));
             if let Some(saved) = &frame.restores {
+                let kept = (frame.retains == Retains::Perhaps).then(|| self.state.modal.clone());
                 self.state.modal.restore(saved);
+                if let Some(kept) = kept {
+                    self.state.modal.doubt(&kept);
+                }
             }
             if self.state.ways.has_targets() {
                 self.leave_ways(&frame);

@@ -1,16 +1,19 @@
 //! `#` commands (R2.34, R2.47) and axis couplings.
 
+use std::sync::Arc;
+
 use super::at::{At, Shown};
 use super::block::Intent;
 use super::chain;
+use super::cycles::ModalCycles;
 use super::exchange::is_exchange;
 use super::expression::Place;
 use super::implicit::is_file_name;
 use super::run::Interpreter;
-use super::state::Description;
+use super::state::{Description, Retains};
 use super::value::Value;
 use super::words::AxisWords;
-use crate::comp::{AxisIndex, Coupling};
+use crate::comp::AxisIndex;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::Fault;
 use crate::syntax::ast::{Block, Declaration, Hash, Operand};
@@ -49,7 +52,7 @@ impl Interpreter {
             "#ENABLE AX LINK" | "#AX LINK ON" => self.enable_coupling((rest, hash.span), at),
             "#DISABLE AX LINK" | "#AX LINK OFF" => self.disable_coupling(rest, at),
             "#DISABLE AX LINK ALL" | "#AX LINK OFF ALL" => self.release_couplings(),
-            "#DISABLE MODAL CYCLE" => self.state.repeated = None,
+            "#DISABLE MODAL CYCLE" => self.state.cycles = ModalCycles::default(),
             "#INIT MACRO TAB" => {
                 self.state.memory.clear_macros();
                 self.define_machine_macros();
@@ -143,46 +146,93 @@ impl Interpreter {
     fn define_coupling(&mut self, (rest, axes): (&str, Vec<AxisIndex>), at: &At<'_>) {
         let group = self.group_of(rest, at);
         self.work.wrote = true;
-        self.state.couplings.define(&group, axes);
-        self.mark_coupled();
+        let changed = self.state.couplings.define(&group, axes);
+        self.mark_coupled(changed);
     }
 
     fn enable_coupling(&mut self, (rest, span): (&str, Span), at: &At<'_>) {
         let group = self.group_of(rest, at);
-        if self.state.couplings.enable(&group) {
-            self.mark_coupled();
-        } else {
+        match self.state.couplings.enable(&group) {
+            Some(changed) => self.mark_coupled(changed),
             // A group of the channel parameters: which axes it couples nobody knows offline.
-            self.pass_over("#ENABLE AX LINK", span, at);
+            None => self.pass_over("#ENABLE AX LINK", span, at),
         }
     }
 
     /// Without a group the last one that was enabled is released.
     fn disable_coupling(&mut self, rest: &str, at: &At<'_>) {
         let group = self.group_of(rest, at);
-        if group.is_empty() {
-            self.state.couplings.release_last();
+        let changed = if group.is_empty() {
+            self.state.couplings.release_last()
         } else {
-            self.state.couplings.release(&group);
-        }
-        self.mark_coupled();
+            self.state.couplings.release(&group)
+        };
+        self.mark_coupled(changed);
     }
 
     /// Couplings end with the program unless P-CHAN-00105 says otherwise; their definitions stay.
     pub(super) fn release_couplings(&mut self) {
-        if self.state.couplings.release_all() {
-            self.mark_coupled();
+        let changed = self.state.couplings.release_all();
+        self.mark_coupled(changed);
+    }
+
+    /// Any coupling may be in force, or none.
+    pub(super) fn doubt_couplings(&mut self) {
+        let changed = self.state.couplings.doubt();
+        self.mark_coupled(changed);
+    }
+
+    /// Groups may couple these axes of which nobody knows which.
+    pub(super) fn doubt_definitions(&mut self, axes: &[AxisIndex]) {
+        let changed = self.state.couplings.doubt_definitions(axes);
+        self.mark_coupled(changed);
+    }
+
+    fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
+        for axis in changed {
+            let coupling = self.state.couplings.of(axis);
+            self.state.compensation.set_coupled(axis, coupling);
         }
     }
 
-    fn mark_coupled(&mut self) {
-        for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
-            let coupling = if self.state.couplings.holds(axis) {
-                Coupling::Active
-            } else {
-                Coupling::None
-            };
-            self.state.compensation.set_coupled(axis, coupling);
+    /// The axes that a definition of a coupling group names; `None` for any other command.
+    pub(super) fn defined_axes(&self, name: &str, rest: &str) -> Option<Vec<AxisIndex>> {
+        match name {
+            "#SET AX LINK" | "#AX LINK" => Some(self.axes_in(rest)),
+            "#SET AX LINK NBR" | "#AX LINK NBR" => Some(self.axes_by_number(rest)),
+            _ => None,
+        }
+    }
+
+    /// A command that may or may not have been executed (R2.51).
+    pub(super) fn forget_hash(&mut self, name: &str, cause: &Arc<str>) {
+        match name {
+            "#DISABLE MODAL CYCLE" => self.state.cycles.doubt(),
+            "#INIT MACRO TAB" => self.doubt_macros(cause),
+            "#ENABLE AX LINK"
+            | "#AX LINK ON"
+            | "#DISABLE AX LINK"
+            | "#AX LINK OFF"
+            | "#DISABLE AX LINK ALL"
+            | "#AX LINK OFF ALL" => self.doubt_couplings(),
+            "#RETAIN CYCLE CHANGES" => {
+                let frames = self.state.frames.iter_mut().rev();
+                if let Some(frame) = frames.into_iter().find(|frame| frame.restores.is_some()) {
+                    frame.retains = Retains::Perhaps;
+                }
+            }
+            name if DESCRIPTIONS
+                .iter()
+                .any(|(begin, end)| [*begin, *end].contains(&name)) =>
+            {
+                // What follows may be a description, or not.
+                let modal = &mut self.state.modal;
+                modal.forget_g(None);
+                modal.feeds = [None; 3];
+                modal.radius = None;
+                modal.note_transformed(name);
+            }
+            name => self.state.modal.forget_hash(name),
         }
     }
 

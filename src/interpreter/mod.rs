@@ -18,6 +18,7 @@ mod carried;
 mod chain;
 mod comp;
 mod coupling;
+mod cycles;
 mod endless;
 mod evaluate;
 mod event;

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::at::{At, Shown};
 use super::budget::ITEM;
 use super::call::Wanted;
+use super::cycles::after_motion_only;
 use super::event::Notes;
 use super::expression::{unquoted, with_subscripts};
 use super::hash::{declared_name, point_behind};
@@ -23,7 +24,6 @@ use super::implicit::{is_file_name, named_words};
 use super::modal::Group;
 use super::program::{EntryIndex, LabelName, Section};
 use super::run::Interpreter;
-use super::state::after_motion_only;
 use super::value::{Value, rounded};
 use crate::comp::{AxisIndex, KindSet};
 use crate::syntax::ast::{
@@ -52,6 +52,8 @@ pub(super) enum Effect {
     Reference(AxisIndex),
     /// A `#` command.
     Hash(String),
+    /// A coupling group is defined with these axes.
+    Coupling(Vec<AxisIndex>),
     /// A declaration.
     Declaration(String),
     /// A G, M, T or D word, which may call a program.
@@ -315,9 +317,9 @@ impl Gathering<'_> {
                 let kinds = command.selection.kinds();
                 self.effect(Effect::Compensation(command.axis.clone(), kinds));
             }
-            Item::Assign(assignment) => self.target(assignment.target.place, block, at),
-            Item::Flow(Flow::For { counter, .. }, _) => self.target(counter.place, block, at),
-            Item::Flow(Flow::Switch(Some(target), _), _) => self.target(target.place, block, at),
+            Item::Assign(assignment) => self.assigns(assignment.target.place, block, at),
+            Item::Flow(Flow::For { counter, .. }, _) => self.assigns(counter.place, block, at),
+            Item::Flow(Flow::Switch(Some(target), _), _) => self.assigns(target.place, block, at),
             Item::Word(word) => self.word(word, block, at),
             Item::Call(call) => self.call(call, at),
             Item::Sequence(sequence) => match sequence.name {
@@ -339,9 +341,9 @@ impl Gathering<'_> {
             }
             Item::Hash(hash) => {
                 for target in &hash.written {
-                    self.target(target.place, block, at);
+                    self.assigns(target.place, block, at);
                 }
-                self.hash(hash, at);
+                self.hash(hash, block, at);
             }
             Item::MacroUse(span) => {
                 let name = unquoted(span.of(at.text)).trim();
@@ -418,7 +420,7 @@ impl Gathering<'_> {
         });
     }
 
-    fn hash(&mut self, hash: &HashCommand, at: &At<'_>) {
+    fn hash(&mut self, hash: &HashCommand, block: &Block, at: &At<'_>) {
         for declaration in &hash.declarations {
             let name = declared_name(declaration, at);
             self.effect(Effect::Declaration(name));
@@ -427,6 +429,18 @@ impl Gathering<'_> {
             for word in named_words(hash.rest.of(at.text)) {
                 self.effect(Effect::FileName(word));
             }
+            return;
+        }
+        if hash.name == "#DELETE" {
+            for argument in &hash.arguments {
+                if let Operand::Expression(place) = argument {
+                    self.deletes(*place, block, at);
+                }
+            }
+            return;
+        }
+        if let Some(axes) = self.run.defined_axes(&hash.name, hash.rest.of(at.text)) {
+            self.effect(Effect::Coupling(axes));
             return;
         }
         self.effect(Effect::Hash(hash.name.clone()));
@@ -442,18 +456,35 @@ impl Gathering<'_> {
         }
     }
 
+    fn assigns(&mut self, place: Expression, block: &Block, at: &At<'_>) {
+        if let Some(target) = Self::target(place, block, at) {
+            self.writes(target);
+        }
+    }
+
+    /// A deleted variable is unknown, and so are the elements that it may have.
+    fn deletes(&mut self, place: Expression, block: &Block, at: &At<'_>) {
+        let target = Self::target(place, block, at);
+        match &target {
+            Some(Target::Variable(name)) => self.writes(Target::Elements(name.clone())),
+            Some(Target::Parameter(Owner::Program, index)) => {
+                self.writes(Target::Elements(format!("P{index}")));
+            }
+            _ => {}
+        }
+        if let Some(target) = target {
+            self.writes(target);
+        }
+    }
+
     /// What an assignment could write. A place that has to be computed may be another one each time.
-    fn target(&mut self, place: Expression, block: &Block, at: &At<'_>) {
-        let Some(root) = place.end.checked_sub(1) else {
-            return;
-        };
+    fn target(place: Expression, block: &Block, at: &At<'_>) -> Option<Target> {
+        let root = place.end.checked_sub(1)?;
         let inner = place.start as usize..root as usize;
         let operands = block.nodes.get(inner).unwrap_or_default();
         let is_plain = operands.iter().all(|node| matches!(node, Node::Number(_)));
         let root = root as usize;
-        let (Some(node), Some(span)) = (block.nodes.get(root), block.spans.get(root)) else {
-            return;
-        };
+        let (node, span) = (block.nodes.get(root)?, block.spans.get(root)?);
         let name = || {
             let name = span.of(at.text).split('[').next().unwrap_or_default();
             let name: String = name.split_whitespace().collect();
@@ -462,15 +493,15 @@ impl Gathering<'_> {
                 None => name,
             }
         };
-        match node {
-            Node::Parameter { owner, index } => self.writes(Target::Parameter(*owner, *index)),
-            Node::Variable { subscripts: 0 } => self.writes(Target::Variable(name())),
+        Some(match node {
+            Node::Parameter { owner, index } => Target::Parameter(*owner, *index),
+            Node::Variable { subscripts: 0 } => Target::Variable(name()),
             Node::Variable { .. } if is_plain => {
                 let values: Vec<String> = operands.iter().map(subscript).collect();
                 let name = with_subscripts(span.of(at.text), &values);
-                self.writes(Target::Variable(name));
+                Target::Variable(name)
             }
-            Node::Variable { .. } => self.writes(Target::Elements(name())),
+            Node::Variable { .. } => Target::Elements(name()),
             Node::IndexedParameter { owner, subscripts } => {
                 let index = match operands.first() {
                     Some(Node::Number(number)) if is_plain || *subscripts > 0 => rounded(*number),
@@ -478,21 +509,21 @@ impl Gathering<'_> {
                 };
                 let index = index.and_then(|index| u32::try_from(index).ok());
                 match (index, *subscripts) {
-                    (Some(index), 0) => self.writes(Target::Parameter(*owner, index)),
+                    (Some(index), 0) => Target::Parameter(*owner, index),
                     (Some(index), _) if is_plain => {
                         let mut element = format!("P{index}");
                         for node in &operands[1..] {
                             element.extend(["[", &subscript(node), "]"]);
                         }
-                        self.writes(Target::Variable(element));
+                        Target::Variable(element)
                     }
-                    (Some(index), _) => self.writes(Target::Elements(format!("P{index}"))),
-                    (None, _) => self.writes(Target::Parameters),
+                    (Some(index), _) => Target::Elements(format!("P{index}")),
+                    (None, _) => Target::Parameters,
                 }
             }
-            Node::Unread => self.writes(Target::Parameters),
-            _ => {}
-        }
+            Node::Unread => Target::Parameters,
+            _ => return None,
+        })
     }
 
     fn word(&mut self, word: &Word, block: &Block, at: &At<'_>) {

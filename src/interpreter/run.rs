@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use super::coupling::Couplings;
+use super::cycles::ModalCycles;
 use super::exchange::ChannelAxes;
 use super::finder::NoProgram;
 use super::memory::Memory;
@@ -106,8 +107,9 @@ impl Interpreter {
             occurred,
             couplings: Couplings::default(),
             channel_axes: ChannelAxes::default(),
-            repeated: None,
+            cycles: ModalCycles::default(),
             loops: Vec::new(),
+            left_loops: Vec::new(),
             watching: false,
             reads: RefCell::default(),
             refused: BTreeSet::new(),

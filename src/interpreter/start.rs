@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use super::cycles::ModalCycles;
 use super::event::{Ended, EndedBy, Event, Observer};
 use super::exchange::ChannelAxes;
 use super::finder::Finder;
 use super::options::{Handed, RunOutcome, StopPolicy};
 use super::program::Index;
 use super::run::Interpreter;
-use super::state::{Frame, Step};
+use super::state::{Frame, Retains, Step};
 use super::unit::Unit;
 use super::ways::Ways;
 use crate::diagnostic::{Code, Collected, Diagnostic, Severity};
@@ -117,8 +118,9 @@ impl Interpreter {
         self.state.memory.start_program(self.machine.parameters);
         self.state.frames.clear();
         self.state.seq = 0;
-        self.state.repeated = None;
+        self.state.cycles = ModalCycles::default();
         self.state.loops.clear();
+        self.state.left_loops.clear();
         self.state.watching = false;
         self.state.refused.clear();
         self.state.ending = None;
@@ -187,6 +189,7 @@ impl Interpreter {
             seeking: None,
             called_from: None,
             restores: None,
+            retains: Retains::Nothing,
             waiting: Vec::new(),
             passage: None,
         });

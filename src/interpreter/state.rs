@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::call::Found;
 use super::coupling::Couplings;
-use super::endless::{Loop, Reads};
+use super::cycles::ModalCycles;
+use super::endless::{LeftLoop, Loop, Reads};
 use super::event::EndedBy;
 use super::exchange::ChannelAxes;
 use super::memory::Memory;
@@ -18,7 +19,7 @@ use super::sequence::{Destination, Passage};
 use super::value::Value;
 use super::ways::Ways;
 use crate::comp::Compensation;
-use crate::syntax::ast::{Call, CallForm, Repetition};
+use crate::syntax::ast::CallForm;
 use crate::text::Place;
 
 /// Everything that a run depends on.
@@ -44,9 +45,11 @@ pub(super) struct State {
     /// What the names of axes mean, until the program ends.
     pub(super) channel_axes: ChannelAxes,
     /// The cycle that is repeated after blocks.
-    pub(super) repeated: Option<Repeated>,
+    pub(super) cycles: ModalCycles,
     /// The loops that came round, the outermost first.
     pub(super) loops: Vec<Loop>,
+    /// The loops that were left where a value of the machine may end them.
+    pub(super) left_loops: Vec<LeftLoop>,
     /// Whether a loop is compared with an earlier pass, so that what is read matters.
     pub(super) watching: bool,
     pub(super) reads: RefCell<Reads>,
@@ -94,6 +97,7 @@ pub(super) struct Frame {
     pub(super) called_from: Option<Place>,
     /// What the end of a cycle brings back.
     pub(super) restores: Option<Box<modal::Saved>>,
+    pub(super) retains: Retains,
     /// Programs that are called before the next block, the first one last.
     pub(super) waiting: Vec<Request>,
     /// The blocks that are executed, where that is not the whole program.
@@ -108,6 +112,15 @@ impl Frame {
             section: self.section,
         }
     }
+}
+
+/// Whether a cycle keeps what it did to G functions and feed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Retains {
+    /// It does not.
+    Nothing,
+    /// `#RETAIN CYCLE CHANGES` may have been executed.
+    Perhaps,
 }
 
 /// What the next branch statement has to decide.
@@ -125,25 +138,6 @@ pub(super) struct Last {
     pub(super) file: Arc<str>,
     pub(super) line: u32,
     pub(super) text: String,
-}
-
-/// A modal cycle (R2.13).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Repeated {
-    pub(super) call: RepeatedCall,
-    pub(super) own: BTreeMap<u32, Value>,
-    pub(super) after_motion_only: bool,
-}
-
-/// What a modal cycle calls.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) enum RepeatedCall {
-    /// A program that is at hand.
-    Program(Found),
-    /// The same, or nothing: nobody knows whether the cycle is in force.
-    Perhaps(Found),
-    /// A program that is on the machine only, by its name.
-    External(String),
 }
 
 /// What the control does after a block, where that is not the next one.
@@ -177,13 +171,4 @@ pub(super) struct Request {
     pub(super) own: BTreeMap<u32, Value>,
     pub(super) form: CallForm,
     pub(super) called_from: Place,
-}
-
-/// What a call repeats after.
-pub(super) fn after_motion_only(call: &Call) -> Option<bool> {
-    match call.repetition {
-        Repetition::Once => None,
-        Repetition::AfterMotion => Some(true),
-        Repetition::AfterBlock => Some(false),
-    }
 }

@@ -2,9 +2,10 @@
 //! looked up without a further question afterwards.
 
 use super::call::Found;
+use super::cycles::{ModalCycles, RepeatedCall};
 use super::program::EntryIndex;
 use super::run::Interpreter;
-use super::state::{Frame, Repeated, RepeatedCall, Request, Step};
+use super::state::{Frame, Request, Step};
 use crate::text::Place;
 
 /// Counters of a run stay below this for centuries, and a damaged one above it would run over.
@@ -70,8 +71,7 @@ impl Interpreter {
 
     fn check_calls(&self) -> Doubt {
         let state = &self.state;
-        let repeated = self.has_repeated(state.repeated.as_ref());
-        holds(repeated, "a cycle that is not there")?;
+        holds(self.has_cycles(&state.cycles), "a cycle that is not there")?;
         let parked = match &state.parked {
             Some(Step::Jump(entry)) => state
                 .frames
@@ -94,11 +94,8 @@ impl Interpreter {
         holds(ways.fit(axes), "a way of other axes")?;
         let tails = ways.tails().all(|(place, _)| self.has(place));
         holds(tails, "a way through a program that is not there")?;
-        let mut repeated = ways.repeated();
-        holds(
-            repeated.all(|repeated| self.has_repeated(repeated)),
-            "a cycle on a way that is not there",
-        )
+        let cycles = ways.cycles().all(|cycles| self.has_cycles(cycles));
+        holds(cycles, "a cycle on a way that is not there")
     }
 
     fn has(&self, found: Found) -> bool {
@@ -137,11 +134,11 @@ impl Interpreter {
             && first.is_none_or(|first| self.has_block(request.found, first))
     }
 
-    fn has_repeated(&self, repeated: Option<&Repeated>) -> bool {
-        match repeated.map(|repeated| &repeated.call) {
-            Some(RepeatedCall::Program(found) | RepeatedCall::Perhaps(found)) => self.has(*found),
-            Some(RepeatedCall::External(_)) | None => true,
-        }
+    fn has_cycles(&self, cycles: &ModalCycles) -> bool {
+        cycles.known().iter().all(|cycle| match &cycle.call {
+            RepeatedCall::Program(found) | RepeatedCall::Perhaps(found) => self.has(*found),
+            RepeatedCall::External(_) => true,
+        })
     }
 }
 

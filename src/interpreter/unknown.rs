@@ -9,6 +9,7 @@ use std::sync::Arc;
 use super::at::At;
 use super::budget::ITEM;
 use super::call::Wanted;
+use super::cycles::{Repeated, RepeatedCall};
 use super::exchange::{Addressed, is_exchange};
 use super::expression::Place;
 use super::finder::Finder;
@@ -16,7 +17,7 @@ use super::memory::unescaped;
 use super::program::EntryIndex;
 use super::region::{Effect, Region, Target};
 use super::run::Interpreter;
-use super::state::{Repeated, RepeatedCall, Step};
+use super::state::Step;
 use super::value::Value;
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
@@ -208,18 +209,17 @@ impl Interpreter {
                 modal.forget_reference(*axis);
                 self.see(*axis);
             }
-            Effect::Hash(name) if name == "#DISABLE MODAL CYCLE" => self.doubt_repetition(),
-            Effect::Hash(name) if name == "#INIT MACRO TAB" => self.doubt_macros(cause),
             Effect::Macro(name) => {
                 self.state.memory.forget_macro(name, cause);
                 self.work.wrote = true;
             }
             Effect::Hash(name) => {
-                modal.forget_hash(name);
+                self.forget_hash(name, cause);
                 if is_exchange(name) {
                     self.doubt_exchange();
                 }
             }
+            Effect::Coupling(axes) => self.doubt_definitions(axes),
             Effect::Function(letter, number) => {
                 self.forget_function((*letter, *number), unit, cause);
             }
@@ -275,6 +275,7 @@ impl Interpreter {
         self.state.modal.forget_g(None);
         self.state.modal.feeds = [None; 3];
         self.state.modal.radius = None;
+        self.doubt_couplings();
         self.forget_compensation();
     }
 
@@ -351,15 +352,6 @@ impl Interpreter {
         }
     }
 
-    /// The modal cycle may or may not have been switched off.
-    fn doubt_repetition(&mut self) {
-        if let Some(repeated) = &mut self.state.repeated
-            && let RepeatedCall::Program(found) = repeated.call
-        {
-            repeated.call = RepeatedCall::Perhaps(found);
-        }
-    }
-
     /// What called programs of a region could change becomes unknown too (R2.51).
     pub(super) fn forget_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
@@ -416,7 +408,7 @@ impl Interpreter {
     /// A modal cycle of a region may be in force behind it.
     fn perhaps_repeat(&mut self, wanted: &Wanted, call: RepeatedCall) {
         if let Some(after_motion_only) = wanted.repeat {
-            self.state.repeated = Some(Repeated {
+            self.state.cycles.add(Repeated {
                 call,
                 own: BTreeMap::new(),
                 after_motion_only,

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::at::At;
 use super::budget::ITEM;
 use super::call::Found;
+use super::cycles::ModalCycles;
 use super::exchange::ChannelAxes;
 use super::expression::Place;
 use super::finder::Finder;
@@ -20,7 +21,7 @@ use super::modal::Modal;
 use super::program::{EntryIndex, LabelName};
 use super::region::{Exit, Region, Target};
 use super::run::Interpreter;
-use super::state::{Frame, Repeated, RepeatedCall};
+use super::state::Frame;
 use super::value::Value;
 use crate::comp::{AxisIndex, KindSet};
 use crate::diagnostic::Code;
@@ -72,6 +73,8 @@ struct Way {
     target: EntryIndex,
     /// The executed block at which it left.
     since: u64,
+    /// The executed block at which it left last, where it left several times.
+    latest: u64,
     cause: Arc<str>,
     standing: Standing,
     /// What it executes on its way to the target.
@@ -84,7 +87,9 @@ struct Standing {
     /// What is selected and what is unknown, by axis.
     kinds: Vec<(KindSet, KindSet)>,
     modal: Modal,
-    repeated: Option<Repeated>,
+    cycles: ModalCycles,
+    /// The couplings, by the number of their changes.
+    couplings: u64,
     named: BTreeMap<String, Value>,
     channel_axes: ChannelAxes,
     /// The macros, by the number of their changes.
@@ -118,6 +123,24 @@ enum Aim {
     /// A return over programs.
     Far,
     End,
+}
+
+/// How a way leads out of a loop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Leaving {
+    /// To a block of the same program.
+    To(EntryIndex),
+    /// To the caller.
+    Return,
+    /// The program ends.
+    End,
+}
+
+/// A way out of a loop, and the value that decides whether it is gone.
+#[derive(Debug, Clone)]
+pub(super) struct WayOut {
+    pub(super) to: Leaving,
+    pub(super) cause: Arc<str>,
 }
 
 impl Ways {
@@ -173,6 +196,28 @@ impl Ways {
         }
     }
 
+    /// The nearest way that left since a block was executed and goes on beyond another block of the
+    /// same program, else returns from it or ends it.
+    pub(super) fn out_of(&self, depth: usize, from: EntryIndex, since: u64) -> Option<WayOut> {
+        let place = self
+            .place(depth, from.saturating_add(1))
+            .unwrap_or_else(|place| place);
+        let beyond = self.open[place..].iter();
+        let beyond = beyond.take_while(|way| way.depth == depth);
+        let way = beyond
+            .chain(self.end.as_deref())
+            .find(|way| way.latest >= since)?;
+        let to = match way.target {
+            _ if way.depth == 0 => Leaving::End,
+            RETURN => Leaving::Return,
+            target => Leaving::To(target),
+        };
+        Some(WayOut {
+            to,
+            cause: way.cause.clone(),
+        })
+    }
+
     /// The first way of a program that goes on before a block or at it.
     fn arrived(&mut self, depth: usize, here: EntryIndex) -> Option<Way> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
@@ -210,9 +255,9 @@ impl Ways {
         })
     }
 
-    /// The modal cycle of each way.
-    pub(super) fn repeated(&self) -> impl Iterator<Item = Option<&Repeated>> {
-        self.all().map(|way| way.standing.repeated.as_ref())
+    /// The modal cycles of each way.
+    pub(super) fn cycles(&self) -> impl Iterator<Item = &ModalCycles> {
+        self.all().map(|way| &way.standing.cycles)
     }
 
     /// Forgets what no way needs any more.
@@ -228,17 +273,16 @@ impl Way {
     /// Two ways to one place are one.
     fn take_in(&mut self, other: Self) {
         self.since = self.since.min(other.since);
+        self.latest = self.latest.max(other.latest);
         self.standing.macros = self.standing.macros.min(other.standing.macros);
+        self.standing.couplings = self.standing.couplings.min(other.standing.couplings);
         for ((selected, unknown), (theirs, lost)) in
             self.standing.kinds.iter_mut().zip(&other.standing.kinds)
         {
             *unknown = differing((*selected, *unknown), (*theirs, *lost)).union(*unknown);
         }
         self.standing.modal.doubt(&other.standing.modal);
-        doubt_repeated(
-            &mut self.standing.repeated,
-            other.standing.repeated.as_ref(),
-        );
+        self.standing.cycles.join(&other.standing.cycles);
         doubt_names(
             &mut self.standing.named,
             &other.standing.named,
@@ -259,19 +303,6 @@ impl Way {
 fn differing(one: (KindSet, KindSet), other: (KindSet, KindSet)) -> KindSet {
     let differ = one.0.without(other.0).union(other.0.without(one.0));
     differ.union(one.1).union(other.1)
-}
-
-fn doubt_repeated(repeated: &mut Option<Repeated>, other: Option<&Repeated>) {
-    if repeated.as_ref() == other {
-        return;
-    }
-    let known = repeated.take().or_else(|| other.cloned());
-    *repeated = known.map(|mut known| {
-        if let RepeatedCall::Program(found) = known.call {
-            known.call = RepeatedCall::Perhaps(found);
-        }
-        known
-    });
 }
 
 fn doubt_names(
@@ -397,7 +428,7 @@ impl Interpreter {
     }
 
     /// Opens the ways that leave; returns the block behind what is passed over.
-    fn take_departing(&mut self) -> EntryIndex {
+    pub(super) fn take_departing(&mut self) -> EntryIndex {
         let departing = std::mem::take(&mut self.departing);
         let depth = self.state.frames.len();
         let mut here = 0;
@@ -449,13 +480,15 @@ impl Interpreter {
             depth,
             target,
             since: self.state.seq,
+            latest: self.state.seq,
             cause,
             standing: Standing {
                 kinds: axes
                     .map(|axis| (compensation.selected(axis), compensation.unknown(axis)))
                     .collect(),
                 modal: self.state.modal.clone(),
-                repeated: self.state.repeated.clone(),
+                cycles: self.state.cycles.clone(),
+                couplings: self.state.couplings.version(),
                 named: self.state.named.clone(),
                 channel_axes: self.state.channel_axes.clone(),
                 macros: self.state.memory.macro_version(),
@@ -583,7 +616,10 @@ impl Interpreter {
         if standing.macros != self.state.memory.macro_version() {
             self.doubt_macros(&cause);
         }
-        doubt_repeated(&mut self.state.repeated, standing.repeated.as_ref());
+        self.state.cycles.join(&standing.cycles);
+        if standing.couplings != self.state.couplings.version() {
+            self.doubt_couplings();
+        }
         doubt_names(&mut self.state.named, &standing.named, &cause);
         self.state.channel_axes.doubt(&standing.channel_axes);
         let written = &self.state.ways.written.0;

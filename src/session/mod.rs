@@ -353,6 +353,7 @@ impl Session {
             macros: carried.macros,
             lost_macros: carried.lost_macros,
             couplings: carried.couplings,
+            lost_couplings: carried.lost_couplings,
             lost: carried.lost,
             lost_parameters: carried.lost_parameters,
         }

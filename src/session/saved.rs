@@ -66,6 +66,9 @@ pub struct SavedState {
     /// Coupling groups with the names of their axes.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub couplings: BTreeMap<String, Vec<String>>,
+    /// The axes that coupling groups may name which nobody knows any more.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lost_couplings: Vec<String>,
     /// Arrays in which some element was written, though it is not known which.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lost: BTreeMap<String, Arc<str>>,
@@ -169,6 +172,7 @@ impl SavedState {
             macros: self.macros,
             lost_macros: self.lost_macros,
             couplings: self.couplings,
+            lost_couplings: self.lost_couplings,
             lost: self.lost,
             lost_parameters: self.lost_parameters,
         }

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::interpreter::{EndedBy, Event, Interpreter, NoFiles, Options, StopPolicy};
 use frictcomp::machine::Machine;
@@ -9,7 +10,7 @@ use frictcomp::session::{Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
-use crate::support::MACHINE;
+use crate::support::{Bench, MACHINE};
 
 /// What a run came to.
 #[derive(Debug)]
@@ -99,7 +100,6 @@ fn a_loop_whose_state_repeats_never_ends() {
         "P1=0\n$WHILE 1\nP1 = 1-P1\n$IF P1\nX[COMP OFF FRICT]\n$ELSE\nX[COMP ON FRICT]\n$ENDIF\n$ENDWHILE\nM30",
         // Loops in it that end, and one that does not.
         "$WHILE 1\n$FOR P1=1,100,1\nX=P1\n$ENDFOR\n$ENDWHILE\nM30",
-        "$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX1\n$ENDWHILE\nM30",
     ] {
         let ran = run(endless);
         assert_eq!(ran.by, EndedBy::Budget, "{endless}");
@@ -110,6 +110,124 @@ fn a_loop_whose_state_repeats_never_ends() {
             "{ran:?}"
         );
     }
+}
+
+/// Loops that nothing known ends; what follows is run, and X is what is said here.
+const MAYBE_ENDLESS: [(&str, &str); 18] = [
+    (
+        "$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX1\n$ENDWHILE\nX[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "$WHILE 1\nX[COMP OFF FRICT]\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX1\n$ENDWHILE\nM30",
+        "inactive",
+    ),
+    (
+        "$WHILE 1\nX[COMP OFF FRICT]\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX[COMP ON FRICT]\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\nM30",
+        "unknown",
+    ),
+    (
+        "$WHILE 1\n$IF V.E.STOP $GOTO N99\nX1\n$ENDWHILE\nX[COMP ON FRICT]\nN99: X[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "$WHILE 1\n$IF V.E.STOP $GOTO N99\nX1\n$ENDWHILE\nX[COMP OFF FRICT]\nN99: M30",
+        "active",
+    ),
+    (
+        "$DO\n$IF V.E.STOP\n$GOTO N99\n$ENDIF\nX1\n$ENDDO\nN99: X[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "$REPEAT\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX1\n$UNTIL 0\nX[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "$FOR P1=1,10,0\n$SWITCH V.E.STOP\n$CASE 1\n$GOTO [OUT]\n$ENDSWITCH\nX1\n$ENDFOR\n[OUT] X[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "N10: X1\n$IF V.E.STOP $GOTO N20\n$GOTO N10\nN20: X[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "N10: X1\n$GOTO V.E.WHERE\n$GOTO N10\nN20: X[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "X[COMP OFF FRICT]\n$WHILE 1\n$IF V.E.STOP\nM30\n$ENDIF\nX1\n$ENDWHILE\nX[COMP ON FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "%L S\nX[COMP OFF FRICT]\n$WHILE 1\n$IF V.E.STOP\nM17\n$ENDIF\nX1\n$ENDWHILE\nM17\n%MAIN\nLL S\nY[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "%L T\n$IF V.E.STOP\nM17 [JUMPS=2]\n$ENDIF\nM17\n%L S\n$WHILE 1\nLL T\n$ENDWHILE\nM17\n%MAIN\nLL S\nX[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "%L T\n$IF V.E.STOP\nM30\n$ENDIF\nM17\n%MAIN\nX[COMP OFF FRICT]\n$WHILE 1\nLL T\n$ENDWHILE\nM30",
+        "inactive",
+    ),
+    // Loops in each other, and one that comes round in a loop that ends.
+    (
+        "$WHILE 1\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\nX[COMP OFF FRICT]\nM30",
+        "inactive",
+    ),
+    (
+        "$FOR P1=1,3,1\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\n$ENDFOR\n$IF P1==4\nX[COMP OFF FRICT]\n$ENDIF\nM30",
+        "inactive",
+    ),
+    // What only counts is not known afterwards.
+    (
+        "P1=0\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\nP1=P1+1\n$ENDWHILE\n$IF P1==0\nX[COMP OFF FRICT]\n$ENDIF\nM30",
+        "unknown",
+    ),
+    // The state never repeats.
+    (
+        "G91\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\nX1 Y[COMP OFF FRICT]\n$ENDWHILE\n$IF V.A.ABS.X > 5\nX[COMP OFF FRICT]\n$ENDIF\nM30",
+        "unknown",
+    ),
+];
+
+#[test]
+fn a_loop_that_the_machine_may_end_is_left_and_what_follows_runs() {
+    // R2.84 R2.51 R2.52
+    for (text, state) in MAYBE_ENDLESS {
+        let ran = run(text);
+        assert_eq!(ran.by, EndedBy::M30, "{text}: {ran:?}");
+        assert!(!ran.codes().contains(&"FC910"), "{text}: {ran:?}");
+        assert_eq!(ran.states[0].1, state, "{text}: {ran:?}");
+        let said = ran
+            .said
+            .iter()
+            .any(|(code, said)| code == "FC902" && said.contains("this loop"));
+        assert!(said, "{text}: {ran:?}");
+    }
+}
+
+#[test]
+fn a_loop_that_may_be_left_calls_the_program_of_the_program_end() {
+    // R2.15 R2.84
+    let bench = Bench::on(&format!("{MACHINE}[machine]\nend_program = \"end.nc\"\n"))
+        .file("end.nc", "X[COMP OFF FRICT]\nM17");
+    let mut session = bench.session();
+    let said = bench.run_in(
+        &mut session,
+        &["$WHILE 1\n$IF V.E.STOP\nM30\n$ENDIF\n$ENDWHILE\nM30"],
+    );
+    let state = session.state().state(AxisIndex::new(0), Kind::Frict);
+    assert_eq!(state, State::Inactive, "{said}");
+}
+
+#[test]
+fn loops_in_each_other_that_may_be_left_do_not_multiply() {
+    // R2.60 R2.84
+    let opener = "$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\n".repeat(12);
+    let ran = run(&format!("{opener}{}M30", "$ENDWHILE\n".repeat(12)));
+    assert_eq!(ran.by, EndedBy::M30);
+    assert!(ran.blocks < 50_000, "{}", ran.blocks);
 }
 
 #[test]

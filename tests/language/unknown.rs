@@ -331,3 +331,130 @@ fn a_command_may_give_its_value_with_an_equals_sign() {
     let said = Bench::new().run(&["#FRX=30\nM30"]);
     assert!(said.contains("FC210"), "{said}");
 }
+
+#[test]
+fn a_coupling_that_may_have_been_made_makes_comp_unknown() {
+    // R1.9 R2.51 R2.52
+    let enable = "#SET AX LINK [1, Y=X]\n#ENABLE AX LINK [1]\n";
+    let off = "X[COMP OFF FRICT]\n";
+    for (program, unknown) in [
+        (format!("$IF V.E.A\n{enable}$ENDIF\n{off}M30"), true),
+        (
+            format!("$IF V.E.A\n#SET AX LINK [1, Y=X]\n$ENDIF\n#ENABLE AX LINK [1]\n{off}M30"),
+            true,
+        ),
+        (
+            format!("#SET AX LINK [1, Y=X]\n$IF V.E.A\n#AX LINK ON [1]\n$ENDIF\n{off}M30"),
+            true,
+        ),
+        (
+            format!("{enable}$IF V.E.A\n#DISABLE AX LINK\n$ENDIF\n{off}M30"),
+            true,
+        ),
+        (
+            format!("{enable}$IF V.E.A\n#AX LINK OFF ALL\n$ENDIF\n{off}M30"),
+            true,
+        ),
+        (
+            format!("{enable}$IF V.E.A\n#DISABLE AX LINK [1]\n$ENDIF\n{off}M30"),
+            true,
+        ),
+        // A way round, and a program that nobody knows.
+        (format!("$IF V.E.A $GOTO N10\n{enable}N10: {off}M30"), true),
+        (
+            format!("{enable}L V.E.NAME\nX[COMP ON FRICT]\n{off}M30"),
+            true,
+        ),
+        // In a loop that may be left, and in a called program.
+        (
+            format!("$WHILE 1\n$IF V.E.A\n$BREAK\n$ENDIF\n{enable}$ENDWHILE\n{off}M30"),
+            true,
+        ),
+        (
+            format!("%L S\n{enable}M17\n%MAIN\n$IF V.E.A\nLL S\n$ENDIF\n{off}M30"),
+            true,
+        ),
+        // It is known again.
+        (
+            format!("$IF V.E.A\n{enable}$ENDIF\n#AX LINK OFF ALL\n{off}M30"),
+            false,
+        ),
+        (
+            format!(
+                "$IF V.E.A\n#SET AX LINK [1, Y=X]\n$ENDIF\n#SET AX LINK [1, Y=Z]\n#ENABLE AX LINK [1]\n{off}M30"
+            ),
+            false,
+        ),
+        // Another axis.
+        (
+            format!("$IF V.E.A\n#SET AX LINK [1, Y=B]\n#ENABLE AX LINK [1]\n$ENDIF\n{off}M30"),
+            false,
+        ),
+    ] {
+        let bench = Bench::new().keep_going();
+        let said = bench.run(&[&program]);
+        let left = if unknown {
+            "M30 X:unknown"
+        } else {
+            "M30 X:inactive"
+        };
+        assert!(said.contains(left), "{program}\n{said}");
+        assert_eq!(
+            bench.said(&program).contains("in an active coupling"),
+            unknown,
+            "{program}"
+        );
+    }
+    // What is as the command wants it stays known either way.
+    let program = format!("$IF V.E.A\n{enable}$ENDIF\nX[COMP ON FRICT]\nM30");
+    assert!(Bench::new().run(&[&program]).contains("M30 X:active"));
+    // The next program finds the groups as little known.
+    let next = format!("#ENABLE AX LINK [1]\n{off}M30");
+    let first = "$IF V.E.A\n#SET AX LINK [1, Y=X]\n$ENDIF\nM30";
+    assert!(Bench::new().run(&[first, &next]).contains("M30 X:unknown"));
+}
+
+#[test]
+fn commands_that_may_have_been_executed_make_unknown_what_they_change() {
+    // R2.51
+    let unknown = |body: &str| format!("$IF V.E.A\n{body}\n$ENDIF\n");
+    let then = "X[COMP OFF FRICT]\n$ENDIF\nM30";
+    for program in [
+        format!(
+            "V.P.B=1\n{}$IF EXIST[V.P.B]==0\n{then}",
+            unknown("#DELETE V.P.B")
+        ),
+        format!("P5=1\n{}$IF EXIST[P5]==0\n{then}", unknown("#DELETE P5")),
+        format!(
+            "#VAR\nV.P.C[2]=[1,2]\n#ENDVAR\n{}$IF EXIST[V.P.C[1]]==0\n{then}",
+            unknown("#DELETE V.P.C")
+        ),
+    ] {
+        let said = Bench::new().keep_going().run(&[&program]);
+        assert!(said.contains("M30 X:unknown"), "{program}\n{said}");
+    }
+    // One of two modal cycles may be in force, or none.
+    let one = "X[COMP OFF FRICT]\nM17";
+    let other = "Y[COMP OFF FRICT]\nM17";
+    let call = |name: &str| format!("L CYCLE [NAME={name} MODAL_MOVE]\n");
+    for program in [
+        format!("{}{}Z1\nM30", call("one.nc"), unknown(&call("other.nc"))),
+        format!(
+            "X[COMP ON FRICT] Y[COMP ON FRICT]\n{}$IF V.E.A $GOTO N10\n{}N10: Z1\nM30",
+            call("one.nc"),
+            call("other.nc")
+        ),
+        format!(
+            "{}{}Z1\nM30",
+            call("one.nc"),
+            unknown("#DISABLE MODAL CYCLE")
+        ),
+    ] {
+        let bench = Bench::new().file("one.nc", one).file("other.nc", other);
+        let program = program.replace("Z1", "X[COMP ON FRICT] Y[COMP ON FRICT]\nZ1");
+        let said = bench.run(&[&program]);
+        assert!(said.contains("M30 X:unknown"), "{program}\n{said}");
+        let both = program.contains("other");
+        assert_eq!(said.contains("Y:unknown Z"), both, "{program}\n{said}");
+    }
+}

@@ -95,6 +95,7 @@ codes! {
     Fc315 "FC315" Warning "program end inside a subprogram";
     Fc316 "FC316" Warning "circle by radius that ends where it starts";
     Fc317 "FC317" Warning "return over more programs than are called";
+    Fc318 "FC318" Warning "the program stops itself";
     Fc320 "FC320" Error "called program not found or not readable";
     Fc321 "FC321" Error "called program outside the project folders";
     Fc401 "FC401" Warning "left away from home after program end";

@@ -9,11 +9,11 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::at::{At, Shown};
+use super::at::At;
 use super::run::Interpreter;
-use super::value::{Value, rounded};
+use super::value::rounded;
 use crate::comp::{AxisIndex, CompensationError, KindSet};
-use crate::syntax::ast::{Block, Hash};
+use crate::syntax::ast::Hash;
 
 /// The names of the channel's axes, as far as the program changed them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -157,7 +157,8 @@ impl Interpreter {
             let (Some(name), number) = axis_of(&group) else {
                 continue;
             };
-            let number = number.and_then(|number| self.axis_number(number, at));
+            let number = number.and_then(|number| self.number_in(number, at));
+            let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
             let meaning = self.requested(name, number);
             let names = &mut self.state.channel_axes.names;
             let own = self.machine.find(name);
@@ -208,22 +209,6 @@ impl Interpreter {
     /// An exchange that may or may not have been executed.
     pub(super) fn doubt_exchange(&mut self) {
         self.state.channel_axes.doubtful = true;
-    }
-
-    /// A logical axis number, `1` or `P1+1`.
-    fn axis_number(&mut self, text: &str, at: &At<'_>) -> Option<u32> {
-        let mut block = Block::default();
-        let operand = crate::syntax::parse_expression(text, &mut block)?;
-        let shown = Shown::default();
-        let inner = At {
-            text,
-            shown: &shown,
-            ..*at
-        };
-        match self.value(operand, &block, &inner) {
-            Ok(Value::Number(number)) => rounded(number).and_then(|n| u32::try_from(n).ok()),
-            _ => None,
-        }
     }
 }
 

@@ -6,11 +6,13 @@ use super::at::{At, Shown};
 use super::block::Intent;
 use super::chain;
 use super::cycles::ModalCycles;
+use super::event::EndedBy;
 use super::exchange::is_exchange;
 use super::expression::Place;
 use super::implicit::is_file_name;
+use super::options::StopPolicy;
 use super::run::Interpreter;
-use super::state::{Description, Retains};
+use super::state::{Description, Retains, Step};
 use super::value::Value;
 use super::words::AxisWords;
 use crate::comp::AxisIndex;
@@ -68,6 +70,7 @@ impl Interpreter {
             }
             "#RT WHILE" => self.real_time_loop(hash.span, at, intent),
             "#RT ENDWHILE" => {}
+            "#ERROR" => self.report_error(hash, at, intent),
             name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
                 self.state.modal.hash(name);
@@ -132,6 +135,41 @@ impl Interpreter {
         if end > entry {
             let cause = "V.RTG.LOOP.ENABLED".into();
             intent.step = self.skip_unknown((entry, end), &cause, span, at);
+        }
+    }
+
+    /// FC318: the program reports an error of its own, with a remedy class that stops it. Without a
+    /// class that is known it is taken for a warning (tf5200, 207457163).
+    fn report_error(&mut self, hash: &Hash, at: &At<'_>, intent: &mut Intent) {
+        self.pass_over("#ERROR", hash.span, at);
+        let class = remedy_class(hash.rest.of(at.text));
+        let class = class.and_then(|class| self.number_in(class, at));
+        let Some(class) = class.filter(|class| *class >= 1.0) else {
+            return;
+        };
+        let message =
+            format!("the control stops here: the program reports an error with `RC={class}`");
+        let fault = Fault::new(Code::Fc318, hash.span, message)
+            .with_help("with `RC=0` it is a warning, and the program goes on");
+        self.work.diagnostics.push(at.diagnostic(fault));
+        if self.options.stop == StopPolicy::FirstError {
+            intent.step = Some(Step::End(EndedBy::Error));
+        }
+    }
+
+    /// The number that a text is, `2` or `P1+1`, if it is known.
+    pub(super) fn number_in(&mut self, text: &str, at: &At<'_>) -> Option<f64> {
+        let mut block = Block::default();
+        let operand = crate::syntax::parse_expression(text, &mut block)?;
+        let shown = Shown::default();
+        let inner = At {
+            text,
+            shown: &shown,
+            ..*at
+        };
+        match self.value(operand, &block, &inner) {
+            Ok(Value::Number(number)) => Some(number),
+            _ => None,
         }
     }
 
@@ -240,18 +278,9 @@ impl Interpreter {
     fn group_of(&mut self, rest: &str, at: &At<'_>) -> String {
         let inside = rest.trim_start().strip_prefix('[').unwrap_or_default();
         let text = inside.split([',', ']']).next().unwrap_or_default().trim();
-        let mut block = Block::default();
-        let operand = crate::syntax::parse_expression(text, &mut block);
-        let shown = Shown::default();
-        let inner = At {
-            text,
-            shown: &shown,
-            ..*at
-        };
-        let value = operand.and_then(|operand| self.value(operand, &block, &inner).ok());
-        match value {
-            Some(Value::Number(number)) => number.round().to_string(),
-            _ => text.to_owned(),
+        match self.number_in(text, at) {
+            Some(number) => number.round().to_string(),
+            None => text.to_owned(),
         }
     }
 
@@ -384,6 +413,14 @@ pub(super) fn point_behind(hash: &Hash, at: &At<'_>) -> Option<(Block, String)> 
 
 fn names_in(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+}
+
+/// What stands after `RC` in the bracket of `#ERROR`, `[ID=455 RC=2]` or `[ID455 RC2]`.
+fn remedy_class(text: &str) -> Option<&str> {
+    let outside_of_texts = text.split('"').step_by(2);
+    let mut words = outside_of_texts.flat_map(|part| part.split([' ', '\t', '[', ',']));
+    let word = words.find_map(|word| word.strip_prefix("RC"))?;
+    Some(word.trim_start_matches('=').trim_end_matches(']'))
 }
 
 fn names_friction(text: &str) -> bool {

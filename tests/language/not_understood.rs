@@ -1,5 +1,7 @@
 //! 2.10: what is not understood, and forms of real programs.
 
+use frictcomp::comp::{AxisIndex, Kind, State};
+
 use crate::support::Bench;
 
 fn run(program: &str) -> String {
@@ -414,4 +416,33 @@ fn what_the_user_declares_harmless_is_passed_over() {
         let refused = frictcomp::machine::Machine::from_toml(&text);
         assert!(refused.is_err(), "{wrong}");
     }
+}
+
+#[test]
+fn an_error_of_the_program_stops_it() {
+    // R2.70
+    let left = |command: &str| {
+        let program = format!("P1=1\nX[COMP OFF FRICT]\n{command}\nX[COMP ON FRICT]\nM30");
+        let bench = Bench::new();
+        let mut session = bench.session();
+        let said = bench.run_in(&mut session, &[&program]);
+        let state = session.state().state(AxisIndex::new(0), Kind::Frict);
+        (state == State::Inactive, said.contains("FC318"))
+    };
+    for (command, stops) in [
+        ("#ERROR [ID=455 RC=2]", true),
+        ("#ERROR [ID455 RC7 PV1=5]", true),
+        ("#ERROR [ID=1, RC=P1+1, MID=2]", true),
+        ("#ERROR [ID=1 RC=0]", false),
+        ("#ERROR [ID=1 RC=P1-1]", false),
+        ("#ERROR [ID=1 PV1=\"RC=2\"]", false),
+        ("#ERROR [ID=1 RC=V.E.A]", false),
+        ("$IF P1==2\n#ERROR [RC=2]\n$ENDIF", false),
+        ("$IF V.E.A==2\n#ERROR [RC=2]\n$ENDIF", false),
+    ] {
+        assert_eq!(left(command), (stops, stops), "{command}");
+    }
+    let program = "X[COMP OFF FRICT]\n#ERROR [RC=2]\nX[COMP ON FRICT]\nM30";
+    let said = Bench::new().keep_going().said(program);
+    assert!(said.contains("FC318") && !said.contains("FC401"), "{said}");
 }

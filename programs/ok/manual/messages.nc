@@ -7,7 +7,7 @@ N20 #MSG SYN HMI ["waiting (for operator)"]
 N30 #FILE NAME [MSG="result.txt"]
 N40 #MSG SAVE ["V.L.COUNT =%d", V.L.COUNT]
 N50 #MSG SAVE EXCLUSIVE ["100%%; not a comment"]
-N60 #ERROR [ID=455 RC=2 PV1=10 PV2=V.L.COUNT]
+N60 #ERROR [ID=455 RC=0 PV1=10 PV2=V.L.COUNT]
 N70 #INFO ["x"]
 N80 #MSG INFO ["%s", "text with \"quotes\""]
 N90 M30

@@ -227,6 +227,13 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[],
     },
     Assumption {
+        rule: "R2.70",
+        sentence: "`#ERROR` without a remedy class that is known is a warning, and the program goes on",
+        changes: "whether the program stops there",
+        shows: "the block records",
+        when: &[],
+    },
+    Assumption {
         rule: "R2.71",
         sentence: "a control statement with an unreadable condition still opens its control block, a \
             misspelt one as the statement that it resembles",

@@ -33,7 +33,7 @@ pub struct CompCommand {
     pub axis: String,
     /// What is switched.
     pub selection: Selection,
-    /// Whether `NO_MOVE` stands in the bracket; friction compensation does not care (R1.6).
+    /// Whether the bracket contains `NO_MOVE`, which does not matter to friction compensation (R1.6).
     pub no_move: bool,
     /// From the axis name to the closing bracket.
     pub span: Span,

@@ -176,7 +176,7 @@ fn kinds(section: &Section<'_>, key: &str) -> Result<Vec<(Kind, Given<String>)>,
     Ok(found)
 }
 
-/// The value list that stands in `frictcomp.toml` itself. Its values have the names, units,
+/// The value list that is part of `frictcomp.toml`. Its values have the names, units,
 /// defaults and checks of a list.
 fn inline_values(section: &Section<'_>) -> Result<FrictionDraft, ConfigError> {
     let mut draft = FrictionDraft::default();

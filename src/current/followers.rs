@@ -21,7 +21,7 @@ pub struct Commanded {
 pub struct CurrentSample {
     /// What was commanded.
     pub commanded: Commanded,
-    /// What is added. It is 0 in every state but `active`; in the state `unknown` nobody knows it,
+    /// What is added. It is 0 in every state but `active`; in the state `unknown` it is not known,
     /// and this is what an axis without compensation gets.
     pub added: Added,
 }

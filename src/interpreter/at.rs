@@ -7,7 +7,7 @@ use crate::diagnostic::Diagnostic;
 use crate::syntax::{Comments, Fault, RawBlock, Remark};
 use crate::text::{Place, Span};
 
-/// Where a block stands and what is known about it beside its tree.
+/// The place of a block, and what is known about it besides its tree.
 pub(super) struct At<'a> {
     pub(super) file: &'a Arc<str>,
     pub(super) text: &'a str,

@@ -240,7 +240,7 @@ impl Interpreter {
                 return;
             }
             let done = self.item(item, block, at, intent);
-            // Behind a statement that goes elsewhere, `$CASE 2 X10`, nothing is executed.
+            // After a statement that goes elsewhere, `$CASE 2 X10`, nothing is executed.
             let leaves = matches!(item, Item::Flow(flow, _) if !matches!(flow, Flow::Goto(_)))
                 && intent.step.is_some();
             if self.say(done, at).is_break() || leaves {
@@ -312,7 +312,7 @@ impl Interpreter {
                 let fault = Fault::new(
                     Code::Fc315,
                     Span::new(0, at.text.len()),
-                    "program end inside a subprogram ends the whole program",
+                    "a program end inside a subprogram ends the whole run",
                 )
                 .with_help("end a subprogram with `M17` or `M29`");
                 self.work.diagnostics.push(at.diagnostic(fault));
@@ -448,7 +448,7 @@ impl Interpreter {
         }
     }
 
-    /// A condition that cannot be computed: what hangs on it is not known, and is not said again
+    /// A condition that cannot be computed: what depends on it is not known, and is not said again
     /// (R2.51, R2.71).
     fn undecidable(&mut self, fault: Fault, at: &At<'_>) -> Result<(), Box<Fault>> {
         if self.options.stop == StopPolicy::FirstError {
@@ -511,12 +511,12 @@ impl Interpreter {
         Ok(())
     }
 
-    /// A macro of which nobody knows the code may do anything (R2.51).
+    /// A macro whose code is not known may do anything (R2.51).
     fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
         self.forget_all(cause);
         let what = super::flow::unknown_value(cause);
         let message = format!(
-            "what macro `{name}` does depends on {what}; what it could change is unknown from here"
+            "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"
         );
         let fault = Fault::new(Code::Fc901, span, message);
         Box::new(fault.with_help(super::flow::how_to_set(cause)))
@@ -535,7 +535,7 @@ impl Interpreter {
             .and_then(rounded)
     }
 
-    /// Keeps the block in mind for FC310; whether M30 comes nobody knows beforehand.
+    /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.
     fn remember_last(&mut self, at: &At<'_>) {
         if at.level > 0 {
             return;

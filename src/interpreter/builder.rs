@@ -343,11 +343,7 @@ impl Builder {
             self.inner.push((entry, open.opener));
         } else {
             let word = span.of(text).trim();
-            let fault = Fault::new(
-                Code::Fc208,
-                span,
-                format!("`{word}` is outside any loop that it could leave"),
-            );
+            let fault = Fault::new(Code::Fc208, span, format!("`{word}` is not inside a loop"));
             self.refuse(entry, fault);
         }
     }

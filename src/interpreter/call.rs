@@ -101,7 +101,7 @@ impl Interpreter {
                 let fault = Fault::new(
                     Code::Fc902,
                     call.span,
-                    format!("which program is called depends on {}; the call is passed over, everything that a program could change becomes unknown", super::flow::unknown_value(&cause)),
+                    format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", super::flow::unknown_value(&cause)),
                 )
                 .with_help(super::flow::how_to_set(&cause));
                 self.work.diagnostics.push(at.diagnostic(fault));
@@ -199,7 +199,7 @@ impl Interpreter {
         })
     }
 
-    /// A program that is on the machine only (R2.83): whatever it may change is unknown behind it.
+    /// A program that is on the machine only (R2.83): whatever it may change is unknown after it.
     fn pass_over_external(&mut self, wanted: Wanted, at: &At<'_>) {
         let name = wanted.name;
         self.pass_over(&name, wanted.span, at);
@@ -219,7 +219,7 @@ impl Interpreter {
                 Code::Fc902,
                 wanted.span,
                 format!(
-                    "the program `{name}` is only on the machine; the call is passed over, {what}"
+                    "the program `{name}` is only on the machine; the call is passed over, and {what}"
                 ),
             )
             .with_help("if it leaves them as they are, say so in `[machine.external_keeps]`");
@@ -251,7 +251,7 @@ impl Interpreter {
         }
     }
 
-    /// The calls of a block with the modal cycle behind them, unless the block is one of the
+    /// The calls of a block with the modal cycle after them, unless the block is one of the
     /// cycle's.
     pub(super) fn repetition(
         &mut self,
@@ -365,7 +365,9 @@ impl Interpreter {
                          call"
                     ),
                 )
-                .with_help("a program to call begins with `%NAME`, or without any `%`"),
+                .with_help(
+                    "a program that is called begins with `%NAME` or has no `%` line at all",
+                ),
             )),
             // An empty file does nothing (R2.8).
             None => Ok(None),
@@ -487,13 +489,13 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
         NoProgram::Absent if name.is_empty() => {
             Fault::new(Code::Fc320, wanted.span, "the name of the called program is empty")
         }
-        NoProgram::Absent => fault(Code::Fc320, "is not found")
-            .with_help("it was searched for beside the calling file, then in `program_dirs` of the configuration")
+        NoProgram::Absent => fault(Code::Fc320, "was not found")
+            .with_help("it was looked for beside the calling file, then in the `program_dirs` of the configuration")
             .with_help(on_machine_only(name)),
         NoProgram::Unusable(what) => fault(Code::Fc320, what)
             .with_help("a called program must be a readable file of at most 1 GiB"),
         NoProgram::Outside => fault(Code::Fc321, "is outside the folders that programs may be called from")
-            .with_help("these are the caller's folder, that of `frictcomp.toml` (the current folder if there is none), `program_dirs`, and everything below them; a file of the same name is also searched for there")
+            .with_help("these are the caller's folder, that of `frictcomp.toml` (the current folder if there is none), `program_dirs`, and everything below them; a file of the same name is also looked for there")
             .with_help(Advice::AllowOutside),
     })
 }
@@ -502,6 +504,6 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
 fn on_machine_only(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
     format!(
-        "a program that only the machine has is passed over with `external = [\"{last}\"]` in `[machine]`"
+        "to pass over a program that only the machine has, set `external = [\"{last}\"]` in `[machine]`"
     )
 }

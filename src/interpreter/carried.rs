@@ -25,18 +25,18 @@ pub struct ArrayShape {
 pub struct Carried {
     /// Variables and elements of arrays, by their full names.
     pub variables: BTreeMap<String, Value>,
-    /// Arrays of which some element was written and nobody knows which, with the value that made it
+    /// Arrays of which some element was written, but it is not known which, with the value that made it
     /// so.
     pub lost: BTreeMap<String, Arc<str>>,
     /// Declared arrays.
     pub arrays: BTreeMap<String, ArrayShape>,
     /// P parameters, where the machine keeps them.
     pub parameters: BTreeMap<u32, Value>,
-    /// Set when some kept parameter was written and nobody knows which.
+    /// Set when some kept parameter was written, but it is not known which.
     pub lost_parameters: Option<Arc<str>>,
     /// Macros with their code.
     pub macros: BTreeMap<String, String>,
-    /// Macros that may have been defined anew, with the value that made it so.
+    /// Macros that may have been redefined, with the value that made it so.
     pub lost_macros: BTreeMap<String, Arc<str>>,
     /// The coupling groups that `#SET AX LINK` defined, with the names of their axes.
     pub couplings: BTreeMap<String, Vec<String>>,
@@ -79,7 +79,7 @@ impl Interpreter {
         self.journal.begin_anew();
     }
 
-    /// Takes over where an axis stands, and that a program named it.
+    /// Takes over the position of an axis, and that a program named it.
     pub fn place_axis(&mut self, axis: AxisIndex, position: Option<f64>) {
         self.state.occurred[axis.get()] = true;
         self.state.modal.place(axis, position);

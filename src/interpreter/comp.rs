@@ -117,7 +117,9 @@ impl Interpreter {
                 let fault = Fault::new(
                     Code::Fc305,
                     command.span,
-                    format!("`{keyword}` exists since CNC build {since}, the machine has {build}"),
+                    format!(
+                        "`{keyword}` exists only since CNC build {since}; the machine has {build}"
+                    ),
                 );
                 self.work
                     .diagnostics

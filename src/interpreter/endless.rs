@@ -1,6 +1,6 @@
 //! Loops that never end by themselves (R2.84).
 //!
-//! A run depends on its state and on nothing else. Where a loop comes round and the state is what
+//! A run depends on its state and on nothing else. Where a loop is repeated and the state is what
 //! it was some passes ago, every further pass does what those did: the loop is known to be
 //! endless. Parameters that only count, `P1 = P1 + 1`, and that nothing else reads may differ.
 //! What is compared is all of the state, so what a pass can see need not be known.
@@ -56,7 +56,7 @@ const RUN_THROUGH: u32 = 2;
 /// range of numbers.
 const WIDEST_STEP: f64 = 1e9;
 
-/// A loop that came round.
+/// A loop that was repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Loop {
     /// How many programs call each other down to the one that holds it.
@@ -124,7 +124,7 @@ impl Reads {
 }
 
 impl Loop {
-    /// The section that it stands in.
+    /// The section that contains it.
     pub(super) fn place(&self) -> Found {
         Found {
             unit: self.unit,
@@ -403,7 +403,7 @@ impl Interpreter {
             .with_help(Advice::EndLoop)
     }
 
-    /// How often the loop that begins at a block came round.
+    /// How often the loop that begins at a block was repeated.
     pub(super) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
         let loops = self.state.loops.iter().rev();
         let mut known = loops.filter(|known| known.unit == unit);

@@ -175,7 +175,7 @@ pub struct Ended<'a> {
 /// What the interpreter tells.
 #[derive(Debug, Clone, Copy)]
 pub enum Event<'a> {
-    /// A program begins; its name stands behind `%`.
+    /// A program begins; its name stands after `%`.
     Started {
         /// The name, where it has one.
         name: Option<&'a str>,

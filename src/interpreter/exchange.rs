@@ -19,7 +19,7 @@ use crate::syntax::ast::Hash;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct ChannelAxes {
     names: BTreeMap<String, Meaning>,
-    /// Whether nobody knows what any name means.
+    /// Whether the meaning of every name is unknown.
     doubtful: bool,
 }
 
@@ -114,7 +114,7 @@ impl Interpreter {
         })
     }
 
-    /// A COMP command switched kinds of an axis, nobody knows of which.
+    /// A COMP command switched kinds of an axis, but it is not known of which.
     pub(super) fn doubt_any_axis(&mut self, kinds: KindSet) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
             self.doubt(axis, kinds);

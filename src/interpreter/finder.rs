@@ -9,7 +9,7 @@ pub enum NoProgram {
     Absent,
     /// It lies where programs are not called from (FC321).
     Outside,
-    /// It is there and of no use (FC320); what there is to say behind its name: `is a folder`.
+    /// It exists but cannot be used (FC320); what to say after its name: `is a folder`.
     Unusable(String),
 }
 

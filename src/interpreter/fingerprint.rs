@@ -8,7 +8,7 @@ use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize};
 
 /// The fingerprint of a text or of saved data: the same for the same bytes, on every machine and in
-/// every version. It shows what changed by mistake; it keeps out nobody who wants to deceive.
+/// every version. It shows what changed by mistake; it is no protection against forgery.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub(super) struct Fingerprint(u64);

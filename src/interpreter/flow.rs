@@ -553,7 +553,8 @@ impl Interpreter {
             return;
         }
         let value = unknown_value(cause);
-        let message = format!("{what} depends on {value}; the rest assumes that it is not taken");
+        let message =
+            format!("{what} depends on {value}; the rest of the run assumes that it is not");
         let fault = Fault::new(Code::Fc902, span, message).with_help(how_to_set(cause));
         self.work.diagnostics.push(at.diagnostic(fault));
     }
@@ -589,7 +590,7 @@ pub(super) fn unknown_value(name: &str) -> String {
     } else if is_command(name) {
         format!("`{name}`, whose result only the machine knows")
     } else {
-        format!("`{name}`, which is not known here")
+        format!("`{name}`, which frictcomp does not know")
     }
 }
 

@@ -382,7 +382,7 @@ pub(super) fn declared_name(declaration: &Declaration, at: &At<'_>) -> String {
     }
 }
 
-/// The words that may stand behind a command that switches a path, `#SPLINE ON X10 Y20`, as a block
+/// The words that may stand after a command that switches a path, `#SPLINE ON X10 Y20`, as a block
 /// whose spans are those of the whole.
 pub(super) fn point_behind(hash: &Hash, at: &At<'_>) -> Option<(Block, String)> {
     let (_, step, _) = chain::command(&hash.name)?;

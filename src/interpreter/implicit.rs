@@ -21,7 +21,7 @@ enum Configured {
     None,
     /// A program.
     Program(String),
-    /// A program, or none; the name hangs on a value that only the machine knows.
+    /// A program, or none; the name depends on a value that only the machine knows.
     Unknown(Arc<str>),
 }
 
@@ -122,7 +122,7 @@ impl Interpreter {
         let fault = Fault::new(
             Code::Fc902,
             at.in_block(span),
-            format!("which program is called depends on {}; the call is passed over, everything that a program could change becomes unknown", super::flow::unknown_value(cause)),
+            format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", super::flow::unknown_value(cause)),
         )
         .with_help(super::flow::how_to_set(cause));
         self.work.diagnostics.push(at.diagnostic(fault));
@@ -202,7 +202,7 @@ impl Interpreter {
         }
     }
 
-    /// The text of a variable, or that nobody knows it.
+    /// The text of a variable, or that it is not known.
     fn named_elsewhere(&mut self, name: &str) -> Value {
         match self.state.memory.variable(name) {
             Some(value @ Value::Text(_)) => value,
@@ -265,12 +265,12 @@ pub(super) fn is_file_name(name: &str) -> bool {
     matches!(name, "#FILE NAME" | "#FILENAME")
 }
 
-/// The words that get a program behind `#FILE NAME`.
+/// The words that get a program after `#FILE NAME`.
 pub(super) fn named_words(text: &str) -> impl Iterator<Item = String> {
     file_names(text).into_iter().map(|(word, _)| word)
 }
 
-/// The name of a program behind `#FILE NAME`.
+/// The name of a program after `#FILE NAME`.
 enum FileName<'a> {
     /// It stands there.
     Written(&'a str),

@@ -20,7 +20,7 @@ const DIRECT: u32 = 1024;
 pub(super) struct Memory {
     direct: Vec<Option<Value>>,
     parameters: BTreeMap<u32, Value>,
-    /// Set when some parameter was written and nobody knows which: the value that made it so.
+    /// Set when some parameter was written, but it is not known which: the value that made it so.
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
     variables: Names,
@@ -30,7 +30,7 @@ pub(super) struct Memory {
     unknown_names: Option<Arc<str>>,
     /// `V.L.` of each call level.
     locals: Vec<Names>,
-    /// The code of each, or why nobody knows it.
+    /// The code of each, or why it is not known.
     #[serde(serialize_with = "sorted")]
     macros: HashMap<String, Value>,
     /// Rises with every change of the macros.
@@ -189,7 +189,7 @@ impl Memory {
         }
     }
 
-    /// Some element of an array was written and nobody knows which: none is known any more.
+    /// Some element of an array was written, but it is not known which: none is known any more.
     pub(super) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
         let levels = self.locals.iter_mut().chain([&mut self.variables]);
         let holding = levels.filter(|names| names.names.contains_key(name));
@@ -199,7 +199,7 @@ impl Memory {
         }
     }
 
-    /// Some P parameter was written and nobody knows which: none is known any more.
+    /// Some P parameter was written, but it is not known which: none is known any more.
     pub(super) fn forget_parameters(&mut self, cause: &Arc<str>) {
         self.direct.clear();
         self.parameters.clear();
@@ -289,14 +289,14 @@ impl Memory {
         }
     }
 
-    /// A macro may have been defined, or defined anew (R2.51).
+    /// A macro may have been defined, or redefined (R2.51).
     pub(super) fn forget_macro(&mut self, name: &str, cause: &Arc<str>) {
         if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
     }
 
-    /// Any of the macros may have been taken away, or defined anew, except for those that `stays`
+    /// Any of the macros may have been taken away, or redefined, except for those that `stays`
     /// names with their code.
     pub(super) fn forget_macros(&mut self, cause: &Arc<str>, stays: impl Fn(&str, &str) -> bool) {
         let goes = |(name, code): &(&String, &Value)| match code {
@@ -416,7 +416,7 @@ fn is_kept(name: &str, parameters: Parameters) -> bool {
     !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
 }
 
-/// Whether programs write what goes by a name.
+/// Whether programs write what a name stands for.
 fn is_written(name: &str) -> bool {
     is_of_run(name) || name.starts_with("V.S.") || name.starts_with("V.L.")
 }

@@ -150,7 +150,7 @@ pub struct Modal {
     pub radius: Option<f64>,
     /// What takes positions away from the machine's: names of `#` commands and G functions.
     pub transformed: BTreeSet<String>,
-    /// Groups of which nobody knows offline what is in force (R2.51).
+    /// Groups whose active function is not known offline (R2.51).
     unknown: GroupSet,
     /// Absolute positions: the programmed coordinate and the offset of G92.
     positions: Vec<Option<f64>>,
@@ -216,7 +216,7 @@ impl Modal {
         }
     }
 
-    /// Whether it speaks of so many axes.
+    /// Whether it describes so many axes.
     pub(super) fn fits(&self, axes: usize) -> bool {
         let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
         [self.positions.len(), self.references.len(), suspended] == [axes; 3]
@@ -307,7 +307,7 @@ impl Modal {
     }
 
     /// Enters or leaves a transformation.
-    /// The coordinates before and behind are those of different systems, except with cutter radius
+    /// The coordinates before and after are those of different systems, except with cutter radius
     /// compensation, which leaves the program's coordinates as they are.
     fn transform(&mut self, name: &str, on: bool) {
         let changed = if on {
@@ -337,7 +337,7 @@ impl Modal {
         }
     }
 
-    /// `#MCS ON` takes all offsets away until `#MCS OFF`. What is programmed behind either of them
+    /// `#MCS ON` takes all offsets away until `#MCS OFF`. What is programmed after either of them
     /// is no sure place of the machine any more.
     fn machine_coordinates(&mut self, words: &str, off: bool) {
         if off {
@@ -374,7 +374,7 @@ impl Modal {
     }
 
     /// What the blocks of a contour description leave of the state before it: whether their G
-    /// functions and feeds hold behind it is not documented (R2.81).
+    /// functions and feeds hold after it is not documented (R2.81).
     pub(super) fn end_description(&mut self, before: &Self) {
         let value = |modal: &Self, group| match group {
             Group::Motion => modal.motion,
@@ -443,7 +443,7 @@ impl Modal {
         self.positions.fill(None);
     }
 
-    /// Forgets where one axis stands.
+    /// Forgets the position of one axis.
     pub fn forget_position(&mut self, axis: AxisIndex) {
         self.positions[axis.get()] = None;
     }
@@ -541,12 +541,12 @@ impl Modal {
         self.references[axis.get()]
     }
 
-    /// Takes over where an axis stands.
+    /// Takes over the position of an axis.
     pub(super) fn place(&mut self, axis: AxisIndex, position: Option<f64>) {
         self.positions[axis.get()] = position;
     }
 
-    /// Where an axis stands.
+    /// The position of an axis.
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         AxisPosition {
             value: self.positions[axis.get()],

@@ -27,7 +27,7 @@ pub enum Motions {
 pub enum Motion {
     /// Axes move.
     Travel(Travel),
-    /// The axes rest, in seconds; `None` where nobody knows how long.
+    /// The axes rest, in seconds; `None` where it is not known how long.
     Dwell(Option<f64>),
 }
 
@@ -36,9 +36,9 @@ pub enum Motion {
 pub struct Travel {
     /// Along what.
     pub form: Form,
-    /// Where each axis of the machine stands before, in mm or degrees, where that is known.
+    /// The position of each axis of the machine before, in mm or degrees, where that is known.
     pub from: Vec<Option<f64>>,
-    /// Where each axis stands behind it.
+    /// The position of each axis after it.
     pub to: Vec<Option<f64>>,
     /// How fast; a rapid motion takes no notice of it.
     pub feed: PathFeed,
@@ -219,7 +219,7 @@ impl Interpreter {
         self.geometry().dwell = Some(seconds);
     }
 
-    /// Where every axis stands, for a block that may move.
+    /// The position of every axis, for a block that may move.
     pub(super) fn stand(&self) -> Vec<Option<f64>> {
         self.state.modal.positions().to_vec()
     }

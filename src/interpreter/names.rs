@@ -44,14 +44,14 @@ pub(super) fn sorted<V: Serialize, S: Serializer>(
     sorted.serialize(serializer)
 }
 
-/// What goes by one name.
+/// What a name stands for.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Variable {
     pub(super) scalar: Option<Value>,
     pub(super) array: Option<Array>,
     /// The elements that were written, by their subscripts: `[1][2]`.
     pub(super) elements: BTreeMap<String, Value>,
-    /// Set when some element was written and nobody knows which.
+    /// Set when some element was written, but it is not known which.
     pub(super) lost: Option<Arc<str>>,
 }
 
@@ -115,7 +115,7 @@ impl Variable {
         }
     }
 
-    /// Nobody knows its value any more, nor that of any element.
+    /// Its value is no longer known, nor that of any element.
     pub(super) fn forget(&mut self, cause: &Arc<str>) {
         if let Some(scalar) = &mut self.scalar {
             *scalar = Value::Unknown(cause.clone());
@@ -308,7 +308,7 @@ pub(super) fn weight(name: &str, value: &Value) -> usize {
     1 + name.len() / WEIGHT + text / WEIGHT
 }
 
-/// The name of a variable and the subscripts behind it.
+/// The name of a variable and the subscripts after it.
 pub(super) fn parts(name: &str) -> (&str, &str) {
     name.split_at(name.find('[').unwrap_or(name.len()))
 }

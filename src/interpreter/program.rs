@@ -197,7 +197,7 @@ impl Index {
         self.source.place(span)
     }
 
-    /// The loop that a block stands in, by its opener.
+    /// The loop that contains a block, by its opener.
     pub(super) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
         let around = |opener: &&EntryIndex| **opener <= entry && entry <= self.links(**opener).end;
         self.loops.iter().filter(around).max().copied()
@@ -213,7 +213,7 @@ impl Index {
         self.remarks.get(&entry).cloned()
     }
 
-    /// A reader that stands in front of a block.
+    /// A reader that is positioned before a block.
     pub(super) fn reader(&self, entry: EntryIndex) -> Option<BlockReader<TextLines<'_>>> {
         let entry = self.entries.get(entry as usize)?;
         let lines = TextLines::starting_at(self.source.text(), entry.offset as usize);

@@ -44,9 +44,9 @@ pub(super) enum Effect {
     Feeds,
     /// The radius of circles.
     Radius,
-    /// Where an axis stands.
+    /// The position of an axis.
     Position(AxisIndex),
-    /// Where any axis stands.
+    /// The position of any axis.
     Positions,
     /// What G92 set for an axis.
     Reference(AxisIndex),
@@ -62,7 +62,7 @@ pub(super) enum Effect {
     Macro(String),
     /// A word gets another program by `#FILE NAME`.
     FileName(String),
-    /// Everything, through a call of nobody knows what.
+    /// Everything, through a call of an unknown program.
     All,
 }
 
@@ -93,7 +93,7 @@ impl fmt::Display for Target {
 pub(super) enum Exit {
     /// A jump of the same program.
     Label(LabelName),
-    /// A jump to nobody knows where.
+    /// A jump to an unknown place.
     AnyLabel,
     /// `$BREAK`, `$CONTINUE`.
     Block(EntryIndex),

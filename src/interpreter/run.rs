@@ -205,7 +205,7 @@ impl Interpreter {
         &self.state.opaque
     }
 
-    /// Where an axis stands after the last block: the programmed coordinate in mm or degrees.
+    /// The position of an axis after the last block: the programmed coordinate in mm or degrees.
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
         self.state.modal.position(axis)
     }

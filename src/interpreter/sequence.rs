@@ -203,7 +203,7 @@ impl Interpreter {
         self.numbers.get(&(unit, section))?.get(number).copied()
     }
 
-    /// Where the program that is executed stands.
+    /// The place of the program that is executed.
     pub(super) fn current_program(&self) -> Option<Found> {
         let frame = self.state.frames.last()?;
         Some(Found {
@@ -285,7 +285,7 @@ impl Interpreter {
             Fault::new(
                 Code::Fc902,
                 span,
-                format!("`{name}` is in a part of the program that was read line by line and is not kept; the call is passed over, every axis becomes unknown"),
+                format!("`{name}` is in a part of the program that was read line by line and is not kept; the call is passed over, and every axis becomes unknown"),
             )
             .with_help("give the program as a file")
         } else {
@@ -380,7 +380,7 @@ impl Interpreter {
         }
         let programs = if here == 1 { "program" } else { "programs" };
         let message = format!(
-            "`JUMPS` returns over {number} programs, but only {here} {programs} can be left here; the main program goes on"
+            "`JUMPS` leaves {number} programs, but only {here} {programs} can be left here; the main program continues"
         );
         let fault = Fault::new(Code::Fc317, span, message)
             .with_help("`M17 [MAIN]` says that the main program is meant");

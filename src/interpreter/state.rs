@@ -105,7 +105,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// The program that it stands in.
+    /// The program that it belongs to.
     pub(super) fn place(&self) -> Found {
         Found {
             unit: self.unit,

@@ -1,7 +1,7 @@
 //! Programs whose lines come one after another.
 //!
 //! Straight blocks are executed and forgotten. A block that makes the rest of the text count, a jump
-//! label or a `$` statement say, is the first one that can be reached again: it and everything behind
+//! label or a `$` statement say, is the first one that can be reached again: it and everything after
 //! it is taken into memory, and the run goes on there. Nothing ever goes back to what was forgotten.
 
 use std::ops::ControlFlow;
@@ -245,7 +245,7 @@ impl Interpreter {
         }
     }
 
-    /// Ends a program all of whose lines were read; `notes` are about blocks behind its end.
+    /// Ends a program all of whose lines were read; `notes` are about blocks after its end.
     fn end_of_lines(
         &mut self,
         stage: Stage,
@@ -268,7 +268,7 @@ impl Interpreter {
     }
 }
 
-/// Whether a block can be reached again, or needs what stands behind it.
+/// Whether a block can be reached again, or needs what follows it.
 fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
     match raw.stretch {
         Stretch::Program { local, .. } => local,

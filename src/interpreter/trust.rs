@@ -103,7 +103,7 @@ impl Interpreter {
         unit.is_some_and(|unit| found.section < unit.index.sections.len())
     }
 
-    /// Whether a block stands in a section, or the section ends there.
+    /// Whether a section contains a block, or ends there.
     fn has_block(&self, found: Found, entry: EntryIndex) -> bool {
         let unit = self.units.get(found.unit);
         let section = unit.and_then(|unit| unit.index.sections.get(found.section));

@@ -21,7 +21,7 @@ pub(super) struct Unit {
     pub(super) high: EntryIndex,
     /// Which blocks were executed, where that is asked for.
     pub(super) executed: Vec<bool>,
-    /// Control blocks of which nobody knows offline which branch is taken.
+    /// Control blocks whose branch is not known offline.
     pub(super) undecided: BTreeSet<EntryIndex>,
 }
 

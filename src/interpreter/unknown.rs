@@ -41,7 +41,7 @@ pub(super) struct Scan {
 #[derive(Debug, Default)]
 pub(super) struct Journal {
     written: Vec<Target>,
-    /// Rises when the list is begun anew.
+    /// Rises when the list is restarted.
     epoch: u64,
     /// Up to where the list counted when a region was made unknown.
     seen: HashMap<RegionKey, (u64, usize)>,
@@ -86,7 +86,7 @@ impl Journal {
         self.seen.clear();
     }
 
-    /// What was written since the region was made unknown last; `None` where nobody knows.
+    /// What was written since the region was made unknown last; `None` where that is not known.
     fn since(&self, key: RegionKey) -> Option<&[Target]> {
         let &(epoch, from) = self.seen.get(&key)?;
         (epoch == self.epoch).then(|| self.written.get(from..).unwrap_or_default())
@@ -109,7 +109,7 @@ impl Interpreter {
         if !self.work.unread.get() {
             let what = super::flow::unknown_value(cause);
             let message = format!(
-                "this control block depends on {what}; what it could change is unknown from here"
+                "this control block depends on {what}; whatever it could change is unknown from here on"
             );
             let fault = Fault::new(Code::Fc901, span, message);
             let fault = fault.with_help(super::flow::how_to_set(cause));
@@ -346,9 +346,8 @@ impl Interpreter {
         let named: Vec<String> = named.collect();
         let said = self.work.diagnostics.iter_mut();
         for said in said.filter(|said| is_block(said)) {
-            said.message.push_str(", ");
+            said.message.push_str(", including ");
             said.message.push_str(&named.join(", "));
-            said.message.push_str(" too");
         }
     }
 
@@ -381,7 +380,7 @@ impl Interpreter {
                 Ok(Some(found)) => found,
                 Ok(None) => continue,
                 Err(_) => {
-                    // What it would have done nobody knows.
+                    // What it would have done is not known.
                     self.forget_all(&cause);
                     continue;
                 }
@@ -405,7 +404,7 @@ impl Interpreter {
         }
     }
 
-    /// A modal cycle of a region may be in force behind it.
+    /// A modal cycle of a region may be in force after it.
     fn perhaps_repeat(&mut self, wanted: &Wanted, call: RepeatedCall) {
         if let Some(after_motion_only) = wanted.repeat {
             self.state.cycles.add(Repeated {

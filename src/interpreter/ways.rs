@@ -1,5 +1,5 @@
 //! Ways that the control may go and the dry run does not (R2.51, R2.52): a jump, a return or a
-//! program end that hangs on a value which is not known offline.
+//! program end that depends on a value which is not known offline.
 //!
 //! Where such a way leaves, it is remembered with the state of that moment. Where it meets the way
 //! of the dry run again, everything in which both may differ becomes unknown. A way that would end
@@ -109,7 +109,7 @@ struct Tail {
 pub(super) struct Departing {
     to: Aim,
     cause: Arc<str>,
-    /// The block behind what is passed over.
+    /// The block after what is passed over.
     here: EntryIndex,
     /// What is shown, where it was not said yet.
     say: Option<Span>,
@@ -235,7 +235,7 @@ impl Ways {
         self.open.iter().chain(self.end.as_deref())
     }
 
-    /// Whether what is kept for each way speaks of so many axes.
+    /// Whether what is kept for each way describes so many axes.
     pub(super) fn fit(&self, axes: usize) -> bool {
         let standings = self.all().map(|way| &way.standing);
         standings
@@ -416,7 +416,8 @@ impl Interpreter {
                 Aim::Block(_) => "a jump may leave this control block, which",
             };
             let value = super::flow::unknown_value(&way.cause);
-            let message = format!("{what} depends on {value}; the rest assumes that it is not so");
+            let message =
+                format!("{what} depends on {value}; the rest assumes that this does not happen");
             let span = way.say.filter(|span| span.end > span.start);
             let span = span.unwrap_or(Span::new(0, at.text.len()));
             let help = super::flow::how_to_set(&way.cause);
@@ -514,7 +515,7 @@ impl Interpreter {
             if let Some(place) = place
                 && self.units[place.unit].index.entries.len() >= here as usize
             {
-                // It executes what the dry run jumped over, or what it has behind it.
+                // It executes what the dry run jumped over, or what it has after it.
                 let region = self.forget_region(place.unit, target..here, &cause);
                 self.note_exits(&region, (target, here), (&cause, None));
             }

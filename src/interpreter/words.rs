@@ -34,7 +34,7 @@ pub(super) enum AxisWords {
     /// Coordinates to move to.
     #[default]
     Motion,
-    /// G74: the axes move, nobody knows where to.
+    /// G74: the axes move to an unknown position.
     Homing,
     /// A measuring motion ends where the probe says.
     Measuring,
@@ -92,7 +92,7 @@ impl Interpreter {
         self.pass_over(&name, word.span, at);
     }
 
-    /// `x10`: axis names are case-sensitive (R2.20), so nobody knows what it means.
+    /// `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
     fn lower_axis(&mut self, letter: u8, span: Span, at: &At<'_>) {
         let upper = letter.to_ascii_uppercase();
         let axis = self.letters[usize::from(upper - b'A')];

@@ -38,7 +38,7 @@ pub(super) struct Work {
     /// What the block moves, where motions are taken.
     pub(super) motion: Option<Motion>,
     pub(super) notes: RefCell<Vec<Note>>,
-    /// Whether a text of the block had no meaning that is known here; what hangs on it is not said
+    /// Whether a text of the block had no meaning that is known here; what depends on it is not said
     /// again (R2.71).
     pub(super) unread: Cell<bool>,
     /// Macros that the block has expanded.

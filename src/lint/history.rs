@@ -73,7 +73,7 @@ impl History {
         self.home.state(axis, kind)
     }
 
-    /// The block that made a state, `None` where nobody knows.
+    /// The block that made a state, `None` where that is not known.
     pub(crate) fn maker(&self, axis: AxisIndex, kind: Kind) -> Option<&Maker> {
         self.axes[axis.get()][kind as usize].maker.as_ref()
     }

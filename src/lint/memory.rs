@@ -53,7 +53,7 @@ pub(super) enum Deed {
     Off,
     /// A region that may or may not be executed could have switched it (R2.51).
     Unknown,
-    /// A call of nobody knows what could have switched everything (R2.52).
+    /// A call of an unknown program could have switched everything (R2.52).
     Lost,
 }
 
@@ -126,7 +126,7 @@ impl Memory {
         memory.note(selection.kinds(), selection.into(), &site);
     }
 
-    /// The states that no command made unknown, but what stands in this block.
+    /// The states that no command made unknown, but what this block contains.
     pub(super) fn forgotten(&mut self, executed: &Executed<'_>) {
         let site = Arc::new(Site::new(executed, Span::new(0, executed.text.len())));
         let lost = |change: &&Change| change.to == State::Unknown;

@@ -60,7 +60,7 @@ pub struct SavedState {
     /// Macros with their code.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub macros: BTreeMap<String, String>,
-    /// Macros that may have been defined anew, and nobody knows how.
+    /// Macros that may have been redefined, and nobody knows how.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lost_macros: BTreeMap<String, Arc<str>>,
     /// Coupling groups with the names of their axes.

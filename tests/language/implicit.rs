@@ -198,7 +198,7 @@ fn programs_that_only_the_machine_has() {
     ");
     let states = keeps("compensation = true");
     assert_snapshot!(states.said("X1\nL a.ecy\nM30"), @"
-    FC902 2:1 the program `a.ecy` is only on the machine; the call is passed over, all positions become unknown
+    FC902 2:1 the program `a.ecy` is only on the machine; the call is passed over, and all positions become unknown
       help: if it leaves them as they are, say so in `[machine.external_keeps]`
     ");
     assert_snapshot!(states.positions("G90 X1 Y2\nL a.ecy\nX3\nM30"), @"

@@ -164,7 +164,7 @@ fn an_unreadable_condition_opens_its_block_and_is_said_once() {
     // What follows from it later is said, in words that fit.
     let said = Bench::new().said("P1=FOO[1]\n$IF P1 == 1\n$ENDIF\nM30");
     assert!(
-        said.contains("depends on `FOO[1]`, which is not known here"),
+        said.contains("depends on `FOO[1]`, which frictcomp does not know"),
         "{said}"
     );
 }

@@ -301,7 +301,7 @@ fn init_never_writes_over_a_file() {
     let refused = tool(root.path(), &["init"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(
-        said(&refused).contains("exists already"),
+        said(&refused).contains("already exists"),
         "{}",
         said(&refused)
     );

@@ -201,8 +201,8 @@ fn what_is_no_file_to_call_is_said_as_what_it_is() {
         ("folder.nc", "is a folder"),
         ("a.nc", "cannot be read"),
         ("pipe.nc", "is not a regular file"),
-        ("big.nc", "more than 1 GiB"),
-        ("not-there.nc", "is not found"),
+        ("big.nc", "larger than 1 GiB"),
+        ("not-there.nc", "was not found"),
     ] {
         bench.write("main.nc", &format!("L {name}\nM30\n"));
         let said = all(&bench.call(&["check", "--format", "concise", "main.nc"]));
@@ -211,7 +211,7 @@ fn what_is_no_file_to_call_is_said_as_what_it_is() {
             "{name}: {said}"
         );
         assert!(
-            what == "is not found" || !said.contains("not found"),
+            what == "was not found" || !said.contains("not found"),
             "{said}"
         );
     }

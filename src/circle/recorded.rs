@@ -67,7 +67,7 @@ pub enum RecordedError {
     Count(usize),
     /// `--radius 0`
     #[error(
-        "a radius of {} mm is not possible, it must be between 0.001 and 1000000 mm", Shown(*.0)
+        "a radius of {} mm is not possible; it must be between 0.001 and 1000000 mm", Shown(*.0)
     )]
     CommandedRadius(f64),
     /// Two counter-clockwise circles.

@@ -51,7 +51,7 @@ pub enum CircleError {
     Feed(f64),
     /// `--cycle-time-ms 0.1`
     #[error(
-        "a CNC cycle of {} ms is not possible, it must be a whole multiple of 0.25 ms, the cycle of \
+        "a CNC cycle of {} ms is not possible; it must be a whole multiple of 0.25 ms, the cycle of \
          the position loop, up to 100 ms",
         Shown(.0 * 1000.0)
     )]

@@ -155,7 +155,7 @@ impl CheckArgs {
         if more > 0 {
             let (name, listed) = (input.name(Naming::AsGiven), session.notes(kind).count());
             Console::talk(&format!(
-                "{name}: {listed} places are listed; further ones occurred {more} times"
+                "{name}: {listed} places are listed; it occurred {more} more times"
             ));
         }
         Ok(())

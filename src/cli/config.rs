@@ -66,7 +66,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
         (Some(path), _) => writeln!(output, "configuration  {}", shown(path)),
         (None, _) => writeln!(
             output,
-            "configuration  none, no {CONFIG_NAME} from here upwards"
+            "configuration  none: no {CONFIG_NAME} in this folder or above"
         ),
     };
     let (read, missing) = loaded.lists;

@@ -29,7 +29,7 @@ pub(super) enum Color {
     Never,
 }
 
-/// The user's terminal, or what stands in its place.
+/// The user's terminal, or what replaces it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Console {
     color: Color,

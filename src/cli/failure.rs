@@ -15,7 +15,7 @@ pub(super) fn shown(path: &Path) -> String {
     visible_line(&path.to_string_lossy()).into_owned()
 }
 
-/// One clear sentence, what to do, and where the reason stands in a file of the user.
+/// One clear sentence, what to do, and where the reason is in the user's file.
 #[derive(Debug, Default)]
 pub(super) struct Failure {
     /// One sentence in lower case.
@@ -76,7 +76,7 @@ fn options_for(error: &HostError) -> Option<String> {
     let help = match error {
         HostError::FolderAsProgram(folder) => {
             return Some(format!(
-                "name its programs, or use `frictcomp check {}`, which walks through folders",
+                "name its programs, or use `frictcomp check {}`, which searches folders",
                 folder.display()
             ));
         }

@@ -252,7 +252,7 @@ impl Bench<'_> {
         if is_link && !golden.canonicalize().is_ok_and(inside) {
             let shown = golden.display();
             return Err(Failure::new(format!(
-                "`{shown}` is a link that leads out of the folders that were named"
+                "`{shown}` is a link that leads out of the given folders"
             ))
             .with_help("put the timeline itself there, or name its folder"));
         }

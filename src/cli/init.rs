@@ -69,7 +69,7 @@ pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
 
 fn there(target: &Path) -> Failure {
     Failure::new(format!(
-        "`{}` exists already and is not changed",
+        "`{}` already exists and is not changed",
         target.display()
     ))
     .with_help("`frictcomp config show` shows the machine that it describes")
@@ -78,7 +78,7 @@ fn there(target: &Path) -> Failure {
 /// How deep below the folder a start-up list is looked for.
 const DEPTH: usize = 4;
 
-/// The start-up list below a folder, by what stands in it.
+/// The start-up list below a folder, recognised by its content.
 fn find_startup(folder: &Path) -> Result<Option<PathBuf>, Failure> {
     let mut found: Vec<PathBuf> = Vec::new();
     let walk = WalkBuilder::new(folder)
@@ -171,12 +171,12 @@ fn told(known: &Known) -> String {
     match known {
         Known::Startup(path) => format!("the machine of `{}`", path.display()),
         Known::Uses(uses) if uses.is_empty() => {
-            "there is no start-up list and no program, fill in the axes".to_owned()
+            "there is no start-up list and no program; fill in the axes".to_owned()
         }
         Known::Uses(uses) => {
             let names: Vec<_> = in_order(uses).map(|(name, _)| name.as_str()).collect();
             format!(
-                "no start-up list was found, the programs use {}",
+                "no start-up list was found; the programs use {}",
                 names.join(", ")
             )
         }

@@ -84,7 +84,7 @@ impl ListsArgs {
         }
         let nearest = nearest_config(Path::new(""));
         let failure = || {
-            Failure::new(format!("there is no {CONFIG_NAME} from here upwards"))
+            Failure::new(format!("there is no {CONFIG_NAME} in this folder or above"))
                 .with_help("name the lists, `frictcomp lists hochlauf.lis`")
         };
         nearest.map(|path| vec![path]).ok_or_else(failure)
@@ -109,7 +109,7 @@ fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
     let accepted: Vec<&AcceptedList> = reports.iter().flat_map(|it| &it.accepted).collect();
     if accepted.is_empty() {
         return Err(Failure::new(
-            "there is no value list to draw: the control would accept none of these",
+            "there is no value list to draw: the control would accept none of them",
         )
         .with_help("leave `--svg` out to see why"));
     }

@@ -81,7 +81,7 @@ impl MachineArgs {
         }
     }
 
-    /// Says which `--set` stands in no program that was read (R9.74).
+    /// Says which `--set` names nothing in the programs that were read (R9.74).
     pub(super) fn say_unread(&self, ledger: &Ledger, console: Console) {
         let names = self.settings.iter().map(|set| set.name.as_str());
         for variable in unread_variables(names, ledger) {

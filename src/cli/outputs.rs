@@ -30,7 +30,7 @@ impl Outputs {
         }
     }
 
-    /// The place of the main result: the file behind `--output`, or standard output.
+    /// The place of the main result: the file after `--output`, or standard output.
     pub(super) fn result(&mut self, path: Option<&Path>) -> Result<Target, Failure> {
         match path {
             None => {
@@ -48,7 +48,7 @@ impl Outputs {
         }
     }
 
-    /// The file behind an option; `-` is standard output.
+    /// The file that an option names; `-` is standard output.
     pub(super) fn file(
         &mut self,
         option: &'static str,

@@ -360,11 +360,11 @@ impl Start<'_> {
                 Console::talk(&if failed {
                     format!(
                         "the error stopped the session: {left} more {programs} did not run \
-                         (`--keep-going` runs on after errors)"
+                         (`--keep-going` continues after errors)"
                     )
                 } else {
                     format!(
-                        "the last program did not come to its end: {left} more {programs} did not run"
+                        "the last program did not reach its end: {left} more {programs} did not run"
                     )
                 });
             }

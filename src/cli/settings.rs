@@ -106,7 +106,7 @@ pub(super) fn parse_kinds(text: &str) -> Result<KindSet, String> {
             Kind::from_keyword(word).ok_or_else(|| {
                 let near = did_you_mean(word, Kind::ALL.map(Kind::keyword));
                 match near {
-                    Some(near) => format!("`{word}` is not a kind, did you mean `{near}`?"),
+                    Some(near) => format!("`{word}` is not a kind; did you mean `{near}`?"),
                     None => format!("`{word}` is not a kind; write `FRICT,LEAD` or `all`"),
                 }
             })

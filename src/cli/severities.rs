@@ -43,7 +43,7 @@ fn parse_code(text: &str) -> Result<Code, String> {
     Code::find(text).ok_or_else(|| {
         let known = Code::ALL.iter().map(|code| code.text());
         match did_you_mean(text, known) {
-            Some(near) => format!("there is no code `{text}`, did you mean `{near}`?"),
+            Some(near) => format!("there is no code `{text}`; did you mean `{near}`?"),
             None => format!("there is no code `{text}`; `frictcomp codes` lists them"),
         }
     })
@@ -54,7 +54,7 @@ fn parse_ours(text: &str) -> Result<Code, String> {
     let code = parse_code(text)?;
     if code.is_controller() {
         return Err(format!(
-            "{code} is an error of the control, it is always reported"
+            "{code} is an error of the control; it is always reported"
         ));
     }
     Ok(code)

@@ -98,7 +98,7 @@ pub enum HostError {
         input: PathBuf,
     },
     /// A folder where the state is wanted.
-    #[error("`{}` cannot hold a state, it is not a regular file", .0.display())]
+    #[error("`{}` cannot hold a state: it is not a regular file", .0.display())]
     StateNotRegular(PathBuf),
     /// A state that another run has locked.
     #[error("another run uses the state file `{}`", .0.display())]

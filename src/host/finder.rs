@@ -191,7 +191,7 @@ impl ProgramFinder {
         if let Some(name) = self.names.get(&real) {
             return name.clone();
         }
-        // By name alone `..` behind a link leads to another file.
+        // Going by the name alone, `..` after a link leads to a different file.
         let shown = Some(normal(path))
             .filter(|shown| shown.canonicalize().is_ok_and(|shown| shown == real));
         let shown = shown.unwrap_or_else(|| path.to_owned());

@@ -78,7 +78,7 @@ impl Grounds {
                 continue;
             }
             diagnostic.message = format!(
-                "{}; the file lies outside the project, its text is not shown",
+                "{}; the file is outside the project, so its text is not shown",
                 diagnostic.code.title()
             );
             diagnostic.advice = vec![Advice::ShowOutside];

@@ -130,7 +130,7 @@ impl Input {
             Self::File(path) => open_file(path, self.name(naming), before_waiting)
                 .map_err(|error| HostError::read(path, error)),
             Self::Stdin => Ok(match standard_input() {
-                // A file behind `<` must stay as it is, as one that is named must.
+                // A file redirected with `<` must not change while it is read, like one that is named.
                 Some((file, metadata)) => arriving(Steady::new(file, &metadata), before_waiting),
                 None => arriving(io::stdin().lock(), before_waiting),
             }),

@@ -136,7 +136,7 @@ impl<R: Read> LineReader<R> {
         self.failure.take()
     }
 
-    /// Reads more behind what is there, once; there must be room.
+    /// Reads more after what is there, once; there must be room.
     fn fill(&mut self) {
         self.buffer.copy_within(self.unread.clone(), 0);
         self.unread = 0..self.unread.len();

@@ -63,6 +63,6 @@ pub(super) fn read_whole(reader: impl Read, length: u64) -> io::Result<Vec<u8>> 
 
 /// The error for a text that is too big to be kept in memory.
 pub(super) fn too_big() -> io::Error {
-    let reason = "it has more than 1 GiB, which is too much to be kept in memory";
+    let reason = "it is larger than 1 GiB, which is too much to keep in memory";
     io::Error::new(io::ErrorKind::FileTooLarge, reason)
 }

@@ -11,6 +11,7 @@ use super::error::HostError;
 use super::outputs::OutputFiles;
 use super::read::read_bytes;
 use super::unfinished::target;
+use crate::report::shown_json;
 use crate::session::{STATE_SCHEMA, SavedState, StateError};
 
 /// How long a second run waits for the first (R9.31).
@@ -122,10 +123,11 @@ impl StateFile {
     /// # Errors
     /// It cannot be written.
     pub fn save(&self, state: &SavedState, outputs: &mut OutputFiles) -> Result<(), HostError> {
-        let mut text = serde_json::to_vec_pretty(state)
+        let text = serde_json::to_string_pretty(state)
             .map_err(|error| HostError::write(&self.path, error.into()))?;
-        text.push(b'\n');
-        outputs.begin(&self.path)?.bytes(&text)
+        // Whoever looks at the file sees what it holds (R9.76).
+        let text = format!("{}\n", shown_json(&text));
+        outputs.begin(&self.path)?.bytes(text.as_bytes())
     }
 }
 
@@ -163,6 +165,25 @@ mod tests {
         drop(file);
         let names = std::fs::read_dir(folder.path()).unwrap().count();
         assert_eq!(names, 2, "the state and its lock");
+    }
+
+    #[test]
+    fn what_cannot_be_seen_is_escaped_and_read_back() {
+        // R9.76
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.json");
+        let hidden = "a\u{0}\t\n\u{1b}[31m\u{7f}\u{85}\u{9b}\u{202e}\u{2028}\u{feff}\"\\z";
+        let mut saved = state();
+        saved.macros.insert(hidden.to_owned(), hidden.to_owned());
+        saved.lost_parameters = Some(hidden.into());
+        let file = StateFile::lock(&path).unwrap();
+        let mut outputs = OutputFiles::new(&Ledger::default());
+        file.save(&saved, &mut outputs).unwrap();
+        outputs.finish(|_| ()).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let is_raw = |letter: char| letter != '\n' && !(' '..='~').contains(&letter);
+        assert_eq!(text.find(is_raw), None, "{text:?}");
+        assert_eq!(file.load().unwrap(), Some(saved));
     }
 
     #[test]

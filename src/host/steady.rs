@@ -35,7 +35,7 @@ impl Read for Steady {
         };
         let left = usize::try_from(length.saturating_sub(self.at)).unwrap_or(usize::MAX);
         let is_at_end = left == 0;
-        // One byte behind the end shows that the file has grown.
+        // One byte after the end shows that the file has grown.
         let most = buffer.len().min(left.max(1));
         let count = self.file.read(&mut buffer[..most])?;
         if most > 0 && (count == 0) != is_at_end {

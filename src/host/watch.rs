@@ -159,7 +159,7 @@ pub enum Passes {
     /// From its first line to its last.
     #[default]
     Once,
-    /// It comes back: nobody knows how often.
+    /// It comes back: it is not known how often.
     Repeated,
 }
 

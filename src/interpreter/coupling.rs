@@ -9,7 +9,7 @@ use crate::comp::{AxisIndex, Coupling};
 /// The coupling groups of a run.
 ///
 /// Where a coupling command may or may not have been executed, no group is known any more until it
-/// is defined anew, and every axis that a group ever named may be coupled or not.
+/// is redefined, and every axis that a group ever named may be coupled or not.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Couplings {
     groups: BTreeMap<String, Group>,
@@ -69,7 +69,7 @@ impl Couplings {
         }
     }
 
-    /// Defines a group anew; one that is in force stays so with its new axes. Returns the axes whose
+    /// Redefines a group; one that is in force stays so with its new axes. Returns the axes whose
     /// coupling may have changed.
     pub(super) fn define(&mut self, group: &str, axes: Vec<AxisIndex>) -> Vec<AxisIndex> {
         self.version = self.version.wrapping_add(1);
@@ -104,7 +104,7 @@ impl Couplings {
         self.named.iter().copied().collect()
     }
 
-    /// Groups with these axes may have been defined, or defined anew: that changes a coupling only
+    /// Groups with these axes may have been defined, or redefined: that changes a coupling only
     /// where some group may be in force.
     pub(super) fn doubt_definitions(&mut self, axes: &[AxisIndex]) -> Vec<AxisIndex> {
         self.lose(axes.iter().copied());

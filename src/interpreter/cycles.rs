@@ -27,7 +27,7 @@ pub(super) struct Repeated {
 pub(super) enum RepeatedCall {
     /// A program that is at hand.
     Program(Found),
-    /// The same, or nothing: nobody knows whether the cycle is in force.
+    /// The same, or nothing: it is not known whether the cycle is in force.
     Perhaps(Found),
     /// A program that is on the machine only, by its name.
     External(String),

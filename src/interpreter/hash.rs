@@ -192,7 +192,7 @@ impl Interpreter {
         let group = self.group_of(rest, at);
         match self.state.couplings.enable(&group) {
             Some(changed) => self.mark_coupled(changed),
-            // A group of the channel parameters: which axes it couples nobody knows offline.
+            // A group of the channel parameters: which axes it couples is not known offline.
             None => self.pass_over("#ENABLE AX LINK", span, at),
         }
     }

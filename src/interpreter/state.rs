@@ -46,7 +46,7 @@ pub(super) struct State {
     pub(super) channel_axes: ChannelAxes,
     /// The cycle that is repeated after blocks.
     pub(super) cycles: ModalCycles,
-    /// The loops that came round, the outermost first.
+    /// The loops that were repeated, the outermost first.
     pub(super) loops: Vec<Loop>,
     /// The loops that were left where a value of the machine may end them.
     pub(super) left_loops: Vec<LeftLoop>,

@@ -428,7 +428,7 @@ impl Interpreter {
         self.meet(here, finder);
     }
 
-    /// Opens the ways that leave; returns the block behind what is passed over.
+    /// Opens the ways that leave; returns the block after what is passed over.
     pub(super) fn take_departing(&mut self) -> EntryIndex {
         let departing = std::mem::take(&mut self.departing);
         let depth = self.state.frames.len();

@@ -11,7 +11,7 @@ const LONGEST_MS: f64 = 1000.0;
 /// A CNC cycle that no control has.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "a CNC cycle of {} ms is not possible, it must be between {SHORTEST_MS} and {LONGEST_MS} ms",
+    "a CNC cycle of {} ms is not possible; it must be between {SHORTEST_MS} and {LONGEST_MS} ms",
     Shown(*.milliseconds)
 )]
 pub struct CycleError {

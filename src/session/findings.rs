@@ -50,7 +50,7 @@ impl Findings {
             .or_insert_with(|| diagnostic.clone());
     }
 
-    /// Says how often a message came true that is said once.
+    /// Says how often a message occurred that is shown once.
     fn count(&mut self, repeat: &Repeat) {
         let from = (
             Arc::from(repeat.file.as_str()),

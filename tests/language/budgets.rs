@@ -170,7 +170,7 @@ const MAYBE_ENDLESS: [(&str, &str); 18] = [
         "%L T\n$IF V.E.STOP\nM30\n$ENDIF\nM17\n%MAIN\nX[COMP OFF FRICT]\n$WHILE 1\nLL T\n$ENDWHILE\nM30",
         "inactive",
     ),
-    // Loops in each other, and one that comes round in a loop that ends.
+    // Loops in each other, and one that is repeated in a loop that ends.
     (
         "$WHILE 1\n$WHILE 1\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\n$IF V.E.STOP\n$BREAK\n$ENDIF\n$ENDWHILE\nX[COMP OFF FRICT]\nM30",
         "inactive",

@@ -135,7 +135,7 @@ fn what_is_too_big_to_be_kept_is_refused() {
         assert_eq!(output.status.code(), Some(2), "{call:?}");
         let said = said(&output);
         assert!(
-            said.contains(file) && said.contains("more than 1 GiB"),
+            said.contains(file) && said.contains("larger than 1 GiB"),
             "{said}"
         );
     }

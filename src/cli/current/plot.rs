@@ -39,7 +39,7 @@ impl Plot {
 pub(super) fn say_saturated(axis: &str, cycles: u64) {
     if cycles > 0 {
         Console::talk(&format!(
-            "FC137: the current of {cycles} cycles{axis} is beyond 16 bit and was cut"
+            "FC137: the current of {cycles} cycles{axis} exceeds 16 bits and was limited"
         ));
     }
 }

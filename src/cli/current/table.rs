@@ -152,7 +152,7 @@ fn write_row(
         let (x, v) = (commanded.position, commanded.velocity);
         write!(writer, ",{x},{v},{},{}", added.w_before, added.w_after)?;
         match commanded.friction {
-            // Nobody knows it.
+            // It is not known.
             State::Unknown => write!(writer, ",,")?,
             _ => write!(writer, ",{},{}", added.current, added.output)?,
         }

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use serde::{Serialize, Serializer};
+
 use super::codes::Code;
 
 /// A bound of the dry run that a host may raise (R2.60).
@@ -71,6 +73,12 @@ impl Advice {
     pub fn in_words(&self, wording: Option<Wording>) -> String {
         let words = wording.and_then(|wording| wording(self));
         words.unwrap_or_else(|| self.to_string())
+    }
+}
+
+impl Serialize for Advice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 

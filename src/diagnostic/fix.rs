@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::text::{Place, SourceFile, Span};
 
@@ -14,6 +15,16 @@ pub enum Safety {
     Safe,
     /// It guesses what is meant, or changes what the machine does: somebody has to look at it.
     Unsafe,
+}
+
+impl Safety {
+    /// The word of the records: `safe`, `unsafe`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Safe => "safe",
+            Self::Unsafe => "unsafe",
+        }
+    }
 }
 
 /// A change to a text: what stands at a place is replaced.
@@ -64,6 +75,21 @@ impl Fix<Span> {
     /// The fix in a text where the span counts from another offset.
     pub fn shifted(self, offset: u32) -> Self {
         self.map(|span| span.shifted(offset))
+    }
+}
+
+impl Serialize for Fix {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (start, end) = (self.place.start(), self.place.end());
+        let mut object = serializer.serialize_struct("Fix", 7)?;
+        object.serialize_field("file", &self.place.file)?;
+        object.serialize_field("line", &start.line)?;
+        object.serialize_field("column", &start.column)?;
+        object.serialize_field("end_line", &end.line)?;
+        object.serialize_field("end_column", &end.column)?;
+        object.serialize_field("text", &self.text)?;
+        object.serialize_field("safety", &self.safety)?;
+        object.end()
     }
 }
 

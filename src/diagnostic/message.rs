@@ -1,5 +1,8 @@
 //! One statement about a program or a list.
 
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
+
 use super::advice::{Advice, Wording};
 use super::codes::Code;
 use super::fix::Fix;
@@ -7,7 +10,7 @@ use super::severity::Severity;
 use crate::text::{Place, Span};
 
 /// A second place that explains the first.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Label {
     /// Where.
     pub place: Place,
@@ -106,5 +109,27 @@ impl Diagnostic {
             text: text.into(),
         });
         self
+    }
+}
+
+/// The keys of a diagnostic record (chapter 9.2), without those that say where it belongs.
+impl Serialize for Diagnostic {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (start, end) = (self.place.start(), self.place.end());
+        let mut object = serializer.serialize_struct("Diagnostic", 11)?;
+        object.serialize_field("code", &self.code)?;
+        object.serialize_field("severity", &self.severity)?;
+        object.serialize_field("file", &self.place.file)?;
+        object.serialize_field("line", &start.line)?;
+        object.serialize_field("column", &start.column)?;
+        object.serialize_field("end_line", &end.line)?;
+        object.serialize_field("end_column", &end.column)?;
+        object.serialize_field("axis", &self.axis)?;
+        object.serialize_field("message", &self.message)?;
+        object.serialize_field("help", &self.advice)?;
+        if !self.fixes.is_empty() {
+            object.serialize_field("fixes", &self.fixes)?;
+        }
+        object.end()
     }
 }

@@ -9,7 +9,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::hash::Hash;
 use std::ops::Range;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -134,12 +134,12 @@ impl Region {
 
 impl Interpreter {
     /// What a region could change.
-    pub(super) fn region(&mut self, unit: usize, range: Range<EntryIndex>) -> Rc<Region> {
+    pub(super) fn region(&mut self, unit: usize, range: Range<EntryIndex>) -> Arc<Region> {
         let key = (unit, range.start, range.end);
         let version = self.state.memory.macro_version();
         let known = self.regions.get(&key);
         if let Some(known) = known.filter(|known| known.macro_version == version) {
-            return Rc::clone(known);
+            return Arc::clone(known);
         }
         let mut gathering = Gathering {
             run: self,
@@ -163,8 +163,8 @@ impl Interpreter {
                 gathering.blocks(unit, section.start..section.end);
             }
         }
-        let region = Rc::new(gathering.region);
-        self.regions.insert(key, Rc::clone(&region));
+        let region = Arc::new(gathering.region);
+        self.regions.insert(key, Arc::clone(&region));
         region
     }
 

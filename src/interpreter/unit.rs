@@ -1,7 +1,6 @@
 //! The files of a run: which blocks were executed, and those that are kept parsed.
 
 use std::collections::BTreeSet;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::at::{At, Shown};
@@ -16,7 +15,7 @@ use crate::text::Span;
 pub(super) struct Unit {
     pub(super) index: Index,
     /// Blocks that were executed more than once, parsed.
-    pub(super) kept: Vec<Option<Rc<Parsed>>>,
+    pub(super) kept: Vec<Option<Arc<Parsed>>>,
     /// Blocks below this one were executed before.
     pub(super) high: EntryIndex,
     /// Which blocks were executed, where that is asked for.
@@ -52,11 +51,11 @@ impl Unit {
 
 impl Interpreter {
     /// A parsed block; those that are executed again are kept.
-    pub(super) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Rc<Parsed> {
+    pub(super) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
         let place = entry as usize;
         let unit = &mut self.units[unit];
         if let Some(Some(kept)) = unit.kept.get(place) {
-            return Rc::clone(kept);
+            return Arc::clone(kept);
         }
         unit.executed[place] = true;
         let mut block = Block::default();
@@ -72,7 +71,7 @@ impl Interpreter {
             remark = raw.remark.cloned();
         }
         let remark = remark.or_else(|| unit.index.remark(entry));
-        let parsed = Rc::new(Parsed {
+        let parsed = Arc::new(Parsed {
             block,
             file: Arc::clone(unit.index.source.name()),
             line: unit.index.entries[place].line,
@@ -86,7 +85,7 @@ impl Interpreter {
             if unit.kept.len() <= place {
                 unit.kept.resize(unit.index.entries.len(), None);
             }
-            unit.kept[place] = Some(Rc::clone(&parsed));
+            unit.kept[place] = Some(Arc::clone(&parsed));
             self.kept += 1;
         }
         parsed

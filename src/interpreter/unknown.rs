@@ -3,7 +3,6 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::at::At;
@@ -129,7 +128,7 @@ impl Interpreter {
         unit: usize,
         range: Range<EntryIndex>,
         cause: &Arc<str>,
-    ) -> Rc<Region> {
+    ) -> Arc<Region> {
         let version = self.state.memory.macro_version();
         let region = self.forget_blocks(unit, range.clone(), cause);
         // What it defines it may use as well, before or after: the second look finds such macros
@@ -145,7 +144,7 @@ impl Interpreter {
         unit: usize,
         range: Range<EntryIndex>,
         cause: &Arc<str>,
-    ) -> Rc<Region> {
+    ) -> Arc<Region> {
         let key = (unit, range.start, range.end);
         let version = self.state.memory.macro_version();
         let known = self.regions.get(&key);
@@ -417,4 +416,4 @@ impl Interpreter {
 }
 
 /// Regions that were looked through.
-pub(super) type Regions = HashMap<RegionKey, Rc<Region>>;
+pub(super) type Regions = HashMap<RegionKey, Arc<Region>>;

@@ -22,7 +22,7 @@ use crate::text::{Place, Span};
 use memory::Memory;
 
 /// A diagnostic at the end of a program, with the executed block that it is about.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct EndNote {
     /// The executed block that it is about.
     pub seq: u64,

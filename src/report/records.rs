@@ -1,14 +1,11 @@
 //! The records of chapter 9.2 as JSON objects, one after another in one buffer.
 
 use crate::comp::{Change, Kind, KindSet};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::timeline::{End, Record, Repeat, Row, SCHEMA, StateView, Summary};
+use crate::diagnostic::{Diagnostic, Fix, Severity};
+use crate::timeline::{End, Record, Repeat, Row, SCHEMA, StateView, Summary, TOOL};
 
 use super::strings::{integer, optional, separated, string};
 use super::view::View;
-
-/// The name and version that the session record carries.
-const TOOL: &str = concat!("frictcomp ", env!("CARGO_PKG_VERSION"));
 
 /// Where an object stands: what comes before and after it.
 #[derive(Debug, Clone, Copy)]
@@ -246,6 +243,33 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         string(out, &advice.to_string());
     });
     out.push(b']');
+    if !diagnostic.fixes.is_empty() {
+        out.extend_from_slice(b",\"fixes\":[");
+        separated(out, &diagnostic.fixes, append_fix);
+        out.push(b']');
+    }
+}
+
+fn append_fix(out: &mut Vec<u8>, fix: &Fix) {
+    let (start, end) = (fix.place.start(), fix.place.end());
+    out.extend_from_slice(b"{\"file\":");
+    string(out, &fix.place.file);
+    for (key, number) in [
+        (&b"line"[..], start.line),
+        (b"column", start.column),
+        (b"end_line", end.line),
+        (b"end_column", end.column),
+    ] {
+        out.extend_from_slice(b",\"");
+        out.extend_from_slice(key);
+        out.extend_from_slice(b"\":");
+        integer(out, number);
+    }
+    out.extend_from_slice(b",\"text\":");
+    string(out, &fix.text);
+    out.extend_from_slice(b",\"safety\":");
+    string(out, fix.safety.as_str());
+    out.push(b'}');
 }
 
 /// Appends `friction`, and `compensation` when other kinds are selected (R9.12).

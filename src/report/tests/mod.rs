@@ -1,6 +1,7 @@
 //! Every format over one session made by hand.
 
 mod player;
+mod serial;
 
 use std::io::{self, Write};
 

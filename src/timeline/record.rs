@@ -1,21 +1,22 @@
-//! Rows and records: what a dry run says, in the order in which it is said.
-//!
-//! The records of a session come in a fixed order (chapter 9.2 of the rules): the session, then
-//! for each program its beginning, its blocks, its end, and at last the summary. A [`Sink`] takes
-//! them one after another; nothing is kept, so a program of any length streams through.
+//! The records and who takes them.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
+use serde::Serialize;
+
 use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
-pub use crate::lint::EndNote;
+use crate::interpreter::{EndedBy, Modal, Motion};
+use crate::lint::EndNote;
 use crate::machine::Machine;
 use crate::text::Position;
 
 /// The number of the record format.
 pub const SCHEMA: u32 = 1;
+
+/// The name and version that the session record carries.
+pub const TOOL: &str = concat!("frictcomp ", env!("CARGO_PKG_VERSION"));
 
 /// The compensation of all axes at one moment.
 #[derive(Debug, Clone, Copy)]
@@ -120,7 +121,7 @@ pub struct End<'a> {
 }
 
 /// What the text summary says about one axis.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct AxisSummary {
     /// Kinds other than friction compensation that are not as at the start of the control.
     pub others_away: KindSet,
@@ -142,7 +143,7 @@ pub struct AxisSummary {
 }
 
 /// A block that changed an axis.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ChangedBy {
     /// The program of the session, from 1.
     pub program: u32,
@@ -211,8 +212,63 @@ pub enum Record<'a> {
     Summary(&'a Summary<'a>),
 }
 
+impl<'a> Record<'a> {
+    /// The diagnostics that come with the record, in the order in which they are written: those of a
+    /// block after it, those of an end before it.
+    pub fn diagnostics(&self) -> impl Iterator<Item = DiagnosticRecord<'a>> {
+        let (program, row, notes): (_, Option<Row<'a>>, &'a [EndNote]) = match *self {
+            Self::Block(row) => (row.program, Some(row), &[]),
+            Self::End(end) => (end.program, None, end.notes),
+            _ => (0, None, &[]),
+        };
+        let of_block = row.into_iter().flat_map(|row| {
+            let block = (row.program, row.seq);
+            let diagnostics = row.diagnostics.iter();
+            diagnostics.map(move |diagnostic| DiagnosticRecord {
+                block: Some(block),
+                diagnostic,
+            })
+        });
+        of_block.chain(notes.iter().map(move |note| DiagnosticRecord {
+            block: Some((program, note.seq)),
+            diagnostic: &note.diagnostic,
+        }))
+    }
+}
+
+/// A diagnostic as a record of its own.
+#[derive(Debug, Clone, Copy)]
+pub struct DiagnosticRecord<'a> {
+    /// The number of the program and the executed block; `None` for what is said about the machine.
+    pub(super) block: Option<(u32, u64)>,
+    pub(super) diagnostic: &'a Diagnostic,
+}
+
+impl<'a> DiagnosticRecord<'a> {
+    /// What is said about the machine's lists.
+    pub fn of_machine(diagnostic: &'a Diagnostic) -> Self {
+        Self {
+            block: None,
+            diagnostic,
+        }
+    }
+
+    /// The diagnostic.
+    pub fn diagnostic(&self) -> &'a Diagnostic {
+        self.diagnostic
+    }
+}
+
 /// Takes the records of a session.
+///
+/// A closure is one too.
 pub trait Sink {
     /// Takes one record. `Break` ends the dry run, for a closed pipe or a user's interrupt.
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()>;
+}
+
+impl<F: FnMut(&Record<'_>) -> ControlFlow<()>> Sink for F {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self(record)
+    }
 }

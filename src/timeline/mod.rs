@@ -1,0 +1,18 @@
+//! Rows and records: what a dry run says, in the order in which it is said.
+//!
+//! The records of a session come in a fixed order (chapter 9.2 of the rules): the session, then
+//! for each program its beginning, its blocks, its end, and at last the summary. A [`Sink`] takes
+//! them one after another; nothing is kept, so a program of any length streams through.
+//!
+//! Records are [`Serialize`](serde::Serialize): the objects are those of `--format ndjson`. What is
+//! said about a block or at an end is a record of its own there, see [`Record::diagnostics`].
+
+mod record;
+mod serial;
+
+pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
+pub use crate::lint::EndNote;
+pub use record::{
+    AxisSummary, ChangedBy, DiagnosticRecord, End, Record, Repeat, Row, SCHEMA, Sink, StateView,
+    Summary, TOOL,
+};

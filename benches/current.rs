@@ -208,10 +208,7 @@ fn cycles_of(program: &str) -> u64 {
         planner: TrajectoryPlanner::new(&machine, &axes, PlannerOptions::default()),
         cycles: Count(0),
     };
-    let options = SessionOptions {
-        motions: Motions::Taken,
-        ..SessionOptions::default()
-    };
+    let options = SessionOptions::default().with_motions(Motions::Taken);
     let mut session = Session::new(machine, options);
     let source = SourceFile::new("bench.nc", program);
     let _ = session.program(

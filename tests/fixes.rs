@@ -51,10 +51,7 @@ impl Sink for Run {
 }
 
 fn run(programs: &[(&str, &str)]) -> Run {
-    let options = SessionOptions {
-        stop: StopPolicy::CheckAll,
-        ..SessionOptions::default()
-    };
+    let options = SessionOptions::default().with_stop(StopPolicy::CheckAll);
     let machine = Machine::from_toml(MACHINE).expect("a machine");
     let mut session = Session::new(machine, options);
     let mut run = Run::default();

@@ -121,10 +121,7 @@ impl Sink for Nobody {
 
 fn cost(text: &str) -> Cost {
     let machine = Machine::enabled(["X", "Y"]);
-    let options = SessionOptions {
-        stop: StopPolicy::CheckAll,
-        ..SessionOptions::default()
-    };
+    let options = SessionOptions::default().with_stop(StopPolicy::CheckAll);
     let source = SourceFile::new("a.nc", text);
     let wanted: usize = text
         .lines()

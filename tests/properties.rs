@@ -145,17 +145,13 @@ impl Sink for Said {
 }
 
 fn options(stop: StopPolicy) -> SessionOptions {
-    SessionOptions {
-        stop,
-        limits: Limits {
-            blocks: 200,
-            calls: 5,
-            nesting: 5,
-            macros: 4,
-            ..Limits::default()
-        },
-        ..SessionOptions::default()
-    }
+    SessionOptions::default().with_stop(stop).with_limits(
+        Limits::default()
+            .with_blocks(200)
+            .with_calls(5)
+            .with_nesting(5)
+            .with_macros(4),
+    )
 }
 
 fn run(stop: StopPolicy, program: impl FnOnce(&mut Session, &mut Said)) -> Vec<String> {

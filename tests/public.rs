@@ -1,8 +1,8 @@
 //! What every host may rely on: all that is public can be sent to another thread.
 
 use frictcomp::{
-    circle, comp, config, current, diagnostic, interpreter, lists, machine, motion, session,
-    simulation, syntax, text, timeline,
+    circle, comp, current, diagnostic, interpreter, lists, machine, motion, session, simulation,
+    syntax, text, timeline,
 };
 
 fn is_send<T: Send>() {}
@@ -21,7 +21,7 @@ fn what_is_public_is_send() {
     is_send::<lists::Entries>();
     is_send::<lists::FrictionDraft>();
     is_send::<lists::StartupList>();
-    is_send::<config::ConfigError>();
+    is_send::<machine::ConfigError>();
     is_send::<machine::Machine>();
     is_send::<machine::Configuration>();
     is_send::<machine::ListsReport>();

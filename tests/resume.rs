@@ -89,10 +89,7 @@ fn machine() -> Machine {
 }
 
 fn options() -> Options {
-    Options {
-        stop: StopPolicy::CheckAll,
-        ..Options::default()
-    }
+    Options::default().with_stop(StopPolicy::CheckAll)
 }
 
 /// What an event says.
@@ -312,13 +309,7 @@ fn numbers(document: &Value, place: &str, found: &mut Vec<String>) {
 
 #[test]
 fn any_number_of_a_snapshot_may_be_wrong() {
-    let options = Options {
-        limits: Limits {
-            blocks: 2000,
-            ..Limits::default()
-        },
-        ..options()
-    };
+    let options = options().with_limits(Limits::default().with_blocks(2000));
     for saved in [stopped(), stopped_with_open_ways()] {
         let whole = document(&saved);
         let mut places = Vec::new();

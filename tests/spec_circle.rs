@@ -6,8 +6,8 @@ use std::f64::consts::{PI, TAU};
 
 use frictcomp::circle::{
     Circle, CircleError, CircularTest, Comparison, Crossing, Direction, Figures, Finding, FoundAt,
-    Job, Lap, Ranges, RecordedCircle, RecordedError, Recording, Task, Tuned, advise, advise_on,
-    tune,
+    Job, Lap, Ranges, RecordedCircle, RecordedError, Recording, Task, Tuned, diagnose,
+    diagnose_comparison, tune,
 };
 use frictcomp::current::{Reading, Switched};
 use frictcomp::lists::Field;
@@ -245,10 +245,10 @@ fn both_directions_meet_the_reference() {
         within(mirrored(on, cw), straight(on, ccw), 1e-6);
     }
     // R5.24
-    let advice = advise(&comparison.off.paths, Some(Switched::Off));
+    let advice = diagnose(&comparison.off.paths, Some(Switched::Off));
     assert_eq!(advice.len(), 8, "{advice:?}");
     assert!(advice.iter().all(|it| it.finding == Finding::Friction));
-    assert!(advise(&comparison.on.paths, Some(Switched::On)).is_empty());
+    assert!(diagnose(&comparison.on.paths, Some(Switched::On)).is_empty());
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn the_wrong_sign_makes_it_worse() {
     // R5.24: it is told from a compensation that is too weak.
     let laps = [Switched::Off, Switched::On];
     let laps = laps.map(|compensation| lap(&test, compensation, Direction::Ccw));
-    let advice = advise_on(&Comparison::of(laps));
+    let advice = diagnose_comparison(&Comparison::of(laps));
     assert!(
         advice.iter().all(|it| it.finding == Finding::WrongSign),
         "{advice:?}"
@@ -292,7 +292,7 @@ fn shapes_tell_what_is_wrong() {
         test.lists.iter_mut().for_each(change);
         let lap = lap(&test, Switched::On, Direction::Ccw);
         let comparison = Comparison::of([lap]);
-        let advice = advise(&comparison.on.paths, Some(Switched::On));
+        let advice = diagnose(&comparison.on.paths, Some(Switched::On));
         assert_eq!(advice.len(), 4, "{finding:?}: {advice:?}");
         assert!(advice.iter().all(|it| it.finding == finding), "{advice:?}");
     }
@@ -398,7 +398,7 @@ fn backlash_and_ellipses_are_told_apart() {
         }
     };
     let recording_of_backlash = recording(backlash(1.0), backlash(-1.0), None);
-    let advice = advise(&recording_of_backlash.side.paths, None);
+    let advice = diagnose(&recording_of_backlash.side.paths, None);
     let at = |crossing: Crossing| {
         let here = advice
             .iter()
@@ -415,7 +415,7 @@ fn backlash_and_ellipses_are_told_apart() {
             move |angle| cw * (2.0 * angle).sin(),
             None,
         );
-        let advice = advise(&side.side.paths, None);
+        let advice = diagnose(&side.side.paths, None);
         let whole = advice.iter().filter(|it| it.place == FoundAt::Whole);
         whole.map(|it| it.finding).collect::<Vec<_>>()
     };
@@ -433,7 +433,7 @@ fn axes_with_different_gains_make_an_ellipse_at_45_degrees() {
     }
     let laps = Direction::ALL.map(|direction| lap(&test, Switched::Off, direction));
     let comparison = Comparison::of(laps);
-    let advice = advise(&comparison.off.paths, Some(Switched::Off));
+    let advice = diagnose(&comparison.off.paths, Some(Switched::Off));
     let whole: Vec<_> = advice
         .iter()
         .filter(|it| it.place == FoundAt::Whole)

@@ -3,7 +3,7 @@
 
 use frictcomp::machine::Configuration;
 use frictcomp::report::{Ndjson, View};
-use frictcomp::session::{Program, Session, SessionOptions};
+use frictcomp::session::{Program, Session};
 use frictcomp::text::SourceFile;
 use frictcomp::comp::KindSet;
 use frictcomp_fuzz::{Bench, Files, POLICIES};
@@ -25,16 +25,9 @@ fuzz_target!(|input: &str| {
         files,
         stop: POLICIES[1],
     };
-    let options = SessionOptions {
-        settings: configuration.settings,
-        levels: configuration.levels,
-        ..bench.options()
-    };
+    let options = bench.options().with_settings(configuration.settings).with_levels(configuration.levels);
     let mut session = Session::new(configuration.machine, options);
-    let view = View {
-        kinds: KindSet::ALL,
-        ..View::default()
-    };
+    let view = View::default().with_kinds(KindSet::ALL);
     let mut sink = Ndjson::new(std::io::sink(), view);
     let _ = session.begin(&configuration.diagnostics, &mut sink);
     let program = Program::Whole(SourceFile::new("program.nc", PROGRAM));

@@ -28,19 +28,7 @@ pub struct Bench<'a> {
 
 impl Bench<'_> {
     pub fn options(self) -> SessionOptions {
-        SessionOptions {
-            stop: self.stop,
-            skip: 0b10,
-            limits: Limits {
-                blocks: 100,
-                work: 50_000,
-                values: 1000,
-                calls: 5,
-                nesting: 8,
-                macros: 4,
-            },
-            ..SessionOptions::default()
-        }
+        SessionOptions::default().with_stop(self.stop).with_skip(0b10).with_limits(Limits::default().with_blocks(100).with_work(50_000).with_values(1000).with_calls(5).with_nesting(8).with_macros(4))
     }
 
     /// Runs the text as it stands in memory.

@@ -16,12 +16,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
         stop: POLICIES[dice.below(3)],
     };
     let session = bench.options();
-    let options = Options {
-        stop: session.stop,
-        skip: session.skip,
-        limits: session.limits,
-        ..Options::default()
-    };
+    let options = Options::default().with_stop(session.stop).with_skip(session.skip).with_limits(session.limits);
     let machine = machine();
     let compensation = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), compensation, options);

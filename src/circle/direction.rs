@@ -7,6 +7,7 @@ use serde::Serialize;
 /// The direction of travel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Direction {
     /// Counter-clockwise, G03.
     Ccw,

@@ -15,6 +15,7 @@ const BESIDE: std::ops::Range<usize> = 8..20;
 
 /// A crossing from one quadrant into the next: there one axis reverses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[non_exhaustive]
 pub enum Crossing {
     /// At the largest X: the X axis reverses.
     #[serde(rename = "X+")]

@@ -5,8 +5,8 @@
 //! in both directions; their [`RadialProfile`]s give the [`Figures`]. A [`RecordedCircle`] gives
 //! the same of a real machine, and [`tune`] searches the parameters of a value list.
 
-mod advice;
 mod compare;
+mod diagnosis;
 mod direction;
 mod figures;
 mod glitch;
@@ -19,8 +19,8 @@ mod test;
 mod tune;
 mod zone;
 
-pub use advice::{Advice, Finding, FoundAt, NOTICEABLE_UM, advise, advise_on};
 pub use compare::{Comparison, Side};
+pub use diagnosis::{Diagnosis, Finding, FoundAt, NOTICEABLE_UM, diagnose, diagnose_comparison};
 pub use direction::Direction;
 pub use figures::{Figures, PathFigures, Paths};
 pub use glitch::{Crossing, Glitch};

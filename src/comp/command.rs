@@ -7,6 +7,7 @@ use crate::text::Span;
 
 /// What a COMP bracket selects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Selection {
     /// `ON` and the kinds after it.
     On(KindSet),

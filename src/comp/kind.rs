@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A kind of axis compensation that COMP switches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
+#[non_exhaustive]
 pub enum Kind {
     /// Backlash compensation.
     Backlash,

@@ -7,6 +7,7 @@ use crate::lists::{FrictionList, TablePoint};
 
 /// Whether friction compensation is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Switched {
     /// On.
     On,

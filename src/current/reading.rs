@@ -32,6 +32,7 @@ pub struct Reading {
 
 /// The value while the axis stands still (R4.6).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Standstill {
     /// The direction of the last motion is remembered and the value held.
     #[default]
@@ -42,6 +43,7 @@ pub enum Standstill {
 
 /// The value below the first point of the table (R4.7).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Below {
     /// The first output is held.
     #[default]
@@ -52,6 +54,7 @@ pub enum Below {
 
 /// What `delay_cycles` postpones (R4.5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Delay {
     /// The whole output: a dead time.
     #[default]

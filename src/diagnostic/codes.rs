@@ -14,6 +14,7 @@ macro_rules! codes {
     ($($name:ident $text:literal $severity:ident $title:literal;)+) => {
         /// The stable name of a diagnostic.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
         pub enum Code {
             $(#[doc = concat!("`", $text, "`: ", $title, ".")] $name,)+
         }

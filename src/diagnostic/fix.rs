@@ -10,6 +10,7 @@ use crate::text::{Place, SourceFile, Span};
 /// Whether a fix may be applied without a look at it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Safety {
     /// The machine does the same before and after it.
     Safe,

@@ -16,6 +16,7 @@ use crate::text::Span;
 
 /// Bounds on what a dry run may do (R2.60).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Limits {
     /// Executed blocks of a session, `--max-blocks`.
     pub blocks: u64,
@@ -30,6 +31,44 @@ pub struct Limits {
     pub nesting: u32,
     /// Depth of macro expansion, `--max-macros`.
     pub macros: u32,
+}
+
+impl Limits {
+    /// The same with another value of [`blocks`](Self::blocks).
+    pub fn with_blocks(mut self, blocks: u64) -> Self {
+        self.blocks = blocks;
+        self
+    }
+
+    /// The same with another value of [`work`](Self::work).
+    pub fn with_work(mut self, work: u64) -> Self {
+        self.work = work;
+        self
+    }
+
+    /// The same with another value of [`values`](Self::values).
+    pub fn with_values(mut self, values: u32) -> Self {
+        self.values = values;
+        self
+    }
+
+    /// The same with another value of [`calls`](Self::calls).
+    pub fn with_calls(mut self, calls: u32) -> Self {
+        self.calls = calls;
+        self
+    }
+
+    /// The same with another value of [`nesting`](Self::nesting).
+    pub fn with_nesting(mut self, nesting: u32) -> Self {
+        self.nesting = nesting;
+        self
+    }
+
+    /// The same with another value of [`macros`](Self::macros).
+    pub fn with_macros(mut self, macros: u32) -> Self {
+        self.macros = macros;
+        self
+    }
 }
 
 impl Default for Limits {

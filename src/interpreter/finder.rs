@@ -4,6 +4,7 @@ use crate::text::SourceFile;
 
 /// Why a called program is not at hand.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NoProgram {
     /// There is none (FC320).
     Absent,

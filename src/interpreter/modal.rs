@@ -11,6 +11,7 @@ use crate::comp::AxisIndex;
 
 /// A group of G functions of which one is in force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Group {
     /// G00 G01 G02 G03.
     Motion,
@@ -107,6 +108,7 @@ impl From<GroupSet> for Vec<Group> {
 
 /// Whether a position is one of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Frame {
     /// No transformation is active.
     Machine,

@@ -24,6 +24,7 @@ pub enum Motions {
 
 /// What a block makes the machine do.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Motion {
     /// Axes move.
     Travel(Travel),
@@ -48,6 +49,7 @@ pub struct Travel {
 
 /// What a motion follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Form {
     /// G00: a straight line, as fast as the axes can.
     Rapid,
@@ -72,6 +74,7 @@ pub struct Arc {
 
 /// The sense of rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Turn {
     /// G02.
     Clockwise,
@@ -81,6 +84,7 @@ pub enum Turn {
 
 /// How the centre of an arc is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Centre {
     /// By its coordinates on the two axes of the plane, in mm.
     Point([f64; 2]),
@@ -90,6 +94,7 @@ pub enum Centre {
 
 /// How fast the path is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum PathFeed {
     /// G94: in mm/min, or °/min where only rotary axes move.
     PerMinute(f64),
@@ -101,6 +106,7 @@ pub enum PathFeed {
 
 /// What happens at the end of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum BlockEnd {
     /// The path goes on as fast as its corner allows.
     #[default]

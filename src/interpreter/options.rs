@@ -7,6 +7,7 @@ use crate::syntax::FastPath;
 
 /// What happens at an error of the control (R9.20).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum StopPolicy {
     /// The first error stops the program and the session, as on the control.
     #[default]
@@ -19,6 +20,7 @@ pub enum StopPolicy {
 
 /// How programs are run.
 #[derive(Debug, Clone, Copy, Default)]
+#[non_exhaustive]
 pub struct Options {
     /// What happens at an error.
     pub stop: StopPolicy,
@@ -32,6 +34,44 @@ pub struct Options {
     pub notes: Notes,
     /// Whether blocks say what they move.
     pub motions: Motions,
+}
+
+impl Options {
+    /// The same with another value of [`stop`](Self::stop).
+    pub fn with_stop(mut self, stop: StopPolicy) -> Self {
+        self.stop = stop;
+        self
+    }
+
+    /// The same with another value of [`skip`](Self::skip).
+    pub fn with_skip(mut self, skip: u16) -> Self {
+        self.skip = skip;
+        self
+    }
+
+    /// The same with another value of [`limits`](Self::limits).
+    pub fn with_limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// The same with another value of [`fast_path`](Self::fast_path).
+    pub fn with_fast_path(mut self, fast_path: FastPath) -> Self {
+        self.fast_path = fast_path;
+        self
+    }
+
+    /// The same with another value of [`notes`](Self::notes).
+    pub fn with_notes(mut self, notes: Notes) -> Self {
+        self.notes = notes;
+        self
+    }
+
+    /// The same with another value of [`motions`](Self::motions).
+    pub fn with_motions(mut self, motions: Motions) -> Self {
+        self.motions = motions;
+        self
+    }
 }
 
 /// How a run goes on.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// A value of an expression, parameter or variable.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Value {
     /// A number.
     Number(f64),

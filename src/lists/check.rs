@@ -33,6 +33,7 @@ impl Default for Conditions {
 
 /// What the control makes of a list.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Verdict {
     /// There are no friction parameters at all.
     Absent,

@@ -8,6 +8,7 @@ use super::value::Given;
 
 /// What runs a program of the channel list.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Role {
     /// The start of every main program.
     Start,

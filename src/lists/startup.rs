@@ -11,6 +11,7 @@ use crate::diagnostic::{Code, Diagnostic};
 
 /// The kinds of list that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ListKind {
     /// It names the other lists: `hochlauf.lis`.
     Startup,

@@ -7,6 +7,7 @@ use crate::text::{Place, SourceFile, Span};
 
 /// A number as a list or `frictcomp.toml` writes it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Number {
     /// Without point and exponent, decimal or hexadecimal.
     Integer(i64),

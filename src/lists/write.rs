@@ -8,6 +8,7 @@ use crate::comp::CncBuild;
 
 /// How the points of the table are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Points {
     /// As whole numbers (SGN32), which every build of the control reads.
     Whole,

@@ -8,6 +8,7 @@ use crate::lists::Origin;
 
 /// Where the axes of a machine come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum AxisSet {
     /// The configuration lists them; any other name is P-ERR-21947.
     #[default]
@@ -37,6 +38,7 @@ pub struct Machine {
 
 /// What a program start does to P parameters (R2.33).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum Parameters {
     /// They are cleared.
     #[default]

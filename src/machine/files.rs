@@ -8,6 +8,7 @@ use crate::text::SourceFile;
 
 /// Why there is no list at a path.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoList {
     /// Nothing is there.
     #[error("it is not found")]

@@ -18,11 +18,26 @@ use crate::timeline::Row;
 
 /// How a trace is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct PlannerOptions {
     /// The CNC cycle.
     pub cycle_s: f64,
     /// How many cycles the trace may have.
     pub max_cycles: u64,
+}
+
+impl PlannerOptions {
+    /// The same with another value of [`cycle_s`](Self::cycle_s).
+    pub fn with_cycle_s(mut self, cycle_s: f64) -> Self {
+        self.cycle_s = cycle_s;
+        self
+    }
+
+    /// The same with another value of [`max_cycles`](Self::max_cycles).
+    pub fn with_max_cycles(mut self, max_cycles: u64) -> Self {
+        self.max_cycles = max_cycles;
+        self
+    }
 }
 
 impl Default for PlannerOptions {

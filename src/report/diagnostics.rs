@@ -16,6 +16,7 @@ pub const DEFAULT_WIDTH: usize = 80;
 
 /// Whether text output carries colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Paint {
     /// It does not.
     #[default]

@@ -15,6 +15,7 @@ use super::{concise, github, json};
 
 /// A format for diagnostics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum ListingFormat {
     /// Source lines with carets, for people.
     #[default]

@@ -5,6 +5,7 @@ use crate::timeline::Row;
 
 /// Which blocks are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Blocks {
     /// Every block.
     #[default]
@@ -15,11 +16,26 @@ pub enum Blocks {
 
 /// What a timeline shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct View {
     /// The blocks that are written.
     pub blocks: Blocks,
     /// The kinds of compensation whose changes are written.
     pub kinds: KindSet,
+}
+
+impl View {
+    /// The same with another value of [`blocks`](Self::blocks).
+    pub fn with_blocks(mut self, blocks: Blocks) -> Self {
+        self.blocks = blocks;
+        self
+    }
+
+    /// The same with another value of [`kinds`](Self::kinds).
+    pub fn with_kinds(mut self, kinds: KindSet) -> Self {
+        self.kinds = kinds;
+        self
+    }
 }
 
 impl Default for View {

@@ -33,6 +33,7 @@ use saved::{fingerprint, storable};
 
 /// How a session runs.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct SessionOptions {
     /// What happens at an error.
     pub stop: StopPolicy,
@@ -55,7 +56,64 @@ pub struct SessionOptions {
     pub wording: Option<Wording>,
 }
 
+impl SessionOptions {
+    /// The same with another value of [`stop`](Self::stop).
+    pub fn with_stop(mut self, stop: StopPolicy) -> Self {
+        self.stop = stop;
+        self
+    }
+
+    /// The same with another value of [`skip`](Self::skip).
+    pub fn with_skip(mut self, skip: u16) -> Self {
+        self.skip = skip;
+        self
+    }
+
+    /// The same with another value of [`limits`](Self::limits).
+    pub fn with_limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// The same with another value of [`levels`](Self::levels).
+    pub fn with_levels(mut self, levels: Levels) -> Self {
+        self.levels = levels;
+        self
+    }
+
+    /// The same with another value of [`settings`](Self::settings).
+    pub fn with_settings(mut self, settings: Vec<(String, Setting)>) -> Self {
+        self.settings = settings;
+        self
+    }
+
+    /// The same with another value of [`notes`](Self::notes).
+    pub fn with_notes(mut self, notes: Notes) -> Self {
+        self.notes = notes;
+        self
+    }
+
+    /// The same with another value of [`motions`](Self::motions).
+    pub fn with_motions(mut self, motions: Motions) -> Self {
+        self.motions = motions;
+        self
+    }
+
+    /// The same with another value of [`switched`](Self::switched).
+    pub fn with_switched(mut self, switched: Vec<String>) -> Self {
+        self.switched = switched;
+        self
+    }
+
+    /// The same with another value of [`wording`](Self::wording).
+    pub fn with_wording(mut self, wording: Option<Wording>) -> Self {
+        self.wording = wording;
+        self
+    }
+}
+
 /// The text of a program.
+#[non_exhaustive]
 pub enum Program<'a> {
     /// Lines that come one after another. After the first block that can be reached again the rest
     /// is taken into memory; what keeps that rest from running is found only there, see

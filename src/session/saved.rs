@@ -18,6 +18,7 @@ pub const STATE_SCHEMA: u32 = 2;
 
 /// Why a saved state cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum StateError {
     /// It has another schema.
     #[error("the state has schema {found}; this version reads schema 1 and {STATE_SCHEMA}")]

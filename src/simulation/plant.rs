@@ -22,6 +22,7 @@ pub struct Plant {
 
 /// A plant whose values the rules give (chapter 5.2). They differ in the stiffness of the contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Preset {
     /// 1000 N/µm.
     #[default]

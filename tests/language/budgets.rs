@@ -79,10 +79,7 @@ fn run(text: &str) -> Ran {
 }
 
 fn going_on() -> Options {
-    Options {
-        stop: StopPolicy::KeepGoing,
-        ..Options::default()
-    }
+    Options::default().with_stop(StopPolicy::KeepGoing)
 }
 
 #[test]
@@ -497,10 +494,7 @@ impl Heard {
 
 fn heard(text: &str, stop: StopPolicy) -> Heard {
     let machine = Machine::from_toml(MACHINE).expect("the test's machine");
-    let options = SessionOptions {
-        stop,
-        ..SessionOptions::default()
-    };
+    let options = SessionOptions::default().with_stop(stop);
     let mut session = Session::new(machine, options);
     let mut heard = Heard::default();
     let program = Program::Whole(SourceFile::new("a.nc", text));

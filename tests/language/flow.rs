@@ -65,10 +65,7 @@ fn counting_loops() {
     // The body may change the counter and the end.
     assert_snapshot!(lines("P2=10\n$FOR P1=1,P2,1\nP1=P1+3\nP2=6\n$ENDFOR\nV.S.R=P1\nM30"), @"1 2 3 4 5 3 4 5 6 7");
     // Step 0 is endless.
-    let limits = Limits {
-        blocks: 7,
-        ..Limits::default()
-    };
+    let limits = Limits::default().with_blocks(7);
     assert_snapshot!(Bench::new().limits(limits).run(&["$FOR P1=1,3,0\nX1\n$ENDFOR\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
@@ -199,10 +196,7 @@ fn unbalanced_blocks() {
 fn budgets() {
     // R2.60
     let limits = |limits: Limits| Bench::new().limits(limits);
-    let bench = limits(Limits {
-        blocks: 5,
-        ..Limits::default()
-    });
+    let bench = limits(Limits::default().with_blocks(5));
     assert_snapshot!(bench.run(&["X1\n$WHILE 1\n$IF 1\nX2\n$ENDIF\n$ENDWHILE\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
@@ -225,10 +219,7 @@ fn budgets() {
         FC910 6:1-3
       end 5 budget X:active Y:active Z:unconfigured B:ineffective
     ");
-    let bench = limits(Limits {
-        calls: 3,
-        ..Limits::default()
-    });
+    let bench = limits(Limits::default().with_calls(3));
     assert_snapshot!(bench.run(&["%L S\nLL S\nM17\n%M\nLL S\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc M
@@ -239,10 +230,7 @@ fn budgets() {
         FC911 2:1-5
       end 4 budget X:active Y:active Z:unconfigured B:ineffective
     ");
-    let bench = limits(Limits {
-        nesting: 2,
-        ..Limits::default()
-    });
+    let bench = limits(Limits::default().with_nesting(2));
     assert_snapshot!(bench.run(&["$IF 1\n$IF 1\n$IF 1\n$ENDIF\n$ENDIF\n$ENDIF\nM30"]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
@@ -259,10 +247,7 @@ fn budgets() {
     ");
     let fits = format!("P1={}1{}\nM30", "[".repeat(64), "]".repeat(64));
     assert!(!Bench::new().run(&[&fits]).contains("FC913"));
-    let bench = limits(Limits {
-        macros: 2,
-        ..Limits::default()
-    });
+    let bench = limits(Limits::default().with_macros(2));
     let chain = "\"A\"=\"\\\"B\\\"\"\n\"B\"=\"\\\"C\\\"\"\n\"C\"=\"X1\"\n\"B\"\n\"A\"\nM30";
     assert_snapshot!(bench.run(&[chain]), @"
     start X:active Y:active Z:unconfigured B:ineffective
@@ -288,10 +273,7 @@ fn budgets() {
 #[test]
 fn budgets_name_the_loop_that_used_them_up() {
     // R2.60
-    let limits = Limits {
-        blocks: 5,
-        ..Limits::default()
-    };
+    let limits = Limits::default().with_blocks(5);
     let said = Bench::new()
         .limits(limits)
         .said("X1\n$WHILE 1\n$IF 1\nX2\n$ENDIF\n$ENDWHILE\nM30");

@@ -123,10 +123,7 @@ pub(crate) fn trace_of(
     };
     let mut session = Session::new(
         machine,
-        SessionOptions {
-            motions: Motions::Taken,
-            ..SessionOptions::default()
-        },
+        SessionOptions::default().with_motions(Motions::Taken),
     );
     let source = SourceFile::new("a.nc", program);
     let flow = session.program("a.nc", Program::Whole(source), &mut NoFiles, &mut planned);

@@ -73,10 +73,7 @@ fn transformed_positions_are_said_to_be_the_programs() {
 #[test]
 fn a_trace_is_bounded() {
     // R5.1: without an end, and with numbers that nobody drives.
-    let options = PlannerOptions {
-        max_cycles: 1000,
-        ..PlannerOptions::default()
-    };
+    let options = PlannerOptions::default().with_max_cycles(1000);
     for program in [
         "G01 X0 F1000\n$WHILE 1\nX10\nX0\n$ENDWHILE\nM30",
         "G01 X0 F0.000001\nX1000\nM30",

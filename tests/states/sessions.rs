@@ -19,10 +19,7 @@ use super::program::{AXES, Program, machine};
 const LINTS: [&str; 4] = ["FC401", "FC402", "FC403", "FC407"];
 
 pub(crate) fn options() -> SessionOptions {
-    SessionOptions {
-        stop: StopPolicy::KeepGoing,
-        ..SessionOptions::default()
-    }
+    SessionOptions::default().with_stop(StopPolicy::KeepGoing)
 }
 
 /// Keeps the lints.
@@ -110,10 +107,7 @@ fn random_sessions_say_what_the_rules_say() {
 /// The records of the last program as bytes, without its number.
 fn last_records(session: &mut Session, program: (&str, &str)) -> String {
     let mut bytes = Vec::new();
-    let view = View {
-        kinds: KindSet::ALL,
-        ..View::default()
-    };
+    let view = View::default().with_kinds(KindSet::ALL);
     let mut report = Ndjson::new(&mut bytes, view);
     play(session, program, &mut report);
     report.finish().expect("written");

@@ -55,10 +55,7 @@ impl Bench {
     pub(crate) fn on(toml: &str) -> Self {
         Self {
             machine: Machine::from_toml(toml).expect("the test's machine"),
-            options: SessionOptions {
-                wording: Some(frictcomp::report::command_line),
-                ..SessionOptions::default()
-            },
+            options: SessionOptions::default().with_wording(Some(frictcomp::report::command_line)),
             files: BTreeMap::new(),
             kinds: vec![Kind::Frict],
             handed: Handed::Whole,

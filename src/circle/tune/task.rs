@@ -27,6 +27,7 @@ pub struct Task {
 
 /// With how much friction, and whether with compensation, a circle is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Variant {
     /// Without compensation.
     Off,

@@ -23,6 +23,7 @@ pub struct Assumption {
 
 /// A case in which a session depends on an assumption.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum When {
     /// In every session.
     Always,

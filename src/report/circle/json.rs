@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::super::strings::to_pretty;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
-use crate::circle::{Advice, Crossing, Glitch, PathFigures};
+use crate::circle::{Crossing, Diagnosis, Glitch, PathFigures};
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -54,7 +54,7 @@ struct SideRecord {
     #[serde(rename = "D")]
     d: Option<f64>,
     glitch_max: f64,
-    advice: Vec<Advice>,
+    advice: Vec<Diagnosis>,
 }
 
 #[derive(Serialize)]
@@ -129,7 +129,7 @@ impl PathRecord {
 impl SideRecord {
     fn of(side: &NamedSide) -> Self {
         let figures = &side.side.figures;
-        let rounded = |advice: &Advice| Advice {
+        let rounded = |advice: &Diagnosis| Diagnosis {
             size_um: round(advice.size_um),
             ..*advice
         };

@@ -1,6 +1,8 @@
 //! What is reported of a circular test.
 
-use crate::circle::{Advice, CircularTest, Comparison, Recording, Side, advise, advise_on};
+use crate::circle::{
+    CircularTest, Comparison, Diagnosis, Recording, Side, diagnose, diagnose_comparison,
+};
 use crate::current::Switched;
 
 /// How the radial deviations were treated; stands beside the figures (R5.21).
@@ -9,6 +11,7 @@ pub(super) const TREATMENT: &str = "every point of the path for G, F and the gli
 
 /// Where the value list came from.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ListOrigin {
     /// It is the friction curve of the plant.
     Plant,
@@ -27,6 +30,7 @@ pub struct CircleReport {
 
 /// What was driven.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub enum Subject {
     /// A simulated test, with the origin of its value list and the cycles in which a force was limited.
     Simulated {
@@ -49,15 +53,15 @@ pub struct NamedSide {
     /// The paths.
     pub side: Side,
     /// What their shapes suggest.
-    pub advice: Vec<Advice>,
+    pub advice: Vec<Diagnosis>,
 }
 
 impl CircleReport {
     /// The report of a simulated test.
     pub fn simulated(test: CircularTest, comparison: Comparison, origin: ListOrigin) -> Self {
         let side = |name, advice, side| NamedSide { name, side, advice };
-        let without = advise(&comparison.off.paths, Some(Switched::Off));
-        let with = advise_on(&comparison);
+        let without = diagnose(&comparison.off.paths, Some(Switched::Off));
+        let with = diagnose_comparison(&comparison);
         Self {
             subject: Subject::Simulated {
                 test: Box::new(test),
@@ -78,7 +82,7 @@ impl CircleReport {
             subject: Subject::Recorded(Box::new(recording)),
             sides: vec![NamedSide {
                 name: "recorded",
-                advice: advise(&side.paths, None),
+                advice: diagnose(&side.paths, None),
                 side,
             }],
         }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{
-    Advice, CircularTest, Crossing, Direction, Figures, Finding, FoundAt, PathFigures, Recording,
+    CircularTest, Crossing, Diagnosis, Direction, Figures, Finding, FoundAt, PathFigures, Recording,
 };
 
 /// The report for people.
@@ -253,7 +253,7 @@ impl Row {
 
 /// What the shapes suggest: the same finding at several crossings is said once.
 pub(in crate::report) fn advice_lines(side: &NamedSide) -> Vec<String> {
-    let mut said: Vec<(Finding, Vec<&Advice>)> = Vec::new();
+    let mut said: Vec<(Finding, Vec<&Diagnosis>)> = Vec::new();
     for advice in &side.advice {
         match said
             .iter_mut()

@@ -7,6 +7,7 @@ use crate::comp::State;
 
 /// What a bar says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum BandState {
     /// One state all along.
     One(State),
@@ -36,6 +37,7 @@ impl BandState {
 
 /// How a state stands to the one after a start of the control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Standing {
     /// It is that state, or nobody can say.
     #[default]

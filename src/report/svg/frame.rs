@@ -2,6 +2,7 @@
 
 /// Where a picture stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Frame<'a> {
     /// A file of its own, which carries its style.
     Alone,

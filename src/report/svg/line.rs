@@ -8,6 +8,7 @@ use super::scale::{Axis, Ends, Scale};
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Drawn {
     /// A line.
     #[default]

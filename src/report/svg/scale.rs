@@ -2,6 +2,7 @@
 
 /// How an axis is divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Spacing {
     /// Equal steps are equally long.
     #[default]

@@ -24,6 +24,7 @@ const NARROW: usize = 60;
 
 /// What happens to blocks that change nothing and about which there is nothing to say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Runs {
     /// Several of them in a row become one line with their count.
     #[default]
@@ -34,6 +35,7 @@ pub enum Runs {
 
 /// How the timeline looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct TextOptions {
     /// What is shown.
     pub view: View,
@@ -41,6 +43,26 @@ pub struct TextOptions {
     pub runs: Runs,
     /// Colours and width.
     pub look: Look,
+}
+
+impl TextOptions {
+    /// The same with another value of [`view`](Self::view).
+    pub fn with_view(mut self, view: View) -> Self {
+        self.view = view;
+        self
+    }
+
+    /// The same with another value of [`runs`](Self::runs).
+    pub fn with_runs(mut self, runs: Runs) -> Self {
+        self.runs = runs;
+        self
+    }
+
+    /// The same with another value of [`look`](Self::look).
+    pub fn with_look(mut self, look: Look) -> Self {
+        self.look = look;
+        self
+    }
 }
 
 /// Blocks without a change that wait for their count.

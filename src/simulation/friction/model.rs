@@ -9,6 +9,7 @@ use thiserror::Error;
 /// How friction is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum FrictionModel {
     /// Coulomb, viscous and Stribeck friction without memory (R5.10).
     Stribeck,

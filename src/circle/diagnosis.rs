@@ -27,6 +27,7 @@ const STEP_PART: f64 = 0.5;
 /// What a shape suggests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Finding {
     /// A bulge outwards that decays: friction.
     Friction,
@@ -53,6 +54,7 @@ pub enum Finding {
 /// Where a finding was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(untagged)]
+#[non_exhaustive]
 pub enum FoundAt {
     /// At a crossing.
     Crossing(Crossing),
@@ -62,7 +64,7 @@ pub enum FoundAt {
 
 /// A piece of advice.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Advice {
+pub struct Diagnosis {
     /// Where.
     pub place: FoundAt,
     /// The direction of travel; `None` for what concerns both.
@@ -76,7 +78,7 @@ pub struct Advice {
 
 /// What the paths suggest, the crossings of each direction first. `compensation` says whether
 /// friction compensation was on when they were made; of recorded paths it may be unknown.
-pub fn advise(paths: &Paths, compensation: Option<Switched>) -> Vec<Advice> {
+pub fn diagnose(paths: &Paths, compensation: Option<Switched>) -> Vec<Diagnosis> {
     let mut advice = Vec::new();
     for (direction, profile) in paths.iter() {
         for glitch in glitches(profile, direction) {
@@ -85,7 +87,7 @@ pub fn advise(paths: &Paths, compensation: Option<Switched>) -> Vec<Advice> {
                     Finding::Backlash => glitch.step_um.abs(),
                     _ => glitch.height_um,
                 };
-                advice.push(Advice {
+                advice.push(Diagnosis {
                     place: FoundAt::Crossing(glitch.crossing),
                     direction: Some(direction),
                     finding,
@@ -99,9 +101,9 @@ pub fn advise(paths: &Paths, compensation: Option<Switched>) -> Vec<Advice> {
 }
 
 /// What the paths of a test with compensation suggest, given those without.
-pub fn advise_on(comparison: &Comparison) -> Vec<Advice> {
-    let mut advice = advise(&comparison.on.paths, Some(Switched::On));
-    let height = |side: &Side, it: &Advice| {
+pub fn diagnose_comparison(comparison: &Comparison) -> Vec<Diagnosis> {
+    let mut advice = diagnose(&comparison.on.paths, Some(Switched::On));
+    let height = |side: &Side, it: &Diagnosis| {
         let path = side.figures.get(it.direction?)?;
         let here = |glitch: &&Glitch| it.place == FoundAt::Crossing(glitch.crossing);
         path.glitch.iter().find(here).map(|glitch| glitch.height_um)
@@ -186,7 +188,7 @@ fn second_harmonic(profile: &RadialProfile) -> [f64; 2] {
 
 /// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the
 /// direction of travel; one of axes that are not square keeps it. Both need both directions.
-fn ellipses(paths: &Paths) -> Vec<Advice> {
+fn ellipses(paths: &Paths) -> Vec<Diagnosis> {
     let (Some(ccw), Some(cw)) = (&paths.ccw, &paths.cw) else {
         return Vec::new();
     };
@@ -200,7 +202,7 @@ fn ellipses(paths: &Paths) -> Vec<Advice> {
         .into_iter()
         .filter(|(_, size)| size.abs() >= NOTICEABLE_UM);
     noticeable
-        .map(|(finding, amplitude)| Advice {
+        .map(|(finding, amplitude)| Diagnosis {
             place: FoundAt::Whole,
             direction: None,
             finding,

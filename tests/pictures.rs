@@ -46,6 +46,7 @@ fn band(from: f64, to: f64, state: BandState) -> Band {
     let standing = match state {
         BandState::One(state) => Standing::of(state, State::Active),
         BandState::Changing => Standing::Home,
+        other => panic!("{other:?}"),
     };
     Band {
         standing,

@@ -125,6 +125,7 @@ fn shown(event: &Event<'_>) -> String {
                 ended.seq, ended.by, ended.changes
             )
         }
+        other => panic!("{other:?}"),
     }
 }
 

@@ -94,7 +94,7 @@ impl RecordedError {
             Self::Count(_) => "give one of each direction, two at most",
             Self::CommandedRadius(_) => "write the commanded radius, `--radius 100`",
             Self::SameDirection(_) => "give one recording of each direction",
-            Self::Radius { .. } => "check `--radius` and the unit of the columns",
+            Self::Radius { .. } => "check the commanded radius and the unit of the columns",
         }
     }
 }

@@ -101,9 +101,9 @@ impl CircleError {
     /// Advice for the user.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Radius(_) => "write the radius in mm, `--radius 100`",
+            Self::Radius(_) => "give the radius in mm, 100 for instance",
             Self::Feed(_) => "write feeds in mm/min, 1000 for instance",
-            Self::CycleTime(_) => "write the milliseconds of a cycle, `--cycle-time-ms 1`",
+            Self::CycleTime(_) => "give the time of a cycle in ms, 1 for instance",
             Self::TooLong { .. } => "choose a smaller radius or a higher feed",
             Self::TooFast { .. } => "choose a larger radius, a lower feed or a shorter cycle",
             Self::Unstable { .. } => {

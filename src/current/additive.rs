@@ -7,7 +7,6 @@ use crate::lists::{FrictionList, TablePoint};
 
 /// Whether friction compensation is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Switched {
     /// On.
     On,

@@ -139,15 +139,18 @@ impl Interpreter {
         let (missing, help) = match &self.machine.axis(axis).friction {
             Parameterisation::Missing => (
                 "the axis has no value list".to_owned(),
-                format!("give axis `{name}` a list with `frict_comp.mode 3` and table values"),
+                Advice::from(format!(
+                    "give axis `{name}` a list with `frict_comp.mode 3` and table values"
+                )),
             ),
             Parameterisation::Off => (
                 "the value list says `frict_comp.mode 0`".to_owned(),
-                "set P-COMP-00041 to 3".to_owned(),
+                "set P-COMP-00041 to 3".into(),
             ),
             Parameterisation::Rejected { file, code } => (
                 format!("the value list `{file}` was rejected with {code}"),
-                format!("`frictcomp explain {code}` says why"),
+                Code::find(code)
+                    .map_or_else(|| format!("{code} says why").into(), Advice::ReadPage),
             ),
             Parameterisation::Assumed | Parameterisation::Accepted(_) => return,
         };

@@ -1,6 +1,6 @@
 //! The words of the command line for advice: which option does it.
 
-use crate::diagnostic::{Advice, Budget};
+use crate::diagnostic::{Advice, Budget, Code};
 
 /// How the command line words advice; `None` where the general words will do.
 pub fn command_line(advice: &Advice) -> Option<String> {
@@ -44,9 +44,10 @@ pub fn command_line(advice: &Advice) -> Option<String> {
         Advice::WriteConfiguration => {
             "`frictcomp init` writes a configuration to start from".to_owned()
         }
-        Advice::ReadPage(code) => {
-            format!("`frictcomp explain {code}` says how these lists are written")
+        Advice::ReadPage(Code::Fc124) => {
+            "`frictcomp explain FC124` says how these lists are written".to_owned()
         }
+        Advice::ReadPage(code) => format!("`frictcomp explain {code}` says why"),
         _ => return None,
     })
 }

@@ -3,10 +3,10 @@
 use std::io;
 use std::path::Path;
 
-use crate::circle::CircleError;
+use crate::circle::{CircleError, RecordedError};
 use crate::current::FollowError;
 use crate::diagnostic::Diagnostic;
-use crate::host::HostError;
+use crate::host::{HostError, TraceError};
 use crate::motion::CycleError;
 use crate::report::visible_line;
 
@@ -61,8 +61,9 @@ impl From<HostError> for Failure {
     fn from(error: HostError) -> Self {
         Self {
             message: error.to_string(),
-            help: error
-                .help()
+            help: radius_option(&error)
+                .map(str::to_owned)
+                .or_else(|| error.help())
                 .or_else(|| options_for(&error))
                 .into_iter()
                 .collect(),
@@ -98,9 +99,23 @@ fn options_for(error: &HostError) -> Option<String> {
     Some(help.to_owned())
 }
 
+/// The option that gives the radius of a recorded circle, where it does not fit the points.
+fn radius_option(error: &HostError) -> Option<&'static str> {
+    let HostError::Trace(TraceError::Circle { reason, .. } | TraceError::Circles(reason)) = error
+    else {
+        return None;
+    };
+    matches!(reason, RecordedError::Radius { .. })
+        .then_some("check `--radius` and the unit of the columns")
+}
+
 impl From<CircleError> for Failure {
     fn from(error: CircleError) -> Self {
-        Self::new(error.to_string()).with_help(error.help())
+        Self::new(error.to_string()).with_help(match error {
+            CircleError::Radius(_) => "write the radius in mm, `--radius 100`",
+            CircleError::CycleTime(_) => "write the milliseconds of a cycle, `--cycle-time-ms 1`",
+            _ => error.help(),
+        })
     }
 }
 

@@ -1,5 +1,5 @@
-//! The three questions that most hosts ask, each in one call. Who needs more, several programs in one
-//! session, a saved state, currents beside records, takes [`Session`] itself.
+//! The three questions that most hosts ask, each in one call. For more, such as several programs in
+//! one session, a saved state or currents beside records, use [`Session`] itself.
 
 use std::ops::ControlFlow;
 

@@ -1,8 +1,8 @@
 //! One turn of an actual path as radial deviations over the angle.
 //!
-//! The path is kept in two forms, both of bounded size. At [`ANGLES`] fixed angles stands the
-//! deviation that a straight line between the two neighbouring points has there: nothing is
-//! averaged or filtered. And of the points in each sector between two such angles the outermost
+//! The path is kept in two forms, both of bounded size. At [`ANGLES`] fixed angles it holds the
+//! deviation of a straight line between the two neighbouring points: nothing is averaged or
+//! filtered. And of the points in each sector between two such angles the outermost
 //! and the innermost are kept as they are, so that no extreme of the path is lost.
 
 use std::f64::consts::TAU;

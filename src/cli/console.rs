@@ -1,4 +1,4 @@
-//! Where data and talk go: stdout is data, stderr is talk (R9.27).
+//! Where results and messages go: results to stdout, messages to stderr (R9.27).
 
 use std::io::{self, IsTerminal, Write};
 

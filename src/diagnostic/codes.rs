@@ -83,7 +83,7 @@ codes! {
     Fc207 "FC207" Error "text not understood";
     Fc208 "FC208" Error "control block not balanced";
     Fc209 "FC209" Error "jump label missing or given twice";
-    Fc210 "FC210" Warning "text not known here";
+    Fc210 "FC210" Warning "text not known to frictcomp";
     Fc301 "FC301" Warning "opposite COMP commands in one block";
     Fc302 "FC302" Error "COMP on a spindle";
     Fc303 "FC303" Warning "selected without an accepted value list";
@@ -99,7 +99,7 @@ codes! {
     Fc318 "FC318" Warning "the program stops itself";
     Fc320 "FC320" Error "called program not found or not readable";
     Fc321 "FC321" Error "called program outside the project folders";
-    Fc401 "FC401" Warning "left away from home after program end";
+    Fc401 "FC401" Warning "state not restored before program end";
     Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Info "depends on the program before";
     Fc404 "FC404" Info "lower-case keyword";

@@ -1,4 +1,4 @@
-//! Known words near to one that is not known.
+//! Known words that resemble an unknown one.
 
 /// Letters beyond which a word is no slip of the pen, and not compared.
 const MAX_WORD: usize = 64;

@@ -1,4 +1,4 @@
-//! How far long work is, for who watches (R9.75).
+//! The progress of long work, for whoever watches (R9.75).
 
 use std::fmt;
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! COMP commands and what there is to say about them (chapter 1).
+//! COMP commands and the messages about them (chapter 1).
 
 use super::at::At;
 use super::event::Outcome;

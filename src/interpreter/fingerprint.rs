@@ -1,4 +1,4 @@
-//! Short numbers that differ where what they were made from differs.
+//! Fingerprints: short numbers that show whether a text or saved data has changed.
 
 use std::fmt;
 use std::hash::Hasher as _;

@@ -1,8 +1,9 @@
 //! Programs whose lines come one after another.
 //!
-//! Straight blocks are executed and forgotten. A block that makes the rest of the text count, a jump
-//! label or a `$` statement say, is the first one that can be reached again: it and everything after
-//! it is taken into memory, and the run goes on there. Nothing ever goes back to what was forgotten.
+//! Straight blocks are executed and forgotten. A block that makes the rest of the text count, for
+//! instance a jump label or a `$` statement, is the first one that can be reached again: it and
+//! everything after it is taken into memory, and the run continues there. Nothing ever goes back to
+//! what was forgotten.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
 //! Whether a state that comes from outside fits the machine and the files of the run. What it names is
-//! looked up without a further question afterwards.
+//! looked up later without further checks.
 
 use super::call::Found;
 use super::cycles::{ModalCycles, RepeatedCall};

@@ -1,4 +1,4 @@
-//! What a file is that stands in the place of a list.
+//! What a file is that is named instead of a list.
 
 use crate::lists::{Entries, Entry, ListKind};
 

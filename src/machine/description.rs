@@ -30,7 +30,7 @@ pub struct Machine {
     pub build: Option<CncBuild>,
     /// Programs that run by themselves or are called by a word.
     pub programs: ConfiguredPrograms,
-    /// Words of the shop that change nothing that is followed here.
+    /// Commands of the user's own machine that change nothing that frictcomp follows.
     pub harmless: HarmlessWords,
     /// What a program start does to P parameters.
     pub parameters: Parameters,

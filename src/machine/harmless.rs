@@ -1,4 +1,4 @@
-//! Words of the shop that the user declares harmless (R2.70).
+//! Commands of the user's own machine that are declared harmless (R2.70).
 
 use crate::syntax::hash_name;
 

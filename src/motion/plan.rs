@@ -1,6 +1,6 @@
 //! Full look-ahead over a queue of segments: which velocity at each transition.
 //!
-//! First without the jerk, forth and back over all segments: the highest velocity that the
+//! First without the jerk, forward and backward over all segments: the highest velocity that the
 //! accelerations allow at each transition. Where it meets the bound of a transition, the path has
 //! no acceleration; those transitions are the knots. Between two knots the path speeds up and
 //! slows down at most once, in one profile over all segments between them. Then back and

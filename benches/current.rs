@@ -113,8 +113,8 @@ impl Jobs {
             let mut followers = Followers::new(vec![current]);
             for (position, velocity) in positions.iter().zip(velocities) {
                 let commanded = Commanded {
-                    position: *position,
-                    velocity: *velocity,
+                    position_units: *position,
+                    velocity_units: *velocity,
                     friction: State::Active,
                 };
                 black_box(followers.push([commanded]));

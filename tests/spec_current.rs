@@ -41,7 +41,7 @@ fn positions(velocities: &[f64]) -> Vec<f64> {
 
 fn currents(list: &FrictionList, reading: Reading, velocities: &[f64]) -> Vec<f64> {
     let cycles = AdditiveCurrent::new(list, reading).trace(&positions(velocities), velocities);
-    cycles.iter().map(|added| added.current).collect()
+    cycles.iter().map(|added| added.current_units).collect()
 }
 
 fn close(found: &[f64], expected: &[f64]) {
@@ -189,7 +189,9 @@ fn comp_off_empties_the_delay_line_and_comp_on_is_a_first_start() {
     };
     let mut current = AdditiveCurrent::new(&list, Reading::default());
     let step = |current: &mut AdditiveCurrent, at: u32| {
-        current.step(f64::from(at) * 10.0, 1000.0, &[]).current
+        current
+            .step(f64::from(at) * 10.0, 1000.0, &[])
+            .current_units
     };
     let on: Vec<f64> = (0..4).map(|at| step(&mut current, at)).collect();
     close(&on, &[0.0, 0.0, 5.0, 10.0]);
@@ -333,7 +335,7 @@ fn reversals_at_three_speeds_cycle_by_cycle() {
             let said = format!("cycle {at} at {} µm/s: {found:?}", reversal.speed);
             assert!((found.w_before - before).abs() < 1e-9, "{said}");
             assert!((found.w_after - after).abs() < 1e-9, "{said}");
-            assert!((found.current - current).abs() < 1e-9, "{said}");
+            assert!((found.current_units - current).abs() < 1e-9, "{said}");
         }
     }
 }
@@ -359,8 +361,8 @@ fn a_trace_cycle_by_cycle_is_the_trace_as_a_whole() {
         let later = &velocities[at + 1..velocities.len().min(at + 4)];
         assert_eq!(single.step(positions[at], velocities[at], later), *whole);
         let commanded = Commanded {
-            position: positions[at],
-            velocity: velocities[at],
+            position_units: positions[at],
+            velocity_units: velocities[at],
             friction: State::Active,
         };
         followed.extend(followers.push([commanded]).map(|samples| samples[0].added));

@@ -42,7 +42,9 @@ impl Additive {
         let end = self.velocities.len().min(k + 1 + current.lookahead());
         let upcoming = self.velocities.get(k + 1..end).unwrap_or_default();
         let position = position * (MM_PER_M * POSITION_UNITS_PER_MM);
-        current.step(position, self.velocities[k], upcoming).current
+        current
+            .step(position, self.velocities[k], upcoming)
+            .current_units
     }
 }
 

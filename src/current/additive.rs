@@ -22,7 +22,7 @@ pub struct Added {
     /// Weight of the build-up after a reversal, 0 to 1 (R4.3).
     pub w_after: f64,
     /// The additive current in drive units.
-    pub current: f64,
+    pub current_units: f64,
     /// The integer that the drive gets: rounded half away from zero, saturated to 16 bit (R4.11).
     pub output: i16,
 }
@@ -44,7 +44,7 @@ pub struct Added {
 /// let mut current = AdditiveCurrent::new(&list, Reading::default());
 /// // Two cycles before the reversal the current has begun to decay.
 /// let added = current.step(50.0, 1000.0, &[1000.0, -1000.0]);
-/// assert_eq!((added.w_before, added.current), (0.5, 5.0));
+/// assert_eq!((added.w_before, added.current_units), (0.5, 5.0));
 /// ```
 #[derive(Debug, Clone)]
 pub struct AdditiveCurrent {
@@ -195,7 +195,7 @@ impl AdditiveCurrent {
         Added {
             w_before,
             w_after,
-            current,
+            current_units: current,
             output: self.rounded(current),
         }
     }

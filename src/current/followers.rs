@@ -8,10 +8,10 @@ use crate::comp::State;
 /// What is commanded to one axis in one cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Commanded {
-    /// In 0.1 µm or 0.0001°.
-    pub position: f64,
-    /// In µm/s or 0.001°/s.
-    pub velocity: f64,
+    /// The position in units of 0.1 µm or 0.0001°.
+    pub position_units: f64,
+    /// The velocity in units of 1 µm/s or 0.001°/s.
+    pub velocity_units: f64,
     /// The friction compensation of the axis.
     pub friction: State,
 }
@@ -110,12 +110,12 @@ impl Follower {
     }
 
     fn push(&mut self, commanded: Commanded) {
-        if commanded.velocity * self.direction < 0.0 {
+        if commanded.velocity_units * self.direction < 0.0 {
             let ahead = u64::try_from(self.waiting.len()).unwrap_or(u64::MAX);
             self.turns.push_back(self.out.saturating_add(ahead));
         }
-        if commanded.velocity != 0.0 {
-            self.direction = commanded.velocity.signum();
+        if commanded.velocity_units != 0.0 {
+            self.direction = commanded.velocity_units.signum();
         }
         self.waiting.push_back(commanded);
     }
@@ -136,9 +136,9 @@ impl Follower {
             State::Active => Switched::On,
             _ => Switched::Off,
         });
-        let added = self
-            .current
-            .advance(commanded.position, commanded.velocity, reversal);
+        let added =
+            self.current
+                .advance(commanded.position_units, commanded.velocity_units, reversal);
         Some(CurrentSample { commanded, added })
     }
 }

@@ -232,8 +232,8 @@ impl<S: CurrentSink> TraceSink for Cycles<S> {
         let inputs = axes
             .zip(sample.cause.friction.iter())
             .map(|((x, v), state)| Commanded {
-                position: x * POSITION_UNITS_PER_MM,
-                velocity: v * VELOCITY_UNITS_PER_MM_PER_S,
+                position_units: x * POSITION_UNITS_PER_MM,
+                velocity_units: v * VELOCITY_UNITS_PER_MM_PER_S,
                 friction: *state,
             });
         if let Some(axes) = self.followers.push(inputs)

@@ -58,7 +58,7 @@ impl Junction {
                 continue;
             }
             // The jerk that the kink may take; a jump of velocity counts over two cycles.
-            let budget = KINK_SHARE * limits.jerk.min(limits.acceleration / cycle);
+            let budget = KINK_SHARE * limits.jerk_per_s3.min(limits.acceleration_per_s2 / cycle);
             let pulled = pull * turn / cycle;
             let passing = pulled <= budget / 2.0;
             let left = if passing { budget - pulled } else { budget };

@@ -6,11 +6,11 @@ use crate::machine::{Axis, AxisType};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisLimits {
     /// The highest velocity.
-    pub velocity: f64,
+    pub velocity_per_s: f64,
     /// The greatest acceleration.
-    pub acceleration: f64,
+    pub acceleration_per_s2: f64,
     /// The greatest jerk.
-    pub jerk: f64,
+    pub jerk_per_s3: f64,
     /// Which of them the configuration does not give.
     pub assumed: Assumed,
 }
@@ -52,9 +52,9 @@ impl AxisLimits {
             axis.max_jerk_per_s3,
         );
         Self {
-            velocity: velocity.map_or(VELOCITY, |per_minute| per_minute / 60.0),
-            acceleration: acceleration.map_or(ACCELERATION, |given| given * unit),
-            jerk: jerk.map_or(JERK, |given| given * unit),
+            velocity_per_s: velocity.map_or(VELOCITY, |per_minute| per_minute / 60.0),
+            acceleration_per_s2: acceleration.map_or(ACCELERATION, |given| given * unit),
+            jerk_per_s3: jerk.map_or(JERK, |given| given * unit),
             assumed: Assumed {
                 velocity: velocity.is_none(),
                 acceleration: acceleration.is_none(),

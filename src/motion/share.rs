@@ -24,9 +24,9 @@ impl Share {
             Self::BesideKink => (1.0 - KINK_SHARE, 1.0 - 2.0 * KINK_SHARE),
         };
         Bounds {
-            velocity: limits.velocity,
-            acceleration: limits.acceleration * acceleration,
-            jerk: limits.jerk * jerk,
+            velocity: limits.velocity_per_s,
+            acceleration: limits.acceleration_per_s2 * acceleration,
+            jerk: limits.jerk_per_s3 * jerk,
         }
     }
 }

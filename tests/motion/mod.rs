@@ -168,9 +168,9 @@ pub(crate) fn assert_limits(machine: &str, names: &[&str], trace: &Trace) {
             let jerk = difference(&acceleration);
             let magnitude = positions[1].iter().fold(1.0_f64, |top, x| top.max(x.abs()));
             for (what, found, limit, order) in [
-                ("velocity", &velocity, limits.velocity, 1),
-                ("acceleration", &acceleration, limits.acceleration, 2),
-                ("jerk", &jerk, limits.jerk, 3),
+                ("velocity", &velocity, limits.velocity_per_s, 1),
+                ("acceleration", &acceleration, limits.acceleration_per_s2, 2),
+                ("jerk", &jerk, limits.jerk_per_s3, 3),
             ] {
                 let noise = 8.0 * f64::EPSILON * magnitude / CYCLE.powi(order);
                 let worst = found

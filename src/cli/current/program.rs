@@ -116,13 +116,17 @@ fn say_limits(loaded: &LoadedMachine) {
         };
         let (square, cube, unit) = second;
         let parts = [
-            (limits.assumed.velocity, limits.velocity * 60.0, minute),
+            (
+                limits.assumed.velocity,
+                limits.velocity_per_s * 60.0,
+                minute,
+            ),
             (
                 limits.assumed.acceleration,
-                limits.acceleration / unit,
+                limits.acceleration_per_s2 / unit,
                 square,
             ),
-            (limits.assumed.jerk, limits.jerk / unit, cube),
+            (limits.assumed.jerk, limits.jerk_per_s3 / unit, cube),
         ];
         let parts: Vec<String> = parts
             .iter()

@@ -60,12 +60,12 @@ fn write_csv(
         let Added {
             w_before,
             w_after,
-            current,
+            current_units,
             output,
         } = added;
         writeln!(
             writer,
-            "{t},{x},{v},{w_before},{w_after},{current},{output}"
+            "{t},{x},{v},{w_before},{w_after},{current_units},{output}"
         )?;
     }
     writer.flush()

@@ -132,7 +132,13 @@ impl CurrentSink for Table {
             let axes = cycle.axes.iter();
             plot.traces.push(
                 cycle.time_s,
-                axes.map(|it| (it.commanded.velocity, it.commanded.friction, &it.added)),
+                axes.map(|it| {
+                    (
+                        it.commanded.velocity_units,
+                        it.commanded.friction,
+                        &it.added,
+                    )
+                }),
             );
         }
         match self.written {
@@ -149,12 +155,12 @@ fn write_row(
 ) -> io::Result<()> {
     write!(writer, "{}", cycle.time_s)?;
     for CurrentSample { commanded, added } in cycle.axes {
-        let (x, v) = (commanded.position, commanded.velocity);
+        let (x, v) = (commanded.position_units, commanded.velocity_units);
         write!(writer, ",{x},{v},{},{}", added.w_before, added.w_after)?;
         match commanded.friction {
             // It is not known.
             State::Unknown => write!(writer, ",,")?,
-            _ => write!(writer, ",{},{}", added.current, added.output)?,
+            _ => write!(writer, ",{},{}", added.current_units, added.output)?,
         }
         if columns.contains(&Column::Comp) {
             write!(writer, ",{}", commanded.friction.as_str())?;

@@ -55,8 +55,8 @@ impl AxisPlot {
         if state == State::Unknown {
             self.current.interrupt();
         } else {
-            self.largest = self.largest.max(added.current.abs());
-            self.current.push([time, added.current]);
+            self.largest = self.largest.max(added.current_units.abs());
+            self.current.push([time, added.current_units]);
         }
         self.before.push([time, added.w_before]);
         self.after.push([time, added.w_after]);

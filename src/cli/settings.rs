@@ -51,11 +51,13 @@ pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
 
 /// Whether a name is that of a variable or a parameter (R2.33, R2.34).
 fn is_variable(name: &str) -> bool {
-    let number = name.strip_prefix('@').unwrap_or(name).strip_prefix('P');
+    let number = name.strip_prefix('@').unwrap_or(name);
+    let number = number.strip_prefix(['P', 'p']);
     if let Some(number) = number {
         return number.starts_with(|it: char| it.is_ascii_digit());
     }
     name.strip_prefix("V.")
+        .or_else(|| name.strip_prefix("v."))
         .is_some_and(|rest| rest.starts_with(|it: char| it.is_ascii_alphabetic()))
 }
 
@@ -130,6 +132,8 @@ mod tests {
         for wrong in ["=3", "V.E.PART=", "E.PART=3", "PART=3", "P=3", "@5=1"] {
             assert!(parse_setting(wrong).is_err(), "{wrong}");
         }
+        assert_eq!(value("v.e.list[P1]=1"), Setting::Number(1.0));
+        assert_eq!(value("p4=1"), Setting::Number(1.0));
         assert_eq!(value("@P4=1"), Setting::Number(1.0));
         assert_eq!(value("V.E.NAME=\"\""), Setting::Text(String::new()));
     }

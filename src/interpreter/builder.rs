@@ -6,7 +6,7 @@ use super::program::{Entry, EntryIndex, Index, LabelName, Links, Section};
 use super::value::rounded;
 use crate::diagnostic::{Advice, Budget, Code, Collected, Diagnostic};
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
-use crate::syntax::{BlockReader, FastPath, Fault, Stretch, is_statement};
+use crate::syntax::{BlockReader, FastPath, Fault, LostRemarks, Stretch, is_statement};
 use crate::text::{SourceFile, Span, TextLines};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,6 +83,7 @@ impl Index {
                 labels: HashMap::new(),
                 locals: HashMap::new(),
                 remarks: HashMap::new(),
+                lost: LostRemarks::default(),
                 interpreted: BTreeMap::new(),
                 refused: Collected::default(),
             },
@@ -130,6 +131,7 @@ impl Builder {
                 }
             }
         }
+        self.index.lost = reader.lost_remarks().clone();
         self.close_section();
         self.check_jumps();
         for (statement, opener) in std::mem::take(&mut self.inner) {

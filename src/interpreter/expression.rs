@@ -14,6 +14,7 @@ use super::memory::Memory;
 use super::region::Target;
 use super::state::State;
 use super::value::{Value, rounded};
+use super::variable::{as_written, canonical, set_name, with_subscripts};
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
 use crate::syntax::{Fault, MAX_LINE};
@@ -143,7 +144,7 @@ impl Evaluator<'_> {
                         .and_then(|key| self.keyed_parameter(&key, span))
                 }
                 Node::Variable { subscripts: 0 } => {
-                    self.variable(variable_name(span, self.text).as_ref(), span)
+                    self.variable(&canonical(span.of(self.text)), span)
                 }
                 Node::Variable { subscripts } => self
                     .variable_key(at, usize::from(subscripts), stack)
@@ -234,6 +235,8 @@ impl Evaluator<'_> {
             ParameterKey::Element(name) => {
                 self.note_read(name);
                 let known = self.scope.memory.variable(name);
+                let given = || self.scope.memory.given(name).cloned();
+                let known = known.or_else(given).or_else(|| self.as_set(span));
                 known.ok_or_else(|| never_written(span, self.text))
             }
             ParameterKey::Unknown(_, cause) => Ok(cause.clone()),
@@ -329,8 +332,7 @@ impl Evaluator<'_> {
         let text = self.block.spans[at].of(self.text);
         if let Some(cause) = unknown {
             let array = text.split('[').next().unwrap_or_default();
-            let array: String = array.split_whitespace().collect();
-            return Ok(VariableKey::Unknown(array, cause));
+            return Ok(VariableKey::Unknown(canonical(array).into_owned(), cause));
         }
         Ok(VariableKey::Name(with_subscripts(text, &values)))
     }
@@ -338,8 +340,18 @@ impl Evaluator<'_> {
     fn keyed_variable(&self, key: VariableKey, span: Span) -> Slot {
         match key {
             VariableKey::Name(name) => self.variable(&name, span),
-            VariableKey::Unknown(_, cause) => Ok(Value::Unknown(cause)),
+            VariableKey::Unknown(_, cause) => {
+                Ok(self.as_set(span).unwrap_or(Value::Unknown(cause)))
+            }
         }
+    }
+
+    /// The value that the user gave an element as the program writes it.
+    fn as_set(&self, span: Span) -> Option<Value> {
+        let text = span.of(self.text);
+        let name = text.contains('[').then(|| set_name(text))?;
+        let given = || self.scope.memory.given(&name).cloned();
+        self.scope.memory.variable(&name).or_else(given)
     }
 
     fn note_read(&self, name: &str) {
@@ -356,14 +368,16 @@ impl Evaluator<'_> {
         if let Some(value) = self.scope.memory.given(name) {
             return Ok(value.clone());
         }
+        if let Some(value) = self.as_set(span) {
+            return Ok(value);
+        }
         if is_program_variable(name) {
             return Err(never_written(span, self.text));
         }
         Ok((self.scope.system)(name).unwrap_or_else(|| {
-            let written = span.of(self.text).trim_end();
-            let as_written = Some(written).filter(|text| text.eq_ignore_ascii_case(name));
-            (self.scope.unknown)(as_written.unwrap_or(name), self.shown.unwrap_or(span));
-            Value::Unknown(name.into())
+            let written = as_written(span.of(self.text));
+            (self.scope.unknown)(&written, self.shown.unwrap_or(span));
+            Value::Unknown(written.into())
         }))
     }
 
@@ -433,7 +447,7 @@ impl Evaluator<'_> {
                 })
             }
             Node::Variable { subscripts: 0 } => {
-                Ok(Place::Variable(variable_name(span, self.text).into_owned()))
+                Ok(Place::Variable(canonical(span.of(self.text)).into_owned()))
             }
             Node::Variable { subscripts } => self
                 .variable_key(root, usize::from(subscripts), stack)
@@ -530,42 +544,4 @@ fn is_program_variable(name: &str) -> bool {
         .iter()
         .any(|prefix| name.starts_with(prefix))
         || name.starts_with('P')
-}
-
-/// The text of a variable without the blanks that may stand in it.
-fn variable_name(span: Span, text: &str) -> std::borrow::Cow<'_, str> {
-    let name = span.of(text);
-    if name.contains([' ', '\t']) || name.starts_with('v') {
-        let compact: String = name.split_whitespace().collect();
-        std::borrow::Cow::Owned(format!("V{}", &compact[1..]))
-    } else {
-        std::borrow::Cow::Borrowed(name)
-    }
-}
-
-/// A variable's text with its subscripts replaced by values, one bracket each.
-pub(super) fn with_subscripts(text: &str, values: &[String]) -> String {
-    let mut name = String::with_capacity(text.len());
-    let mut depth = 0_usize;
-    let mut values = values.iter();
-    let mut next = |name: &mut String| {
-        name.push('[');
-        name.push_str(values.next().map_or("", String::as_str));
-        name.push(']');
-    };
-    for c in text.chars() {
-        match c {
-            '[' => {
-                if depth == 0 {
-                    next(&mut name);
-                }
-                depth += 1;
-            }
-            ']' => depth = depth.saturating_sub(1),
-            ',' if depth == 1 => next(&mut name),
-            _ if depth > 0 || c.is_whitespace() => {}
-            _ => name.push(c),
-        }
-    }
-    name
 }

@@ -598,8 +598,9 @@ pub(super) fn unknown_value(name: &str) -> String {
 fn is_settable(name: &str) -> bool {
     let name = name.strip_prefix('@').unwrap_or(name);
     name.starts_with("V.")
+        || name.starts_with("v.")
         || name
-            .strip_prefix('P')
+            .strip_prefix(['P', 'p'])
             .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
         || matches!(name.as_bytes(), [b'A'..=b'Z'])
 }

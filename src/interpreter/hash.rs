@@ -14,6 +14,7 @@ use super::options::StopPolicy;
 use super::run::Interpreter;
 use super::state::{Description, Retains, Step};
 use super::value::Value;
+use super::variable::canonical;
 use super::words::AxisWords;
 use crate::comp::AxisIndex;
 use crate::diagnostic::{Code, Diagnostic};
@@ -375,11 +376,7 @@ impl Interpreter {
 pub(super) fn declared_name(declaration: &Declaration, at: &At<'_>) -> String {
     let text = declaration.target.span.of(at.text);
     let name = text.split('[').next().unwrap_or_default();
-    let compact: String = name.split_whitespace().collect();
-    match compact.strip_prefix('v').or(compact.strip_prefix('p')) {
-        Some(rest) => format!("{}{rest}", compact[..1].to_ascii_uppercase()),
-        None => compact,
-    }
+    canonical(name).into_owned()
 }
 
 /// The words that may stand after a command that switches a path, `#SPLINE ON X10 Y20`, as a block

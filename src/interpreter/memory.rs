@@ -9,6 +9,7 @@ use super::carried::Carried;
 use super::names::{Array, Names, Weight, compare, parts, sorted, weight};
 use super::region::Target;
 use super::value::Value;
+use super::variable::set_name;
 use crate::machine::Parameters;
 use crate::syntax::ast::Owner;
 
@@ -106,10 +107,7 @@ impl Memory {
 
     /// A value from the user (R2.36). What programs write themselves goes before it.
     pub(super) fn give(&mut self, name: &str, value: Value) {
-        let name = match name.strip_prefix('v').or_else(|| name.strip_prefix('p')) {
-            Some(rest) => format!("{}{rest}", name[..1].to_ascii_uppercase()),
-            None => name.to_owned(),
-        };
+        let name = set_name(name);
         if is_written(&name) {
             self.given.insert(name, value);
         } else {

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::value::rounded;
 use crate::diagnostic::Collected;
 use crate::syntax::ast::{Block, Operand};
-use crate::syntax::{BlockReader, FastPath, Remark, Stretch};
+use crate::syntax::{BlockReader, FastPath, LostRemarks, Remark, Stretch};
 use crate::text::{Place, SourceFile, Span, TextLines};
 
 /// The position of a block in [`Index::entries`].
@@ -77,6 +77,8 @@ pub(super) struct Index {
     /// The local subprograms by name, the first of each.
     pub(super) locals: HashMap<String, usize>,
     pub(super) remarks: HashMap<EntryIndex, Remark>,
+    /// Comments that speak to this tool and stand above no block.
+    pub(super) lost: LostRemarks,
     /// Where the branches of each `#IF` end.
     pub(super) interpreted: BTreeMap<EntryIndex, EntryIndex>,
     /// What keeps the program from running at all.

@@ -18,13 +18,14 @@ use super::budget::ITEM;
 use super::call::Wanted;
 use super::cycles::after_motion_only;
 use super::event::Notes;
-use super::expression::{unquoted, with_subscripts};
+use super::expression::unquoted;
 use super::hash::{declared_name, point_behind};
 use super::implicit::{is_file_name, named_words};
 use super::modal::Group;
 use super::program::{EntryIndex, LabelName, Section};
 use super::run::Interpreter;
 use super::value::{Value, rounded};
+use super::variable::{canonical, with_subscripts};
 use crate::comp::{AxisIndex, KindSet};
 use crate::syntax::ast::{
     Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
@@ -487,11 +488,7 @@ impl Gathering<'_> {
         let (node, span) = (block.nodes.get(root)?, block.spans.get(root)?);
         let name = || {
             let name = span.of(at.text).split('[').next().unwrap_or_default();
-            let name: String = name.split_whitespace().collect();
-            match name.strip_prefix('v') {
-                Some(rest) => format!("V{rest}"),
-                None => name,
-            }
+            canonical(name).into_owned()
         };
         Some(match node {
             Node::Parameter { owner, index } => Target::Parameter(*owner, *index),

@@ -20,6 +20,7 @@ use super::value::Value;
 use super::ways::{Departing, Ways};
 use super::work::Work;
 use crate::comp::{AxisIndex, Compensation};
+use crate::diagnostic::Collected;
 use crate::machine::{AxisSet, Machine, Setting};
 
 /// Runs programs on a machine.
@@ -68,6 +69,8 @@ pub struct Interpreter {
     /// Ways that leave at the block that is executed.
     pub(super) departing: Vec<Departing>,
     pub(super) regions: Regions,
+    /// What there is to say about comments of lines that are not kept.
+    pub(super) lost: Collected,
     pub(super) journal: Journal,
     pub(super) kept: usize,
     /// Bytes of the programs in memory.
@@ -153,6 +156,7 @@ impl Interpreter {
             pending: Vec::new(),
             departing: Vec::new(),
             regions: Regions::new(),
+            lost: Collected::default(),
             journal: Journal::default(),
             kept: 0,
             held_text: 0,

@@ -139,6 +139,7 @@ impl Interpreter {
         self.departing.clear();
         self.work.changes.clear();
         self.regions.clear();
+        self.lost = Collected::default();
         self.journal.begin_anew();
         self.kept = 0;
         self.held_text = 0;
@@ -235,6 +236,10 @@ impl Interpreter {
             && matches!(by, EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
         {
             notes.to_mut().push(open);
+        }
+        let lost = self.lost_remarks();
+        if !lost.is_empty() {
+            notes.to_mut().append(&lost);
         }
         let mut changes = std::mem::take(&mut self.work.changes);
         changes.extend(self.state.compensation.program_end());

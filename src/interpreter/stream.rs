@@ -76,6 +76,7 @@ impl Interpreter {
             if !raw.plain && needs_rest(&raw, &block) {
                 let (mut text, first) = opening(&raw);
                 reader.append_rest(&mut text);
+                self.note_lost(&file, reader.lost_remarks());
                 let rest = SourceFile::new(file, text).from_line(first);
                 return self.go_on_with(rest, (stage, notes), finder, observer);
             }
@@ -149,6 +150,7 @@ impl Interpreter {
                 }
             }
         }
+        self.note_lost(&file, reader.lost_remarks());
         self.work.block = block;
         if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
             return RunOutcome::Paused;

@@ -1,7 +1,7 @@
 //! What the operator has to know or to do after a session, for every report that tells it.
 
 use crate::comp::State;
-use crate::timeline::{AxisSummary, EndedBy};
+use crate::timeline::{AxisSummary, EndedBy, Footing};
 
 /// What the operator has to know or to do about an axis, after its name (R1.27: the state
 /// outlives the program).
@@ -48,8 +48,14 @@ pub(super) fn is_home(axis: &AxisSummary) -> bool {
 
 /// Said where there is nothing else to say, every axis is at home and the machine is described
 /// (R1.37).
-pub(super) const NOTHING_TO_DO: &str =
-    "Nothing to do: every axis is as at the start of the control.";
+pub(super) fn all_home(footing: Footing) -> &'static str {
+    match footing {
+        Footing::Known => "Nothing to do: every axis is as at the start of the control.",
+        Footing::Assumed => {
+            "Every axis is as at the start of the control if what FC902 assumes is so."
+        }
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -18,7 +18,7 @@ pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
 use crate::diagnostic::{Diagnostic, Levels, Severity, Wording};
-use crate::interpreter::{Event, Interpreter, Options, RunOutcome, Value};
+use crate::interpreter::{Event, Interpreter, Options, RunOutcome, Value, set_name};
 pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, StopPolicy,
 };
@@ -26,7 +26,7 @@ pub use crate::lint::Maker;
 use crate::lint::{History, Linter, Told};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::text::{LineSource, Place, SourceFile};
-use crate::timeline::{AxisSummary, EndedBy, Record, Sink, StateView, Summary};
+use crate::timeline::{AxisSummary, EndedBy, Footing, Record, Sink, StateView, Summary};
 use recorder::{NoteBook, Recorder, Tally};
 use said::Said;
 use saved::{fingerprint, storable};
@@ -182,7 +182,7 @@ impl Session {
         let mut given = BTreeMap::new();
         for (name, setting) in &options.settings {
             interpreter.set(name, setting);
-            given.insert(name.clone(), setting.into());
+            given.insert(set_name(name), setting.into());
         }
         let axes = machine.axes.len();
         Self {
@@ -202,6 +202,7 @@ impl Session {
                 counts: BTreeMap::new(),
                 changed_by: vec![Vec::new(); axes],
                 changes: vec![0; axes],
+                footing: Footing::Known,
             },
             notes: NoteBook::default(),
         }
@@ -388,6 +389,7 @@ impl Session {
             counts: self.tally.counts.clone(),
             opaque: self.interpreter.opaque(),
             axes: axes.collect(),
+            footing: self.tally.footing,
             state,
         }))
     }

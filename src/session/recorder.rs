@@ -13,7 +13,7 @@ use crate::machine::Machine;
 use crate::syntax::Comments;
 use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span};
-use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Record, Row, Sink, StateView};
+use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Footing, Record, Row, Sink, StateView};
 
 use super::said::{Said, Verdict};
 
@@ -37,11 +37,19 @@ pub(super) struct Tally {
     pub(super) counts: BTreeMap<Severity, u64>,
     pub(super) changed_by: Vec<Vec<ChangedBy>>,
     pub(super) changes: Vec<u64>,
+    pub(super) footing: Footing,
 }
 
 impl Tally {
     pub(super) fn count(&mut self, diagnostic: &Diagnostic) {
         *self.counts.entry(diagnostic.severity).or_default() += 1;
+    }
+
+    /// Takes note of what the run assumes, whether or not the user wants to hear it.
+    fn note_footing(&mut self, said: &[Diagnostic]) {
+        if said.iter().any(|diagnostic| diagnostic.code == Code::Fc902) {
+            self.footing = Footing::Assumed;
+        }
     }
 }
 
@@ -174,6 +182,7 @@ impl Recorder<'_> {
     #[inline(never)]
     fn judge(&mut self, executed: &Executed<'_>) {
         self.said.extend_from_slice(executed.diagnostics);
+        self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
         self.note_allows(executed);
         if !self.said.is_empty() {
@@ -221,10 +230,15 @@ impl Recorder<'_> {
     fn note_allows(&mut self, executed: &Executed<'_>) {
         self.here.clear();
         if executed.comments == Comments::Possible && executed.text.contains(allow::MARK) {
-            self.note_allow(executed, (executed.text, executed.line));
+            let lines = executed.text.lines().zip(executed.line..);
+            for line in lines.filter(|(text, _)| text.contains(allow::MARK)) {
+                self.note_allow(executed, line);
+            }
         }
         if let Some(remark) = executed.remark {
-            self.note_allow(executed, (&remark.text, remark.line));
+            for line in remark.lines() {
+                self.note_allow(executed, line);
+            }
         }
     }
 
@@ -274,6 +288,7 @@ impl Recorder<'_> {
 
     #[inline(never)]
     fn ended(&mut self, ended: &Ended<'_>) -> ControlFlow<()> {
+        self.tally.note_footing(ended.diagnostics);
         let mut notes: Vec<EndNote> = ended
             .diagnostics
             .iter()

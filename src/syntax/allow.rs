@@ -1,5 +1,6 @@
 //! `; frictcomp: allow FC402 reason`: a user's word that a remark is known (R9.24).
 
+use super::Fault;
 use crate::diagnostic::{Code, did_you_mean};
 use crate::text::Span;
 
@@ -111,6 +112,19 @@ pub(crate) fn lone_comment(text: &str) -> Option<Span> {
     };
     let before = text[..start].trim_end_matches([' ', '\t']).len();
     Some(Span::new(before, start + length))
+}
+
+/// What there is to say about a comment line that stands directly above no block: FC490, or FC491
+/// where it is not understood anyway.
+pub(crate) fn lost(text: &str) -> Option<Fault> {
+    let allowance = allowed(text);
+    if let Some(fault) = allowance.fault {
+        return Some(Fault::new(Code::Fc491, fault.span, fault.message));
+    }
+    let first = allowance.codes.first()?;
+    let message = format!("`allow {first}` stands directly above no block, so it silences nothing");
+    let fault = Fault::new(Code::Fc490, Span::new(0, text.len()), message);
+    Some(fault.with_help("write it in the block, or on the line directly above it"))
 }
 
 /// The words after a place, with their places.

@@ -8,7 +8,8 @@ use super::ast::Block;
 use super::fault::Fault;
 use super::hash_words::hash_word;
 use super::mask::{Masked, is_blank, mask, mask_number};
-use super::raw::{Comments, MAX_LINE, RawBlock, Remark, Stretch};
+use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Stretch};
+use super::remarks::Remarks;
 use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};
 use crate::text::{LineSource, Span};
@@ -40,7 +41,7 @@ pub struct BlockReader<S> {
     text: String,
     /// The code of the last block that was not parsed by hand.
     pub(super) code: String,
-    remark: Remark,
+    remarks: Remarks,
 }
 
 impl<S: LineSource> BlockReader<S> {
@@ -52,13 +53,18 @@ impl<S: LineSource> BlockReader<S> {
             line: first_line - 1,
             text: String::new(),
             code: String::new(),
-            remark: Remark::default(),
+            remarks: Remarks::default(),
         }
     }
 
     /// The source of the lines, to ask it about errors.
     pub fn source(&self) -> &S {
         &self.source
+    }
+
+    /// The remarks so far that stand directly above no block.
+    pub fn lost_remarks(&self) -> &LostRemarks {
+        self.remarks.lost()
     }
 
     /// Appends the lines that were not read yet, each with a line end.
@@ -83,10 +89,11 @@ impl<S: LineSource> BlockReader<S> {
                     offset: line.offset,
                     comments: plain.comments,
                     plain: true,
-                    remark: self.remark.above(self.line),
+                    remark: self.remarks.above(self.line),
                 });
             }
             if !self.source.advance() {
+                self.remarks.end();
                 return None;
             }
             self.line += 1;
@@ -100,7 +107,10 @@ impl<S: LineSource> BlockReader<S> {
                     offset,
                     comments: Comments::Possible,
                     plain: false,
-                    remark: self.remark.above(line),
+                    remark: match stretch {
+                        Stretch::Block => self.remarks.above(line),
+                        Stretch::Program { .. } => None,
+                    },
                 });
             }
         }
@@ -115,8 +125,7 @@ impl<S: LineSource> BlockReader<S> {
         let start = self.code.trim_ascii_start();
         if start.is_empty() {
             if self.text.contains(MARK) {
-                self.remark.text.clone_from(&self.text);
-                self.remark.line = self.line;
+                self.remarks.take(&self.text, self.line);
             }
             if !masked.continues {
                 return None;

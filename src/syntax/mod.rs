@@ -31,8 +31,9 @@ pub(crate) use known::{is_command, is_letter, is_statement};
 pub use lines::{BlockReader, FastPath};
 pub(crate) use parse::parse_expression;
 pub use parse::{parse_block, parse_comp};
-pub use raw::{Comments, MAX_LINE, RawBlock, Remark, Stretch};
+pub use raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Remark, Stretch};
 pub(crate) use unread::not_known;
 
 #[cfg(test)]
 mod reference;
+mod remarks;

@@ -38,20 +38,29 @@ pub struct RawBlock<'a> {
     pub remark: Option<&'a Remark>,
 }
 
-/// A comment line that speaks to this tool.
+/// Comment lines, one right above the other, that speak to this tool.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Remark {
-    /// The line without trailing blanks.
+    /// The lines without trailing blanks, joined by `\n`.
     pub text: String,
-    /// Its number, from 1.
+    /// The number of the first one, from 1.
     pub line: u32,
 }
 
 impl Remark {
-    /// The remark, for a block that begins on the next line; line 0 is that of no remark.
-    pub(super) fn above(&self, line: u32) -> Option<&Self> {
-        (self.line > 0 && self.line + 1 == line).then_some(self)
+    /// The lines with their numbers.
+    pub fn lines(&self) -> impl Iterator<Item = (&str, u32)> {
+        self.text.lines().zip(self.line..)
     }
+}
+
+/// Remarks that stand directly above no block.
+#[derive(Debug, Clone, Default)]
+pub struct LostRemarks {
+    /// The first of them.
+    pub remarks: Vec<Remark>,
+    /// How many more there are.
+    pub more: u64,
 }
 
 /// Whether comments stand in a text.

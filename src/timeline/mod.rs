@@ -13,6 +13,6 @@ mod serial;
 pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
 pub use record::{
-    AxisSummary, ChangedBy, DiagnosticRecord, End, Record, Repeat, Row, SCHEMA, Sink, StateView,
-    Summary, TOOL,
+    AxisSummary, ChangedBy, DiagnosticRecord, End, Footing, Record, Repeat, Row, SCHEMA, Sink,
+    StateView, Summary, TOOL,
 };

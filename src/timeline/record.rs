@@ -157,6 +157,15 @@ pub struct ChangedBy {
     pub to: State,
 }
 
+/// What the states of a session rest on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Footing {
+    /// Nothing but the programs and the machine.
+    Known,
+    /// On an assumption about what only the machine knows, too (FC902).
+    Assumed,
+}
+
 /// The end of a session.
 #[derive(Debug, Clone)]
 pub struct Summary<'a> {
@@ -170,6 +179,8 @@ pub struct Summary<'a> {
     pub opaque: &'a BTreeMap<String, u64>,
     /// What happened to each listed axis.
     pub axes: Vec<AxisSummary>,
+    /// What the states rest on.
+    pub footing: Footing,
     /// The state that is left.
     pub state: StateView<'a>,
 }

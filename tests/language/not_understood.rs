@@ -381,9 +381,48 @@ fn what_the_user_says_stands_for_what_no_program_wrote() {
     );
     assert_eq!(
         values.trim(),
-        "P1 -> 3\nV.P.A -> 4\nV.E.b -> unknown: V.E.b\nv.e.b -> 5\nV.S.C -> 6\nP2 -> 7"
+        "P1 -> 3\nV.P.A -> 4\nV.E.b -> 5\nv.e.b -> 5\nV.S.C -> 6\nP2 -> 7"
     );
     assert_eq!(bench.values("P1=8", &["P1"]).trim(), "P1 -> 8");
+}
+
+#[test]
+fn values_are_named_as_the_program_writes_them_and_given_by_that_name() {
+    // R2.36
+    for (written, given) in [
+        ("v.e.Part", "v.e.Part"),
+        ("v.e.Part", "V.E.Part"),
+        ("V.E.LIST[P1]", "V.E.LIST[P1]"),
+        ("V.E.LIST[P1]", "V.E.LIST[2]"),
+        ("V.E.LIST[P1+1,3].X", "v.e.LIST[P1+1, 3].X"),
+        ("V.E.LIST[P1+1,3].X", "V.E.LIST[3][3].X"),
+        ("V.E.LIST[V.E.I]", "V.E.LIST[V.E.I]"),
+    ] {
+        let program = format!("P1=2\n$IF {written} > 1\nX[COMP OFF FRICT]\n$ENDIF\nM30");
+        let said = Bench::new().said(&program);
+        let name = if written.contains("V.E.I]") {
+            "V.E.I"
+        } else {
+            written
+        };
+        assert!(said.contains(&format!("`{name}`")), "{written}: {said}");
+        let known = Bench::new().set(given, 2.0).run(&[&program]);
+        assert!(
+            known.contains("M30 X:inactive"),
+            "{written} {given}: {known}"
+        );
+    }
+    // The name itself is told apart by its case (P-EXTV-00001).
+    let other = Bench::new()
+        .set("V.E.PART", 2.0)
+        .said("$IF V.E.Part > 1\nX1\n$ENDIF\nM30");
+    assert!(other.contains("FC901"), "{other}");
+    // Parameters and variables of programs, too.
+    let bench = Bench::new().set("p5", 3.0).set("v.p.a", 4.0);
+    assert_eq!(
+        bench.values("", &["P5+V.P.a", "v.p.a"]).trim(),
+        "P5+V.P.a -> 7\nv.p.a -> 4"
+    );
 }
 
 #[test]

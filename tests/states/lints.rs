@@ -3,7 +3,7 @@
 use insta::assert_snapshot;
 
 use super::program::machine_text;
-use crate::support::Bench;
+use crate::support::{Bench, Handed};
 
 /// What is said under each program of a session: code, place, message, advice.
 fn said(programs: &[&str]) -> String {
@@ -172,4 +172,49 @@ fn an_error_ends_without_blame() {
       help: P-AXIS-00522 (lr_param.frict_comp) of axis `Z` is not set; set it to 1 in its axis list and restart the control
       help: to continue as if it were set, run with `--enable Z`
     ");
+}
+
+#[test]
+fn an_allow_comment_that_stands_above_no_block_is_said() {
+    // R9.24
+    let off = "X[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30\n";
+    for (program, unused) in [
+        // Lines one above the other speak of one block, in any number.
+        (
+            "X[COMP ON FRICT]\n; frictcomp: allow FC402\n; frictcomp: allow FC401\nX[COMP ON FRICT]\n",
+            "3:",
+        ),
+        ("; frictcomp: allow FC402 here\n\nX1\n", "1:1"),
+        ("; frictcomp: allow FC402\n; a word\nX1\n", "1:1"),
+        ("; frictcomp: allow FC402\n%MAIN\nX1\n", "1:1"),
+        ("X1\nM30\n; frictcomp: allow FC402", "3:1"),
+        (
+            "(frictcomp: allow FC402)\n#COMMENT BEGIN\n#COMMENT END\nX1\n",
+            "1:1",
+        ),
+    ] {
+        for handed in [Handed::Whole, Handed::LineByLine] {
+            let rest = if program.contains("M30") { "" } else { off };
+            let text = format!("{program}{rest}");
+            let bench = Bench::new().check_all().handed(handed);
+            let said = bench.said(&text);
+            let known = said.lines().filter(|line| line.starts_with("FC490"));
+            let places: Vec<&str> = known.filter_map(|line| line.split(' ').nth(1)).collect();
+            if unused == "3:" {
+                assert_eq!(places, ["3:1"], "{text}\n{said}");
+                assert!(!said.contains("FC402 4:"), "{text}\n{said}");
+            } else {
+                assert_eq!(places, [unused], "{text}\n{said}");
+            }
+        }
+    }
+    let misspelt = Bench::new()
+        .check_all()
+        .said("; frictcomp: alow FC402\n\nX1\nM30\n");
+    assert!(misspelt.contains("FC491 1:14"), "{misspelt}");
+    // Other lines may speak of anything.
+    let other = Bench::new()
+        .check_all()
+        .said("; frictcomp: hall 2\n\nX1\nM30\n");
+    assert!(!other.contains("FC49"), "{other}");
 }

@@ -11,7 +11,7 @@ use crate::lists::AxisType;
 use crate::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
 use crate::report::svg::Standing;
 use crate::text::Position;
-use crate::timeline::{AxisSummary, End, EndedBy, Record, Row, Sink, StateView, Summary};
+use crate::timeline::{AxisSummary, End, EndedBy, Footing, Record, Row, Sink, StateView, Summary};
 
 /// How many characters of a source line are shown.
 pub(super) const LINE_ROOM: usize = 400;
@@ -130,6 +130,7 @@ pub(super) struct SummaryDigest {
     pub(super) counts: BTreeMap<Severity, u64>,
     pub(super) opaque: BTreeMap<String, u64>,
     pub(super) axes: Vec<AxisSummary>,
+    pub(super) footing: Footing,
 }
 
 impl RunDigest {
@@ -365,6 +366,7 @@ impl RunDigest {
             counts: summary.counts.clone(),
             opaque: summary.opaque.clone(),
             axes: summary.axes.clone(),
+            footing: summary.footing,
         });
         for axis in &summary.axes {
             self.axes[axis.axis.get()].listed = true;

@@ -13,7 +13,7 @@ use super::source::{self, Sources};
 use super::{assumptions, machine, messages, states};
 use crate::comp::Kind;
 use crate::diagnostic::Severity;
-use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
+use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
 use crate::report::assumptions::Met;
 use crate::timeline::ChangedBy;
 
@@ -153,12 +153,12 @@ fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
         })
         .collect();
     advice.extend(error_advice(errors.unwrap_or_default(), digest.ended()).map(str::to_owned));
-    let all_home = digest.remark.is_none() && summary.axes.iter().all(is_home);
+    let is_all_home = digest.remark.is_none() && summary.axes.iter().all(is_home);
     html! {
         @if !advice.is_empty() {
             div.to-do { ul { @for text in &advice { li { (text) } } } }
-        } @else if all_home {
-            p { (NOTHING_TO_DO) }
+        } @else if is_all_home {
+            p { (all_home(summary.footing)) }
         }
     }
 }

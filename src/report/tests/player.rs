@@ -175,6 +175,7 @@ impl<'a> Player<'a> {
             counts: BTreeMap::from([(Severity::Info, 1), (Severity::Warning, 2)]),
             opaque: &opaque,
             axes: axes.collect(),
+            footing: crate::timeline::Footing::Known,
             state: view,
         };
         let _ = self.sink.record(&Record::Summary(&summary));

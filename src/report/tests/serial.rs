@@ -211,6 +211,7 @@ fn play(parts: &Parts, mut take: impl FnMut(&Record<'_>)) {
         counts: BTreeMap::from([(Severity::Error, seq), (Severity::Info, 3)]),
         opaque: &parts.opaque,
         axes: Vec::new(),
+        footing: crate::timeline::Footing::Known,
         state,
     }));
 }

@@ -4,7 +4,7 @@ use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
 use crate::diagnostic::Severity;
-use crate::report::advice::{NOTHING_TO_DO, axis_advice, error_advice, is_home};
+use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
 use crate::report::diagnostics::Look;
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
@@ -179,11 +179,11 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
         };
         paragraph(out, (look, 0), (style(axis.end), &format!("{name}{text}")));
     }
-    let all_home = summary.state.machine.is_described() && summary.axes.iter().all(is_home);
+    let is_all_home = summary.state.machine.is_described() && summary.axes.iter().all(is_home);
     if let Some(text) = error_advice(summary.count(Severity::Error), by) {
         paragraph(out, (look, 0), (Style::new(), text));
-    } else if out.len() == bare && all_home {
-        paragraph(out, (look, 0), (DIM, NOTHING_TO_DO));
+    } else if out.len() == bare && is_all_home {
+        paragraph(out, (look, 0), (DIM, all_home(summary.footing)));
     }
     if out.len() == bare {
         out.truncate(before);

@@ -1,0 +1,62 @@
+//! Comment lines that speak to this tool, and the blocks that they stand above (R9.24).
+
+use super::raw::{LostRemarks, Remark};
+use crate::diagnostic::MAX_MESSAGES;
+
+/// Bytes that lines one above the other may have together.
+const MAX_BYTES: usize = 1 << 16;
+
+/// The comment lines that were read last, and those that no block followed.
+#[derive(Debug, Default)]
+pub(super) struct Remarks {
+    remark: Remark,
+    /// The number of its last line; 0 where there is none.
+    last: u32,
+    /// Whether a block begins on the line after it.
+    is_heard: bool,
+    lost: LostRemarks,
+}
+
+impl Remarks {
+    /// Takes a line.
+    pub(super) fn take(&mut self, text: &str, line: u32) {
+        let follows = self.last > 0 && self.last + 1 == line && !self.is_heard;
+        if follows && self.remark.text.len() + text.len() < MAX_BYTES {
+            self.remark.text.push('\n');
+            self.remark.text.push_str(text);
+        } else {
+            self.end();
+            text.clone_into(&mut self.remark.text);
+            self.remark.line = line;
+            self.is_heard = false;
+        }
+        self.last = line;
+    }
+
+    /// What stands directly above a block that begins on a line.
+    #[inline]
+    pub(super) fn above(&mut self, line: u32) -> Option<&Remark> {
+        if self.last == 0 || self.last + 1 != line {
+            return None;
+        }
+        self.is_heard = true;
+        Some(&self.remark)
+    }
+
+    /// No block follows any more.
+    pub(super) fn end(&mut self) {
+        if self.last > 0 && !self.is_heard {
+            if self.lost.remarks.len() <= MAX_MESSAGES {
+                self.lost.remarks.push(std::mem::take(&mut self.remark));
+            } else {
+                self.lost.more += 1;
+            }
+        }
+        self.last = 0;
+    }
+
+    /// What no block followed.
+    pub(super) fn lost(&self) -> &LostRemarks {
+        &self.lost
+    }
+}

@@ -24,5 +24,4 @@ mod trace;
 pub use cycle::{CycleError, check_cycle};
 pub use limits::{Assumed, AxisLimits};
 pub use planner::{PlannerOptions, TrajectoryPlanner};
-pub use profile::{Bounds, PathState, VelocityProfile};
 pub use trace::{Cause, Sample, TraceSink};

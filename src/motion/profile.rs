@@ -10,22 +10,22 @@ use std::ops::RangeInclusive;
 
 /// Bounds along the path, whose length is in mm or degrees: per s, s² and s³.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
+pub(super) struct Bounds {
     /// The highest velocity.
-    pub velocity: f64,
+    pub(super) velocity: f64,
     /// The greatest acceleration and deceleration.
-    pub acceleration: f64,
+    pub(super) acceleration: f64,
     /// The greatest jerk.
-    pub jerk: f64,
+    pub(super) jerk: f64,
 }
 
 /// The state along the path at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PathState {
+pub(super) struct PathState {
     /// The distance since the start.
-    pub distance: f64,
+    pub(super) distance: f64,
     /// The path velocity.
-    pub velocity: f64,
+    pub(super) velocity: f64,
 }
 
 /// A change of velocity: jerk, constant acceleration, jerk.
@@ -103,7 +103,7 @@ struct Phase {
 
 /// The motion along a length of the path.
 #[derive(Debug, Clone)]
-pub struct VelocityProfile {
+pub(super) struct VelocityProfile {
     phases: [Phase; 7],
     duration: f64,
     length: f64,
@@ -113,7 +113,7 @@ pub struct VelocityProfile {
 impl VelocityProfile {
     /// The fastest motion over `length` that begins and ends with the given velocities, without
     /// acceleration at both ends. Lengths are in mm or degrees, times in seconds.
-    pub fn between(start: f64, end: f64, length: f64, bounds: &Bounds) -> Self {
+    pub(super) fn between(start: f64, end: f64, length: f64, bounds: &Bounds) -> Self {
         let ways = |peak: f64| {
             let (up, down) = (Ramp::new(start, peak, bounds), Ramp::new(peak, end, bounds));
             (up, down, up.way + down.way)
@@ -187,7 +187,7 @@ impl VelocityProfile {
     }
 
     /// How long it takes.
-    pub fn duration_s(&self) -> f64 {
+    pub(super) fn duration_s(&self) -> f64 {
         self.duration
     }
 
@@ -223,7 +223,7 @@ impl VelocityProfile {
     }
 
     /// The state at a time after the start.
-    pub fn at(&self, time_s: f64) -> PathState {
+    pub(super) fn at(&self, time_s: f64) -> PathState {
         if time_s >= self.duration {
             return PathState {
                 distance: self.length,
@@ -264,4 +264,80 @@ impl Phase {
 /// The sign of a change, 0 for none.
 fn sign(change: f64) -> f64 {
     if change == 0.0 { 0.0 } else { change.signum() }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    use super::*;
+
+    /// Seconds that rsruckig takes for a change of state without acceleration at both ends.
+    ///
+    /// Its searches have absolute tolerances: for some numbers they fail, for others they end at a
+    /// motion that is possible but not the fastest. The time does not depend on the unit of length, so
+    /// the shortest of all units is taken.
+    fn reference(start: f64, end: f64, length: f64, bounds: &Bounds) -> f64 {
+        let units = [1.0, 1e-3, 1e3, 0.1, 10.0, 1e-2, 1e2];
+        let times = units.iter().filter_map(|unit| {
+            let bounds = Bounds {
+                velocity: bounds.velocity * unit,
+                acceleration: bounds.acceleration * unit,
+                jerk: bounds.jerk * unit,
+            };
+            reference_in_one_unit(start * unit, end * unit, length * unit, &bounds)
+        });
+        times.fold(f64::INFINITY, f64::min)
+    }
+
+    fn reference_in_one_unit(start: f64, end: f64, length: f64, bounds: &Bounds) -> Option<f64> {
+        use rsruckig::prelude::*;
+        let mut input = InputParameter::<1>::new(None);
+        input.current_position = daov_stack![0.0];
+        input.current_velocity = daov_stack![start];
+        input.current_acceleration = daov_stack![0.0];
+        input.target_position = daov_stack![length];
+        input.target_velocity = daov_stack![end];
+        input.target_acceleration = daov_stack![0.0];
+        input.max_velocity = daov_stack![bounds.velocity];
+        input.max_acceleration = daov_stack![bounds.acceleration];
+        input.max_jerk = daov_stack![bounds.jerk];
+        let mut trajectory = Trajectory::<1>::new(None);
+        let mut generator = Ruckig::<1, ThrowErrorHandler>::new(None, 1e-3);
+        let result = generator.calculate(&input, &mut trajectory);
+        result.is_ok().then(|| trajectory.get_duration())
+    }
+
+    /// So many cases, the same each time unless `PROPTEST_RNG_SEED` asks for others.
+    fn seeded(cases: u32) -> ProptestConfig {
+        let config = ProptestConfig::with_cases(cases);
+        let rng_seed = match config.rng_seed {
+            RngSeed::Random => RngSeed::Fixed(20_260_101),
+            given @ RngSeed::Fixed(_) => given,
+        };
+        ProptestConfig { rng_seed, ..config }
+    }
+
+    proptest! {
+        #![proptest_config(seeded(2000))]
+
+        #[test]
+        fn profiles_take_the_time_of_the_reference(
+            (velocity, acceleration, jerk) in (0.1_f64..1000.0, 100.0_f64..20_000.0, 1e3_f64..1e6),
+            (start, end) in (prop_oneof![Just(0.0), 0.0_f64..1.0], prop_oneof![Just(0.0), 0.0_f64..1.0]),
+            room in 1e-2_f64..1000.0,
+        ) {
+            // R5.2
+            let bounds = Bounds { velocity, acceleration, jerk };
+            let (start, end) = (start * velocity, end * velocity);
+            // More than the change of velocity needs, at the lowest acceleration that it can have.
+            let change = velocity / acceleration + acceleration / jerk + (velocity / jerk).sqrt();
+            let length = 2.0 * velocity * change + room;
+            let profile = VelocityProfile::between(start, end, length, &bounds);
+            let expected = reference(start, end, length, &bounds);
+            let found = profile.duration_s();
+            prop_assert!((found - expected).abs() <= 1e-6 * expected, "{found} s, not {expected} s");
+        }
+    }
 }

@@ -80,6 +80,26 @@ impl Shown {
 }
 
 impl<'a> At<'a> {
+    /// A block that is looked at and not executed.
+    pub(super) fn of_text(
+        file: &'a Arc<str>,
+        (text, line): (&'a str, u32),
+        shown: &'a Shown,
+    ) -> Self {
+        Self {
+            file,
+            text,
+            line,
+            comments: Comments::Possible,
+            remark: None,
+            level: 0,
+            called_from: None,
+            macro_depth: 0,
+            used: None,
+            shown,
+        }
+    }
+
     /// A block of the main program.
     #[inline]
     pub(super) fn in_main_program(

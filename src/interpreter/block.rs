@@ -514,12 +514,12 @@ impl Interpreter {
     /// A macro whose code is not known may do anything (R2.51).
     fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
         self.forget_all(cause);
-        let what = super::flow::unknown_value(cause);
+        let what = super::cause::unknown_value(cause);
         let message = format!(
             "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"
         );
         let fault = Fault::new(Code::Fc901, span, message);
-        Box::new(fault.with_help(super::flow::how_to_set(cause)))
+        Box::new(fault.with_help(super::cause::how_to_set(cause)))
     }
 
     fn block_number(&mut self, block: &Block, at: &At<'_>) -> Option<i64> {

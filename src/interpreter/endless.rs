@@ -349,7 +349,7 @@ impl Interpreter {
                 cause: out.cause.clone(),
             }),
         }
-        let decides = super::flow::unknown_value(&out.cause);
+        let decides = super::cause::unknown_value(&out.cause);
         let passes = match known.passes {
             1 => "one pass".to_owned(),
             passes => format!("{passes} passes"),
@@ -368,7 +368,7 @@ impl Interpreter {
             self.units[unit].index.block_place(head),
             message,
         );
-        let said = said.with_help(super::flow::how_to_set(&out.cause));
+        let said = said.with_help(super::cause::how_to_set(&out.cause));
         self.work.diagnostics.push(said);
         Some(match out.to {
             Leaving::To(block) => Step::Jump(block),

@@ -122,9 +122,9 @@ impl Interpreter {
         let fault = Fault::new(
             Code::Fc902,
             at.in_block(span),
-            format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", super::flow::unknown_value(cause)),
+            format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", super::cause::unknown_value(cause)),
         )
-        .with_help(super::flow::how_to_set(cause));
+        .with_help(super::cause::how_to_set(cause));
         self.work.diagnostics.push(at.diagnostic(fault));
     }
 

@@ -31,7 +31,7 @@ use crate::syntax::ast::{
     Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, JumpTarget, Levels, Node, Operand, Owner, Word,
 };
-use crate::syntax::{Comments, Stretch, is_letter};
+use crate::syntax::{Stretch, is_letter};
 use crate::text::Span;
 
 /// Something that a region could change.
@@ -104,6 +104,13 @@ pub(super) enum Exit {
     Far,
     /// M02, M30.
     End,
+}
+
+impl Exit {
+    /// Where a jump to a label goes.
+    pub(super) fn label(name: &str) -> Self {
+        Self::Label(LabelName::Text(name.trim_matches(['[', ']']).to_owned()))
+    }
 }
 
 /// What a region could change.
@@ -234,18 +241,7 @@ impl Gathering<'_> {
             left -= 1;
             self.run.state.charge(ITEM + raw.text.len());
             let shown = Shown::default();
-            let at = At {
-                file,
-                text: raw.text,
-                line: raw.line,
-                comments: Comments::Possible,
-                remark: None,
-                level: 0,
-                called_from: None,
-                macro_depth: 0,
-                used: None,
-                shown: &shown,
-            };
+            let at = At::of_text(file, (raw.text, raw.line), &shown);
             // Blocks that are skipped change nothing (R2.3).
             if !self.run.is_skipped(&block) {
                 self.block(&block, &at);

@@ -131,18 +131,7 @@ impl Interpreter {
         notes: &mut Collected,
     ) {
         let shown = Shown::default();
-        let at = At {
-            file,
-            text,
-            line,
-            comments: Comments::Possible,
-            remark: None,
-            level: 0,
-            called_from: None,
-            macro_depth: 0,
-            used: None,
-            shown: &shown,
-        };
+        let at = At::of_text(file, (text, line), &shown);
         notes.extend(
             block
                 .faults

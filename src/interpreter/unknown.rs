@@ -106,12 +106,12 @@ impl Interpreter {
         at: &At<'_>,
     ) -> Option<Step> {
         if !self.work.unread.get() {
-            let what = super::flow::unknown_value(cause);
+            let what = super::cause::unknown_value(cause);
             let message = format!(
                 "this control block depends on {what}; whatever it could change is unknown from here on"
             );
             let fault = Fault::new(Code::Fc901, span, message);
-            let fault = fault.with_help(super::flow::how_to_set(cause));
+            let fault = fault.with_help(super::cause::how_to_set(cause));
             self.work.diagnostics.push(at.diagnostic(fault));
         }
         let unit = self.state.frames.last()?.unit;

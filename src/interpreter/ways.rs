@@ -5,31 +5,24 @@
 //! of the dry run again, everything in which both may differ becomes unknown. A way that would end
 //! the program is met at program end.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::at::At;
-use super::budget::ITEM;
 use super::call::Found;
 use super::cycles::ModalCycles;
 use super::exchange::ChannelAxes;
 use super::expression::Place;
-use super::finder::Finder;
 use super::modal::Modal;
-use super::program::{EntryIndex, LabelName};
-use super::region::{Exit, Region, Target};
-use super::run::Interpreter;
-use super::state::Frame;
+use super::program::EntryIndex;
+use super::region::Target;
 use super::value::Value;
-use crate::comp::{AxisIndex, KindSet};
-use crate::diagnostic::Code;
-use crate::syntax::Fault;
+use crate::comp::KindSet;
 use crate::text::Span;
 
 /// The target of a way that returns to the caller.
-const RETURN: EntryIndex = EntryIndex::MAX;
+pub(super) const RETURN: EntryIndex = EntryIndex::MAX;
 
 /// Different targets beyond which everything counts as written.
 const MAX_WRITTEN: usize = 4096;
@@ -38,19 +31,19 @@ const MAX_WRITTEN: usize = 4096;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Ways {
     /// Sorted by depth and target, one for each.
-    open: Vec<Way>,
+    pub(super) open: Vec<Way>,
     /// The ways that ended the program, as one.
-    end: Option<Box<Way>>,
+    pub(super) end: Option<Box<Way>>,
     /// What was written since the first of them left, and after which block last.
-    written: Written,
+    pub(super) written: Written,
     /// The block that may have written anything.
-    everything: u64,
+    pub(super) everything: u64,
 }
 
 /// Targets with the executed block that wrote them last.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<(Target, u64)>", from = "Vec<(Target, u64)>")]
-struct Written(BTreeMap<Target, u64>);
+pub(super) struct Written(pub(super) BTreeMap<Target, u64>);
 
 impl From<Vec<(Target, u64)>> for Written {
     fn from(written: Vec<(Target, u64)>) -> Self {
@@ -66,58 +59,58 @@ impl From<Written> for Vec<(Target, u64)> {
 
 /// A way that left the one of the dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Way {
+pub(super) struct Way {
     /// How many programs call each other where it goes on.
-    depth: usize,
+    pub(super) depth: usize,
     /// The block where it goes on.
-    target: EntryIndex,
+    pub(super) target: EntryIndex,
     /// The executed block at which it left.
-    since: u64,
+    pub(super) since: u64,
     /// The executed block at which it left last, where it left several times.
-    latest: u64,
-    cause: Arc<str>,
-    standing: Standing,
+    pub(super) latest: u64,
+    pub(super) cause: Arc<str>,
+    pub(super) standing: Standing,
     /// What it executes on its way to the target.
-    tails: Vec<Tail>,
+    pub(super) tails: Vec<Tail>,
 }
 
 /// The part of a state that is kept for a way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Standing {
+pub(super) struct Standing {
     /// What is selected and what is unknown, by axis.
-    kinds: Vec<(KindSet, KindSet)>,
-    modal: Modal,
-    cycles: ModalCycles,
+    pub(super) kinds: Vec<(KindSet, KindSet)>,
+    pub(super) modal: Modal,
+    pub(super) cycles: ModalCycles,
     /// The couplings, by the number of their changes.
-    couplings: u64,
-    named: BTreeMap<String, Value>,
-    channel_axes: ChannelAxes,
+    pub(super) couplings: u64,
+    pub(super) named: BTreeMap<String, Value>,
+    pub(super) channel_axes: ChannelAxes,
     /// The macros, by the number of their changes.
-    macros: u64,
+    pub(super) macros: u64,
 }
 
 /// A section from a block on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-struct Tail {
-    unit: usize,
-    section: usize,
-    from: EntryIndex,
+pub(super) struct Tail {
+    pub(super) unit: usize,
+    pub(super) section: usize,
+    pub(super) from: EntryIndex,
 }
 
 /// A way that leaves at the block that is executed.
 #[derive(Debug, Clone)]
 pub(super) struct Departing {
-    to: Aim,
-    cause: Arc<str>,
+    pub(super) to: Aim,
+    pub(super) cause: Arc<str>,
     /// The block after what is passed over.
-    here: EntryIndex,
+    pub(super) here: EntryIndex,
     /// What is shown, where it was not said yet.
-    say: Option<Span>,
+    pub(super) say: Option<Span>,
 }
 
 /// Where a way goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Aim {
+pub(super) enum Aim {
     Block(EntryIndex),
     Return,
     /// A return over programs.
@@ -177,19 +170,19 @@ impl Ways {
         self.written.0.clear();
     }
 
-    fn place(&self, depth: usize, target: EntryIndex) -> Result<usize, usize> {
+    pub(super) fn place(&self, depth: usize, target: EntryIndex) -> Result<usize, usize> {
         let key = |way: &Way| (way.depth, way.target);
         self.open.binary_search_by_key(&(depth, target), key)
     }
 
-    fn add(&mut self, way: Way) {
+    pub(super) fn add(&mut self, way: Way) {
         match self.place(way.depth, way.target) {
             Ok(place) => self.open[place].take_in(way),
             Err(place) => self.open.insert(place, way),
         }
     }
 
-    fn add_end(&mut self, way: Way) {
+    pub(super) fn add_end(&mut self, way: Way) {
         match &mut self.end {
             Some(end) => end.take_in(way),
             None => self.end = Some(Box::new(way)),
@@ -219,19 +212,19 @@ impl Ways {
     }
 
     /// The first way of a program that goes on before a block or at it.
-    fn arrived(&mut self, depth: usize, here: EntryIndex) -> Option<Way> {
+    pub(super) fn arrived(&mut self, depth: usize, here: EntryIndex) -> Option<Way> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         let first = self.open.get(place)?;
         (first.depth == depth && first.target <= here).then(|| self.open.remove(place))
     }
 
     /// The ways of a program that is left.
-    fn left(&mut self, depth: usize) -> Vec<Way> {
+    pub(super) fn left(&mut self, depth: usize) -> Vec<Way> {
         let place = self.place(depth, 0).unwrap_or_else(|place| place);
         self.open.split_off(place)
     }
 
-    fn all(&self) -> impl Iterator<Item = &Way> {
+    pub(super) fn all(&self) -> impl Iterator<Item = &Way> {
         self.open.iter().chain(self.end.as_deref())
     }
 
@@ -261,7 +254,7 @@ impl Ways {
     }
 
     /// Forgets what no way needs any more.
-    fn tidy(&mut self) {
+    pub(super) fn tidy(&mut self) {
         if !self.is_open() {
             self.written.0.clear();
             self.everything = 0;
@@ -271,7 +264,7 @@ impl Ways {
 
 impl Way {
     /// Two ways to one place are one.
-    fn take_in(&mut self, other: Self) {
+    pub(super) fn take_in(&mut self, other: Self) {
         self.since = self.since.min(other.since);
         self.latest = self.latest.max(other.latest);
         self.standing.macros = self.standing.macros.min(other.standing.macros);
@@ -300,12 +293,12 @@ impl Way {
 }
 
 /// The kinds in which two states may differ.
-fn differing(one: (KindSet, KindSet), other: (KindSet, KindSet)) -> KindSet {
+pub(super) fn differing(one: (KindSet, KindSet), other: (KindSet, KindSet)) -> KindSet {
     let differ = one.0.without(other.0).union(other.0.without(one.0));
     differ.union(one.1).union(other.1)
 }
 
-fn doubt_names(
+pub(super) fn doubt_names(
     names: &mut BTreeMap<String, Value>,
     other: &BTreeMap<String, Value>,
     cause: &Arc<str>,
@@ -318,375 +311,5 @@ fn doubt_names(
         if names.get(&word) != other.get(&word) {
             names.insert(word, Value::Unknown(cause.clone()));
         }
-    }
-}
-
-impl Interpreter {
-    /// The ways that leave a region of the running program.
-    pub(super) fn note_exits(
-        &mut self,
-        region: &Region,
-        (from, here): (EntryIndex, EntryIndex),
-        (cause, say): (&Arc<str>, Option<Span>),
-    ) {
-        let Some(place) = self.current_program() else {
-            return;
-        };
-        for exit in &region.exits {
-            let labels = self.aims(exit, (place.unit, place.section));
-            for to in labels {
-                if !matches!(to, Aim::Block(target) if (from..=here).contains(&target)) {
-                    self.departing.push(Departing {
-                        to,
-                        cause: cause.clone(),
-                        here,
-                        say,
-                    });
-                }
-            }
-        }
-    }
-
-    /// The ways that leave a called program and do not come back to its caller.
-    pub(super) fn note_far_exits(&mut self, region: &Region, cause: &Arc<str>) {
-        for exit in &region.exits {
-            let to = match exit {
-                Exit::End => Aim::End,
-                Exit::Far => Aim::Far,
-                Exit::Label(_) | Exit::AnyLabel | Exit::Block(_) | Exit::Return => continue,
-            };
-            self.departing.push(Departing {
-                to,
-                cause: cause.clone(),
-                here: 0,
-                say: Some(Span::default()),
-            });
-        }
-    }
-
-    /// A jump that is not taken.
-    pub(super) fn note_jump(&mut self, exit: &Exit, cause: &Arc<str>) {
-        let Some(frame) = self.state.frames.last() else {
-            return;
-        };
-        let here = frame.next;
-        for to in self.aims(exit, (frame.unit, frame.section)) {
-            if to != Aim::Block(here) {
-                self.departing.push(Departing {
-                    to,
-                    cause: cause.clone(),
-                    here,
-                    say: None,
-                });
-            }
-        }
-    }
-
-    fn aims(&self, exit: &Exit, (unit, section): (usize, usize)) -> Vec<Aim> {
-        let index = &self.units[unit].index;
-        match exit {
-            Exit::Label(name) => index
-                .label(section, name.clone())
-                .map(Aim::Block)
-                .into_iter()
-                .collect(),
-            Exit::AnyLabel => {
-                let labels: Vec<Aim> = index.labels(section).map(Aim::Block).collect();
-                self.state.charge(ITEM * labels.len());
-                labels
-            }
-            Exit::Block(target) => vec![Aim::Block(*target)],
-            Exit::Return => vec![Aim::Return],
-            Exit::Far => vec![Aim::Far],
-            Exit::End => vec![Aim::End],
-        }
-    }
-
-    /// Remembers the ways that leave at the block that was executed, and says that they are not
-    /// gone (FC902).
-    #[cold]
-    pub(super) fn depart(&mut self, finder: &mut dyn Finder, at: &At<'_>) {
-        let said = self.departing.iter().filter(|way| way.say.is_some());
-        if let Some(way) = said.max_by_key(|way| rank(way.to))
-            && !self.work.unread.get()
-        {
-            let what = match way.to {
-                Aim::End => "the program may end here, which",
-                Aim::Return | Aim::Far => "the program may be left here, which",
-                Aim::Block(_) => "a jump may leave this control block, which",
-            };
-            let value = super::flow::unknown_value(&way.cause);
-            let message =
-                format!("{what} depends on {value}; the rest assumes that this does not happen");
-            let span = way.say.filter(|span| span.end > span.start);
-            let span = span.unwrap_or(Span::new(0, at.text.len()));
-            let help = super::flow::how_to_set(&way.cause);
-            let fault = Fault::new(Code::Fc902, span, message).with_help(help);
-            self.work.diagnostics.push(at.diagnostic(fault));
-        }
-        let here = self.take_departing();
-        self.meet(here, finder);
-    }
-
-    /// Opens the ways that leave; returns the block after what is passed over.
-    pub(super) fn take_departing(&mut self) -> EntryIndex {
-        let departing = std::mem::take(&mut self.departing);
-        let depth = self.state.frames.len();
-        let mut here = 0;
-        let mut known = HashSet::new();
-        for Departing {
-            to,
-            cause,
-            here: behind,
-            ..
-        } in departing
-        {
-            here = here.max(behind);
-            let targets: Vec<(usize, EntryIndex)> = match to {
-                Aim::Block(target) => vec![(depth, target)],
-                Aim::Return => vec![(depth, RETURN)],
-                Aim::Far => {
-                    let main = self.state.frames.first();
-                    let labels = main.map(|main| {
-                        let index = &self.units[main.unit].index;
-                        index.labels(main.section).map(|label| (1, label))
-                    });
-                    let returns = (2..=depth).map(|depth| (depth, RETURN));
-                    returns.chain(labels.into_iter().flatten()).collect()
-                }
-                Aim::End => vec![(0, 0)],
-            };
-            for (depth, target) in targets {
-                if !known.insert((depth, target)) {
-                    continue;
-                }
-                let way = self.way((depth, target), cause.clone());
-                // M17 ends a main program.
-                if depth == 0 || (depth == 1 && target == RETURN) {
-                    self.state.ways.add_end(way);
-                } else {
-                    self.state.ways.add(way);
-                }
-            }
-        }
-        here
-    }
-
-    /// A way that leaves now.
-    fn way(&self, (depth, target): (usize, EntryIndex), cause: Arc<str>) -> Way {
-        let compensation = &self.state.compensation;
-        let axes = (0..compensation.len()).map(AxisIndex::new);
-        self.state.charge(ITEM + compensation.len());
-        Way {
-            depth,
-            target,
-            since: self.state.seq,
-            latest: self.state.seq,
-            cause,
-            standing: Standing {
-                kinds: axes
-                    .map(|axis| (compensation.selected(axis), compensation.unknown(axis)))
-                    .collect(),
-                modal: self.state.modal.clone(),
-                cycles: self.state.cycles.clone(),
-                couplings: self.state.couplings.version(),
-                named: self.state.named.clone(),
-                channel_axes: self.state.channel_axes.clone(),
-                macros: self.state.memory.macro_version(),
-            },
-            tails: Vec::new(),
-        }
-    }
-
-    /// The ways that go on at the block that is executed next, or before it, meet it.
-    #[cold]
-    pub(super) fn arrive(&mut self, finder: &mut dyn Finder) {
-        let here = self.state.frames.last().map_or(0, |frame| frame.next);
-        self.meet(here.saturating_sub(1), finder);
-    }
-
-    fn meet(&mut self, here: EntryIndex, finder: &mut dyn Finder) {
-        let depth = self.state.frames.len();
-        while let Some(way) = self.state.ways.arrived(depth, here) {
-            let (target, cause) = (way.target, way.cause.clone());
-            let mut tails = HashSet::new();
-            self.join(way, &mut tails);
-            let place = self.current_program().filter(|_| target < here);
-            if let Some(place) = place
-                && self.units[place.unit].index.entries.len() >= here as usize
-            {
-                // It executes what the dry run jumped over, or what it has after it.
-                let region = self.forget_region(place.unit, target..here, &cause);
-                self.note_exits(&region, (target, here), (&cause, None));
-            }
-            self.forget_called(finder);
-            self.take_departing();
-            if self.is_worn_out() {
-                break;
-            }
-        }
-        self.state.ways.tidy();
-    }
-
-    /// A program is left: its ways go on in the caller, after what they still execute.
-    pub(super) fn leave_ways(&mut self, frame: &Frame) {
-        let depth = self.state.frames.len();
-        let caller = self.state.frames.last().map(|caller| {
-            let waiting = caller.waiting.iter().map(|request| Tail {
-                unit: request.found.unit,
-                section: request.found.section,
-                from: self.units[request.found.unit].index.sections[request.found.section].start,
-            });
-            (caller.next, waiting.collect::<Vec<_>>())
-        });
-        for mut way in self.state.ways.left(depth + 1) {
-            if way.target != RETURN {
-                way.tails.push(Tail {
-                    unit: frame.unit,
-                    section: frame.section,
-                    from: way.target,
-                });
-            }
-            if let Some(saved) = &frame.restores {
-                way.standing.modal.restore(saved);
-            }
-            let Some((next, waiting)) = &caller else {
-                self.state.ways.add_end(way);
-                continue;
-            };
-            way.tails.extend(waiting);
-            (way.depth, way.target) = (depth, *next);
-            self.state.ways.add(way);
-        }
-    }
-
-    /// The program ends: every way ends it too.
-    pub(super) fn meet_at_end(&mut self, finder: &mut dyn Finder) {
-        if !self.state.ways.is_open() {
-            return;
-        }
-        let mut tails = HashSet::new();
-        let open = std::mem::take(&mut self.state.ways.open);
-        for mut way in open {
-            let frames = self.state.frames.iter().take(way.depth);
-            let behind = frames.enumerate().filter_map(|(level, frame)| {
-                let from = if level + 1 == way.depth {
-                    (way.target != RETURN).then_some(way.target)?
-                } else {
-                    frame.next
-                };
-                Some(Tail {
-                    unit: frame.unit,
-                    section: frame.section,
-                    from,
-                })
-            });
-            let behind: Vec<Tail> = behind.collect();
-            way.tails.extend(behind);
-            self.join(way, &mut tails);
-        }
-        self.forget_called(finder);
-        self.departing.clear();
-        if let Some(end) = self.state.ways.end.take() {
-            self.join(*end, &mut tails);
-            self.forget_called(finder);
-            self.departing.clear();
-        }
-        self.state.ways = Ways::default();
-        if !self.work.changes.is_empty() {
-            self.version += 1;
-        }
-    }
-
-    /// What may differ between the way of the dry run and another that goes on here becomes unknown.
-    fn join(&mut self, way: Way, tails: &mut HashSet<Tail>) {
-        let Way {
-            since,
-            cause,
-            standing,
-            ..
-        } = way;
-        for (position, (selected, unknown)) in standing.kinds.iter().enumerate() {
-            let axis = AxisIndex::new(position);
-            let compensation = &self.state.compensation;
-            let known = (compensation.selected(axis), compensation.unknown(axis));
-            let kinds = differing(known, (*selected, *unknown));
-            self.doubt(axis, kinds.without(known.1));
-        }
-        self.state.modal.doubt(&standing.modal);
-        if standing.macros != self.state.memory.macro_version() {
-            self.doubt_macros(&cause);
-        }
-        self.state.cycles.join(&standing.cycles);
-        if standing.couplings != self.state.couplings.version() {
-            self.doubt_couplings();
-        }
-        doubt_names(&mut self.state.named, &standing.named, &cause);
-        self.state.channel_axes.doubt(&standing.channel_axes);
-        let written = &self.state.ways.written.0;
-        self.state.charge(ITEM + written.len());
-        let later = written.iter().filter(|(_, seq)| **seq > since);
-        let later: Vec<Target> = later.map(|(target, _)| target.clone()).collect();
-        if self.state.ways.everything > since {
-            self.forget_memory(&cause);
-        }
-        for target in &later {
-            self.lose(target, &cause);
-        }
-        for tail in way.tails {
-            if tails.insert(tail) {
-                self.forget_tail(tail, &cause);
-            }
-        }
-    }
-
-    /// What a section could change from a block on, and what it jumps back to.
-    fn forget_tail(&mut self, tail: Tail, cause: &Arc<str>) {
-        let Tail {
-            unit,
-            section,
-            mut from,
-        } = tail;
-        let Some(end) = self.units.get(unit).and_then(|unit| {
-            let has_text = !unit.index.entries.is_empty();
-            has_text.then(|| unit.index.sections[section].end)
-        }) else {
-            // Lines that are read one after another.
-            self.forget_all(cause);
-            return;
-        };
-        while from < end && !self.is_worn_out() {
-            let region = self.region(unit, from..end);
-            let aims = region.exits.iter();
-            let aims = aims.flat_map(|exit| self.aims(exit, (unit, section)));
-            let lowest = aims.filter_map(|aim| match aim {
-                Aim::Block(target) => Some(target),
-                Aim::Return | Aim::Far | Aim::End => None,
-            });
-            match lowest.min() {
-                Some(lowest) if lowest < from => from = lowest,
-                _ => {
-                    let region = self.forget_region(unit, from..end, cause);
-                    self.note_far_exits(&region, cause);
-                    return;
-                }
-            }
-        }
-    }
-}
-
-/// Which way is spoken of.
-fn rank(to: Aim) -> u8 {
-    match to {
-        Aim::Block(_) => 0,
-        Aim::Return | Aim::Far => 1,
-        Aim::End => 2,
-    }
-}
-
-impl Exit {
-    /// Where a jump to a label goes.
-    pub(super) fn label(name: &str) -> Self {
-        Self::Label(LabelName::Text(name.trim_matches(['[', ']']).to_owned()))
     }
 }

@@ -1,6 +1,6 @@
 //! `; frictcomp: allow FC402 reason`: a user's word that a remark is known (R9.24).
 
-use super::Fault;
+use super::fault::Fault;
 use crate::diagnostic::{Code, did_you_mean};
 use crate::text::Span;
 

@@ -58,6 +58,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
+#[test]
+fn it_runs() {
+    main().expect("a run");
+}
+
 #[allow(clippy::print_stdout, reason = "an example shows what happens")]
 fn say(text: &str) {
     println!("{text}");

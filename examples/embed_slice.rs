@@ -67,6 +67,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
+#[test]
+fn it_runs() {
+    main().expect("a slice");
+}
+
 #[allow(clippy::print_stdout, reason = "an example shows what happens")]
 fn say(text: &str) {
     println!("{text}");

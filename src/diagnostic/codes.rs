@@ -39,7 +39,7 @@ macro_rules! codes {
             }
 
             /// The page that `frictcomp explain` shows.
-            #[cfg(feature = "cli")]
+            #[cfg(feature = "report")]
             pub fn page(self) -> &'static str {
                 match self { $(Self::$name => include_str!(concat!("../../docs/codes/", $text, ".md")),)+ }
             }

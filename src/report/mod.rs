@@ -28,8 +28,9 @@ mod visible;
 mod wording;
 
 pub use csv::Csv;
-pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, render};
-pub(crate) use diagnostics::{fitted, wrap};
+#[cfg(feature = "cli")]
+pub(crate) use diagnostics::wrap;
+pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
 pub use json::Json;
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;

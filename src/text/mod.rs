@@ -18,7 +18,7 @@ pub use decode::decode;
 pub(crate) use decode::decode_lines;
 pub use file::SourceFile;
 pub use index::LineIndex;
-#[cfg(feature = "cli")]
+#[cfg(feature = "host")]
 pub(crate) use lines::line_end;
 pub use lines::{LineSource, PhysicalLine, TextLines};
 pub use place::Place;

@@ -1,0 +1,38 @@
+//! A circle on a simulated machine, with friction compensation off and on.
+//!
+//! `cargo run --example circular_test`
+
+use frictcomp::circle::{Circle, CircularTest};
+use frictcomp::current::Reading;
+use frictcomp::simulation::{FrictionModel, Preset, plant_list};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let plant = "stiff".parse::<Preset>()?.plant();
+    let test = CircularTest {
+        circle: Circle {
+            radius_mm: 10.0,
+            feed_mm_per_min: 2000.0,
+            ..Circle::default()
+        },
+        lists: [&plant.x, &plant.y].map(plant_list),
+        plant,
+        model: FrictionModel::Lugre,
+        reading: Reading::default(),
+    };
+    let comparison = test.compare()?;
+    let (off, on) = (&comparison.off.figures, &comparison.on.figures);
+    let (off, on) = (off.glitch_max_um(), on.glitch_max_um());
+    say(&format!("largest glitch: {off:.1} µm off, {on:.1} µm on"));
+    assert!(on < off);
+    Ok(())
+}
+
+#[test]
+fn it_runs() {
+    main().expect("a circle");
+}
+
+#[allow(clippy::print_stdout, reason = "an example shows what happens")]
+fn say(text: &str) {
+    println!("{text}");
+}

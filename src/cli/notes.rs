@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use super::console::Target;
 use super::failure::Failure;
 use super::listing::records;
-use crate::report::{ListingFormat, leading, shown_json};
+use crate::report::{ListingFormat, leading};
 use crate::session::NoteKind;
-use crate::text::Position;
+use crate::text::{Position, shown_json};
 
 /// A name and where it stands.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]

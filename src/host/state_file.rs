@@ -11,8 +11,8 @@ use super::error::HostError;
 use super::outputs::OutputFiles;
 use super::read::read_bytes;
 use super::unfinished::target;
-use crate::report::shown_json;
 use crate::session::{STATE_SCHEMA, SavedState, StateError};
+use crate::text::shown_json;
 
 /// How long a second run waits for the first (R9.31).
 const PATIENCE: Duration = Duration::from_secs(5);

@@ -35,8 +35,6 @@ pub use json::Json;
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;
-#[cfg(feature = "cli")]
-pub(crate) use strings::shown_json;
 pub use text::{Runs, Text, TextOptions};
 pub use view::{Blocks, View};
 #[cfg(feature = "cli")]

@@ -1,8 +1,7 @@
 //! Texts and numbers as JSON, appended to a buffer that is used again and again.
 
-use std::borrow::Cow;
-
-use super::visible::{any_byte, is_hidden};
+use super::visible::any_byte;
+use crate::text::{is_hidden, shown_json};
 
 /// What a byte becomes in a JSON string: 0 itself, `u` a code, else the letter after `\`.
 const ESCAPES: [u8; 256] = {
@@ -60,24 +59,6 @@ fn push_units(out: &mut Vec<u8>, letter: char) {
         let digit = |shift: u32| HEX[usize::from(*unit >> shift & 0xf)];
         out.extend_from_slice(&[b'\\', b'u', digit(12), digit(8), digit(4), digit(0)]);
     }
-}
-
-/// A JSON document of another writer, in which hidden characters stand only within texts, with
-/// those escaped (R9.76).
-pub(crate) fn shown_json(document: &str) -> Cow<'_, str> {
-    let hidden = |letter: char| letter != '\n' && is_hidden(letter);
-    if !document.contains(hidden) {
-        return Cow::Borrowed(document);
-    }
-    let mut out = Vec::with_capacity(document.len() + 64);
-    for letter in document.chars() {
-        if hidden(letter) {
-            push_units(&mut out, letter);
-        } else {
-            out.extend_from_slice(letter.encode_utf8(&mut [0; 4]).as_bytes());
-        }
-    }
-    Cow::Owned(String::from_utf8(out).expect("characters make UTF-8"))
 }
 
 /// A value as a JSON document in which nothing hidden stands.

@@ -8,25 +8,7 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Whether a character is a control character or one that changes how its neighbours are read, or
-/// that nobody sees: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
-/// characters without width, and what is no character.
-pub(super) fn is_hidden(letter: char) -> bool {
-    matches!(
-        letter,
-        '\0'..='\u{1f}'
-            | '\u{7f}'..='\u{9f}'
-            | '\u{ad}'
-            | '\u{61c}'
-            | '\u{180e}'
-            | '\u{200b}'..='\u{200f}'
-            | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}'
-            | '\u{feff}'
-            | '\u{fff0}'..='\u{fffb}'
-            | '\u{e0000}'..='\u{e007f}'
-    ) || u32::from(letter) & 0xfffe == 0xfffe
-}
+use crate::text::is_hidden;
 
 /// Appends what stands for a hidden character: `␛`, or `⟨U+202E⟩` where there is no picture.
 pub(super) fn push_picture(out: &mut String, letter: char) {

@@ -7,6 +7,8 @@
 #[cfg(any(feature = "report", feature = "host"))]
 mod decode;
 mod file;
+#[cfg(any(feature = "report", feature = "host"))]
+mod hidden;
 mod index;
 mod lines;
 mod place;
@@ -17,6 +19,10 @@ pub use decode::decode;
 #[cfg(feature = "host")]
 pub(crate) use decode::decode_lines;
 pub use file::SourceFile;
+#[cfg(feature = "report")]
+pub(crate) use hidden::is_hidden;
+#[cfg(any(feature = "report", feature = "host"))]
+pub(crate) use hidden::shown_json;
 pub use index::LineIndex;
 #[cfg(feature = "host")]
 pub(crate) use lines::line_end;

@@ -1,6 +1,7 @@
 //! Text that is safe in a picture, whatever bytes a program holds.
 
-use crate::report::visible::{is_hidden, push_picture};
+use crate::report::visible::push_picture;
+use crate::text::is_hidden;
 
 /// Appends a text with the characters of markup escaped and what cannot be seen made visible.
 ///

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::comp::{AxisIndex, Change, State};
 use crate::diagnostic::{Diagnostic, Fix, Severity};
-use crate::report::visible::is_hidden;
+use crate::text::is_hidden;
 use crate::text::{Place, Span};
 use crate::timeline::{End, EndNote, EndedBy, Record, Repeat, Row, StateView, Summary};
 

@@ -31,12 +31,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if cycles % 50 == 0 {
             say(&format!(
                 "{:.3} s, line {}: {:>8.1} µm/s, {:>6.1} drive units",
-                cycle.time_s, cycle.line, x.commanded.velocity, x.added.current
+                cycle.time_s, cycle.line, x.commanded.velocity_units, x.added.current_units
             ));
         }
         cycles += 1;
-        least = least.min(x.added.current);
-        most = most.max(x.added.current);
+        least = least.min(x.added.current_units);
+        most = most.max(x.added.current_units);
         ControlFlow::Continue(())
     };
     let program = SourceFile::new("a.nc", PROGRAM);

@@ -1,5 +1,5 @@
-//! Snapshots: a run that is stopped and resumed ends as it would have; a damaged snapshot is refused
-//! or runs to some end. The first 32 bytes decide where it is stopped and what is damaged.
+//! Snapshots: a run that is stopped and resumed ends as it would have; a damaged snapshot is rejected,
+//! and a forged one is rejected or runs to some end. The first 32 bytes decide where it is stopped and what is damaged.
 #![no_main]
 
 use frictcomp_fuzz::{Dice, Files, Theme, check_snapshot, text_of};

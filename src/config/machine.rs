@@ -28,6 +28,8 @@ pub(crate) struct MachineTable {
     pub(crate) keep_compensation: Vec<String>,
     /// Patterns of those that keep positions.
     pub(crate) keep_positions: Vec<String>,
+    /// Patterns of those that write neither parameters nor variables.
+    pub(crate) external_parameters: Vec<String>,
     /// Words of the shop that change nothing.
     pub(crate) harmless: Vec<Given<String>>,
     /// Whether P parameters outlive a program.
@@ -53,7 +55,7 @@ const MACHINE: Shape = Shape {
 
 const EXTERNAL_KEEPS: Shape = Shape {
     name: "[machine.external_keeps]",
-    keys: Some(&["compensation", "positions"]),
+    keys: Some(&["compensation", "positions", "parameters"]),
 };
 
 const WORDS: Shape = Shape {
@@ -87,6 +89,7 @@ impl MachineTable {
         if let Some(keeps) = section.table("external_keeps", &EXTERNAL_KEEPS)? {
             table.keep_compensation = kept(&keeps, "compensation", &table.external)?;
             table.keep_positions = kept(&keeps, "positions", &table.external)?;
+            table.external_parameters = kept(&keeps, "parameters", &table.external)?;
         }
         Ok(table)
     }

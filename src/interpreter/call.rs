@@ -205,7 +205,7 @@ impl Interpreter {
         self.pass_over(&name, wanted.span, at);
         self.leave_to_machine(&name);
         let keeps = self.machine.programs.keeps(&name);
-        if keeps != Keeps::ALL {
+        if !keeps.compensation || !keeps.positions {
             let what = match keeps {
                 Keeps {
                     compensation: true, ..
@@ -243,7 +243,12 @@ impl Interpreter {
     pub(super) fn leave_to_machine(&mut self, name: &str) {
         let keeps = self.machine.programs.keeps(name);
         if !keeps.compensation {
+            self.doubt_couplings();
             self.forget_compensation();
+        }
+        if !keeps.parameters {
+            // It writes the P parameters and variables of its caller (R2.33, R2.52).
+            self.forget_memory(&name.into());
         }
         if !keeps.positions {
             self.state.modal.forget_positions();

@@ -31,7 +31,7 @@ pub(super) fn how_to_set(name: &str) -> Advice {
         return format!("to check one case, assign the value in a block after `{name}`").into();
     }
     if !is_settable(name) {
-        return format!("FC210 or FC207 shows where `{name}` first occurs").into();
+        return format!("FC210, FC207 or FC902 shows where `{name}` first occurs").into();
     }
     Advice::SetVariable(name.to_owned())
 }

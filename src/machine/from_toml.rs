@@ -98,6 +98,7 @@ impl Configuration {
         programs.external = table.external;
         programs.keep_compensation = table.keep_compensation;
         programs.keep_positions = table.keep_positions;
+        programs.keep_parameters = table.external_parameters;
     }
 }
 

@@ -22,6 +22,8 @@ pub struct ConfiguredPrograms {
     pub keep_compensation: Vec<String>,
     /// Patterns of those that leave the axes where they are.
     pub keep_positions: Vec<String>,
+    /// Patterns of those that write neither parameters nor variables.
+    pub keep_parameters: Vec<String>,
 }
 
 /// What a program that only the machine has leaves as it is.
@@ -31,14 +33,8 @@ pub struct Keeps {
     pub compensation: bool,
     /// All positions.
     pub positions: bool,
-}
-
-impl Keeps {
-    /// It leaves everything as it is.
-    pub const ALL: Self = Self {
-        compensation: true,
-        positions: true,
-    };
+    /// P parameters and variables.
+    pub parameters: bool,
 }
 
 impl ConfiguredPrograms {
@@ -89,6 +85,7 @@ impl ConfiguredPrograms {
         Keeps {
             compensation: any_matches(&self.keep_compensation, name),
             positions: any_matches(&self.keep_positions, name),
+            parameters: any_matches(&self.keep_parameters, name),
         }
     }
 }

@@ -224,6 +224,12 @@ fn programs_that_only_the_machine_has() {
     let word =
         machine(&format!("{external}\n[machine.programs]\nM6 = \"a.ecy\"")).run(&["M6\nM30"]);
     assert!(ends(&word)[0].contains("X:unknown"), "{word}");
+    // It shares the parameters and variables of its caller (R2.33, R2.52).
+    let program = "P1=0\nV.P.A=0\nL a.ecy\n$IF P1+V.P.A==1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
+    let parameters = all.run(&[program]);
+    assert!(ends(&parameters)[0].contains("X:unknown"), "{parameters}");
+    let kept = keeps("compensation = true\npositions = true\nparameters = true").run(&[program]);
+    assert!(ends(&kept)[0].contains("X:active"), "{kept}");
     let not_a_key =
         frictcomp::machine::Machine::from_toml("[machine.external_keeps]\nmodal = true\n");
     assert!(not_a_key.is_err());

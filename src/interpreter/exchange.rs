@@ -5,11 +5,12 @@
 //! is given back keeps its compensation: what another channel does with it is said where the
 //! programs of that channel are checked.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
 use super::at::At;
+use super::budget::ITEM;
 use super::run::Interpreter;
 use super::value::rounded;
 use crate::comp::{AxisIndex, CompensationError, KindSet};
@@ -86,9 +87,9 @@ pub(super) fn is_exchange(name: &str) -> bool {
 
 impl ChannelAxes {
     /// Whether it names no axis beyond so many.
-    pub(super) fn fits(&self, axes: usize) -> bool {
+    pub(super) fn fits(&self, count: usize) -> bool {
         self.names.values().all(|meaning| match meaning {
-            Meaning::Axis(axis) | Meaning::Released(Some(axis)) => axis.get() < axes,
+            Meaning::Axis(axis) | Meaning::Released(Some(axis)) => axis.get() < count,
             Meaning::Released(None) | Meaning::Unknown => true,
         })
     }
@@ -102,11 +103,11 @@ impl ChannelAxes {
 impl Interpreter {
     /// The axis that a COMP command switches under the names of the moment.
     pub(super) fn addressed(&self, name: &str) -> Result<Addressed, CompensationError> {
-        let axes = &self.state.channel_axes;
-        if axes.doubtful {
+        let channel = &self.state.channel_axes;
+        if channel.doubtful {
             return Ok(Addressed::Any);
         }
-        Ok(match axes.names.get(name) {
+        Ok(match channel.names.get(name) {
             None => Addressed::Axis(self.state.compensation.resolve(name)?),
             Some(Meaning::Axis(axis)) => Addressed::Axis(*axis),
             Some(Meaning::Released(axis)) => Addressed::Absent(*axis),
@@ -136,16 +137,17 @@ impl Interpreter {
             Exchange::Restore if self.state.channel_axes == ChannelAxes::default() => {}
             Exchange::Restore => self.doubt_exchange(),
             Exchange::Request => self.request_axes(rest, at),
-            Exchange::Release if every("ALL") => self.release_axes(|_| true),
+            Exchange::Release if every("ALL") => self.release_others(&[]),
             Exchange::Release => {
-                let named: Vec<&str> = groups(rest).flatten().collect();
-                self.release_axes(|name| named.contains(&name));
+                // `[X, B]` or `[NAME=X]`.
+                let named = groups(rest).flatten();
+                named.for_each(|name| self.release_axis(name.trim_start_matches("NAME=")));
             }
             Exchange::Define => {
                 if !every("DEFAULT") {
                     let named: Vec<&str> =
                         groups(rest).filter_map(|group| axis_of(&group).0).collect();
-                    self.release_axes(|name| !named.contains(&name));
+                    self.release_others(&named);
                 }
                 self.request_axes(rest, at);
             }
@@ -183,27 +185,29 @@ impl Interpreter {
         Some(Meaning::Axis(AxisIndex::new(found)))
     }
 
-    fn release_axes(&mut self, goes: impl Fn(&str) -> bool) {
-        let machine = self.machine.axes.iter().enumerate();
-        let own =
-            machine.map(|(position, axis)| (&axis.name, Meaning::Axis(AxisIndex::new(position))));
-        let mut known: BTreeMap<String, Meaning> =
-            own.map(|(name, meaning)| (name.clone(), meaning)).collect();
+    fn release_axis(&mut self, name: &str) {
         let names = &mut self.state.channel_axes.names;
-        known.append(names);
-        for (name, meaning) in known {
-            let released = match meaning {
-                Meaning::Axis(axis) => Meaning::Released(Some(axis)),
-                Meaning::Unknown => Meaning::Released(None),
-                Meaning::Released(_) => meaning,
-            };
-            let own = self.machine.find(&name).map(Meaning::Axis);
-            if goes(&name) {
-                names.insert(name, released);
-            } else if own != Some(meaning) {
-                names.insert(name, meaning);
-            }
-        }
+        let known = names.get(name).copied();
+        let own = self.machine.find(name).map(Meaning::Axis);
+        let released = match known.or(own) {
+            Some(Meaning::Axis(axis)) => Meaning::Released(Some(axis)),
+            Some(Meaning::Unknown) => Meaning::Released(None),
+            // The channel does not have it; the control does not mind.
+            Some(Meaning::Released(_)) | None => return,
+        };
+        names.insert(name.to_owned(), released);
+    }
+
+    /// Releases every axis but those of these names.
+    fn release_others(&mut self, stay: &[&str]) {
+        let machine = self.machine.axes.iter().map(|axis| &axis.name);
+        let names = machine.chain(self.state.channel_axes.names.keys());
+        let gone: BTreeSet<String> = names
+            .filter(|name| !stay.contains(&name.as_str()))
+            .cloned()
+            .collect();
+        self.state.charge(ITEM + gone.len());
+        gone.iter().for_each(|name| self.release_axis(name));
     }
 
     /// An exchange that may or may not have been executed.

@@ -17,7 +17,7 @@ fn machine() -> String {
 }
 
 /// What programs that exchange axes leave on X, Y and C.
-const PROGRAMS: [(&str, [State; 3]); 18] = [
+const PROGRAMS: [(&str, [State; 3]); 20] = [
     // An axis that the channel has already is not requested.
     ("#CALL AX [X,1,0]\nM30", [Active; 3]),
     ("#AX REQUEST FAST [C, 4, 3]\nM30", [Active; 3]),
@@ -29,6 +29,14 @@ const PROGRAMS: [(&str, [State; 3]); 18] = [
         [Active, Active, Unknown],
     ),
     ("#AX RELEASE ALL\nM30", [Active; 3]),
+    (
+        "#PUT AX [X, C]\nC[COMP OFF FRICT]\nM30",
+        [Active, Active, Unknown],
+    ),
+    (
+        "#AX RELEASE [NAME=C]\nC[COMP OFF FRICT]\nX[COMP OFF FRICT]\nM30",
+        [Inactive, Active, Unknown],
+    ),
     (
         "#AX DEF [X,1,0]\nY[COMP OFF FRICT]\nM30",
         [Active, Unknown, Active],

@@ -1,8 +1,8 @@
 //! FC401: a program leaves a kind away from home (R1.50). FC407: it moved the axis before, so that
 //! its second run differs from the first (R1.53).
 
+use super::linter::{EndNote, LeftAway, Linter};
 use super::memory::{Deed, KindMemory, Site};
-use super::{EndNote, LeftAway, Linter};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::Ended;

@@ -1,6 +1,7 @@
 //! FC403: the program moves an axis in a state that an earlier program left (R1.52).
 
-use super::{Linter, Maker};
+use super::history::Maker;
+use super::linter::Linter;
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::Executed;

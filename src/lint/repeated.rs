@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
+use super::linter::{Linter, Taken};
 use super::memory::{Deed, Site, place};
-use super::{Linter, Taken};
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
 

@@ -1,7 +1,7 @@
 //! FC408: a command whose effect depends on a machine that is not described (R1.37).
 
+use super::linter::{Linter, Taken};
 use super::memory::place;
-use super::{Linter, Taken};
 use crate::comp::{Kind, Selection};
 use crate::diagnostic::{Code, Diagnostic};
 

@@ -1,0 +1,68 @@
+//! Which lints look at what.
+
+use super::linter::{LeftAway, Linter, Taken};
+use super::memory;
+use super::{left_away, moved_before, repeated, shared_block, undescribed};
+use crate::diagnostic::Diagnostic;
+use crate::interpreter::{Ended, EndedBy, Executed};
+use crate::text::Span;
+
+/// The lints on a command, before it is remembered; the first that has something to say wins, so
+/// that nothing is said twice about it.
+const ON_COMMAND: [fn(&Linter<'_>, &Taken<'_>) -> Option<Diagnostic>; 2] =
+    [repeated::lint, undescribed::lint];
+
+impl Linter<'_> {
+    /// Looks at an executed block and appends what there is to say.
+    pub(crate) fn block(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
+        if executed.seq == 1 && **executed.file == *self.file {
+            self.begin = Some(memory::place(executed, Span::default()));
+        }
+        if !executed.outcomes.is_empty() {
+            self.commands(executed, said);
+        }
+        if !(executed.changes.is_empty() && executed.doubted.is_empty()) {
+            self.memory.forgotten(executed);
+        }
+        // The commands of a block act before its motion (R1.9).
+        for word in executed.moved {
+            if self.memory.moved(word, executed) {
+                said.extend(moved_before::lint(self, word.axis, executed));
+            }
+        }
+    }
+
+    fn commands(&mut self, executed: &Executed<'_>, said: &mut Vec<Diagnostic>) {
+        for outcome in executed.outcomes {
+            let Ok(axis) = outcome.result else {
+                continue;
+            };
+            let taken = Taken {
+                axis,
+                outcome,
+                executed,
+            };
+            said.extend(ON_COMMAND.iter().find_map(|lint| lint(self, &taken)));
+            self.memory.command(axis, outcome, executed);
+        }
+        said.extend(shared_block::lint(executed));
+    }
+
+    /// Looks at the state that an ended program leaves, and remembers who made it. A program that
+    /// an error or a budget stopped is not blamed for what it did not come to.
+    /// One that a loop keeps for ever is ended by a reset, which keeps the state (R1.28).
+    pub(crate) fn end(&mut self, ended: &Ended<'_>) -> Vec<LeftAway> {
+        let left = ended.compensation;
+        self.history
+            .program_ended(&self.program, &self.memory, left);
+        match ended.by {
+            EndedBy::Budget if ended.endless => {
+                left_away::lint(self, ended, "the reset that ends it")
+            }
+            EndedBy::Error | EndedBy::Budget => Vec::new(),
+            EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile => {
+                left_away::lint(self, ended, "program end")
+            }
+        }
+    }
+}

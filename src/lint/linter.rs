@@ -1,0 +1,95 @@
+//! What the lints know and say.
+
+use super::history::{History, Told};
+use super::memory::Memory;
+use crate::comp::{AxisIndex, Compensation, Kind, State};
+use crate::diagnostic::Diagnostic;
+use crate::interpreter::{AxisWord, Executed, Outcome};
+use crate::machine::Machine;
+use crate::text::Place;
+
+/// A diagnostic at the end of a program, with the executed block that it is about.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct EndNote {
+    /// The executed block that it is about.
+    pub seq: u64,
+    /// What there is to say.
+    pub diagnostic: Diagnostic,
+}
+
+/// That a program leaves a kind of an axis away from home.
+pub(crate) struct LeftAway {
+    pub(crate) axis: AxisIndex,
+    pub(crate) kind: Kind,
+    /// FC401 or FC407.
+    pub(crate) note: EndNote,
+}
+
+/// A command that the control took.
+pub(super) struct Taken<'a> {
+    pub(super) axis: AxisIndex,
+    pub(super) outcome: &'a Outcome,
+    pub(super) executed: &'a Executed<'a>,
+}
+
+/// What the lints know while a program runs.
+pub(crate) struct Linter<'m> {
+    pub(super) machine: &'m Machine,
+    pub(super) history: &'m mut History,
+    /// The name of the program after `%`, or else its file.
+    pub(super) program: String,
+    pub(super) memory: Memory,
+    /// The file of the program.
+    pub(super) file: String,
+    /// Where its first block begins.
+    pub(super) begin: Option<Place>,
+    /// The states of friction compensation that the program found, by axis.
+    found: Vec<State>,
+}
+
+impl<'m> Linter<'m> {
+    /// A program begins.
+    pub(crate) fn new(machine: &'m Machine, history: &'m mut History, file: &str) -> Self {
+        Self {
+            memory: Memory::new(machine.axes.len()),
+            machine,
+            history,
+            program: file.to_owned(),
+            file: file.to_owned(),
+            begin: None,
+            found: Vec::new(),
+        }
+    }
+
+    /// The program starts with these states.
+    pub(crate) fn starts(&mut self, with: &Compensation) {
+        let axes = (0..with.len()).map(AxisIndex::new);
+        self.found = axes.map(|axis| with.state(axis, Kind::Frict)).collect();
+    }
+
+    /// The state of friction compensation that the program found.
+    pub(super) fn found(&self, axis: AxisIndex) -> State {
+        let home = || self.history.home(axis, Kind::Frict);
+        self.found.get(axis.get()).copied().unwrap_or_else(home)
+    }
+
+    /// The program has a name.
+    pub(crate) fn named(&mut self, name: &str) {
+        name.clone_into(&mut self.program);
+    }
+
+    /// Whether every axis that a block moves has moved before, so that this is nothing new.
+    #[inline]
+    pub(crate) fn knows(&self, moved: &[AxisWord]) -> bool {
+        moved.iter().all(|word| self.memory.has_moved(word.axis))
+    }
+
+    /// What became of a note that [`end`](Self::end) gave.
+    pub(crate) fn settle(&mut self, left: &LeftAway, told: Told) {
+        self.history.set_told(left.axis, left.kind, told);
+    }
+
+    pub(super) fn name(&self, axis: AxisIndex) -> &str {
+        &self.machine.axis(axis).name
+    }
+}

@@ -11,9 +11,9 @@ use super::budget::ITEM;
 use super::endless::Reads;
 use super::functions::{binary, call, fault, wrong_type};
 use super::memory::Memory;
-use super::region::Target;
 use super::state::State;
-use super::value::{Value, rounded};
+use super::target::Target;
+use super::value::{Slot, Value, rounded};
 use super::variable::{as_written, canonical, set_name, with_subscripts};
 use crate::diagnostic::{Advice, Budget, Code};
 use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
@@ -88,10 +88,6 @@ impl Macros<'_> {
         })
     }
 }
-
-/// One operand on the stack. A failure waits until something needs its value, so that `EXIST` and
-/// the second operand of `&&` and `||` may fail without harm.
-pub(super) type Slot = Result<Value, Box<Fault>>;
 
 /// Evaluates expressions of one block.
 pub(super) struct Evaluator<'a> {

@@ -1,7 +1,6 @@
 //! Operators and functions of the language (R2.30, R2.31, R2.35).
 
-use super::expression::Slot;
-use super::value::{Value, is_true, rounded};
+use super::value::{Slot, Value, is_true, rounded};
 use crate::diagnostic::Code;
 use crate::syntax::Fault;
 use crate::syntax::ast::{BinaryOperator, Function};

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::carried::Carried;
 use super::names::{Array, Names, Weight, compare, parts, sorted, weight};
-use super::region::Target;
+use super::target::Target;
 use super::value::Value;
 use super::variable::set_name;
 use crate::machine::Parameters;

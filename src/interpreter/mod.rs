@@ -46,6 +46,7 @@ mod snapshot;
 mod start;
 mod state;
 mod stream;
+mod target;
 mod trust;
 mod unit;
 mod unknown;

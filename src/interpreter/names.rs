@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::carried::{ArrayShape, Carried};
-use super::region::Target;
+use super::target::Target;
 use super::value::Value;
 
 /// What a value weighs against the budget of values (R2.60): one for itself, one more for so many

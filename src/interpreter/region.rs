@@ -6,12 +6,9 @@
 //! looked through once, however often a loop comes back to it.
 
 use std::collections::HashSet;
-use std::fmt;
 use std::hash::Hash;
 use std::ops::Range;
 use std::sync::Arc;
-
-use serde::{Deserialize, Serialize};
 
 use super::at::{At, Shown};
 use super::budget::ITEM;
@@ -24,6 +21,7 @@ use super::implicit::{is_file_name, named_words};
 use super::modal::Group;
 use super::program::{EntryIndex, LabelName, Section};
 use super::run::Interpreter;
+use super::target::Target;
 use super::value::{Value, rounded};
 use super::variable::{canonical, with_subscripts};
 use crate::comp::{AxisIndex, KindSet};
@@ -65,28 +63,6 @@ pub(super) enum Effect {
     FileName(String),
     /// Everything, through a call of an unknown program.
     All,
-}
-
-/// Something that a region could write.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub(super) enum Target {
-    Parameter(Owner, u32),
-    Variable(String),
-    /// Any element of an array.
-    Elements(String),
-    /// Any P parameter.
-    Parameters,
-}
-
-impl fmt::Display for Target {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Parameter(Owner::Program, index) => write!(f, "P{index}"),
-            Self::Parameter(Owner::Call, index) => write!(f, "@P{index}"),
-            Self::Variable(name) | Self::Elements(name) => f.write_str(name),
-            Self::Parameters => f.write_str("P"),
-        }
-    }
 }
 
 /// How a region may be left other than at its end.

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::syntax::Fault;
+
 /// A value of an expression, parameter or variable.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -15,6 +17,10 @@ pub enum Value {
     /// Something that only the machine knows; the text names it (R2.50).
     Unknown(Arc<str>),
 }
+
+/// One operand on the stack. A failure waits until something needs its value, so that `EXIST` and
+/// the second operand of `&&` and `||` may fail without harm.
+pub(super) type Slot = Result<Value, Box<Fault>>;
 
 impl Value {
     /// The number, where it is one.

@@ -16,7 +16,7 @@ use super::exchange::ChannelAxes;
 use super::expression::Place;
 use super::modal::Modal;
 use super::program::EntryIndex;
-use super::region::Target;
+use super::target::Target;
 use super::value::Value;
 use crate::comp::KindSet;
 use crate::text::Span;

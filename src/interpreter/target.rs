@@ -1,0 +1,29 @@
+//! What an assignment writes, by name.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::syntax::ast::Owner;
+
+/// Something that a region could write.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub(super) enum Target {
+    Parameter(Owner, u32),
+    Variable(String),
+    /// Any element of an array.
+    Elements(String),
+    /// Any P parameter.
+    Parameters,
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Parameter(Owner::Program, index) => write!(f, "P{index}"),
+            Self::Parameter(Owner::Call, index) => write!(f, "@P{index}"),
+            Self::Variable(name) | Self::Elements(name) => f.write_str(name),
+            Self::Parameters => f.write_str("P"),
+        }
+    }
+}

@@ -218,7 +218,7 @@ impl Interpreter {
                 self.forget_loop(cause, finder);
             }
             let out = self.way_out()?;
-            self.leave_loop(&why, out, at, finder)
+            self.leave_loop(&why, &out, at, finder)
         });
         left.unwrap_or(Step::Jump(target))
     }
@@ -333,7 +333,7 @@ impl Interpreter {
     fn leave_loop(
         &mut self,
         why: &Enough,
-        out: WayOut,
+        out: &WayOut,
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::options::StopPolicy;
 use super::run::Interpreter;
 use crate::diagnostic::{Code, Collected};
-use crate::syntax::{LostRemarks, allow};
+use crate::syntax::{LostRemarks, Remark, allow};
 use crate::text::Place;
 
 impl Interpreter {
@@ -33,9 +33,9 @@ impl Interpreter {
 }
 
 /// FC490 or FC491 for each comment down to a line.
-fn gather(file: &Arc<str>, lost: &LostRemarks, last: u32, said: &mut Collected) {
-    let lines = lost.remarks.iter().flat_map(|remark| remark.lines());
-    for (text, line) in lines.take_while(|(_, line)| *line <= last) {
+fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
+    let lines = lost.remarks.iter().flat_map(Remark::lines);
+    for (text, line) in lines.take_while(|(_, line)| *line <= until) {
         let Some(fault) = allow::lost(text) else {
             continue;
         };
@@ -47,7 +47,7 @@ fn gather(file: &Arc<str>, lost: &LostRemarks, last: u32, said: &mut Collected) 
         };
         said.push(fault.into_diagnostic(place, |_| None));
     }
-    if lost.more > 0 && last == u32::MAX {
+    if lost.more > 0 && until == u32::MAX {
         *said.unsaid.entry(Code::Fc490).or_default() += lost.more;
     }
 }

@@ -4,32 +4,80 @@
 //! outlives the program. This crate executes programs without a machine and says for every block
 //! what it changed and which axis has friction compensation active after it.
 //!
-//! A host with an interpreter of its own needs only [`syntax::parse_comp`] and
-//! [`comp::Compensation`]:
+//! # COMP commands alone
+//!
+//! A host with an interpreter of its own hands over the COMP commands that it meets, and gets the
+//! changes or the control's own error:
 //!
 //! ```
-//! use frictcomp::machine::Machine;
-//! use frictcomp::syntax::parse_comp;
+//! use frictcomp::{Machine, parse_comp};
 //!
 //! let machine = Machine::enabled(["X"]);
 //! let mut compensation = machine.compensation();
 //! let changes = compensation.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
 //! assert_eq!(changes[0].to.as_str(), "inactive");
 //! let refused = compensation.apply(&parse_comp("Y[COMP ON FRICT]")?).unwrap_err();
-//! assert_eq!(refused.code().text(), "P-ERR-70495");
+//! assert_eq!(refused.code().text(), "P-ERR-21947");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`run`], [`check`] and [`currents`] are the questions that most hosts ask.
-//! [`interpreter::Interpreter`] runs a program block by block and can be saved and resumed;
-//! [`session::Session`] runs programs one after the other, with lints, and gives the records of
-//! [`timeline`], of which a [`motion::TrajectoryPlanner`] makes commanded traces and a
-//! [`current::AdditiveCurrent`] currents. A [`machine::Machine`] comes from the control's lists or
-//! from `frictcomp.toml`.
+//! # The messages about a program
+//!
+//! [`check`] executes a text as a program. What to do about a message is data, so that a host offers
+//! it in its own way: [`Advice`](diagnostic::Advice) in words, a [`Fix`](diagnostic::Fix) as a change
+//! of the text.
+//!
+//! ```
+//! use frictcomp::session::{NoFiles, SessionOptions};
+//! use frictcomp::{Machine, SourceFile, diagnostic::Fixed};
+//!
+//! let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRIKT]\nN20 M30\n");
+//! let (machine, options) = (Machine::enabled(["X"]), SessionOptions::default());
+//! let findings = frictcomp::check(program.clone(), machine, options, &mut NoFiles);
+//! let said = findings.diagnostics().next().expect("a misspelt kind");
+//! assert_eq!(said.code.text(), "FC202");
+//! assert_eq!(said.help(), ["did you mean `FRICT`?"]);
+//! let fixed = Fixed::new(&program, &said.fixes);
+//! assert_eq!(fixed.text, "N10 X[COMP OFF FRICT]\nN20 M30\n");
+//! ```
+//!
+//! # Programs one after the other
+//!
+//! A [`Session`] keeps the state from program to program and gives the [records](timeline) of what
+//! happens to a [`Sink`](timeline::Sink), a closure for instance:
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//!
+//! use frictcomp::session::{NoFiles, Program, SessionOptions};
+//! use frictcomp::{Machine, Record, Session, SourceFile};
+//!
+//! let mut session = Session::new(Machine::enabled(["X"]), SessionOptions::default());
+//! let mut changes = Vec::new();
+//! let mut sink = |record: &Record<'_>| {
+//!     if let Record::Block(row) = record {
+//!         changes.extend(row.changes.iter().map(|change| (row.line, change.to.as_str())));
+//!     }
+//!     ControlFlow::Continue(())
+//! };
+//! for (name, text) in [("a.nc", "X[COMP OFF FRICT]\nM30"), ("b.nc", "X[COMP ON FRICT]\nM30")] {
+//!     let program = Program::Whole(SourceFile::new(name, text));
+//!     let _ = session.program(name, program, &mut NoFiles, &mut sink);
+//! }
+//! assert_eq!(changes, [(1, "inactive"), (1, "active")]);
+//! ```
+//!
+//! # More
+//!
+//! [`interpreter::Interpreter`] runs a program block by block, can be stopped, saved and resumed. Of
+//! the records of a session a [`motion::TrajectoryPlanner`] makes commanded traces, of which a
+//! [`current::AdditiveCurrent`] makes currents; [`currents`] does both. A [`Machine`] comes from the
+//! control's lists or from `frictcomp.toml`. [`circle`] simulates and judges circular tests.
 //!
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are
 //! handed to it. The feature `report` adds formats and pictures, `host` what touches files and
-//! threads. The command line, the feature `cli`, is on by default.
+//! threads. The command line, the feature `cli`, is on by default. What the feature `unstable` shows
+//! may change with every version.
 
 pub mod circle;
 #[cfg(feature = "cli")]
@@ -55,4 +103,11 @@ pub mod syntax;
 pub mod text;
 pub mod timeline;
 
+pub use comp::{CompCommand, Compensation, CompensationError};
+pub use diagnostic::{Code, Diagnostic, Severity};
 pub use facade::{check, currents, run};
+pub use machine::Machine;
+pub use session::Session;
+pub use syntax::parse_comp;
+pub use text::SourceFile;
+pub use timeline::{Record, Row};

@@ -16,7 +16,7 @@ use frictcomp::lists::{AxisType, FrictionList, TablePoint};
 use frictcomp::machine::AcceptedList;
 use frictcomp::report::pictures::{AxisPlot, CurrentPlot, tuning, value_curve, value_curves};
 use frictcomp::report::svg::{
-    Axis, Band, BandChart, BandRow, BandState, Drawn, Frame, LineChart, Panel, PolarChart,
+    Band, BandChart, BandRow, BandState, ChartAxis, Drawn, Frame, LineChart, Panel, PolarChart,
     PolarSeries, Series, Standing,
 };
 use frictcomp::report::tune::TuneReport;
@@ -173,7 +173,7 @@ fn states() -> BandChart {
     BandChart {
         title: "States over the blocks".to_owned(),
         description: "Four rows of states.".to_owned(),
-        x: Axis::linear("executed blocks"),
+        x: ChartAxis::linear("executed blocks"),
         steps: None,
         rows: vec![
             row("X", [Active, Inactive, Active]),
@@ -333,10 +333,10 @@ fn a_million_cycles_are_a_picture_of_bounded_size() {
     let chart = LineChart {
         title: "long".to_owned(),
         description: "A million cycles.".to_owned(),
-        x: Axis::linear("time in s"),
+        x: ChartAxis::linear("time in s"),
         bands: Vec::new(),
         panels: vec![Panel {
-            y: Axis::linear("value"),
+            y: ChartAxis::linear("value"),
             series: vec![Series {
                 name: "value".to_owned(),
                 points: points.collect(),
@@ -382,14 +382,14 @@ fn odd_values_make_no_odd_picture() {
     ];
     let points: Vec<[f64; 2]> = odd.iter().flat_map(|&x| odd.map(|y| [x, y])).collect();
     for points in [points, Vec::new(), vec![[3.0, 3.0]]] {
-        for x in [Axis::linear("<x> & \0"), Axis::logarithmic("]]>")] {
+        for x in [ChartAxis::linear("<x> & \0"), ChartAxis::logarithmic("]]>")] {
             let chart = LineChart {
                 title: "<script>alert(1)</script>\0\u{202e}\u{ffff}".to_owned(),
                 description: "--> \u{b} \" '".to_owned(),
                 x,
                 bands: Vec::new(),
                 panels: vec![Panel {
-                    y: Axis::linear("y"),
+                    y: ChartAxis::linear("y"),
                     series: vec![Series {
                         name: "</svg>".to_owned(),
                         points: points.clone(),

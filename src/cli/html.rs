@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::comp::KindSet;
 use crate::host::{LoadedMachine, OutputFile, reopen};
-use crate::report::html::{Given, RunDigest, Sources, render_run};
+use crate::report::html::{RunDigest, RunInputs, Sources, render_run};
 use crate::text::LineSource;
 
 /// A report that is written when the session has ended.
@@ -32,7 +32,7 @@ impl HtmlFile {
         settings: &[(String, String)],
         loaded: &LoadedMachine,
     ) -> Result<(), Failure> {
-        let given = Given {
+        let given = RunInputs {
             settings,
             parameters: &loaded.reports,
             programs: &loaded.programs,

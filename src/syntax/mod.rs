@@ -3,8 +3,14 @@
 //! This is the only place that knows pest. Parsing never fails: a block comes back with what was
 //! understood and with the faults of the rest. Nothing here knows a machine.
 
+// Without the feature, what only tests see is as good as private.
+#![cfg_attr(not(feature = "unstable"), allow(unreachable_pub, dead_code))]
+
 pub(crate) mod allow;
+#[cfg(feature = "unstable")]
 pub mod ast;
+#[cfg(not(feature = "unstable"))]
+pub(crate) mod ast;
 mod axes;
 mod brackets;
 mod comp;
@@ -28,10 +34,22 @@ pub use fault::Fault;
 pub use flow_scan::FlowScan;
 pub(crate) use hash_words::hash_name;
 pub(crate) use known::{is_command, is_letter, is_statement};
-pub use lines::{BlockReader, FastPath};
+#[cfg(feature = "unstable")]
+pub use lines::BlockReader;
+#[cfg(not(feature = "unstable"))]
+pub(crate) use lines::BlockReader;
+pub use lines::FastPath;
+#[cfg(not(feature = "unstable"))]
+pub(crate) use parse::parse_block;
+#[cfg(feature = "unstable")]
+pub use parse::parse_block;
+pub use parse::parse_comp;
 pub(crate) use parse::parse_expression;
-pub use parse::{parse_block, parse_comp};
-pub use raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Remark, Stretch};
+pub use raw::{Comments, MAX_LINE, Remark};
+#[cfg(not(feature = "unstable"))]
+pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
+#[cfg(feature = "unstable")]
+pub use raw::{LostRemarks, RawBlock, Stretch};
 pub(crate) use unread::not_known;
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::machine::AxisReport;
 
 /// What the report tells beside the records.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Given<'a> {
+pub struct RunInputs<'a> {
     /// What the user gave for the run: names and values.
     pub settings: &'a [(String, String)],
     /// The parameters in effect, by axis.

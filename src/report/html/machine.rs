@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::digest::RunDigest;
-use super::given::Given;
+use super::given::RunInputs;
 use super::parts::{Caption, Column, Row, Table, figure};
 use crate::lists::{AxisType, Origin, Parameter};
 use crate::machine::{AxisSet, Parameterisation};
@@ -12,7 +12,7 @@ use crate::report::pictures::value_curve;
 use crate::report::svg::Frame;
 
 /// What the user gave and what holds on each axis.
-pub(super) fn render(digest: &RunDigest, given: &Given<'_>) -> Markup {
+pub(super) fn render(digest: &RunDigest, given: &RunInputs<'_>) -> Markup {
     html! {
         @if !given.settings.is_empty() { (settings(given.settings)) }
         @if digest.axis_set == AxisSet::AsTheyOccur {

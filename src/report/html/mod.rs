@@ -21,6 +21,6 @@ mod track;
 
 pub use circle::render_circle;
 pub use digest::RunDigest;
-pub use given::Given;
+pub use given::RunInputs;
 pub use run::render_run;
 pub use source::Sources;

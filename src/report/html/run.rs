@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use maud::{Markup, html};
 
 use super::digest::{RunDigest, SummaryDigest};
-use super::given::Given;
+use super::given::RunInputs;
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, counted, line_id, state_word};
 use super::source::{self, Sources};
@@ -31,7 +31,7 @@ const READING: Part = Part::new("reading", "Assumptions");
 /// Those of `out`.
 pub fn render_run(
     digest: &RunDigest,
-    given: &Given<'_>,
+    given: &RunInputs<'_>,
     sources: &mut dyn Sources,
     out: &mut dyn Write,
 ) -> io::Result<()> {

@@ -9,7 +9,7 @@ use super::page::Page;
 use super::parts::{counted, figure, line_id};
 use super::track::{Stretch, Track};
 use crate::comp::Kind;
-use crate::report::svg::{Axis, Band, BandChart, BandRow, Frame};
+use crate::report::svg::{Band, BandChart, BandRow, ChartAxis, Frame};
 
 /// Writes a chart for each program.
 pub(super) fn render(page: &mut Page<'_>, digest: &RunDigest) -> io::Result<()> {
@@ -62,7 +62,7 @@ fn chart(digest: &RunDigest, program: &ProgramDigest) -> BandChart {
         } else {
             told.join(" ")
         },
-        x: Axis::linear("executed block"),
+        x: ChartAxis::linear("executed block"),
         steps: Some((0.0, block(program.blocks))),
         rows,
     }

@@ -4,7 +4,7 @@ use crate::comp::State;
 use crate::current::Added;
 use crate::lists::AxisType;
 use crate::report::svg::{
-    Axis, Band, BandRow, BandState, Curve, Drawn, LineChart, Panel, Series, Standing,
+    Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, Series, Standing,
 };
 
 use super::units::velocity_unit;
@@ -98,7 +98,7 @@ impl AxisPlot {
             drawn: Drawn::Line,
         };
         let panel = |label: &str, series| Panel {
-            y: Axis::linear(match of_axis {
+            y: ChartAxis::linear(match of_axis {
                 "" => label.to_owned(),
                 _ => format!("axis {}: {label}", self.name),
             }),
@@ -195,7 +195,7 @@ impl CurrentPlot {
                 self.length,
                 told.join("; ")
             ),
-            x: Axis::linear("time in s"),
+            x: ChartAxis::linear("time in s"),
             bands: (self.axes.iter())
                 .map(|axis| BandRow {
                     label: axis.name.clone(),

@@ -1,7 +1,7 @@
 //! Value lists as curves.
 
 use crate::machine::AcceptedList;
-use crate::report::svg::{Axis, Drawn, LineChart, Panel, Series};
+use crate::report::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 
 use super::units::velocity_unit;
 
@@ -35,7 +35,7 @@ pub fn value_curves(accepted: &[&AcceptedList]) -> LineChart {
              the last point the value is held.",
             told.join(" ")
         ),
-        x: Axis::linear(format!("velocity in {unit}")),
+        x: ChartAxis::linear(format!("velocity in {unit}")),
         bands: Vec::new(),
         panels: (accepted.iter())
             .map(|list| list_panel(list, accepted.len()))
@@ -79,7 +79,7 @@ fn list_panel(accepted: &AcceptedList, panels: usize) -> Panel {
     }
     let quantity = "additive torque in drive units, broken where it is held";
     Panel {
-        y: Axis::linear(match accepted.axis.as_str() {
+        y: ChartAxis::linear(match accepted.axis.as_str() {
             axis if panels > 1 && !axis.is_empty() => format!("axis {axis}: {quantity}"),
             _ => quantity.to_owned(),
         }),

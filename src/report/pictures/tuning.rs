@@ -1,7 +1,7 @@
 //! What tuning is worth, over the feed.
 
 use crate::circle::FeedResult;
-use crate::report::svg::{Axis, Drawn, LineChart, Panel, Series};
+use crate::report::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use crate::report::tune::TuneReport;
 
 /// The glitch over the feed before and after tuning, with its sensitivity to the friction (R5.25);
@@ -17,7 +17,7 @@ pub fn tuning(reports: &[TuneReport]) -> LineChart {
             "The largest glitch without and with compensation, in µm at feeds in mm/min. {}",
             told.join(" ")
         ),
-        x: Axis::logarithmic("feed in mm/min"),
+        x: ChartAxis::logarithmic("feed in mm/min"),
         bands: Vec::new(),
         panels: reports
             .iter()
@@ -52,7 +52,7 @@ fn panel(report: &TuneReport, panels: usize) -> Panel {
     };
     let quantity = "largest glitch in µm, peak to peak";
     Panel {
-        y: Axis::linear(match panels {
+        y: ChartAxis::linear(match panels {
             1 => quantity.to_owned(),
             _ => format!("plant {}: {quantity}", report.plant),
         }),

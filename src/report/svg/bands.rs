@@ -2,7 +2,7 @@
 
 use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH, text_width};
 use super::frame::Frame;
-use super::scale::{Axis, Ends, Scale, Spacing};
+use super::scale::{ChartAxis, Ends, Scale, Spacing};
 use crate::comp::State;
 
 /// What a bar says.
@@ -92,7 +92,7 @@ pub struct BandChart {
     /// The picture in a sentence or two.
     pub description: String,
     /// What the bars are drawn over.
-    pub x: Axis,
+    pub x: ChartAxis,
     /// The first and the last step where each bar stands for whole steps: the start and the last
     /// block.
     pub steps: Option<(f64, f64)>,

@@ -4,7 +4,7 @@ use super::bands::{self, BandRow, Rows, draw_legend, draw_ticks};
 use super::canvas::{Anchor, Area, Canvas, Head, Legend, Marks, Role, SERIES, WIDTH, text_width};
 use super::frame::Frame;
 use super::reduce::reduce;
-use super::scale::{Axis, Ends, Scale};
+use super::scale::{ChartAxis, Ends, Scale};
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,7 +35,7 @@ pub struct Series {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel {
     /// The y axis.
-    pub y: Axis,
+    pub y: ChartAxis,
     /// The curves.
     pub series: Vec<Series>,
 }
@@ -48,7 +48,7 @@ pub struct LineChart {
     /// The picture in a sentence or two, for those who do not see it.
     pub description: String,
     /// The x axis.
-    pub x: Axis,
+    pub x: ChartAxis,
     /// States along the x axis, above the panels.
     pub bands: Vec<BandRow>,
     /// The panels from top to bottom.

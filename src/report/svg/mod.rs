@@ -24,4 +24,4 @@ pub use frame::{Frame, STYLE};
 pub use line::{Drawn, LineChart, Panel, Series};
 pub use polar::{PolarChart, PolarSeries};
 pub use reduce::Curve;
-pub use scale::{Axis, Spacing};
+pub use scale::{ChartAxis, Spacing};

@@ -13,14 +13,14 @@ pub enum Spacing {
 
 /// What an axis of a chart shows.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Axis {
+pub struct ChartAxis {
     /// The quantity with its unit, `velocity in mm/min`.
     pub label: String,
     /// How it is divided.
     pub spacing: Spacing,
 }
 
-impl Axis {
+impl ChartAxis {
     /// A linear axis.
     pub fn linear(label: impl Into<String>) -> Self {
         Self {

@@ -17,7 +17,7 @@
 //! let changes = compensation.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
 //! assert_eq!(changes[0].to.as_str(), "inactive");
 //! let refused = compensation.apply(&parse_comp("Y[COMP ON FRICT]")?).unwrap_err();
-//! assert_eq!(refused.code().text(), "P-ERR-21947");
+//! assert_eq!(refused.code().text(), "P-ERR-70495");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

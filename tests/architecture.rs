@@ -147,7 +147,7 @@ const ROOMS: [(&str, &[&str]); 19] = [
 const OUTER: [&str; 4] = ["cli", "host", "report", "main"];
 
 /// A file above this many lines is split.
-const MAX_LINES: usize = 800;
+const MAX_LINES: usize = 600;
 
 /// A source file: its path below `src`, its room, its text.
 struct File {

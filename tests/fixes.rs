@@ -65,7 +65,7 @@ fn run(programs: &[(&str, &str)]) -> Run {
 }
 
 /// The text after each fix of a code alone, and whether the fix is safe.
-fn fixed(text: &str, code: &str) -> Vec<(String, Safety)> {
+fn mended(text: &str, code: &str) -> Vec<(String, Safety)> {
     let source = SourceFile::new("a.nc", text);
     let said = run(&[("a.nc", text)]).said;
     let fixes = said.iter().filter(|said| said.code.text() == code);
@@ -81,7 +81,7 @@ fn becomes(text: &str, code: &str, expected: &[(&str, Safety)]) {
         .iter()
         .map(|(text, safety)| ((*text).to_owned(), *safety))
         .collect();
-    assert_eq!(fixed(text, code), expected);
+    assert_eq!(mended(text, code), expected);
 }
 
 #[test]
@@ -193,8 +193,8 @@ fn what_is_fixed_is_not_said_again() {
         let said = run(&[("a.nc", text)]).said;
         let fixes: Vec<&Fix> = said.iter().filter_map(|said| said.fixes.first()).collect();
         assert!(!fixes.is_empty(), "{text}");
-        let fixed = Fixed::new(&source, fixes).text;
-        assert_eq!(run(&[("a.nc", &fixed)]).said, [], "{fixed}");
+        let mended = Fixed::new(&source, fixes).text;
+        assert_eq!(run(&[("a.nc", &mended)]).said, [], "{mended}");
     }
 }
 
@@ -250,8 +250,8 @@ fn a_key_of_a_list_becomes_the_near_one() {
         .iter()
         .flat_map(|said| &said.fixes)
         .collect();
-    let fixed = Fixed::new(&source, fixes).text;
-    assert_eq!(fixed, text.replace("postion", "position"));
+    let mended = Fixed::new(&source, fixes).text;
+    assert_eq!(mended, text.replace("postion", "position"));
 }
 
 #[test]
@@ -314,9 +314,9 @@ fn every_fix_of_every_program_stands_in_its_file_and_safe_ones_change_no_state()
         }
         fixes += own.len();
         let safe = own.into_iter().filter(|fix| fix.safety == Safety::Safe);
-        let fixed = Fixed::new(&source, safe);
+        let mended = Fixed::new(&source, safe);
         assert_eq!(
-            run(&[("a.nc", &fixed.text)]).states,
+            run(&[("a.nc", &mended.text)]).states,
             before.states,
             "{}",
             path.display()

@@ -116,7 +116,7 @@ impl Fixed {
         placed.sort_by_key(|(range, _)| (range.start, range.end));
         placed.dedup();
         let line_end = line_end(text);
-        let mut fixed = Self {
+        let mut result = Self {
             text: String::with_capacity(text.len()),
             applied: 0,
         };
@@ -125,13 +125,13 @@ impl Fixed {
             if range.start < copied {
                 continue;
             }
-            fixed.text.push_str(&text[copied..range.start]);
-            fixed.text.push_str(&replacement.replace('\n', line_end));
+            result.text.push_str(&text[copied..range.start]);
+            result.text.push_str(&replacement.replace('\n', line_end));
             copied = range.end;
-            fixed.applied += 1;
+            result.applied += 1;
         }
-        fixed.text.push_str(&text[copied..]);
-        fixed
+        result.text.push_str(&text[copied..]);
+        result
     }
 }
 

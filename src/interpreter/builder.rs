@@ -181,9 +181,8 @@ impl Builder {
 
     fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
         let place = |span| self.index.place(entry, span);
-        let diagnostic = fault
-            .clone()
-            .into_diagnostic(place(fault.span), |span| Some(place(span)));
+        let at = place(fault.span);
+        let diagnostic = fault.into_diagnostic(at, |span| Some(place(span)));
         self.index.refused.push(diagnostic);
     }
 

@@ -207,7 +207,9 @@ impl Interpreter {
             .cloned()
             .collect();
         self.state.charge(ITEM + gone.len());
-        gone.iter().for_each(|name| self.release_axis(name));
+        for name in &gone {
+            self.release_axis(name);
+        }
     }
 
     /// An exchange that may or may not have been executed.

@@ -458,7 +458,7 @@ fn a_number_that_is_too_large_is_one_nowhere() {
     ] {
         let program = format!(
             "{}\nM30\n",
-            form.replace("#", &large)
+            form.replace('#', &large)
                 .replace(&format!("{large}TIME"), "#TIME")
         );
         for said in said_in_every_way(&program) {

@@ -1,6 +1,7 @@
 //! The writer of JSON lines against the serialised form of the records.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use proptest::prelude::*;
 
@@ -222,7 +223,7 @@ fn line(object: &impl serde::Serialize) -> String {
     for letter in serde_json::to_string(object).expect("an object").chars() {
         if is_hidden(letter) {
             for unit in letter.encode_utf16(&mut [0; 2]) {
-                line.push_str(&format!("\\u{unit:04x}"));
+                let _ = write!(line, "\\u{unit:04x}");
             }
         } else {
             line.push(letter);

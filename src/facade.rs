@@ -29,7 +29,7 @@ use crate::timeline::Sink;
 /// ```
 pub fn run(program: SourceFile, machine: Machine, sink: &mut dyn Sink) -> Session {
     let session = Session::new(machine, SessionOptions::default());
-    run_in(session, program, (&mut NoFiles, sink))
+    run_in(session, program, &mut NoFiles, sink)
 }
 
 /// Runs a program from the start of the control and returns every message about it, each once, in the
@@ -58,7 +58,7 @@ pub fn check(
         ..options
     };
     let session = Session::new(machine, options);
-    run_in(session, program, (finder, &mut findings));
+    run_in(session, program, finder, &mut findings);
     findings
 }
 
@@ -81,7 +81,7 @@ pub fn currents(
         ..SessionOptions::default()
     };
     let session = Session::new(machine, options);
-    run_in(session, program, (&mut NoFiles, &mut currents));
+    run_in(session, program, &mut NoFiles, &mut currents);
     currents.finish();
     Ok(())
 }
@@ -89,7 +89,8 @@ pub fn currents(
 fn run_in(
     mut session: Session,
     program: SourceFile,
-    (finder, sink): (&mut dyn Finder, &mut dyn Sink),
+    finder: &mut dyn Finder,
+    sink: &mut dyn Sink,
 ) -> Session {
     let name = program.name().clone();
     let mut flow = session.begin(&[], sink);

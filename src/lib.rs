@@ -69,10 +69,11 @@
 //!
 //! # More
 //!
-//! [`interpreter::Interpreter`] runs a program block by block, can be stopped, saved and resumed. Of
-//! the records of a session a [`motion::TrajectoryPlanner`] makes commanded traces, of which a
-//! [`current::AdditiveCurrent`] makes currents; [`currents`] does both. A [`Machine`] comes from the
-//! control's lists or from `frictcomp.toml`. [`circle`] simulates and judges circular tests.
+//! [`interpreter::Interpreter`] runs a program block by block, and can be stopped, saved and resumed.
+//! A [`motion::TrajectoryPlanner`] turns the records of a session into commanded traces, and a
+//! [`current::AdditiveCurrent`] turns traces into currents; [`currents`] does both. A [`Machine`]
+//! comes from the control's lists or from `frictcomp.toml`. [`circle`] simulates and judges circular
+//! tests.
 //!
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are
 //! handed to it. The feature `report` adds formats and pictures, `host` what touches files and

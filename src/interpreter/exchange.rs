@@ -200,13 +200,16 @@ impl Interpreter {
 
     /// Releases every axis but those of these names.
     fn release_others(&mut self, stay: &[&str]) {
+        let names = &self.state.channel_axes.names;
+        let is_here = |name: &str| !matches!(names.get(name), Some(Meaning::Released(_)));
         let machine = self.machine.axes.iter().map(|axis| &axis.name);
-        let names = machine.chain(self.state.channel_axes.names.keys());
-        let gone: BTreeSet<String> = names
-            .filter(|name| !stay.contains(&name.as_str()))
+        let gone: BTreeSet<String> = machine
+            .chain(names.keys())
+            .filter(|name| is_here(name) && !stay.contains(&name.as_str()))
             .cloned()
             .collect();
-        self.state.charge(ITEM + gone.len());
+        self.state
+            .charge(ITEM + self.machine.axes.len() + names.len());
         for name in &gone {
             self.release_axis(name);
         }

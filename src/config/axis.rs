@@ -18,7 +18,7 @@ pub(crate) struct AxisTable {
     pub(crate) axis_list: Option<Given<String>>,
     /// The value list.
     pub(crate) value_list: Option<Given<String>>,
-    /// The value list that stands in the file itself, `[axis.value]`.
+    /// The value list written in the file itself, `[axis.value]`.
     pub(crate) inline_list: Option<FrictionDraft>,
     /// What an axis list could say, too.
     pub(crate) values: AxisValues,

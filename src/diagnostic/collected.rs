@@ -37,7 +37,7 @@ impl Collected {
         }
     }
 
-    /// Whether there is none.
+    /// Whether there are no messages.
     pub fn is_empty(&self) -> bool {
         self.said.is_empty()
     }

@@ -14,7 +14,7 @@ pub struct UnknownName {
 }
 
 impl UnknownName {
-    /// A name that is none of those that are known.
+    /// A name that is not known.
     pub fn new<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Self {
         Self {
             name: name.to_owned(),

@@ -92,7 +92,7 @@ impl Input {
     /// Says why the program cannot be run, as far as that is known before it runs.
     ///
     /// # Errors
-    /// There is none, it may not be read, or is a folder.
+    /// It does not exist, cannot be read, or is a folder.
     pub fn probe(&self) -> Result<(), HostError> {
         let Self::File(path) = self else {
             return Ok(());

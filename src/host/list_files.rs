@@ -40,7 +40,7 @@ impl ListFiles for ListsOnDisk {
 /// Reads a list or a configuration that the user names.
 ///
 /// # Errors
-/// There is none, it may not be read, is a folder, or is too big to be kept.
+/// It does not exist, cannot be read, is a folder, or is too big to be kept.
 pub fn read_list(path: &Path) -> Result<SourceFile, HostError> {
     let text = read_regular(path).map_err(|error| match error.kind() {
         io::ErrorKind::IsADirectory => HostError::FolderAsList(path.to_owned()),

@@ -13,7 +13,7 @@ pub(super) const MOST_KEPT: usize = 1 << 30;
 /// Opens what is a file and nothing else: a pipe would be waited for, a device has no end.
 ///
 /// # Errors
-/// There is none, it may not be read, is a folder or no regular file.
+/// It does not exist, cannot be read, or is not a regular file.
 pub(super) fn open_regular(path: &Path) -> io::Result<(File, Metadata)> {
     // Asked before it is opened: opening a pipe waits for its other end.
     let metadata = std::fs::metadata(path)?;
@@ -31,7 +31,7 @@ pub(super) fn open_regular(path: &Path) -> io::Result<(File, Metadata)> {
 /// Reads and decodes a whole file.
 ///
 /// # Errors
-/// There is none, it may not be read, is a folder, or is too big to be kept.
+/// It does not exist, cannot be read, is a folder, or is too big to be kept.
 pub fn read_text(path: &Path) -> Result<String, HostError> {
     read_bytes(path)
         .map(decode)
@@ -41,7 +41,7 @@ pub fn read_text(path: &Path) -> Result<String, HostError> {
 /// Reads a whole file.
 ///
 /// # Errors
-/// There is none, it may not be read, is a folder, or is too big to be kept.
+/// It does not exist, cannot be read, is a folder, or is too big to be kept.
 pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let (file, metadata) = open_regular(path)?;
     read_whole(file, metadata.len())

@@ -92,7 +92,7 @@ fn brackets(upper: &str, text: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Whether a name is that of an axis (R2.20); a block number before it is none of it.
+/// Whether a name is that of an axis (R2.20); a block number before it does not belong to it.
 fn is_axis(name: &str) -> bool {
     name.starts_with(|first: char| "ABCUVWXYZQ".contains(first))
 }

@@ -25,7 +25,7 @@ pub trait ListFiles {
     /// show, and what further paths are resolved against.
     ///
     /// # Errors
-    /// There is none, or it cannot be read.
+    /// It does not exist or cannot be read.
     fn read(&mut self, path: &str) -> Result<SourceFile, NoList>;
 
     /// The folder above a folder; both are empty for the folder in which relative paths begin.

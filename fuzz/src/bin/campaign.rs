@@ -16,7 +16,11 @@ use frictcomp_fuzz::{
     numbered, program,
 };
 
-/// Decisions of one input: enough for a program of some kilobytes.
+/// Ways to run a program: policies, formats, as a whole or line by line.
+const WAYS: u64 = 18;
+
+/// Decisions of the longest inputs: enough for a program of some kilobytes. The others have a
+/// half, a quarter and an eighth.
 const DECISIONS: usize = 220;
 
 /// What an input may hold at a time, in bytes.
@@ -93,7 +97,7 @@ fn watched() -> Arc<AtomicU64> {
 }
 
 fn input(target: &str, number: u64, tally: &mut Tally) {
-    let bytes = numbered(number, DECISIONS);
+    let bytes = numbered(number, DECISIONS >> (number / WAYS % 4));
     let mut dice = Dice::new(&bytes);
     let theme = if target == "growth" {
         Theme::Growth
@@ -105,7 +109,7 @@ fn input(target: &str, number: u64, tally: &mut Tally) {
     } else {
         program(&mut dice, theme)
     };
-    let way = usize::try_from(number % 18).expect("a small number");
+    let way = usize::try_from(number % WAYS).expect("a small number");
     let start = Instant::now();
     let mut went_well = true;
     let held = allocation_counter::measure(|| {

@@ -4,12 +4,13 @@
 //! every run: units of work, bytes that were allocated, and bytes that were held at a time, for a
 //! program and for one that is twice as long.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use frictcomp::machine::Machine;
+use frictcomp::machine::{Machine, NoLists, check_list};
 use frictcomp::session::{Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
@@ -62,7 +63,6 @@ const SHAPES: &[Shape] = &[
     ("a long unknown region in a long loop", |n| format!("$FOR P1=1,{n},1\n$IF V.E.X\n{}$ENDIF\n$ENDFOR", each(n, |n| format!("P{}=1 X{n}", n + 9))), 150),
     ("many unknown regions", |n| each(n, |n| format!("$IF V.E.X\nP{n}=1\n$ENDIF")), 250),
     ("nested unknown regions", |n| format!("{}{}", each(n.min(40), |n| format!("$IF V.E.A{n}\nX1")), each(n.min(40), |_| "$ENDIF".to_owned())), 10),
-    ("calls of a file with faults", |n| format!("; faults {n}\n{}", each(n, |_| "L faulty.nc".to_owned())), 100),
     ("allow comments", |n| each(n, |_| "X[COMP ON FRICT] ; frictcomp: allow FC402".to_owned()), 250),
     ("unused allow comments", |n| each(n, |_| "X1 ; frictcomp: allow FC402".to_owned()), 250),
     ("lints", |n| each(n, |_| "X[COMP ON FRICT]".to_owned()), 250),
@@ -103,6 +103,63 @@ const SHAPES: &[Shape] = &[
     ("the language of other controls", |n| each(n, |n| format!("CYCLE81({n},1,,2) ; IF R{n} > 2 GOTOF X")), 250),
 ];
 
+/// A program with what it calls, on a machine with so many axes.
+struct Case {
+    text: String,
+    files: BTreeMap<String, String>,
+    axes: usize,
+}
+
+impl Case {
+    fn new(text: String) -> Self {
+        Self {
+            text,
+            files: BTreeMap::new(),
+            axes: 2,
+        }
+    }
+
+    fn with_file(mut self, name: &str, text: String) -> Self {
+        self.files.insert(name.to_owned(), text);
+        self
+    }
+
+    fn on_axes(mut self, axes: usize) -> Self {
+        self.axes = axes;
+        self
+    }
+
+    /// The program calls the file `called.nc` so many times.
+    fn calls(count: usize, called: String) -> Self {
+        Self::new("L called.nc\n".repeat(count)).with_file("called.nc", called)
+    }
+}
+
+type CaseShape = (&'static str, fn(usize) -> Case, usize);
+
+/// What called files and the machine add.
+#[rustfmt::skip]
+const CASES: &[CaseShape] = &[
+    ("calls of a file with faults", |n| Case::calls(n, "$ENDIF\n".repeat(n) + "M17"), 100),
+    ("calls of a file whose blocks have faults", |n| Case::calls(n, "P1=P9\n".repeat(10)), 100),
+    ("a called file whose blocks have faults", |n| Case::calls(10, "P1=P9\n".repeat(n)), 100),
+    ("called files", |n| (0..n).fold(Case::new(each(n, |n| format!("L f{n}.nc"))), |case, n| case.with_file(&format!("f{n}.nc"), "X1\nM17".to_owned())), 250),
+    ("axes", |n| Case::new("X0[COMP OFF FRICT]\n".repeat(9)).on_axes(n), 250),
+];
+
+type ListShape = (&'static str, fn(usize) -> String, usize);
+
+/// What lists are made of, and the toml of a machine.
+#[rustfmt::skip]
+const LISTS: &[ListShape] = &[
+    ("entries of an axis list", |n| each(n, |n| format!("kenngr.a{n} {n}")), 500),
+    ("entries that are given twice", |n| each(n, |_| "lr_param.frict_comp 1".to_owned()), 500),
+    ("points of a value list", |n| each(n, |n| format!("kw.frict.table[{n}].in {n}")), 500),
+    ("values out of their range", |n| each(n, |_| "kopf.achs_nr -1".to_owned()), 500),
+    ("lines that are no entry", |n| "?\n".repeat(n), 500),
+    ("lists that are missing", |n| each(n, |n| format!("achs_daten[{n}] a{n}.lis")), 250),
+];
+
 /// What a run came to.
 #[derive(Debug)]
 struct Cost {
@@ -119,26 +176,39 @@ impl Sink for Nobody {
     }
 }
 
-fn cost(text: &str) -> Cost {
-    let machine = Machine::enabled(["X", "Y"]);
+fn cost(case: &Case) -> Cost {
+    let names: Vec<String> = (0..case.axes).map(|axis| format!("X{axis}")).collect();
+    let axes = match case.axes {
+        2 => vec!["X", "Y"],
+        _ => names.iter().map(String::as_str).collect(),
+    };
     let options = SessionOptions::default().with_stop(StopPolicy::CheckAll);
-    let source = SourceFile::new("a.nc", text);
-    let wanted: usize = text
-        .lines()
-        .next()
-        .and_then(|line| line.strip_prefix("; faults "))
-        .map_or(0, |faults| faults.parse().expect("a number"));
-    let faulty = "$ENDIF\n".repeat(wanted) + "M17";
-    let mut finder =
-        |name: &str, _: &str| (name == "faulty.nc").then(|| SourceFile::new(name, faulty.as_str()));
+    let source = SourceFile::new("a.nc", case.text.as_str());
+    let mut finder = |name: &str, _: &str| {
+        let text = case.files.get(name)?;
+        Some(SourceFile::new(name, text.as_str()))
+    };
     let mut work = 0;
     let info = allocation_counter::measure(|| {
-        let mut session = Session::new(machine, options);
+        let mut session = Session::new(Machine::enabled(axes), options);
         let _ = session.program("a.nc", Program::Whole(source), &mut finder, &mut Nobody);
         work = session.interpreter().work();
     });
     Cost {
         work,
+        allocated: info.bytes_total,
+        held: info.bytes_max,
+    }
+}
+
+/// Reading a list does no work of a run.
+fn list_cost(text: &str) -> Cost {
+    let source = SourceFile::new("a.lis", text);
+    let info = allocation_counter::measure(|| {
+        let _ = check_list(source, None, &mut NoLists);
+    });
+    Cost {
+        work: 0,
         allocated: info.bytes_total,
         held: info.bytes_max,
     }
@@ -153,10 +223,18 @@ fn growth(once: u64, twice: u64, anyway: u64) -> f64 {
 #[allow(clippy::print_stdout, reason = "the table is shown with `--nocapture`")]
 fn twice_the_program_needs_twice_the_time_and_memory() {
     // R2.60, R2.85
+    let runs = SHAPES.iter().map(|&(shape, text, count)| {
+        (shape, [count, 2 * count].map(|n| cost(&Case::new(text(n)))))
+    });
+    let cases = CASES
+        .iter()
+        .map(|&(shape, case, count)| (shape, [count, 2 * count].map(|n| cost(&case(n)))));
+    let lists = LISTS
+        .iter()
+        .map(|&(shape, text, count)| (shape, [count, 2 * count].map(|n| list_cost(&text(n)))));
     let mut table = String::new();
     let mut too_fast = Vec::new();
-    for &(shape, program, count) in SHAPES {
-        let (once, twice) = (cost(&program(count)), cost(&program(2 * count)));
+    for (shape, [once, twice]) in runs.chain(cases).chain(lists) {
         let growth = [
             growth(once.work, twice.work, ANYWAY[0]),
             growth(once.allocated, twice.allocated, ANYWAY[1]),
@@ -177,9 +255,12 @@ fn the_document_shows_every_shape() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reliability.md");
     let text = fs::read_to_string(path).expect("a document");
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let missing: Vec<&str> = SHAPES
-        .iter()
-        .map(|(shape, ..)| *shape)
+    let runs = SHAPES.iter().map(|(shape, ..)| *shape);
+    let cases = CASES.iter().map(|(shape, ..)| *shape);
+    let lists = LISTS.iter().map(|(shape, ..)| *shape);
+    let missing: Vec<&str> = runs
+        .chain(cases)
+        .chain(lists)
         .filter(|shape| !text.contains(shape))
         .collect();
     assert!(missing.is_empty(), "{missing:?}");

@@ -146,7 +146,7 @@ impl Builder {
         self.index
             .refused
             .said
-            .sort_by_key(|diagnostic| diagnostic.place.start());
+            .sort_by(|one, other| one.place.cmp_start(&other.place));
         self.index
     }
 

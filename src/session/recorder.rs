@@ -198,10 +198,14 @@ impl Recorder<'_> {
         }
     }
 
-    /// Applies the user's severities and `allow` comments, keeps messages once a place, and sorts.
+    /// Sorts, applies the user's severities and `allow` comments, and keeps messages once a place.
     fn filter(&mut self, line: u32) {
         let (levels, allows, here) = (self.levels, &mut self.allows, &self.here);
         let (before, tally, wording) = (&mut self.before, &mut *self.tally, self.wording);
+        self.said.sort_by(|one, other| {
+            let order = one.place.cmp_start(&other.place);
+            order.then(one.code.cmp(&other.code))
+        });
         self.said.retain_mut(|diagnostic| {
             let Some(severity) = levels.severity(diagnostic.code) else {
                 return false;
@@ -223,8 +227,6 @@ impl Recorder<'_> {
                 }
             }
         });
-        self.said
-            .sort_by_key(|diagnostic| (diagnostic.place.start(), diagnostic.code));
     }
 
     fn note_allows(&mut self, executed: &Executed<'_>) {

@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic, MAX_MESSAGES};
-use crate::text::{Place, Position};
+use crate::text::{Place, Position, StartsInOrder};
 use crate::timeline::{EndNote, Repeat};
 
 /// Different messages of one code at one place; further ones count with the last.
@@ -48,13 +48,14 @@ struct PerFile {
 pub(super) struct Said {
     places: HashMap<Key, Vec<Saying>>,
     files: HashMap<Arc<str>, PerFile>,
+    starts: StartsInOrder,
 }
 
 impl Said {
-    /// Takes a message about an executed block.
+    /// Takes a message about an executed block; best in the order of their places.
     pub(super) fn take(&mut self, diagnostic: &Diagnostic) -> Verdict {
         let place = &diagnostic.place;
-        let start = place.start();
+        let start = self.starts.start(place);
         let mut hasher = DefaultHasher::new();
         diagnostic.message.hash(&mut hasher);
         let hash = hasher.finish();

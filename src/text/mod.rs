@@ -28,4 +28,5 @@ pub use index::LineIndex;
 pub(crate) use lines::line_end;
 pub use lines::{LineSource, PhysicalLine, TextLines};
 pub use place::Place;
+pub(crate) use place::StartsInOrder;
 pub use span::{Position, Span};

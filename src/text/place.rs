@@ -1,5 +1,6 @@
 //! A place in a file that shows itself.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -32,13 +33,77 @@ impl Place {
         self.position(self.span.end)
     }
 
+    /// Compares where two places begin. In the same lines, the offsets decide.
+    pub(crate) fn cmp_start(&self, other: &Self) -> Ordering {
+        if self.shows_lines_of(other) {
+            self.span.start.cmp(&other.span.start)
+        } else {
+            self.start().cmp(&other.start())
+        }
+    }
+
+    /// Whether both places share the lines that they show.
+    fn shows_lines_of(&self, other: &Self) -> bool {
+        self.first_line == other.first_line && Arc::ptr_eq(&self.text, &other.text)
+    }
+
     fn position(&self, offset: u32) -> Position {
-        let before = self.text.get(..offset as usize).unwrap_or(&self.text);
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        Position {
-            line: self.first_line + count(before.matches('\n').count()),
-            column: count(before[line_start..].chars().count()) + 1,
+        let start = Position {
+            line: self.first_line,
+            column: 1,
+        };
+        start.after(self.text.get(..offset as usize).unwrap_or(&self.text))
+    }
+}
+
+/// Where places begin that come one after another: what was counted is not counted again while
+/// they show the same lines.
+#[derive(Debug, Default)]
+pub(crate) struct StartsInOrder {
+    last: Option<(Place, Position)>,
+}
+
+impl StartsInOrder {
+    /// The same as [`Place::start`].
+    pub(crate) fn start(&mut self, place: &Place) -> Position {
+        let near = self.last.as_ref().and_then(|(last, position)| {
+            let between = (last.span.start as usize)..(place.span.start as usize);
+            let text = place.text.get(between)?;
+            last.shows_lines_of(place).then(|| position.after(text))
+        });
+        let position = near.unwrap_or_else(|| place.start());
+        self.last = Some((place.clone(), position));
+        position
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::Span;
+
+    #[test]
+    fn starts_in_any_order_are_those_of_the_places() {
+        let place = |text: &Arc<str>, start: usize| Place {
+            file: "a.nc".into(),
+            text: Arc::clone(text),
+            first_line: 3,
+            span: Span::new(start, start + 1),
+        };
+        let (text, other): (Arc<str>, Arc<str>) = ("Ä b\nc d\n\ne".into(), "X Y Z".into());
+        let offsets = [0, 2, 2, 4, 5, 9, 5, 0, 99, 3];
+        let places = offsets.map(|start| place(&text, start));
+        let mixed = offsets
+            .iter()
+            .flat_map(|&start| [place(&text, start), place(&other, start)]);
+        for places in [places.to_vec(), mixed.collect()] {
+            let mut starts = StartsInOrder::default();
+            for (place, next) in places.iter().zip(places.iter().skip(1)) {
+                assert_eq!(starts.start(place), place.start());
+                if next.span.start < 10 {
+                    assert_eq!(place.cmp_start(next), place.start().cmp(&next.start()));
+                }
+            }
         }
     }
 }

@@ -60,6 +60,20 @@ pub struct Position {
     pub column: u32,
 }
 
+impl Position {
+    /// Where a text ends that begins here.
+    pub(super) fn after(self, text: &str) -> Self {
+        let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let breaks = count(text.matches('\n').count());
+        let line = text.rfind('\n').map_or(text, |at| &text[at + 1..]);
+        let before = if breaks == 0 { self.column } else { 1 };
+        Self {
+            line: self.line.saturating_add(breaks),
+            column: before.saturating_add(count(line.chars().count())),
+        }
+    }
+}
+
 impl fmt::Display for Position {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.line, self.column)

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use frictcomp::machine::{Machine, NoLists, check_list};
-use frictcomp::session::{Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
@@ -164,25 +164,42 @@ const LISTS: &[ListShape] = &[
 #[derive(Debug)]
 struct Cost {
     work: u64,
+    /// Units that the program and its executed blocks bring with them.
+    granted: u64,
     allocated: u64,
     held: u64,
 }
 
-struct Nobody;
+/// Units of work that the program and its executed blocks bring with them.
+struct Granted(u64);
 
-impl Sink for Nobody {
-    fn record(&mut self, _: &Record<'_>) -> ControlFlow<()> {
+impl Sink for Granted {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Record::Block(row) = record {
+            self.0 += 500 + 4 * bytes(row.text);
+        }
         ControlFlow::Continue(())
     }
 }
 
+fn bytes(text: &str) -> u64 {
+    u64::try_from(text.len()).expect("a short text")
+}
+
 fn cost(case: &Case) -> Cost {
+    cost_within(case, Limits::default())
+}
+
+fn cost_within(case: &Case, limits: Limits) -> Cost {
     let names: Vec<String> = (0..case.axes).map(|axis| format!("X{axis}")).collect();
     let axes = match case.axes {
         2 => vec!["X", "Y"],
         _ => names.iter().map(String::as_str).collect(),
     };
-    let options = SessionOptions::default().with_stop(StopPolicy::CheckAll);
+    let options = SessionOptions::default()
+        .with_stop(StopPolicy::CheckAll)
+        .with_limits(limits);
+    let mut granted = Granted(16 * bytes(&case.text));
     let source = SourceFile::new("a.nc", case.text.as_str());
     let mut finder = |name: &str, _: &str| {
         let text = case.files.get(name)?;
@@ -191,11 +208,12 @@ fn cost(case: &Case) -> Cost {
     let mut work = 0;
     let info = allocation_counter::measure(|| {
         let mut session = Session::new(Machine::enabled(axes), options);
-        let _ = session.program("a.nc", Program::Whole(source), &mut finder, &mut Nobody);
+        let _ = session.program("a.nc", Program::Whole(source), &mut finder, &mut granted);
         work = session.interpreter().work();
     });
     Cost {
         work,
+        granted: granted.0,
         allocated: info.bytes_total,
         held: info.bytes_max,
     }
@@ -209,6 +227,7 @@ fn list_cost(text: &str) -> Cost {
     });
     Cost {
         work: 0,
+        granted: 0,
         allocated: info.bytes_total,
         held: info.bytes_max,
     }
@@ -248,6 +267,45 @@ fn twice_the_program_needs_twice_the_time_and_memory() {
     }
     println!("{table}");
     assert!(too_fast.is_empty(), "{}", too_fast.join("\n"));
+}
+
+/// Programs that do far more than is written in them, until a budget ends them.
+#[rustfmt::skip]
+const HOSTILE: &[(&str, fn() -> String)] = &[
+    ("macros of macros", || format!("\"A0\"=\"1+1\"\n{}$FOR P1=1,99999,1\nP2=\"A7\"+P1\n$ENDFOR", each(7, |n| format!("\"A{}\"=\"\\\"A{n}\\\"+\\\"A{n}\\\"+\\\"A{n}\\\"\"", n + 1)))),
+    ("macros in an unknown region", || format!("\"A0\"=\"X1 \"\n{}$FOR P1=1,99999,1\n$IF V.E.X\n\"A8\"\n$ENDIF\n$ENDFOR", each(8, |n| format!("\"A{}\"=\"\\\"A{n}\\\" \\\"A{n}\\\" \\\"A{n}\\\"\"", n + 1)))),
+    ("strings that are searched", || format!("P1=\"{}\"\nP2=\"{}b\"\n$FOR P3=1,99999,1\nP4=FIND[P1,P2]\n$ENDFOR", "a".repeat(3900), "a".repeat(1900))),
+    ("unknown jumps", || format!("$FOR P1=1,99999,1\n{}$GOTO N[V.E.X]\n$ENDFOR", each(3000, |n| format!("N{}: X1", n + 10)))),
+    ("unknown calls", || subprograms(1500, &format!("$FOR P1=1,99999,1\n$IF V.E.X\n{}$ENDIF\n$ENDFOR\n", each(1500, |n| format!("LL S{n}"))))),
+    ("a chain of unknown calls", || format!("{}%L S2000\nX1\nM17\n%MAIN\n$FOR P1=1,99999,1\n$IF V.E.X\nLL S0\n$ENDIF\n$ENDFOR\nM30", each(2000, |n| format!("%L S{n}\nLL S{0}\nLL S{0}\nM17", n + 1)))),
+    ("names that are nearly right", || format!("{}%MAIN\n$FOR P1=1,99999,1\nLL {}\n$ENDFOR\nM30", each(500, |n| format!("%L {}{n}\nM17", "AB".repeat(40))), "AB".repeat(41))),
+    ("one line of faults in a loop", || format!("$FOR P1=1,99999,1\nX1{}\n$ENDFOR", " ?1".repeat(900))),
+    ("exchanged axes", || format!("$FOR P1=1,99999,1\n{}$ENDFOR", each(3000, |n| format!("#CALL AX [X{0}, {0}, {0}]", n + 1)))),
+    ("couplings that may be enabled", || format!("{}$FOR P1=1,99999,1\n#ENABLE AX LINK [V.E.X]\nX[COMP ON FRICT]\n$ENDFOR", each(1500, |n| format!("#SET AX LINK [{n}, Y=X]\n#ENABLE AX LINK [{n}]")))),
+];
+
+/// Bytes that may be allocated for a unit of work, done or granted.
+const BYTES_PER_UNIT: u64 = 128;
+
+#[test]
+#[allow(clippy::print_stdout, reason = "the table is shown with `--nocapture`")]
+fn a_unit_of_work_costs_little_whatever_it_is_spent_on() {
+    // R2.60
+    let mut dear = Vec::new();
+    for (what, program) in HOSTILE {
+        let case = Case::new(program());
+        let cost = cost_within(
+            &case,
+            Limits::default().with_work(1_000_000).with_blocks(2_000),
+        );
+        let units = cost.granted + cost.work;
+        let each = cost.allocated / units;
+        println!("{what:<35} {units:>10} units, {each} bytes each");
+        if each > BYTES_PER_UNIT {
+            dear.push(*what);
+        }
+    }
+    assert!(dear.is_empty(), "{dear:?}");
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn refusal(arguments: &[&str]) -> String {
 }
 
 /// A small fast circle, so that the test is short.
-const QUICK: [&str; 4] = ["circle", "--radius=20", "--feed=4000", "--format=json"];
+const QUICK: [&str; 4] = ["circle", "--radius=40", "--feed=4000", "--format=json"];
 
 #[test]
 fn the_document_has_the_promised_keys() {
@@ -52,6 +52,68 @@ fn the_document_has_the_promised_keys() {
         }
     }
     assert!(document["on"]["glitch_max"].as_f64() < document["off"]["glitch_max"].as_f64());
+}
+
+#[test]
+fn a_circle_that_is_too_fast_says_what_is_not() {
+    // R5.22
+    let fast = ["circle", "--radius", "5", "--feed", "1000"];
+    let document = json(&[&fast[..], &["--format", "json"]].concat());
+    for side in ["off", "on"] {
+        assert!(document[side]["glitch_max"].is_null(), "{side}");
+        assert_eq!(document[side]["advice"], Value::Array(Vec::new()));
+        for crossing in ["X+", "Y+", "X-", "Y-"] {
+            assert!(document[side]["cw"]["glitch"][crossing].is_null());
+        }
+        assert!(document[side]["G_b"].is_f64());
+    }
+    assert_eq!(document["glitches_up_to"]["feed_mm_min"], 785.0);
+    assert_eq!(document["glitches_up_to"]["radius_mm"], 6.4);
+    let said = String::from_utf8(tool(&fast).stdout).expect("text");
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = "a feed of 785 mm/min or less or a radius of 6.4 mm and more gives figures";
+    assert!(said.contains(words), "{said}");
+}
+
+#[test]
+fn each_axis_has_its_own_list() {
+    // R5.25: which list goes where is said, and what is given half is refused.
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, output: u32| {
+        let path = folder.path().join(name);
+        let text = format!(
+            "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.position_delay 9\n\
+             frict_comp.table[0].in 0\nfrict_comp.table[0].out {output}\nEnde\n"
+        );
+        fs::write(&path, text).expect("written");
+        path.to_str().expect("text").to_owned()
+    };
+    let [x, y] = [("a.lis", 110), ("b.lis", 0)].map(|(name, output)| write(name, output));
+    let [for_x, for_y] = [format!("--value-list=X={x}"), format!("--value-list=Y={y}")];
+    let document = json(&[&QUICK[..], &[&for_y, &for_x]].concat());
+    let glitch = |side: &str, crossing: &str| {
+        let glitch = &document[side]["ccw"]["glitch"][crossing];
+        glitch.as_f64().expect("a number")
+    };
+    // Y has a list that adds nothing.
+    assert!(glitch("on", "X+") < 0.3 * glitch("off", "X+"));
+    assert!((glitch("on", "Y+") / glitch("off", "Y+") - 1.0).abs() < 0.02);
+    assert_eq!(document["value_list"], format!("X={x}, Y={y}"));
+    for given in [vec![&for_x], vec![&for_x, &for_x], vec![&for_x, &x]] {
+        let given: Vec<&str> = given.into_iter().map(String::as_str).collect();
+        let given: Vec<&str> = given
+            .into_iter()
+            .flat_map(|it| match it.strip_prefix("--") {
+                Some(_) => vec![it],
+                None => vec!["--value-list", it],
+            })
+            .collect();
+        let said = refusal(&[&QUICK[..], &given].concat());
+        assert!(
+            said.contains("one list for both axes, or one for each"),
+            "{said}"
+        );
+    }
 }
 
 #[test]

@@ -2,12 +2,11 @@
 
 #![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use frictcomp::circle::{
-    Circle, CircleError, CircularTest, Comparison, Crossing, Direction, Figures, Finding, FoundAt,
-    Job, Lap, Ranges, RecordedCircle, RecordedError, Recording, Task, Tuned, diagnose,
-    diagnose_comparison, tune,
+    Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt, Job, Lap,
+    PathFigures, PathShape, Ranges, Task, Tuned, diagnose, diagnose_comparison, tune,
 };
 use frictcomp::current::{Reading, Switched};
 use frictcomp::lists::Field;
@@ -46,6 +45,16 @@ fn figures(test: &CircularTest, compensation: Switched) -> Figures {
         Switched::Off => comparison.off.figures,
         Switched::On => comparison.on.figures,
     }
+}
+
+/// The largest glitch.
+fn glitch(figures: &Figures) -> f64 {
+    figures.glitch_max_um().expect("a glitch at each crossing")
+}
+
+/// What a path does at its crossings.
+fn shape(path: Option<&PathFigures>) -> &PathShape {
+    path.and_then(|path| path.shape.as_ref()).expect("a shape")
 }
 
 fn within(found: f64, expected: f64, part: f64) {
@@ -220,8 +229,8 @@ fn the_reference_figures_are_met() {
     ];
     for (feed, off, on) in reference {
         let test = circular_test(feed);
-        within(figures(&test, Switched::Off).glitch_max_um(), off, 0.05);
-        within(figures(&test, Switched::On).glitch_max_um(), on, 0.05);
+        within(glitch(&figures(&test, Switched::Off)), off, 0.05);
+        within(glitch(&figures(&test, Switched::On)), on, 0.05);
     }
 }
 
@@ -236,19 +245,19 @@ fn both_directions_meet_the_reference() {
     within(on.h_um.expect("H"), 0.57, 0.05);
     // The clockwise circle is the mirror image.
     let mirrored = |figures: &Figures, crossing: usize| {
-        figures.cw.as_ref().expect("cw").glitch[crossing].height_um
+        shape(figures.cw.as_ref()).glitches[crossing].height_um
     };
     let straight = |figures: &Figures, crossing: usize| {
-        figures.ccw.as_ref().expect("ccw").glitch[crossing].height_um
+        shape(figures.ccw.as_ref()).glitches[crossing].height_um
     };
     for (ccw, cw) in [(0, 0), (1, 3), (2, 2), (3, 1)] {
         within(mirrored(on, cw), straight(on, ccw), 1e-6);
     }
     // R5.24
-    let advice = diagnose(&comparison.off.paths, Some(Switched::Off));
+    let advice = diagnose(&comparison.off.figures, Some(Switched::Off));
     assert_eq!(advice.len(), 8, "{advice:?}");
     assert!(advice.iter().all(|it| it.finding == Finding::Friction));
-    assert!(diagnose(&comparison.on.paths, Some(Switched::On)).is_empty());
+    assert!(diagnose(&comparison.on.figures, Some(Switched::On)).is_empty());
 }
 
 #[test]
@@ -258,7 +267,7 @@ fn the_wrong_sign_makes_it_worse() {
     for list in &mut test.lists {
         list.scaling_factor = -1000;
     }
-    within(figures(&test, Switched::On).glitch_max_um(), 24.8, 0.05);
+    within(glitch(&figures(&test, Switched::On)), 24.8, 0.05);
     // R5.24: it is told from a compensation that is too weak.
     let laps = [Switched::Off, Switched::On];
     let laps = laps.map(|compensation| lap(&test, compensation, Direction::Ccw));
@@ -292,135 +301,10 @@ fn shapes_tell_what_is_wrong() {
         test.lists.iter_mut().for_each(change);
         let lap = lap(&test, Switched::On, Direction::Ccw);
         let comparison = Comparison::of([lap]);
-        let advice = diagnose(&comparison.on.paths, Some(Switched::On));
+        let advice = diagnose(&comparison.on.figures, Some(Switched::On));
         assert_eq!(advice.len(), 4, "{finding:?}: {advice:?}");
         assert!(advice.iter().all(|it| it.finding == finding), "{advice:?}");
     }
-}
-
-/// Points of a circle of 50 mm around (3, -7) with a radial deviation in µm over the angle.
-fn synthetic(direction: Direction, deviation: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-    (0..=14_400)
-        .map(|point| {
-            let angle = direction.sign() * f64::from(point) / 14_400.0 * TAU + 0.4;
-            let radius = 50.0 + deviation(angle.rem_euclid(TAU)) / 1000.0;
-            [3.0 + radius * angle.cos(), -7.0 + radius * angle.sin()]
-        })
-        .collect()
-}
-
-fn recording(ccw: impl Fn(f64) -> f64, cw: impl Fn(f64) -> f64, radius: Option<f64>) -> Recording {
-    let circles = [
-        RecordedCircle::new(&synthetic(Direction::Ccw, ccw), radius).expect("a circle"),
-        RecordedCircle::new(&synthetic(Direction::Cw, cw), radius).expect("a circle"),
-    ];
-    Recording::new(circles.into(), radius).expect("both directions")
-}
-
-#[test]
-fn figures_of_known_circles_are_exact() {
-    // R5.21: three lobes of ±4 µm one way and ±2 µm the other, 6 µm too large.
-    let recording = recording(
-        |angle| 6.0 + 4.0 * (3.0 * angle).cos(),
-        |angle| 6.0 + 2.0 * (3.0 * angle).cos(),
-        Some(50.0),
-    );
-    let figures = &recording.side.figures;
-    let ccw = figures.ccw.as_ref().expect("ccw");
-    let close = |found: f64, expected: f64| {
-        assert!((found - expected).abs() < 2e-3, "{found} is not {expected}");
-    };
-    close(ccw.g_mz_um, 8.0);
-    close(ccw.g_lsc_um, 8.0);
-    close(ccw.f_max_um.expect("Fmax"), 10.0);
-    close(ccw.f_min_um.expect("Fmin"), 2.0);
-    close(ccw.d_um.expect("D"), 6.0);
-    let cw = figures.cw.as_ref().expect("cw");
-    close(cw.g_mz_um, 4.0);
-    close(figures.g_b_um.expect("G(b)"), 8.0);
-    // 4 cos - 2 cos: 2 µm apart.
-    close(figures.h_um.expect("H"), 2.0);
-    close(figures.d_um.expect("D"), 6.0);
-    for circle in &recording.circles {
-        close(1000.0 * (circle.centre_mm[0] - 3.0), 0.0);
-        close(1000.0 * (circle.centre_mm[1] + 7.0), 0.0);
-    }
-}
-
-#[test]
-fn the_minimum_zone_is_smaller_than_that_about_least_squares() {
-    // R5.21: one bump of 9 µm and 20°. The least-squares centre follows its whole area; the
-    // minimum zone is not wider, and not narrower than the bump less what a shift can take away.
-    let bump = |angle: f64| {
-        let way = (angle - 1.0).abs().min(TAU - (angle - 1.0).abs());
-        9.0 * (1.0 - way / (10.0 * PI / 180.0)).max(0.0)
-    };
-    let path = recording(bump, bump, None).side.figures.ccw.expect("ccw");
-    assert!(path.g_mz_um <= path.g_lsc_um + 1e-9, "{path:?}");
-    assert!((4.5..=9.0).contains(&path.g_mz_um), "{path:?}");
-    // Against every centre of a fine grid the minimum zone is the narrowest.
-    let points = synthetic(Direction::Ccw, bump);
-    for (i, j) in (-20..=20).flat_map(|i| (-20..=20).map(move |j| (i, j))) {
-        let centre = [3.0 + f64::from(i) * 5e-4, -7.0 + f64::from(j) * 5e-4];
-        let radius = |point: &[f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
-        let most = points.iter().map(radius).fold(f64::MIN, f64::max);
-        let least = points.iter().map(radius).fold(f64::MAX, f64::min);
-        assert!(1000.0 * (most - least) >= path.g_mz_um - 1e-3, "{centre:?}");
-    }
-    // F and D need the commanded radius.
-    assert_eq!((path.f_max_um, path.d_um), (None, None));
-}
-
-#[test]
-fn the_glitch_is_that_of_its_window() {
-    // R5.22: 5 µm outwards 3° after Y+, 2 µm inwards 9° after X-, outside the window.
-    let spike = |angle: f64, at: f64, height: f64| {
-        height * (1.0 - (angle - at.to_radians()).abs() / 0.01).max(0.0)
-    };
-    let path = |angle: f64| spike(angle, 93.0, 5.0) - spike(angle, 189.0, 2.0);
-    let figures = recording(path, |_| 0.0, None).side.figures;
-    let glitch = &figures.ccw.expect("ccw").glitch;
-    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 0.1, "{glitch:?}");
-    assert_eq!(glitch[1].crossing, Crossing::YPlus);
-    close(glitch[1].height_um, 5.0);
-    close(glitch[1].outward_um, 5.0);
-    close(glitch[0].height_um, 0.0);
-    close(glitch[2].height_um, 0.0);
-}
-
-#[test]
-fn backlash_and_ellipses_are_told_apart() {
-    // R5.24: an axis with 8 µm of backlash lags by 4 µm in either direction.
-    let backlash = |sign: f64| {
-        move |angle: f64| {
-            let lag = 4.0 * sign * angle.sin().signum();
-            lag * angle.cos()
-        }
-    };
-    let recording_of_backlash = recording(backlash(1.0), backlash(-1.0), None);
-    let advice = diagnose(&recording_of_backlash.side.paths, None);
-    let at = |crossing: Crossing| {
-        let here = advice
-            .iter()
-            .filter(|it| it.place == FoundAt::Crossing(crossing));
-        here.map(|it| it.finding).collect::<Vec<_>>()
-    };
-    assert_eq!(at(Crossing::XPlus), [Finding::Backlash; 2], "{advice:?}");
-    assert_eq!(at(Crossing::XMinus), [Finding::Backlash; 2], "{advice:?}");
-    assert!(at(Crossing::YPlus).is_empty(), "{advice:?}");
-
-    let found = |ccw: f64, cw: f64| {
-        let side = recording(
-            move |angle| ccw * (2.0 * angle).sin(),
-            move |angle| cw * (2.0 * angle).sin(),
-            None,
-        );
-        let advice = diagnose(&side.side.paths, None);
-        let whole = advice.iter().filter(|it| it.place == FoundAt::Whole);
-        whole.map(|it| it.finding).collect::<Vec<_>>()
-    };
-    assert_eq!(found(5.0, -5.0), [Finding::GainMismatch]);
-    assert_eq!(found(5.0, 5.0), [Finding::Squareness]);
 }
 
 #[test]
@@ -433,7 +317,7 @@ fn axes_with_different_gains_make_an_ellipse_at_45_degrees() {
     }
     let laps = Direction::ALL.map(|direction| lap(&test, Switched::Off, direction));
     let comparison = Comparison::of(laps);
-    let advice = diagnose(&comparison.off.paths, Some(Switched::Off));
+    let advice = diagnose(&comparison.off.figures, Some(Switched::Off));
     let whole: Vec<_> = advice
         .iter()
         .filter(|it| it.place == FoundAt::Whole)
@@ -446,30 +330,6 @@ fn axes_with_different_gains_make_an_ellipse_at_45_degrees() {
         whole.iter().all(|it| it.finding != Finding::Squareness),
         "{advice:?}"
     );
-}
-
-#[test]
-fn recordings_that_are_no_circle_are_refused() {
-    // R5.20
-    let whole = synthetic(Direction::Cw, |_| 0.0);
-    let refused = |points: &[[f64; 2]]| RecordedCircle::new(points, None).expect_err("no circle");
-    assert_eq!(refused(&whole[..40]), RecordedError::TooFew(40));
-    assert_eq!(refused(&[[1.0, 1.0]; 100]), RecordedError::NoCircle);
-    let line: Vec<_> = (0..200).map(|x| [f64::from(x), 2.0]).collect();
-    assert_eq!(refused(&line), RecordedError::NoCircle);
-    let part = refused(&whole[..9000]);
-    assert!(matches!(part, RecordedError::NotATurn(covered) if (covered - 225.0).abs() < 0.1));
-    let mut holey = whole.clone();
-    holey.drain(4000..5000);
-    assert!(
-        matches!(refused(&holey), RecordedError::Gaps(missing) if (24.0..26.0).contains(&missing))
-    );
-    let circle = RecordedCircle::new(&whole, None).expect("a circle");
-    assert_eq!(circle.direction, Direction::Cw);
-    let twice = Recording::new(vec![circle.clone(), circle], None).expect_err("one direction");
-    assert_eq!(twice, RecordedError::SameDirection(Direction::Cw));
-    let wrong = RecordedCircle::new(&whole, Some(100.0)).expect_err("another radius");
-    assert!(matches!(wrong, RecordedError::Radius { .. }));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The result of a circular test: the same circle without and with friction compensation.
 
+use super::centre::PathCentre;
 use super::figures::{Figures, Nominal, Paths};
 use super::lap::{Job, Lap};
 use super::reference::CircleError;
@@ -50,17 +51,28 @@ impl Comparison {
             }
         }
         Self {
-            off: Side::of(off, Nominal::Commanded),
-            on: Side::of(on, Nominal::Commanded),
+            off: Side::of(off, Nominal::Commanded, PathCentre::default()),
+            on: Side::of(on, Nominal::Commanded, PathCentre::default()),
             saturated_cycles,
+        }
+    }
+
+    /// The same with G(b) and H about another centre.
+    #[must_use]
+    pub fn about(self, centre: PathCentre) -> Self {
+        let about = |side: Side| Side::of(side.paths, Nominal::Commanded, centre);
+        Self {
+            off: about(self.off),
+            on: about(self.on),
+            ..self
         }
     }
 }
 
 impl Side {
-    pub(super) fn of(paths: Paths, nominal: Nominal) -> Self {
+    pub(super) fn of(paths: Paths, nominal: Nominal, centre: PathCentre) -> Self {
         Self {
-            figures: Figures::of(&paths, nominal),
+            figures: Figures::of(&paths, nominal, centre),
             paths,
         }
     }

@@ -2,17 +2,16 @@
 //!
 //! At a crossing an axis turns round. Friction holds it a moment at its outermost place: the path
 //! bulges outwards after the crossing and comes back. Compensation that is too strong or too
-//! early throws the axis back: the path is cut inwards.
-
-use std::f64::consts::TAU;
+//! early throws the axis back: the path is cut inwards. Backlash leaves a step; what is left of the
+//! path without peaks and steps is a circle, or an ellipse.
 
 use serde::Serialize;
 
-use super::compare::{Comparison, Side};
+use super::compare::Comparison;
+use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
-use super::figures::Paths;
-use super::glitch::{Crossing, Glitch, glitches};
-use super::profile::{ANGLES, PER_DEGREE, RadialProfile, UM_PER_M};
+use super::figures::{Figures, PathFigures};
+use super::glitch::{AxisShape, Bulge, Glitch, PathShape};
 use crate::current::Switched;
 
 /// Below this there is nothing to say.
@@ -21,8 +20,9 @@ pub const NOTICEABLE_UM: f64 = 1.0;
 /// One of two bulges counts as alone if the other is less than this part of it.
 const ALONE: f64 = 0.25;
 
-/// A step is one if it is at least this part of the height.
-const STEP_PART: f64 = 0.5;
+/// A step is one if it is at least this part of the peak: what a slow drive leaves of a peak is
+/// less.
+const STEP_PART: f64 = 0.1;
 
 /// What a shape suggests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -41,8 +41,10 @@ pub enum Finding {
     TooEarly,
     /// First outwards, then inwards: it comes too late.
     TooLate,
-    /// A step that stays: backlash.
+    /// A step outwards that stays: backlash.
     Backlash,
+    /// A step inwards that stays: more backlash is compensated than there is.
+    OvercompensatedBacklash,
     /// An ellipse at 45° that lies the other way in the other direction: the gains differ.
     GainMismatch,
     /// An ellipse at 45° that lies the same way in both directions: the axes are not square.
@@ -58,6 +60,8 @@ pub enum Finding {
 pub enum FoundAt {
     /// At a crossing.
     Crossing(Crossing),
+    /// At both crossings of an axis.
+    Axis(PlaneAxis),
     /// In the path as a whole.
     Whole,
 }
@@ -76,41 +80,55 @@ pub struct Diagnosis {
     pub size_um: f64,
 }
 
-/// What the paths suggest, the crossings of each direction first. `compensation` says whether
-/// friction compensation was on when they were made; of recorded paths it may be unknown.
-pub fn diagnose(paths: &Paths, compensation: Option<Switched>) -> Vec<Diagnosis> {
+/// What figures suggest: peaks at the crossings of each direction, steps of each axis, and the
+/// ellipse. `compensation` says whether friction compensation was on when the paths were made; of
+/// recorded paths it may be unknown.
+pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagnosis> {
+    let shapes: Vec<(Direction, &PathShape)> = Direction::ALL
+        .into_iter()
+        .filter_map(|direction| Some((direction, figures.get(direction)?.shape.as_ref()?)))
+        .collect();
     let mut advice = Vec::new();
-    for (direction, profile) in paths.iter() {
-        for glitch in glitches(profile, direction) {
-            if let Some(finding) = at_crossing(profile, direction, &glitch, compensation) {
-                let size_um = match finding {
-                    Finding::Backlash => glitch.step_um.abs(),
-                    _ => glitch.height_um,
-                };
+    for &(direction, shape) in &shapes {
+        for glitch in &shape.glitches {
+            if let Some(finding) = peak(glitch, compensation) {
                 advice.push(Diagnosis {
                     place: FoundAt::Crossing(glitch.crossing),
                     direction: Some(direction),
                     finding,
-                    size_um,
+                    size_um: glitch.outward_um - glitch.inward_um,
                 });
             }
         }
     }
-    advice.extend(ellipses(paths));
+    let paths: Vec<&PathShape> = shapes.into_iter().map(|(_, shape)| shape).collect();
+    for axis in PlaneAxis::ALL {
+        let of_axis: Vec<&AxisShape> = paths.iter().map(|shape| shape.axis(axis)).collect();
+        advice.extend(step(&of_axis).map(|(finding, size_um)| Diagnosis {
+            place: FoundAt::Axis(axis),
+            direction: None,
+            finding,
+            size_um,
+        }));
+    }
+    if let [ccw, cw] = paths[..] {
+        advice.extend(ellipses(ccw.ellipse_um, cw.ellipse_um));
+    }
     advice
 }
 
-/// What the paths of a test with compensation suggest, given those without.
+/// What a test with compensation suggests, given the one without.
 pub fn diagnose_comparison(comparison: &Comparison) -> Vec<Diagnosis> {
-    let mut advice = diagnose(&comparison.on.paths, Some(Switched::On));
-    let height = |side: &Side, it: &Diagnosis| {
-        let path = side.figures.get(it.direction?)?;
+    let mut advice = diagnose(&comparison.on.figures, Some(Switched::On));
+    let height = |figures: &Figures, it: &Diagnosis| {
+        let PathFigures { shape, .. } = figures.get(it.direction?)?;
         let here = |glitch: &&Glitch| it.place == FoundAt::Crossing(glitch.crossing);
-        path.glitch.iter().find(here).map(|glitch| glitch.height_um)
+        let glitch = shape.as_ref()?.glitches.iter().find(here)?;
+        Some(glitch.height_um)
     };
     for it in &mut advice {
         if it.finding == Finding::TooWeak
-            && height(&comparison.on, it) > height(&comparison.off, it)
+            && height(&comparison.on.figures, it) > height(&comparison.off.figures, it)
         {
             it.finding = Finding::WrongSign;
         }
@@ -118,17 +136,9 @@ pub fn diagnose_comparison(comparison: &Comparison) -> Vec<Diagnosis> {
     advice
 }
 
-fn at_crossing(
-    profile: &RadialProfile,
-    direction: Direction,
-    glitch: &Glitch,
-    compensation: Option<Switched>,
-) -> Option<Finding> {
-    if glitch.step_um.abs() >= NOTICEABLE_UM && glitch.step_um.abs() >= STEP_PART * glitch.height_um
-    {
-        return Some(Finding::Backlash);
-    }
-    let (outward, inward) = (glitch.outward_um.max(0.0), (-glitch.inward_um).max(0.0));
+/// What decays at a crossing.
+fn peak(glitch: &Glitch, compensation: Option<Switched>) -> Option<Finding> {
+    let (outward, inward) = (glitch.outward_um, -glitch.inward_um);
     if outward.max(inward) < NOTICEABLE_UM {
         return None;
     }
@@ -145,54 +155,34 @@ fn at_crossing(
     if outward < ALONE * inward {
         return Some(Finding::TooStrong);
     }
-    let [most, least] = places(profile, direction, glitch.crossing);
-    Some(if least < most {
-        Finding::TooEarly
-    } else {
-        Finding::TooLate
+    Some(match glitch.first {
+        Bulge::Inward => Finding::TooEarly,
+        Bulge::Outward => Finding::TooLate,
     })
 }
 
-/// Where within 8° of a crossing the path lies farthest out and farthest in, as fixed angles in
-/// the direction of travel.
-fn places(profile: &RadialProfile, direction: Direction, crossing: Crossing) -> [usize; 2] {
-    let width = 8 * PER_DEGREE;
-    let at = usize::from(crossing.angle_deg()) * PER_DEGREE;
-    let deviation = |way: usize| {
-        let way = match direction {
-            Direction::Ccw => way,
-            Direction::Cw => 2 * width - way,
-        };
-        profile.deviations_m()[(at + ANGLES + way - width) % ANGLES]
-    };
-    let compare = |a: &usize, b: &usize| deviation(*a).total_cmp(&deviation(*b));
-    let most = (0..=2 * width).max_by(compare).unwrap_or_default();
-    let least = (0..=2 * width).min_by(compare).unwrap_or_default();
-    [most, least]
-}
-
-/// The second harmonic of a path in µm: along the axes and at 45°.
-fn second_harmonic(profile: &RadialProfile) -> [f64; 2] {
-    let deviations = profile.deviations_m();
-    #[allow(clippy::cast_precision_loss)] // 36000
-    let count = deviations.len() as f64;
-    let mut sums = [0.0; 2];
-    for (at, deviation) in deviations.iter().enumerate() {
-        #[allow(clippy::cast_precision_loss)] // 36000
-        let (sin, cos) = (2.0 * TAU * at as f64 / count).sin_cos();
-        sums[0] += deviation * cos;
-        sums[1] += deviation * sin;
-    }
-    sums.map(|sum| 2.0 * sum / count * UM_PER_M)
+/// What stays after the reversals of an axis, in the mean of its paths: an error of the geometry,
+/// which turns the other way in the other direction, falls out of it.
+fn step(paths: &[&AxisShape]) -> Option<(Finding, f64)> {
+    #[allow(clippy::cast_precision_loss)] // two at most
+    let count = paths.len() as f64;
+    let mean = paths.iter().map(|it| it.step_um).sum::<f64>() / count;
+    let peak = paths.iter().map(|it| it.peak_um.abs()).fold(0.0, f64::max);
+    let least = NOTICEABLE_UM.max(STEP_PART * peak);
+    let is_step = mean.abs() >= least && paths.iter().all(|it| it.is_settled);
+    is_step.then_some((
+        if mean > 0.0 {
+            Finding::Backlash
+        } else {
+            Finding::OvercompensatedBacklash
+        },
+        mean.abs(),
+    ))
 }
 
 /// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the
 /// direction of travel; one of axes that are not square keeps it. Both need both directions.
-fn ellipses(paths: &Paths) -> Vec<Diagnosis> {
-    let (Some(ccw), Some(cw)) = (&paths.ccw, &paths.cw) else {
-        return Vec::new();
-    };
-    let [ccw, cw] = [ccw, cw].map(second_harmonic);
+fn ellipses(ccw: [f64; 2], cw: [f64; 2]) -> impl Iterator<Item = Diagnosis> {
     let found = [
         (Finding::GainMismatch, (ccw[1] - cw[1]) / 2.0),
         (Finding::Squareness, f64::midpoint(ccw[1], cw[1])),
@@ -201,13 +191,11 @@ fn ellipses(paths: &Paths) -> Vec<Diagnosis> {
     let noticeable = found
         .into_iter()
         .filter(|(_, size)| size.abs() >= NOTICEABLE_UM);
-    noticeable
-        .map(|(finding, amplitude)| Diagnosis {
-            place: FoundAt::Whole,
-            direction: None,
-            finding,
-            // From the short to the long axis.
-            size_um: 2.0 * amplitude.abs(),
-        })
-        .collect()
+    noticeable.map(|(finding, amplitude)| Diagnosis {
+        place: FoundAt::Whole,
+        direction: None,
+        finding,
+        // From the short to the long axis.
+        size_um: 2.0 * amplitude.abs(),
+    })
 }

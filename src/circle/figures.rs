@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::centre::PathCentre;
 use super::direction::Direction;
-use super::glitch::{Glitch, glitches};
+use super::glitch::PathShape;
 use super::profile::{RadialProfile, UM_PER_M};
 use super::zone::{least_squares, minimum_zone, zone_about};
 
@@ -25,8 +26,9 @@ pub struct PathFigures {
     /// Mean radial deviation of this path: its least-squares radius less the commanded one.
     #[serde(rename = "D")]
     pub d_um: Option<f64>,
-    /// The glitch at each quadrant.
-    pub glitch: Vec<Glitch>,
+    /// What the path does at its crossings; `None` where the windows of the glitches reach the next
+    /// crossing.
+    pub shape: Option<PathShape>,
 }
 
 /// The figures of the paths in both directions (R5.21).
@@ -36,7 +38,13 @@ pub struct Figures {
     pub ccw: Option<PathFigures>,
     /// Of the clockwise path.
     pub cw: Option<PathFigures>,
-    /// Bidirectional circular deviation G(b): the minimum zone of both paths together.
+    /// About which centre G(b) and H are meant.
+    pub centre: PathCentre,
+    /// How far the least-squares centres of both paths are apart.
+    #[serde(rename = "centre_distance")]
+    pub centre_distance_um: Option<f64>,
+    /// Bidirectional circular deviation G(b): from the innermost to the outermost point of both
+    /// paths together.
     #[serde(rename = "g_b")]
     pub g_b_um: Option<f64>,
     /// Circular hysteresis H: the largest radial distance of the two paths at one angle.
@@ -91,8 +99,8 @@ pub(super) enum Nominal {
 }
 
 impl Figures {
-    /// The figures of one or two paths.
-    pub(super) fn of(paths: &Paths, nominal: Nominal) -> Self {
+    /// The figures of one or two paths, those of both about a centre.
+    pub(super) fn of(paths: &Paths, nominal: Nominal, centre: PathCentre) -> Self {
         let one = |direction| {
             paths
                 .get(direction)
@@ -100,15 +108,17 @@ impl Figures {
         };
         let (ccw, cw) = (one(Direction::Ccw), one(Direction::Cw));
         let both = paths.ccw.as_ref().zip(paths.cw.as_ref());
-        let mean = |a: f64, b: f64| f64::midpoint(a, b);
+        let both = both.map(|(ccw, cw)| Bidirectional::of([ccw, cw], centre));
         let ds = ccw
             .as_ref()
             .and_then(|it| it.d_um)
             .zip(cw.as_ref().and_then(|it| it.d_um));
         Self {
-            g_b_um: both.map(|(ccw, cw)| minimum_zone(&[ccw, cw]).width * UM_PER_M),
-            h_um: both.map(|(ccw, cw)| hysteresis(ccw, cw) * UM_PER_M),
-            d_um: ds.map(|(ccw, cw)| mean(ccw, cw)),
+            centre,
+            centre_distance_um: both.map(|it| it.distance * UM_PER_M),
+            g_b_um: both.map(|it| it.deviation * UM_PER_M),
+            h_um: both.map(|it| it.hysteresis * UM_PER_M),
+            d_um: ds.map(|(ccw, cw)| f64::midpoint(ccw, cw)),
             ccw,
             cw,
         }
@@ -122,11 +132,13 @@ impl Figures {
         }
     }
 
-    /// The largest glitch of all quadrants and directions.
-    pub fn glitch_max_um(&self) -> f64 {
+    /// The largest glitch of all crossings and directions; `None` where no crossing has one.
+    pub fn glitch_max_um(&self) -> Option<f64> {
         let paths = [&self.ccw, &self.cw].into_iter().flatten();
-        let glitches = paths.flat_map(|path| path.glitch.iter().map(|glitch| glitch.height_um));
-        glitches.fold(0.0, f64::max)
+        let glitches = paths
+            .filter_map(|path| path.shape.as_ref())
+            .flat_map(|shape| shape.glitches.iter().map(|glitch| glitch.height_um));
+        glitches.reduce(f64::max)
     }
 }
 
@@ -145,7 +157,40 @@ impl PathFigures {
             f_max_um: against(outer.fold(f64::MIN, f64::max)),
             f_min_um: against(inner.fold(f64::MAX, f64::min)),
             d_um: against(radius),
-            glitch: glitches(profile, direction),
+            shape: PathShape::of(profile, direction),
+        }
+    }
+}
+
+/// What both paths are to each other (R5.21), in m.
+#[derive(Debug, Clone, Copy)]
+struct Bidirectional {
+    /// Between the least-squares centres.
+    distance: f64,
+    /// Of both paths together, G(b).
+    deviation: f64,
+    /// The largest difference at one angle, H.
+    hysteresis: f64,
+}
+
+impl Bidirectional {
+    fn of(paths: [&RadialProfile; 2], centre: PathCentre) -> Self {
+        let own = paths.map(|path| {
+            let ([x, y], _) = least_squares(path);
+            [path.origin()[0] + x, path.origin()[1] + y]
+        });
+        let [ccw, cw] = own;
+        let common = [0, 1].map(|axis| f64::midpoint(ccw[axis], cw[axis]));
+        let about = match centre {
+            PathCentre::Common => [common; 2],
+            PathCentre::Own => own,
+        };
+        let seen = [0, 1].map(|path: usize| paths[path].about(about[path]));
+        let [ccw_path, cw_path] = &seen;
+        Self {
+            distance: (ccw[0] - cw[0]).hypot(ccw[1] - cw[1]),
+            deviation: zone_about(&[ccw_path, cw_path], [0.0; 2]),
+            hysteresis: hysteresis(ccw_path, cw_path),
         }
     }
 }

@@ -1,151 +1,222 @@
-//! The glitches of a path where it crosses from one quadrant into the next (R5.22).
-
-use std::fmt;
+//! What a path does at its crossings, and what of it stays (R5.22, R5.24).
 
 use serde::Serialize;
 
+use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
-use super::profile::{ANGLES, PER_DEGREE, RadialProfile, UM_PER_M};
-
-/// Half the width of the window in which a glitch is looked for, in degrees.
-const WINDOW: usize = 8;
-
-/// Where the undisturbed path is looked at on both sides, in degrees from the crossing.
-const BESIDE: std::ops::Range<usize> = 8..20;
-
-/// A crossing from one quadrant into the next: there one axis reverses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[non_exhaustive]
-pub enum Crossing {
-    /// At the largest X: the X axis reverses.
-    #[serde(rename = "X+")]
-    XPlus,
-    /// At the largest Y.
-    #[serde(rename = "Y+")]
-    YPlus,
-    /// At the smallest X.
-    #[serde(rename = "X-")]
-    XMinus,
-    /// At the smallest Y.
-    #[serde(rename = "Y-")]
-    YMinus,
-}
-
-impl Crossing {
-    /// All four, counter-clockwise from X+.
-    pub const ALL: [Self; 4] = [Self::XPlus, Self::YPlus, Self::XMinus, Self::YMinus];
-
-    /// `X+`, `Y+`, `X-` or `Y-`.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::XPlus => "X+",
-            Self::YPlus => "Y+",
-            Self::XMinus => "X-",
-            Self::YMinus => "Y-",
-        }
-    }
-
-    /// The angle from X+ counter-clockwise.
-    pub fn angle_deg(self) -> u16 {
-        match self {
-            Self::XPlus => 0,
-            Self::YPlus => 90,
-            Self::XMinus => 180,
-            Self::YMinus => 270,
-        }
-    }
-}
-
-impl fmt::Display for Crossing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.as_str())
-    }
-}
+use super::linear::Normal;
+use super::profile::{RadialProfile, UM_PER_M};
+use super::quiet::{Beside, QuietPath};
+use super::window::Window;
 
 /// The glitch at one crossing (R5.22).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Glitch {
     /// Where it is.
     pub crossing: Crossing,
-    /// Peak to peak within ±8°.
+    /// Peak to peak within the window, less a straight line through both sides.
     #[serde(rename = "height")]
     pub height_um: f64,
-    /// The largest deviation from the undisturbed path, outwards.
+    /// How far the path bulges out of the band between the paths before and after the crossing,
+    /// outwards; at least 0.
     #[serde(rename = "outward")]
     pub outward_um: f64,
-    /// The smallest deviation from the undisturbed path; negative is inwards.
+    /// The same inwards; at most 0.
     #[serde(rename = "inward")]
     pub inward_um: f64,
-    /// How much farther out the path runs after the crossing than before it: the difference of
-    /// straight lines through what lies 8° to 20° away on each side, at the crossing.
+    /// Which of both comes first.
+    pub first: Bulge,
+}
+
+/// A way out of the undisturbed path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Bulge {
+    /// Away from the centre.
+    Outward,
+    /// Towards the centre.
+    Inward,
+}
+
+/// What an axis does where it turns round (R5.24).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AxisShape {
+    /// How far the path steps outwards and stays there: the backlash of the axis, negative if it is
+    /// over-compensated.
     #[serde(rename = "step")]
     pub step_um: f64,
+    /// The largest deviation that decays; positive is outwards.
+    #[serde(rename = "peak")]
+    pub peak_um: f64,
+    /// Whether the peak has decayed early enough to tell what stays.
+    pub is_settled: bool,
 }
 
-/// The glitches of a path, counter-clockwise from X+.
-///
-/// The deviations are those less the median of what the path has 8° to 20° from the crossing on
-/// both sides; peak to peak that makes no difference, outwards and inwards it does.
-pub(super) fn glitches(profile: &RadialProfile, direction: Direction) -> Vec<Glitch> {
-    Crossing::ALL
-        .into_iter()
-        .map(|crossing| glitch(profile, direction, crossing))
-        .collect()
+/// What a path does at its crossings, and the ellipse that remains without that.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PathShape {
+    /// How wide the window is after a crossing.
+    pub window_deg: f64,
+    /// The glitches, counter-clockwise from X+.
+    pub glitches: [Glitch; 4],
+    /// What X and Y do.
+    pub axes: [AxisShape; 2],
+    /// The amplitude of the ellipse along the axes, and at 45°.
+    #[serde(rename = "ellipse")]
+    pub ellipse_um: [f64; 2],
 }
 
-fn glitch(profile: &RadialProfile, direction: Direction, crossing: Crossing) -> Glitch {
-    let at = usize::from(crossing.angle_deg()) * PER_DEGREE;
-    let deviations = profile.deviations_m();
-    let clockwise = |way: usize| deviations[(at + ANGLES - way) % ANGLES];
-    let counter = |way: usize| deviations[(at + way) % ANGLES];
-    let beside = BESIDE.start * PER_DEGREE..BESIDE.end * PER_DEGREE;
-    let mut sides = [
-        beside.clone().map(clockwise).collect::<Vec<_>>(),
-        beside.map(counter).collect(),
-    ];
-    if direction == Direction::Cw {
-        sides.swap(0, 1);
+/// A peak has decayed when less of it is left than this part of the step.
+const SETTLED: f64 = 0.5;
+
+impl PathShape {
+    /// The shape of a path; `None` where its windows reach the next crossings.
+    pub(super) fn of(profile: &RadialProfile, direction: Direction) -> Option<Self> {
+        let window = Window::of(profile.turn_s())?;
+        let quiet = QuietPath::of(profile, direction, window)?;
+        let seen = Seen {
+            profile,
+            direction,
+            window,
+            quiet,
+        };
+        let glitches = Crossing::ALL.map(|crossing| seen.glitch(crossing));
+        let [x, y] = quiet.steps;
+        let axes = [(PlaneAxis::X, x), (PlaneAxis::Y, y)].map(|(axis, step)| {
+            let of_axis = glitches.iter().filter(|it| it.crossing.axis() == axis);
+            let peaks = of_axis.flat_map(|it| [it.outward_um, it.inward_um]);
+            AxisShape {
+                step_um: step * UM_PER_M,
+                peak_um: peaks.fold(
+                    0.0,
+                    |most: f64, peak| {
+                        if peak.abs() > most.abs() { peak } else { most }
+                    },
+                ),
+                is_settled: seen.rest(axis) <= SETTLED * step.abs(),
+            }
+        });
+        Some(Self {
+            window_deg: window.degrees(),
+            glitches,
+            axes,
+            ellipse_um: quiet.ellipse.map(|amplitude| amplitude * UM_PER_M),
+        })
     }
-    let [mut before, mut after] = sides;
-    let step = at_crossing(&after) - at_crossing(&before);
-    before.append(&mut after);
-    let undisturbed = median(&mut before);
-    let [outward, inward] = profile.within(at, WINDOW * PER_DEGREE);
-    Glitch {
-        crossing,
-        height_um: (outward - inward) * UM_PER_M,
-        outward_um: (outward - undisturbed) * UM_PER_M,
-        inward_um: (inward - undisturbed) * UM_PER_M,
-        step_um: step * UM_PER_M,
+
+    /// What an axis does.
+    pub fn axis(&self, axis: PlaneAxis) -> &AxisShape {
+        let [x, y] = &self.axes;
+        match axis {
+            PlaneAxis::X => x,
+            PlaneAxis::Y => y,
+        }
     }
 }
 
-/// Where the least-squares line through the deviations beside a crossing meets it.
-fn at_crossing(beside: &[f64]) -> f64 {
-    #[allow(clippy::cast_precision_loss)] // at most 36000
-    let real = |count: usize| count as f64;
-    let count = real(beside.len());
-    let centre = (count - 1.0) / 2.0;
-    let mean = beside.iter().sum::<f64>() / count;
-    let (mut slope, mut spread) = (0.0, 0.0);
-    for (at, deviation) in beside.iter().enumerate() {
-        let way = real(at) - centre;
-        slope += way * deviation;
-        spread += way * way;
-    }
-    mean - slope / spread * (centre + real(BESIDE.start * PER_DEGREE))
+/// A path with what is known of it.
+struct Seen<'a> {
+    profile: &'a RadialProfile,
+    direction: Direction,
+    window: Window,
+    quiet: QuietPath,
 }
 
-/// The middle value, the mean of both middle ones of an even number; 0 of none.
-fn median(values: &mut [f64]) -> f64 {
-    let (middle, is_odd) = (values.len() / 2, values.len() % 2 == 1);
-    if values.is_empty() {
-        return 0.0;
+impl Seen<'_> {
+    fn glitch(&self, crossing: Crossing) -> Glitch {
+        let line = self.line(crossing);
+        let offset = self.offset(crossing);
+        let mut height = Extremes::default();
+        let mut bulge = Extremes::default();
+        let ways = self.window.inside();
+        for (way, point) in self.profile.every(crossing, self.direction, ways) {
+            let straight = line[0] + line[1] * way;
+            height.take(way, point.deviation - self.quiet.smooth(point) - straight);
+            let level = |beside| self.quiet.level(crossing, beside, point) + offset;
+            let levels = [level(Beside::Before), level(Beside::After)];
+            let [low, high] = [levels[0].min(levels[1]), levels[0].max(levels[1])];
+            bulge.take(
+                way,
+                (point.deviation - high).max(0.0) + (point.deviation - low).min(0.0),
+            );
+        }
+        Glitch {
+            crossing,
+            height_um: (height.most.1 - height.least.1) * UM_PER_M,
+            outward_um: bulge.most.1.max(0.0) * UM_PER_M,
+            inward_um: bulge.least.1.min(0.0) * UM_PER_M,
+            first: if bulge.least.0 < bulge.most.0 {
+                Bulge::Inward
+            } else {
+                Bulge::Outward
+            },
+        }
     }
-    let (below, &mut upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
-    if is_odd {
-        return upper;
+
+    /// The straight line through both sides of a crossing: at the crossing, and for each fixed
+    /// angle.
+    fn line(&self, crossing: Crossing) -> [f64; 2] {
+        let mut normal = Normal::<2>::new();
+        for ways in [Window::before(), self.window.after()] {
+            for (way, point) in self.profile.fixed(crossing, self.direction, ways) {
+                normal.add([1.0, way], point.deviation - self.quiet.smooth(point));
+            }
+        }
+        normal.solve().unwrap_or_default()
     }
-    let lower = below.iter().copied().fold(f64::MIN, f64::max);
-    f64::midpoint(lower, upper)
+
+    /// What is left of the peaks of an axis half-way to where the step is looked for.
+    fn rest(&self, axis: PlaneAxis) -> f64 {
+        let crossings = Crossing::ALL.into_iter().filter(|it| it.axis() == axis);
+        let rests = crossings.map(|crossing| {
+            let offset = self.offset(crossing);
+            let ways = self.window.decaying();
+            let mut mean = Normal::<1>::new();
+            for (_, point) in self.profile.fixed(crossing, self.direction, ways) {
+                let level = self.quiet.level(crossing, Beside::After, point) + offset;
+                mean.add([1.0], point.deviation - level);
+            }
+            mean.solve().map_or(0.0, |[mean]| mean.abs())
+        });
+        rests.fold(0.0, f64::max)
+    }
+
+    /// How far the path before a crossing runs from the undisturbed one there: its higher
+    /// harmonics. After the crossing the peak may not have decayed yet.
+    fn offset(&self, crossing: Crossing) -> f64 {
+        let mut mean = Normal::<1>::new();
+        let ways = Window::before();
+        for (_, point) in self.profile.fixed(crossing, self.direction, ways) {
+            let level = self.quiet.level(crossing, Beside::Before, point);
+            mean.add([1.0], point.deviation - level);
+        }
+        mean.solve().map_or(0.0, |[mean]| mean)
+    }
+}
+
+/// The least and the largest value with their ways from the crossing.
+struct Extremes {
+    most: (f64, f64),
+    least: (f64, f64),
+}
+
+impl Default for Extremes {
+    fn default() -> Self {
+        Self {
+            most: (0.0, f64::NEG_INFINITY),
+            least: (0.0, f64::INFINITY),
+        }
+    }
+}
+
+impl Extremes {
+    fn take(&mut self, way: f64, value: f64) {
+        if value > self.most.1 {
+            self.most = (way, value);
+        }
+        if value < self.least.1 {
+            self.least = (way, value);
+        }
+    }
 }

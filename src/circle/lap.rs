@@ -9,8 +9,9 @@ use super::simulate::simulate;
 use super::test::CircularTest;
 use crate::current::Switched;
 
-/// A gap between two points that is bridged, in degrees: less than a CNC cycle makes.
-const WIDEST_GAP: f64 = 5.0;
+/// A gap that is bridged where the ends of the turn do not meet, in degrees: on a circle of a tenth
+/// of a second the loops still settle.
+const WIDEST_GAP: f64 = 60.0;
 
 /// One run of a test: half a turn of run-in, and a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,10 +73,13 @@ impl CircularTest {
                 turn.take(x, y);
             }
         })?;
-        let profile = turn.finish().map_err(|_| CircleError::Unstable {
-            axis: "X or Y",
-            angle_deg: 360.0,
-        })?;
+        let turn_s = TAU / self.circle.angular_velocity();
+        let profile = turn
+            .finish(Some(turn_s))
+            .map_err(|_| CircleError::Unstable {
+                axis: "X or Y",
+                angle_deg: 360.0,
+            })?;
         Ok(Lap {
             job,
             profile,

@@ -3,30 +3,41 @@
 //!
 //! A [`CircularTest`] sends the drives of a [`Plant`](crate::simulation::Plant) round a [`Circle`]
 //! in both directions; their [`RadialProfile`]s give the [`Figures`]. A [`RecordedCircle`] gives
-//! the same of a real machine, and [`tune`] searches the parameters of a value list.
+//! the same of a real machine, and [`tune`] searches the parameters of a value list. What a path
+//! does at its [`Crossing`]s and what of it stays is its [`PathShape`], from which
+//! [`diagnose`] tells friction, backlash and axes that do not match.
 
+mod centre;
 mod compare;
+mod crossing;
 mod diagnosis;
 mod direction;
 mod figures;
 mod glitch;
 mod lap;
+mod linear;
 mod profile;
+mod quiet;
 mod recorded;
 mod reference;
 mod simulate;
 mod test;
 mod tune;
+mod window;
 mod zone;
 
+pub use centre::{PathCentre, UnknownPathCentre};
 pub use compare::{Comparison, Side};
+pub use crossing::{Crossing, PlaneAxis};
 pub use diagnosis::{Diagnosis, Finding, FoundAt, NOTICEABLE_UM, diagnose, diagnose_comparison};
 pub use direction::Direction;
 pub use figures::{Figures, PathFigures, Paths};
-pub use glitch::{Crossing, Glitch};
+pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
 pub use lap::{Job, Lap};
 pub use profile::{ANGLES, RadialProfile, UM_PER_M};
-pub use recorded::{MIN_POINTS, RecordedCircle, RecordedError, Recording};
+pub use recorded::{
+    CommandedCircle, LeftOut, MIN_POINTS, RecordedCircle, RecordedError, RecordedTrace, Recording,
+};
 pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
 pub use test::CircularTest;
 pub use tune::{Candidate, FeedResult, Ranges, Search, Task, Tuned, Variant, tune};

@@ -7,6 +7,10 @@
 
 use std::f64::consts::TAU;
 use std::fmt;
+use std::ops::RangeInclusive;
+
+use super::crossing::Crossing;
+use super::direction::Direction;
 
 /// Micrometres in a metre.
 pub const UM_PER_M: f64 = 1e6;
@@ -15,7 +19,12 @@ pub const UM_PER_M: f64 = 1e6;
 pub const ANGLES: usize = 36_000;
 
 /// Fixed angles in a degree.
-pub(super) const PER_DEGREE: usize = ANGLES / 360;
+pub(super) const PER_DEGREE: i32 = 100;
+
+const _: () = assert!(
+    ANGLES == 360 * PER_DEGREE.unsigned_abs() as usize,
+    "every 0.01°"
+);
 
 /// A point of the path: the direction in which it lies, and its radial deviation in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,11 +34,14 @@ pub(super) struct Point {
     pub(super) deviation: f64,
 }
 
+/// Every gap is bridged, in degrees.
+const WHOLE_TURN: f64 = 360.0;
+
 /// Gathers the points of one turn.
 #[derive(Debug, Clone)]
 pub(super) struct Gatherer {
     radius: f64,
-    at: Vec<f64>,
+    fixed: Vec<f64>,
     outer: Vec<Option<Point>>,
     inner: Vec<Option<Point>>,
     last: Option<Place>,
@@ -49,9 +61,13 @@ struct Place {
 #[derive(Clone)]
 pub struct RadialProfile {
     radius: f64,
-    at: Vec<f64>,
+    fixed: Vec<f64>,
     outer: Vec<Option<Point>>,
     inner: Vec<Option<Point>>,
+    /// How long the turn took in s, where that is known.
+    turn_s: Option<f64>,
+    /// Where the centre of the angles and deviations lies, in m.
+    origin: [f64; 2],
 }
 
 /// A path that does not close.
@@ -65,12 +81,10 @@ impl Gatherer {
     /// For a path around the origin, deviations against `radius` in m. A gap of more than `widest`
     /// degrees between two points is not bridged.
     pub(super) fn new(radius: f64, widest: f64) -> Self {
-        #[allow(clippy::cast_precision_loss)] // 100
-        let widest = widest * PER_DEGREE as f64;
         Self {
             radius,
-            widest,
-            at: vec![f64::NAN; ANGLES],
+            widest: widest * f64::from(PER_DEGREE),
+            fixed: vec![f64::NAN; ANGLES],
             outer: vec![None; ANGLES],
             inner: vec![None; ANGLES],
             last: None,
@@ -80,6 +94,19 @@ impl Gatherer {
     /// Takes the next point of the path in m.
     #[inline]
     pub(super) fn take(&mut self, x: f64, y: f64) {
+        let place = self.keep(x, y);
+        if let Some(last) = self.last
+            && last.sector != place.sector
+        {
+            self.fill(last, place);
+        }
+        self.last = Some(place);
+    }
+
+    /// Keeps a point in m if it is the outermost or the innermost of its sector, and gives its
+    /// place.
+    #[inline]
+    fn keep(&mut self, x: f64, y: f64) -> Place {
         let distance = (x * x + y * y).sqrt();
         let deviation = distance - self.radius;
         let angle = y.atan2(x);
@@ -87,17 +114,6 @@ impl Gatherer {
         #[allow(clippy::cast_precision_loss)] // 36000
         let angle = positive * (ANGLES as f64 / TAU);
         let sector = index(angle);
-        let place = Place {
-            angle,
-            sector,
-            deviation,
-        };
-        if let Some(last) = self.last
-            && last.sector != sector
-        {
-            self.fill(last, place);
-        }
-        self.last = Some(place);
         let point = || Point {
             cos: x / distance,
             sin: y / distance,
@@ -110,6 +126,11 @@ impl Gatherer {
         let inner = &mut self.inner[sector];
         if inner.is_none_or(|inner| deviation < inner.deviation) {
             *inner = Some(point());
+        }
+        Place {
+            angle,
+            sector,
+            deviation,
         }
     }
 
@@ -137,18 +158,19 @@ impl Gatherer {
         while at <= high {
             let part = (at - from.angle) / way;
             let deviation = from.deviation + part * (to.deviation - from.deviation);
-            self.at[index(at.rem_euclid(turn))] = deviation;
+            self.fixed[index(at.rem_euclid(turn))] = deviation;
             at += 1.0;
         }
     }
 
-    /// The turn, if it has no gap; small ones, where its ends meet, are bridged.
-    pub(super) fn finish(mut self) -> Result<RadialProfile, Gap> {
+    /// The turn, if it has no gap; small ones, where its ends meet, are bridged. It took so many
+    /// seconds.
+    pub(super) fn finish(mut self, turn_s: Option<f64>) -> Result<RadialProfile, Gap> {
         let missing = |from: usize| {
             let rest = (1..=ANGLES).map(|step| (from + step) % ANGLES);
-            rest.take_while(|&at| self.at[at].is_nan()).count()
+            rest.take_while(|&at| self.fixed[at].is_nan()).count()
         };
-        let Some(start) = self.at.iter().position(|it| !it.is_nan()) else {
+        let Some(start) = self.fixed.iter().position(|it| !it.is_nan()) else {
             return Err(Gap { missing: 360.0 });
         };
         let mut gaps = Vec::new();
@@ -161,7 +183,7 @@ impl Gatherer {
             at += length + 1;
         }
         #[allow(clippy::cast_precision_loss)] // at most 36000
-        let degrees = |angles: usize| angles as f64 / PER_DEGREE as f64;
+        let degrees = |angles: usize| angles as f64 / f64::from(PER_DEGREE);
         let longest = gaps.iter().map(|gap| gap.1).max().unwrap_or_default();
         #[allow(clippy::cast_precision_loss)] // at most 36000
         if longest as f64 > self.widest {
@@ -169,20 +191,33 @@ impl Gatherer {
             return Err(Gap { missing });
         }
         for (from, length) in gaps {
-            let (first, last) = (self.at[from], self.at[(from + length + 1) % ANGLES]);
+            let (first, last) = (self.fixed[from], self.fixed[(from + length + 1) % ANGLES]);
             for step in 1..=length {
                 #[allow(clippy::cast_precision_loss)] // at most 36000
                 let part = step as f64 / (length + 1) as f64;
-                self.at[(from + step) % ANGLES] = first + part * (last - first);
+                self.fixed[(from + step) % ANGLES] = first + part * (last - first);
             }
         }
         Ok(RadialProfile {
             radius: self.radius,
-            at: self.at,
+            fixed: self.fixed,
             outer: self.outer,
             inner: self.inner,
+            turn_s,
+            origin: [0.0; 2],
         })
     }
+}
+
+/// The number of the fixed angle so many fixed angles after a crossing.
+fn sector(crossing: Crossing, direction: Direction, way: i32) -> usize {
+    let turn = 360 * PER_DEGREE;
+    let way = match direction {
+        Direction::Ccw => way,
+        Direction::Cw => -way,
+    };
+    let at = i32::from(crossing.angle_deg()) * PER_DEGREE + way;
+    usize::try_from(at.rem_euclid(turn)).expect("it is not negative")
 }
 
 /// The sector of an angle in sectors.
@@ -210,7 +245,7 @@ impl RadialProfile {
     /// The deviation at each of the [`ANGLES`] fixed angles, from X+ counter-clockwise; positive is
     /// outwards.
     pub fn deviations_m(&self) -> &[f64] {
-        &self.at
+        &self.fixed
     }
 
     /// The outermost point of each sector that has one.
@@ -223,21 +258,99 @@ impl RadialProfile {
         self.inner.iter().flatten()
     }
 
-    /// The largest and the smallest deviation in m not farther than `width` fixed angles from the
-    /// one with the number `at`: of the points as they are, and of the fixed angles.
-    pub(super) fn within(&self, at: usize, width: usize) -> [f64; 2] {
-        let [mut most, mut least] = [f64::MIN, f64::MAX];
-        for way in 0..=2 * width {
-            let index = (at + ANGLES + way - width) % ANGLES;
-            most = most.max(self.at[index]);
-            least = least.min(self.at[index]);
-            // The sector after the last angle is outside.
-            if way < 2 * width {
-                most = self.outer[index].map_or(most, |point| most.max(point.deviation));
-                least = self.inner[index].map_or(least, |point| least.min(point.deviation));
-            }
+    /// The same path that took so many seconds a turn.
+    pub(super) fn in_time(self, turn_s: f64) -> Self {
+        Self {
+            turn_s: Some(turn_s),
+            ..self
         }
-        [most, least]
+    }
+
+    /// The same path whose centre lies elsewhere, in m.
+    pub(super) fn at(self, origin: [f64; 2]) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// Where the centre of the angles and deviations lies, in m.
+    pub(super) fn origin(&self) -> [f64; 2] {
+        self.origin
+    }
+
+    /// How long the turn took in s, where that is known.
+    pub(super) fn turn_s(&self) -> Option<f64> {
+        self.turn_s
+    }
+
+    /// The path at the fixed angles around a crossing, each with its number from there in the
+    /// direction of travel.
+    pub(super) fn fixed(
+        &self,
+        crossing: Crossing,
+        direction: Direction,
+        ways: RangeInclusive<i32>,
+    ) -> impl Iterator<Item = (f64, Point)> {
+        ways.map(move |way| {
+            let at = sector(crossing, direction, way);
+            (f64::from(way), self.at_fixed(at))
+        })
+    }
+
+    /// The same with the outermost and the innermost point between each two fixed angles.
+    pub(super) fn every(
+        &self,
+        crossing: Crossing,
+        direction: Direction,
+        ways: RangeInclusive<i32>,
+    ) -> impl Iterator<Item = (f64, Point)> {
+        let last = *ways.end();
+        ways.flat_map(move |way| {
+            let at = sector(crossing, direction, way);
+            let between = match direction {
+                Direction::Ccw => at,
+                Direction::Cw => (at + ANGLES - 1) % ANGLES,
+            };
+            let between = if way < last {
+                [self.outer[between], self.inner[between]]
+            } else {
+                [None, None]
+            };
+            let points = [Some(self.at_fixed(at)), between[0], between[1]];
+            points
+                .into_iter()
+                .flatten()
+                .map(move |point| (f64::from(way), point))
+        })
+    }
+
+    /// The path at the fixed angle with a number.
+    fn at_fixed(&self, number: usize) -> Point {
+        #[allow(clippy::cast_precision_loss)] // 36000
+        let (sin, cos) = (number as f64 / ANGLES as f64 * TAU).sin_cos();
+        Point {
+            cos,
+            sin,
+            deviation: self.fixed[number],
+        }
+    }
+
+    /// The same path as seen from another centre, in m.
+    pub(super) fn about(&self, centre: [f64; 2]) -> Self {
+        let [x, y] = [0, 1].map(|axis| centre[axis] - self.origin[axis]);
+        let mut seen = Gatherer::new(self.radius, WHOLE_TURN);
+        let place = |point: Point| {
+            let distance = self.radius + point.deviation;
+            (distance * point.cos - x, distance * point.sin - y)
+        };
+        for number in (0..ANGLES).chain([0]) {
+            let (x, y) = place(self.at_fixed(number));
+            seen.take(x, y);
+        }
+        for &point in self.outer().chain(self.inner()) {
+            let (x, y) = place(point);
+            seen.keep(x, y);
+        }
+        let seen = seen.finish(self.turn_s);
+        seen.map_or_else(|_| self.clone(), |seen| seen.at(centre))
     }
 
     /// The angle in radians and the deviation in m at `count` angles evenly over the turn, each
@@ -245,7 +358,7 @@ impl RadialProfile {
     pub fn outline(&self, count: usize) -> Vec<(f64, f64)> {
         let count = count.clamp(1, ANGLES);
         let part = ANGLES.div_ceil(count);
-        let parts = self.at.chunks(part).enumerate();
+        let parts = self.fixed.chunks(part).enumerate();
         let strongest = parts.filter_map(|(number, chunk)| {
             let (offset, deviation) = chunk
                 .iter()

@@ -7,6 +7,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::direction::Direction;
+use super::window::fastest_feed;
 use crate::simulation::{POSITION_LOOP_S, STEP_S};
 
 /// Simulation steps of one run at most.
@@ -163,6 +164,12 @@ impl Circle {
             });
         }
         Ok(())
+    }
+
+    /// The feed in mm/min up to which a circle of this radius has glitches: above it the windows
+    /// reach the next crossings (R5.22).
+    pub fn fastest_feed_for_glitches(radius_mm: f64) -> f64 {
+        fastest_feed(radius_mm)
     }
 
     /// Radius in m.

@@ -1,6 +1,8 @@
 //! `frictcomp circle`: the circular test, simulated or recorded.
 
+use std::convert::Infallible;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 
@@ -11,9 +13,10 @@ use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::{Outputs, write_text};
 use super::progress;
-use crate::circle::{Circle, CircularTest};
+use crate::circle::{Circle, CircularTest, CommandedCircle, PathCentre, PlaneAxis};
 use crate::current::Reading;
 use crate::host::{Ledger, compare, find_plant, memory_for_simulation, read_circles};
+use crate::lists::FrictionList;
 use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
 use crate::report::fitted;
 use crate::report::html::render_circle;
@@ -31,31 +34,32 @@ pub(super) struct CircleArgs {
     /// Radius in mm; for recorded circles the commanded radius
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     radius: Option<f64>,
-    /// Feed in mm/min
-    #[arg(
-        long,
-        value_name = "MM/MIN",
-        default_value_t = 1000.0,
-        allow_negative_numbers = true
-    )]
-    feed: f64,
+    /// Feed in mm/min, 1000 without it; for recorded circles the commanded feed, which a column `t`
+    /// in s tells otherwise
+    #[arg(long, value_name = "MM/MIN", allow_negative_numbers = true)]
+    feed: Option<f64>,
     /// The machine: `stiff`, `mid`, `soft`, or a TOML file
     #[arg(long, value_name = "PLANT", default_value = "stiff")]
     plant: String,
     /// The friction model
     #[arg(long, default_value = "lugre")]
     model: FrictionModel,
-    /// The compensation value list of both axes; by default the friction curve of the plant
+    /// The compensation value list of both axes, or `X=LIST` and `Y=LIST`; by default the friction
+    /// curve of the plant
     #[arg(long, value_name = "LIST")]
-    value_list: Option<PathBuf>,
+    value_list: Vec<AxisList>,
     #[command(flatten)]
     cycle: CycleArgs,
     /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
     #[arg(long, value_name = "READING", default_value = "")]
     reading: Reading,
     /// A recorded circle instead of a simulated one; give it twice for both directions
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["feed", "plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
     trace: Vec<PathBuf>,
+    /// About which centre G(b) and H compare both directions: `common`, the mean of both
+    /// least-squares centres, or `own`
+    #[arg(long, value_name = "CENTRE", default_value_t)]
+    centre: PathCentre,
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
@@ -93,14 +97,18 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     let report = if args.trace.is_empty() {
         let (test, origin) = simulation(args, &ledger)?;
         outputs.check()?;
-        let comparison = compare(&test, &progress::watch())?;
+        let comparison = compare(&test, &progress::watch())?.about(args.centre);
         CircleReport::simulated(test, comparison, origin)
     } else {
         args.trace
             .iter()
             .for_each(|path| ledger.reads("trace", path));
         outputs.check()?;
-        CircleReport::recorded(read_circles(&args.trace, args.radius)?)
+        let commanded = CommandedCircle {
+            radius_mm: args.radius,
+            feed_mm_per_min: args.feed,
+        };
+        CircleReport::recorded(read_circles(&args.trace, commanded, args.centre)?)
     };
     let text = match args.format {
         Format::Text => fitted(&render_text(&report), result.look.width),
@@ -121,20 +129,14 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
 /// What is simulated, and where the value lists come from.
 fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListOrigin), Failure> {
     let plant = find_plant(&args.plant, ledger)?;
-    let (lists, origin) = match &args.value_list {
-        Some(path) => {
-            let list = value_list(path, ledger)?;
-            (
-                [list.clone(), list],
-                ListOrigin::File(path.display().to_string()),
-            )
-        }
-        None => ([&plant.x, &plant.y].map(plant_list), ListOrigin::Plant),
+    let (lists, origin) = match &args.value_list[..] {
+        [] => ([&plant.x, &plant.y].map(plant_list), ListOrigin::Plant),
+        given => given_lists(given, ledger)?,
     };
     let test = CircularTest {
         circle: Circle {
             radius_mm: args.radius.unwrap_or(Circle::default().radius_mm),
-            feed_mm_per_min: args.feed,
+            feed_mm_per_min: args.feed.unwrap_or(Circle::default().feed_mm_per_min),
             cycle_time_s: args
                 .cycle
                 .seconds()?
@@ -146,4 +148,59 @@ fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListO
         reading: args.reading,
     };
     Ok((test, origin))
+}
+
+/// `v.lis`, or `X=v.lis`.
+#[derive(Debug, Clone)]
+struct AxisList {
+    axis: Option<PlaneAxis>,
+    path: PathBuf,
+}
+
+impl FromStr for AxisList {
+    type Err = Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let named = PlaneAxis::ALL.into_iter().find_map(|axis| {
+            let path = text.strip_prefix(axis.as_str())?.strip_prefix('=')?;
+            Some((axis, path))
+        });
+        Ok(match named {
+            Some((axis, path)) => Self {
+                axis: Some(axis),
+                path: path.into(),
+            },
+            None => Self {
+                axis: None,
+                path: text.into(),
+            },
+        })
+    }
+}
+
+/// The lists that were given for both axes, or for each.
+fn given_lists(
+    given: &[AxisList],
+    ledger: &Ledger,
+) -> Result<([FrictionList; 2], ListOrigin), Failure> {
+    let name = |list: &AxisList| list.path.display().to_string();
+    if let [both @ AxisList { axis: None, .. }] = given {
+        let list = value_list(&both.path, ledger)?;
+        return Ok(([list.clone(), list], ListOrigin::File(name(both))));
+    }
+    let of = |axis: PlaneAxis| {
+        let mut lists = given.iter().filter(|list| list.axis == Some(axis));
+        lists.next().filter(|_| lists.next().is_none())
+    };
+    match (of(PlaneAxis::X), of(PlaneAxis::Y)) {
+        (Some(x), Some(y)) if given.len() == 2 => Ok((
+            [value_list(&x.path, ledger)?, value_list(&y.path, ledger)?],
+            ListOrigin::EachAxis([name(x), name(y)]),
+        )),
+        _ => {
+            let message = "`--value-list` takes one list for both axes, or one for each";
+            let help = "give `--value-list X=a.lis --value-list Y=b.lis`";
+            Err(Failure::new(message).with_help(help))
+        }
+    }
 }

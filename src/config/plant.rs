@@ -158,7 +158,11 @@ fn checked(
         unit => format!(" {unit}"),
     };
     let message = format!("`{key}` is {shown}{unit}; it must be between {least} and {most}");
-    Err(ConfigError::at(place, message).with_help("all values are in SI units: kg, N, m, s"))
+    let help = match quantity {
+        Quantity::Backlash => "backlash is the width of the dead zone, 0 without one",
+        _ => "all values are in SI units: kg, N, m, s",
+    };
+    Err(ConfigError::at(place, message).with_help(help))
 }
 
 fn value(given: &Given<Written>) -> Option<f64> {

@@ -25,6 +25,8 @@ pub(crate) enum Quantity {
     Stiffness,
     Damping,
     DampingVelocity,
+    /// The dead zone between motor and load.
+    Backlash,
 }
 
 /// What is to be known about a key.
@@ -40,7 +42,7 @@ pub(super) struct Facts {
 }
 
 impl Quantity {
-    pub(super) const ALL: [Self; 18] = [
+    pub(super) const ALL: [Self; 19] = [
         Self::Mass,
         Self::PositionGain,
         Self::SpeedGain,
@@ -59,6 +61,7 @@ impl Quantity {
         Self::Stiffness,
         Self::Damping,
         Self::DampingVelocity,
+        Self::Backlash,
     ];
 
     pub(super) const fn facts(self) -> Facts {
@@ -81,6 +84,7 @@ impl Quantity {
             Self::Stiffness => ("sigma0", "N/m", [1e3, 1e12]),
             Self::Damping => ("sigma1", "N·s/m", [0.0, 1e10]),
             Self::DampingVelocity => ("vd", "m/s", [1e-6, 10.0]),
+            Self::Backlash => ("backlash_um", "µm", [0.0, 1000.0]),
         };
         Facts { key, unit, range }
     }

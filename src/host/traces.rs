@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::error::HostError;
 use super::read::{open_regular, read_whole};
 use super::trace_error::TraceError;
-use crate::circle::{RecordedCircle, Recording};
+use crate::circle::{CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording};
 use crate::current::{CommandedTrace, Switched, TraceColumns};
 use crate::text::decode;
 
@@ -60,26 +60,33 @@ pub fn read_commanded(path: &Path, cycle_s: Option<f64>) -> Result<CommandedTrac
     trace.map_err(|error| TraceError::Cycle(error).into())
 }
 
-/// Reads one recorded circle, or one of each direction: columns `x` and `y` of actual positions in mm,
-/// or with their unit, `x_um`, `X [mm]`. `radius_mm` is the commanded radius, where it is known.
+/// Reads one recorded circle, or one of each direction, in one file or two: columns `x` and `y` of
+/// actual positions in mm, or with their unit, `x_um`, `X [mm]`; `t` in s where it is there. G(b)
+/// and H are about `centre`.
 ///
 /// # Errors
 /// A file cannot be read, or holds no circle.
-pub fn read_circles(paths: &[PathBuf], radius_mm: Option<f64>) -> Result<Recording, HostError> {
-    Recording::check(paths.len(), radius_mm).map_err(TraceError::Circles)?;
-    let circle = |path: &PathBuf| {
-        let points = read_positions(path)?;
-        RecordedCircle::new(&points, radius_mm).map_err(|reason| {
+pub fn read_circles(
+    paths: &[PathBuf],
+    commanded: CommandedCircle,
+    centre: PathCentre,
+) -> Result<Recording, HostError> {
+    Recording::check(paths.len(), commanded).map_err(TraceError::Circles)?;
+    let mut circles = Vec::new();
+    for path in paths {
+        let trace = read_positions(path)?;
+        let found = RecordedCircle::find(&trace, commanded.radius_mm).map_err(|reason| {
             let path = path.clone();
             HostError::from(TraceError::Circle { path, reason })
-        })
-    };
-    let circles = paths.iter().map(circle).collect::<Result<Vec<_>, _>>()?;
-    Ok(Recording::new(circles, radius_mm).map_err(TraceError::Circles)?)
+        })?;
+        circles.extend(found);
+    }
+    Ok(Recording::new(circles, commanded, centre).map_err(TraceError::Circles)?)
 }
 
-/// The actual positions of two axes in mm, in the order of the rows.
-fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, HostError> {
+/// The actual positions of two axes, in the order of the rows. Times that are no seconds are as
+/// good as none.
+fn read_positions(path: &Path) -> Result<RecordedTrace, HostError> {
     let mut table = Table::open(path, MAX_POINTS)?;
     let [x, y] = ["x", "y"].map(|axis| table.lengths(axis));
     let (Some(x), Some(y)) = (x, y) else {
@@ -90,12 +97,21 @@ fn read_positions(path: &Path) -> Result<Vec<[f64; 2]>, HostError> {
             )
             .into());
     };
-    let mut points = Vec::new();
+    let mut times = table.column(|header| ["t", "t [s]", "t_s"].contains(&header));
+    let mut trace = RecordedTrace::default();
     while table.next_row()? {
         let mm = |(column, mm): (Column, f64)| table.number(column).map(|number| number * mm);
-        points.push([mm(x)?, mm(y)?]);
+        trace.points_mm.push([mm(x)?, mm(y)?]);
+        match times.map(|column| table.number(column)) {
+            Some(Ok(time)) => trace.times_s.push(time),
+            Some(Err(_)) => {
+                times = None;
+                trace.times_s.clear();
+            }
+            None => {}
+        }
     }
-    Ok(points)
+    Ok(trace)
 }
 
 /// A column of a table.
@@ -292,8 +308,8 @@ mod tests {
             &wide,
         ];
         for text in texts {
-            let points = read_positions(file(text).path()).unwrap();
-            assert_eq!(points, [[0.001, 0.002]]);
+            let trace = read_positions(file(text).path()).unwrap();
+            assert_eq!(trace.points_mm, [[0.001, 0.002]]);
         }
     }
 

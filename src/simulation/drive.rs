@@ -1,6 +1,7 @@
 //! One feed drive: position loop, speed loop, current loop, mass and contact (chapter 5.2).
 
 use super::clock::{SPEED_LOOP_S, STEP_S};
+use super::coupling::Coupling;
 use super::friction::{Contact, FrictionModel, Push};
 use super::parameters::DriveParameters;
 
@@ -22,7 +23,8 @@ pub struct Setpoint {
 pub struct Drive {
     parameters: DriveParameters,
     contact: Contact,
-    /// Position of the axis in m.
+    coupling: Coupling,
+    /// Position of the motor in m; the position loop measures it.
     position: f64,
     /// Velocity in m/s.
     velocity: f64,
@@ -56,6 +58,11 @@ impl Drive {
         let force = friction.steady_n(setpoint.velocity_m_per_s);
         Self {
             contact: Contact::settled(friction, model, setpoint.velocity_m_per_s),
+            coupling: Coupling::settled(
+                parameters.backlash_m,
+                setpoint.position_m,
+                setpoint.velocity_m_per_s,
+            ),
             position: setpoint.position_m,
             velocity: setpoint.velocity_m_per_s,
             force,
@@ -73,7 +80,7 @@ impl Drive {
         }
     }
 
-    /// Position of the axis.
+    /// Position of the motor; that of the load differs by at most half of the backlash.
     pub fn position_m(&self) -> f64 {
         self.position
     }
@@ -124,7 +131,7 @@ impl Drive {
     }
 
     /// A simulation step: first the current loop, exactly, then the velocity, then the position.
-    /// Gives the position in m at its end.
+    /// Gives the position of the load in m at its end.
     #[inline]
     pub fn step(&mut self) -> f64 {
         self.force = self.command + (self.force - self.command) * self.current_decay;
@@ -134,6 +141,6 @@ impl Drive {
             per_mass: self.per_mass,
         });
         self.position += STEP_S * self.velocity;
-        self.position
+        self.coupling.follow(self.position)
     }
 }

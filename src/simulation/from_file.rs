@@ -62,6 +62,9 @@ fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParame
     if let Some(stiffness) = table.number(Quantity::Stiffness) {
         drive.set_stiffness(stiffness);
     }
+    if let Some(micrometres) = table.number(Quantity::Backlash) {
+        drive.backlash_m = micrometres * 1e-6;
+    }
     for (quantity, number) in table.numbers() {
         if let Some(parameter) = parameter(&mut drive, quantity) {
             *parameter = number;
@@ -81,7 +84,7 @@ fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParame
     Ok(drive)
 }
 
-/// The parameter that a number is; `None` where others follow from it.
+/// The parameter that a number is; `None` where others follow from it or it has another unit.
 fn parameter(drive: &mut DriveParameters, quantity: Quantity) -> Option<&mut f64> {
     let friction = &mut drive.friction;
     Some(match quantity {
@@ -93,7 +96,7 @@ fn parameter(drive: &mut DriveParameters, quantity: Quantity) -> Option<&mut f64
         Quantity::VelocityForward => &mut drive.velocity_forward,
         Quantity::AccelerationForward => &mut drive.acceleration_forward,
         Quantity::ForcePerUnit => &mut drive.force_per_unit_n,
-        Quantity::RatedForce => return None,
+        Quantity::RatedForce | Quantity::Backlash => return None,
         Quantity::MaxForce => &mut drive.max_force_n,
         Quantity::Coulomb => &mut friction.coulomb_n,
         Quantity::Breakaway => &mut friction.breakaway_n,

@@ -7,6 +7,7 @@
 //! All quantities are in SI units, and the names of public numbers end in theirs.
 
 mod clock;
+mod coupling;
 mod drive;
 mod drive_pair;
 mod friction;

@@ -45,6 +45,8 @@ pub struct DriveParameters {
     pub force_per_unit_n: f64,
     /// The largest force of the drive.
     pub max_force_n: f64,
+    /// Backlash: the dead zone between motor and load (R5.27).
+    pub backlash_m: f64,
     /// The friction of the guideway.
     pub friction: Friction,
 }
@@ -90,6 +92,7 @@ impl DriveParameters {
             acceleration_forward: 0.0,
             force_per_unit_n: RATED_FORCE_N / UNITS_PER_RATED_FORCE,
             max_force_n: PEAK_FORCE * RATED_FORCE_N,
+            backlash_m: 0.0,
             friction: Friction {
                 coulomb_n: 500.0,
                 breakaway_n: 620.0,

@@ -109,11 +109,11 @@ impl Task {
         };
         let lap = self.test(circle, candidate, variant.friction()).run(job)?;
         let comparison = Comparison::of([lap]);
-        Ok(comparison
-            .off
-            .figures
-            .glitch_max_um()
-            .max(comparison.on.figures.glitch_max_um()))
+        let figures = match compensation {
+            Switched::Off => comparison.off.figures,
+            Switched::On => comparison.on.figures,
+        };
+        Ok(figures.glitch_max_um().unwrap_or(f64::NAN))
     }
 
     /// Every circle with every variant, the circles in their order.

@@ -57,6 +57,22 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[],
     },
     Assumption {
+        rule: "R5.22",
+        sentence: "before the straight line through the sides, the ellipse and the shift of the whole \
+            path are subtracted",
+        changes: "the glitch of a path that is an ellipse, by some 2 % of the ellipse",
+        shows: "`glitch` in the conditions of the report",
+        when: &[],
+    },
+    Assumption {
+        rule: "R5.24",
+        sentence: "a step is backlash if it is at least a tenth of the peak, and if half-way to where it \
+            is measured less than half of it is left of the peak",
+        changes: "whether little backlash beside much friction is named",
+        shows: "rows `step that stays` and `peak that decays` of the report",
+        when: &[],
+    },
+    Assumption {
         rule: "R5.24",
         sentence: "glitches below 1 µm get no advice; a bulge of less than a quarter of the other is \
             ignored",
@@ -69,6 +85,14 @@ pub(super) const ASSUMED: &[Assumption] = &[
         sentence: "±20 % friction changes Fc, Fs and fv but not the stiffness",
         changes: "the sensitivity",
         shows: "the columns of `frictcomp tune`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R5.27",
+        sentence: "the position loop measures the motor, and friction holds the load while the motor \
+            crosses the dead zone; all of the friction acts on the motor",
+        changes: "the path within the backlash at a reversal",
+        shows: "`backlash_um` of a plant file",
         when: &[],
     },
 ];

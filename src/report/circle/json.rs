@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::super::strings::to_pretty;
-use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
-use crate::circle::{Crossing, Diagnosis, Glitch, PathFigures};
+use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast, round};
+use crate::circle::{AxisShape, Crossing, Diagnosis, Glitch, PathCentre, PathFigures};
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -32,13 +32,16 @@ struct Conditions<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    value_list: Option<&'a str>,
+    value_list: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reading: Option<String>,
     centre: &'static str,
     data: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     saturated_cycles: Option<u64>,
+    /// Why there are no glitches.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    glitches_up_to: Option<TooFast>,
 }
 
 #[derive(Serialize)]
@@ -47,13 +50,15 @@ struct SideRecord {
     ccw: Option<PathRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cw: Option<PathRecord>,
+    centre: PathCentre,
+    centre_distance: Option<f64>,
     #[serde(rename = "G_b")]
     g_b: Option<f64>,
     #[serde(rename = "H")]
     h: Option<f64>,
     #[serde(rename = "D")]
     d: Option<f64>,
-    glitch_max: f64,
+    glitch_max: Option<f64>,
     advice: Vec<Diagnosis>,
 }
 
@@ -69,8 +74,11 @@ struct PathRecord {
     f_min: Option<f64>,
     #[serde(rename = "D")]
     d: Option<f64>,
-    glitch: ByCrossing<f64>,
-    shape: ByCrossing<Shape>,
+    glitch: ByCrossing<Option<f64>>,
+    shape: ByCrossing<Option<Bulges>>,
+    glitch_window_deg: Option<f64>,
+    axes: ByAxis<Option<AxisRecord>>,
+    ellipse: Option<Ellipse>,
 }
 
 /// A value for each crossing.
@@ -87,17 +95,50 @@ struct ByCrossing<T> {
 }
 
 #[derive(Serialize)]
-struct Shape {
+struct Bulges {
     outward: f64,
     inward: f64,
-    step: f64,
 }
 
-impl<T> ByCrossing<T> {
-    fn of(glitches: &[Glitch], value: impl Fn(&Glitch) -> T) -> Self {
+/// A value for each axis.
+#[derive(Serialize)]
+struct ByAxis<T> {
+    #[serde(rename = "X")]
+    x: T,
+    #[serde(rename = "Y")]
+    y: T,
+}
+
+/// What stays and what decays after the reversals of an axis.
+#[derive(Serialize)]
+struct AxisRecord {
+    step: f64,
+    peak: f64,
+    is_settled: bool,
+}
+
+/// The amplitude of what is left without steps and peaks.
+#[derive(Serialize)]
+struct Ellipse {
+    along_axes: f64,
+    at_45_deg: f64,
+}
+
+impl AxisRecord {
+    fn of(shape: &AxisShape) -> Self {
+        Self {
+            step: round(shape.step_um),
+            peak: round(shape.peak_um),
+            is_settled: shape.is_settled,
+        }
+    }
+}
+
+impl<T> ByCrossing<Option<T>> {
+    fn of(glitches: Option<&[Glitch; 4]>, value: impl Fn(&Glitch) -> T) -> Self {
         let at = |crossing: Crossing| {
-            let glitch = glitches.iter().find(|glitch| glitch.crossing == crossing);
-            value(glitch.expect("a path has a glitch for every crossing"))
+            let mut glitches = glitches?.iter();
+            glitches.find(|it| it.crossing == crossing).map(&value)
         };
         Self {
             x_plus: at(Crossing::XPlus),
@@ -110,17 +151,27 @@ impl<T> ByCrossing<T> {
 
 impl PathRecord {
     fn of(figures: &PathFigures) -> Self {
+        let shape = figures.shape.as_ref();
+        let glitches = shape.map(|shape| &shape.glitches);
         Self {
             g_mz: round(figures.g_mz_um),
             g_lsc: round(figures.g_lsc_um),
             f_max: figures.f_max_um.map(round),
             f_min: figures.f_min_um.map(round),
             d: figures.d_um.map(round),
-            glitch: ByCrossing::of(&figures.glitch, |glitch| round(glitch.height_um)),
-            shape: ByCrossing::of(&figures.glitch, |glitch| Shape {
+            glitch: ByCrossing::of(glitches, |glitch| round(glitch.height_um)),
+            shape: ByCrossing::of(glitches, |glitch| Bulges {
                 outward: round(glitch.outward_um),
                 inward: round(glitch.inward_um),
-                step: round(glitch.step_um),
+            }),
+            glitch_window_deg: shape.map(|shape| round(shape.window_deg)),
+            axes: ByAxis {
+                x: shape.map(|shape| AxisRecord::of(&shape.axes[0])),
+                y: shape.map(|shape| AxisRecord::of(&shape.axes[1])),
+            },
+            ellipse: shape.map(|shape| Ellipse {
+                along_axes: round(shape.ellipse_um[0]),
+                at_45_deg: round(shape.ellipse_um[1]),
             }),
         }
     }
@@ -136,10 +187,12 @@ impl SideRecord {
         Self {
             ccw: figures.ccw.as_ref().map(PathRecord::of),
             cw: figures.cw.as_ref().map(PathRecord::of),
+            centre: figures.centre,
+            centre_distance: figures.centre_distance_um.map(round),
             g_b: figures.g_b_um.map(round),
             h: figures.h_um.map(round),
             d: figures.d_um.map(round),
-            glitch_max: round(figures.glitch_max_um()),
+            glitch_max: figures.glitch_max_um().map(round),
             advice: side.advice.iter().map(rounded).collect(),
         }
     }
@@ -163,19 +216,17 @@ pub fn render_json(report: &CircleReport) -> String {
             cycle_time_s: Some(test.circle.cycle_time_s),
             plant: Some(&test.plant.name),
             model: Some(test.model.as_str()),
-            value_list: Some(match origin {
-                ListOrigin::Plant => "plant",
-                ListOrigin::File(name) => name,
-            }),
+            value_list: Some(origin.name()),
             reading: Some(test.reading.to_string()),
             centre: "commanded",
             data: TREATMENT,
             saturated_cycles: Some(*saturated_cycles),
+            glitches_up_to: report.too_fast(),
         },
         Subject::Recorded(recording) => Conditions {
             source: "recorded",
-            diameter_mm: recording.radius_mm.map(|radius| 2.0 * radius),
-            feed_mm_min: None,
+            diameter_mm: recording.commanded.radius_mm.map(|radius| 2.0 * radius),
+            feed_mm_min: report.driven().1.map(round),
             cycle_time_s: None,
             plant: None,
             model: None,
@@ -184,6 +235,7 @@ pub fn render_json(report: &CircleReport) -> String {
             centre: "least-squares",
             data: TREATMENT,
             saturated_cycles: None,
+            glitches_up_to: report.too_fast(),
         },
     };
     let document = Document {

@@ -1,7 +1,10 @@
 //! What is reported of a circular test.
 
+use serde::Serialize;
+
 use crate::circle::{
-    CircularTest, Comparison, Diagnosis, Recording, Side, diagnose, diagnose_comparison,
+    Circle, CircularTest, Comparison, Diagnosis, RecordedCircle, Recording, Side, diagnose,
+    diagnose_comparison,
 };
 use crate::current::Switched;
 
@@ -15,8 +18,21 @@ pub(super) const TREATMENT: &str = "every point of the path for G, F and the gli
 pub enum ListOrigin {
     /// It is the friction curve of the plant.
     Plant,
-    /// A file of the user.
+    /// A file of the user for both axes.
     File(String),
+    /// One for X and one for Y.
+    EachAxis([String; 2]),
+}
+
+impl ListOrigin {
+    /// The names of the files.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Plant => "plant".to_owned(),
+            Self::File(name) => name.clone(),
+            Self::EachAxis([x, y]) => format!("X={x}, Y={y}"),
+        }
+    }
 }
 
 /// What is reported.
@@ -60,7 +76,7 @@ impl CircleReport {
     /// The report of a simulated test.
     pub fn simulated(test: CircularTest, comparison: Comparison, origin: ListOrigin) -> Self {
         let side = |name, advice, side| NamedSide { name, side, advice };
-        let without = diagnose(&comparison.off.paths, Some(Switched::Off));
+        let without = diagnose(&comparison.off.figures, Some(Switched::Off));
         let with = diagnose_comparison(&comparison);
         Self {
             subject: Subject::Simulated {
@@ -82,11 +98,59 @@ impl CircleReport {
             subject: Subject::Recorded(Box::new(recording)),
             sides: vec![NamedSide {
                 name: "recorded",
-                advice: diagnose(&side.paths, None),
+                advice: diagnose(&side.figures, None),
                 side,
             }],
         }
     }
+}
+
+impl CircleReport {
+    /// The radius in mm, and the feed in mm/min where it is known.
+    pub(super) fn driven(&self) -> (f64, Option<f64>) {
+        match &self.subject {
+            Subject::Simulated { test, .. } => {
+                (test.circle.radius_mm, Some(test.circle.feed_mm_per_min))
+            }
+            Subject::Recorded(recording) => {
+                let first = recording.circles.first();
+                let fitted = first.map_or(0.0, |circle| circle.radius_mm);
+                let feeds = recording.circles.iter();
+                let feeds = feeds.filter_map(RecordedCircle::feed_mm_per_min);
+                (
+                    recording.commanded.radius_mm.unwrap_or(fitted),
+                    feeds.reduce(f64::max),
+                )
+            }
+        }
+    }
+
+    /// What would give figures at the crossings, where the circle is too fast for them (R5.22).
+    pub(super) fn too_fast(&self) -> Option<TooFast> {
+        let mut paths = self.sides.iter().flat_map(|side| {
+            let figures = &side.side.figures;
+            [&figures.ccw, &figures.cw].into_iter().flatten()
+        });
+        if paths.all(|path| path.shape.is_some()) {
+            return None;
+        }
+        let (radius_mm, feed) = self.driven();
+        let feed_mm_per_min = Circle::fastest_feed_for_glitches(radius_mm);
+        Some(TooFast {
+            feed_mm_per_min: feed_mm_per_min.floor(),
+            radius_mm: feed.map(|feed| (10.0 * radius_mm * feed / feed_mm_per_min).ceil() / 10.0),
+        })
+    }
+}
+
+/// What would give figures at the crossings.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(super) struct TooFast {
+    /// A feed of at most this.
+    #[serde(rename = "feed_mm_min")]
+    pub(super) feed_mm_per_min: f64,
+    /// Or a radius of at least this.
+    pub(super) radius_mm: Option<f64>,
 }
 
 /// A number of µm as it is written for machines.

@@ -4,8 +4,10 @@ use std::fmt::Write as _;
 
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{
-    CircularTest, Crossing, Diagnosis, Direction, Figures, Finding, FoundAt, PathFigures, Recording,
+    AxisShape, CircularTest, Crossing, Diagnosis, Direction, Figures, Finding, FoundAt, LeftOut,
+    PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
 };
+use crate::diagnostic::Shown;
 
 /// The report for people.
 pub fn render_text(report: &CircleReport) -> String {
@@ -20,8 +22,11 @@ pub fn render_text(report: &CircleReport) -> String {
         row.append(&mut out);
     }
     let _ = writeln!(out);
-    for row in glitch_rows(&columns) {
+    for row in shape_rows(&columns) {
         row.append(&mut out);
+    }
+    if let Some(line) = no_glitches(report) {
+        let _ = writeln!(out, "{line}");
     }
     for side in &report.sides {
         let lines = advice_lines(side);
@@ -54,7 +59,7 @@ pub(in crate::report) struct Row {
 pub(in crate::report) fn table(report: &CircleReport) -> Table {
     let columns = columns(report);
     let mut rows = figure_rows(&columns);
-    rows.extend(glitch_rows(&columns));
+    rows.extend(shape_rows(&columns));
     Table {
         columns: columns.iter().map(Column::name).collect(),
         rows,
@@ -92,14 +97,69 @@ fn columns(report: &CircleReport) -> Vec<Column<'_>> {
 
 /// The conditions of the test, a line each (R5.21).
 pub(in crate::report) fn conditions(report: &CircleReport) -> Vec<String> {
-    match &report.subject {
+    let mut lines = match &report.subject {
         Subject::Simulated {
             test,
             origin,
             saturated_cycles,
         } => simulated_conditions(test, origin, *saturated_cycles),
         Subject::Recorded(recording) => recorded_conditions(recording),
-    }
+    };
+    lines.extend(bidirectional_condition(report));
+    lines.extend(window_condition(report));
+    lines
+}
+
+/// About which centre both paths are compared (R5.21).
+fn bidirectional_condition(report: &CircleReport) -> Option<String> {
+    let figures = report.sides.iter().map(|side| &side.side.figures);
+    let distances: Vec<String> = figures
+        .filter_map(|it| it.centre_distance_um)
+        .map(|distance| format!("{distance:.3} µm"))
+        .collect();
+    let centre = report.sides.first()?.side.figures.centre;
+    (!distances.is_empty()).then(|| {
+        format!(
+            "G(b) and H: about {}, which are {} apart",
+            centre.title(),
+            distances.join(" and ")
+        )
+    })
+}
+
+/// Where the glitch is looked for (R5.22).
+fn window_condition(report: &CircleReport) -> Option<String> {
+    let mut figures = report.sides.iter().map(|side| &side.side.figures);
+    let shape = figures.find_map(|it| {
+        [&it.ccw, &it.cw]
+            .into_iter()
+            .flatten()
+            .next()?
+            .shape
+            .as_ref()
+    });
+    let degrees = Shown((shape?.window_deg * 10.0).round() / 10.0);
+    let time = match report.driven().1 {
+        Some(_) => "the larger of 8\u{b0} and 0.3 s",
+        None => "of an unknown feed, `--feed` or a column `t` tells it",
+    };
+    Some(format!(
+        "glitch: from 8\u{b0} before to {degrees}\u{b0} after a crossing, {time}; less the ellipse \
+         and a straight line through both sides"
+    ))
+}
+
+/// Why there are no glitches, and what would give some (R5.22).
+pub(in crate::report) fn no_glitches(report: &CircleReport) -> Option<String> {
+    let limit = report.too_fast()?;
+    let radius = limit.radius_mm.map_or(String::new(), |radius| {
+        format!(" or a radius of {} mm and more", Shown(radius))
+    });
+    Some(format!(
+        "no glitch and no advice: 0.3 s after a crossing the path is half-way to the next one; a \
+         feed of {} mm/min or less{radius} gives figures",
+        Shown(limit.feed_mm_per_min)
+    ))
 }
 
 fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64) -> Vec<String> {
@@ -121,7 +181,7 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
     let [x, y] = &test.lists;
     let list = match origin {
         ListOrigin::Plant => "the plant's own friction curve".to_owned(),
-        ListOrigin::File(name) => name.clone(),
+        ListOrigin::File(_) | ListOrigin::EachAxis(_) => origin.name(),
     };
     lines.push(format!("value list: {list}, {} points", x.table.len()));
     let each = if x == y {
@@ -136,7 +196,9 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
         ));
     }
     lines.push(format!("reading: {}", test.reading));
-    lines.push(format!("centre: the commanded one; {TREATMENT}"));
+    lines.push(format!(
+        "centre: the commanded one for F and D; {TREATMENT}"
+    ));
     if saturated > 0 {
         lines.push(format!(
             "the drives reached their largest force in {saturated} cycles of the speed loop"
@@ -156,22 +218,41 @@ fn unit_force(test: &CircularTest) -> String {
 }
 
 fn recorded_conditions(recording: &Recording) -> Vec<String> {
-    let commanded = match recording.radius_mm {
+    let commanded = match recording.commanded.radius_mm {
         Some(radius) => format!("commanded diameter {} mm", 2.0 * radius),
         None => "commanded diameter unknown (`--radius` for F and D)".to_owned(),
     };
     let mut lines = vec![format!("circular test, recorded: {commanded}")];
     for circle in &recording.circles {
         let [x, y] = circle.centre_mm;
+        let feed = circle
+            .feed_mm_per_min()
+            .map_or(String::new(), |feed| format!(", feed {feed:.0} mm/min"));
         lines.push(format!(
-            "{}: {} points of a turn, least-squares centre ({x:.4}, {y:.4}) mm, diameter {:.4} mm",
+            "{}: {} points of a turn, least-squares centre ({x:.4}, {y:.4}) mm, diameter {:.4} \
+             mm{feed}",
             circle.direction,
             circle.points,
             2.0 * circle.radius_mm
         ));
+        lines.push(left_out(circle));
     }
     lines.push(format!("centre: least squares, for each path; {TREATMENT}"));
     lines
+}
+
+/// What was cut away (R5.26).
+fn left_out(circle: &RecordedCircle) -> String {
+    let LeftOut {
+        repeated,
+        before,
+        after,
+        along_deg,
+    } = circle.left_out;
+    format!(
+        "  taken from {along_deg:.0}\u{b0} along the circle; left out: {before} points before it, \
+         {after} after it, {repeated} repeated rows"
+    )
 }
 
 fn header(out: &mut String, columns: &[Column<'_>]) {
@@ -224,16 +305,33 @@ fn figure_rows(columns: &[Column<'_>]) -> Vec<Row> {
     own.chain(shared).filter(Row::says_something).collect()
 }
 
-fn glitch_rows(columns: &[Column<'_>]) -> Vec<Row> {
-    let rows = Crossing::ALL.into_iter().enumerate();
-    let rows = rows.map(|(at, crossing)| Row {
-        name: format!("glitch at {}", crossing.as_str()),
+/// What the paths do at the crossings: the glitches, and for each axis what stays and what decays.
+fn shape_rows(columns: &[Column<'_>]) -> Vec<Row> {
+    let row = |name: String, value: &dyn Fn(&PathShape) -> Option<f64>| Row {
+        name,
         values: columns
             .iter()
-            .map(|column| column.figures.glitch.get(at).map(|it| it.height_um))
+            .map(|column| value(column.figures.shape.as_ref()?))
             .collect(),
+    };
+    let crossings = Crossing::ALL.into_iter().enumerate();
+    let glitches = crossings.map(|(at, crossing)| {
+        row(format!("glitch at {crossing}"), &|shape| {
+            shape.glitches.get(at).map(|it| it.height_um)
+        })
     });
-    rows.filter(Row::says_something).collect()
+    let of_axis = |axis: PlaneAxis, name: &str, value: fn(&AxisShape) -> f64| {
+        row(format!("{axis}: {name}"), &|shape| {
+            Some(value(shape.axis(axis)))
+        })
+    };
+    let axes = PlaneAxis::ALL.into_iter().flat_map(|axis| {
+        [
+            of_axis(axis, "peak that decays", |it| it.peak_um),
+            of_axis(axis, "step that stays", |it| it.step_um),
+        ]
+    });
+    glitches.chain(axes).filter(Row::says_something).collect()
 }
 
 impl Row {
@@ -267,10 +365,13 @@ pub(in crate::report) fn advice_lines(side: &NamedSide) -> Vec<String> {
     for (finding, same) in said {
         let mut places = Vec::new();
         for advice in &same {
-            if let FoundAt::Crossing(crossing) = advice.place
-                && !places.contains(&crossing.as_str())
-            {
-                places.push(crossing.as_str());
+            let place = match advice.place {
+                FoundAt::Crossing(crossing) => crossing.as_str(),
+                FoundAt::Axis(axis) => axis.as_str(),
+                _ => continue,
+            };
+            if !places.contains(&place) {
+                places.push(place);
             }
         }
         let largest = same.iter().map(|it| it.size_um).fold(0.0, f64::max);
@@ -308,7 +409,11 @@ pub fn words(finding: Finding) -> &'static str {
             "outwards, then inwards: too late, lower position_delay or delay_cycles, or raise \
              reversal_lookahead"
         }
-        Finding::Backlash => "a step that remains: backlash, compensate it as such",
+        Finding::Backlash => "a step outwards that stays: backlash, compensate it as such",
+        Finding::OvercompensatedBacklash => {
+            "a step inwards that stays: more backlash is compensated than there is, lower its \
+             compensation"
+        }
         Finding::GainMismatch => {
             "an ellipse at 45° that turns with the direction: the position loops of the axes \
              differ, make Kv and feed forward equal"

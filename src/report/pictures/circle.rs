@@ -23,8 +23,9 @@ pub fn circle(report: &CircleReport) -> PolarChart {
                 points: outline(profile),
             });
         }
-        let glitch = side.side.figures.glitch_max_um();
-        told.push(format!("{}: largest glitch {glitch:.1} µm", side.name));
+        if let Some(glitch) = side.side.figures.glitch_max_um() {
+            told.push(format!("{}: largest glitch {glitch:.1} µm", side.name));
+        }
     }
     let (title, radius) = match &report.subject {
         Subject::Simulated { test, .. } => (
@@ -37,7 +38,7 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         ),
         Subject::Recorded(recording) => {
             let fitted = recording.circles.first().map(|circle| circle.radius_mm);
-            let radius = recording.radius_mm.or(fitted).unwrap_or_default();
+            let radius = recording.commanded.radius_mm.or(fitted).unwrap_or_default();
             (
                 format!("Recorded circle, diameter {:.3} mm", 2.0 * radius),
                 radius,

@@ -1,0 +1,60 @@
+//! About which centre both paths are compared.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::Serialize;
+use thiserror::Error;
+
+/// About which centre G(b) and H are meant (R5.21).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum PathCentre {
+    /// The mean of the least-squares centres of both paths.
+    #[default]
+    Common,
+    /// The least-squares centre of each path: what shifts one path as a whole does not count.
+    Own,
+}
+
+/// A word that names no centre.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("there is no centre `{0}`; there are `common` and `own`")]
+pub struct UnknownPathCentre(pub String);
+
+impl PathCentre {
+    /// `common` or `own`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Common => "common",
+            Self::Own => "own",
+        }
+    }
+
+    /// What it is, in words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Common => "the mean of both least-squares centres",
+            Self::Own => "the least-squares centre of each path",
+        }
+    }
+}
+
+impl fmt::Display for PathCentre {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+impl FromStr for PathCentre {
+    type Err = UnknownPathCentre;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        match name {
+            "common" => Ok(Self::Common),
+            "own" => Ok(Self::Own),
+            _ => Err(UnknownPathCentre(name.to_owned())),
+        }
+    }
+}

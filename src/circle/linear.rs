@@ -1,0 +1,84 @@
+//! Linear least squares with a few unknowns.
+
+/// The normal equations of a fit with `N` unknowns.
+#[derive(Debug, Clone)]
+pub(super) struct Normal<const N: usize> {
+    matrix: [[f64; N]; N],
+    right: [f64; N],
+}
+
+/// A pivot that is smaller than this part of its row's diagonal leaves an unknown undetermined.
+const LEAST_PIVOT: f64 = 1e-12;
+
+impl<const N: usize> Normal<N> {
+    pub(super) fn new() -> Self {
+        Self {
+            matrix: [[0.0; N]; N],
+            right: [0.0; N],
+        }
+    }
+
+    /// Takes an equation: the unknowns times `row` make `value`.
+    pub(super) fn add(&mut self, row: [f64; N], value: f64) {
+        for (at, sums) in self.matrix.iter_mut().enumerate() {
+            for (sum, factor) in sums.iter_mut().zip(row) {
+                *sum += row[at] * factor;
+            }
+            self.right[at] += row[at] * value;
+        }
+    }
+
+    /// The unknowns, by elimination; `None` where the equations do not determine them. The matrix
+    /// is positive, so that its diagonal gives the pivots.
+    pub(super) fn solve(mut self) -> Option<[f64; N]> {
+        let diagonal: [f64; N] = std::array::from_fn(|at| self.matrix[at][at]);
+        for (at, whole) in diagonal.into_iter().enumerate() {
+            let pivot = self.matrix[at][at];
+            let is_firm = pivot > LEAST_PIVOT * whole;
+            if !is_firm {
+                return None;
+            }
+            for below in at + 1..N {
+                let factor = self.matrix[below][at] / pivot;
+                for column in at..N {
+                    self.matrix[below][column] -= factor * self.matrix[at][column];
+                }
+                self.right[below] -= factor * self.right[at];
+            }
+        }
+        let mut unknowns = [0.0; N];
+        for at in (0..N).rev() {
+            let known: f64 = (at + 1..N)
+                .map(|column| self.matrix[at][column] * unknowns[column])
+                .sum();
+            unknowns[at] = (self.right[at] - known) / self.matrix[at][at];
+        }
+        unknowns.iter().all(|it| it.is_finite()).then_some(unknowns)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_through_its_points_is_found() {
+        let mut normal = Normal::new();
+        for x in [-2.0, -1.0, 0.0, 1.0, 3.0] {
+            normal.add([1.0, x, x * x], 4.0 - 3.0 * x + 0.5 * x * x);
+        }
+        let found = normal.solve().unwrap();
+        for (found, expected) in found.into_iter().zip([4.0, -3.0, 0.5]) {
+            assert!((found - expected).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn what_is_not_determined_is_not_guessed() {
+        let mut normal = Normal::new();
+        for x in [1.0, 2.0, 3.0] {
+            normal.add([x, 2.0 * x], x);
+        }
+        assert_eq!(normal.solve(), None);
+    }
+}

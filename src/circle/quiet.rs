@@ -1,0 +1,109 @@
+//! The path away from its crossings, where no peak disturbs it: what is left there has a shape
+//! that tells its cause (R5.24).
+//!
+//! A centre that is off shifts the path by its first harmonic; axes whose gains, scales or angle
+//! are wrong make an ellipse, the second harmonic. An axis with backlash lags by half of it
+//! against its direction of motion, so that the path steps where the axis turns round. All of
+//! this is fitted at once to the quiet part of the whole turn.
+
+use super::crossing::{Crossing, PlaneAxis};
+use super::direction::Direction;
+use super::linear::Normal;
+use super::profile::{Point, RadialProfile};
+use super::window::Window;
+
+/// The undisturbed path, in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct QuietPath {
+    direction: Direction,
+    mean: f64,
+    /// Of the centre, in X and Y.
+    shift: [f64; 2],
+    /// The amplitude of the ellipse along the axes and at 45°.
+    pub(super) ellipse: [f64; 2],
+    /// How far the path steps outwards at the crossings of X and Y.
+    pub(super) steps: [f64; 2],
+}
+
+/// Before or after a crossing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Beside {
+    Before,
+    After,
+}
+
+impl QuietPath {
+    /// What the path of a profile has between its windows; `None` where that does not determine
+    /// it.
+    pub(super) fn of(
+        profile: &RadialProfile,
+        direction: Direction,
+        window: Window,
+    ) -> Option<Self> {
+        let places = Crossing::ALL
+            .into_iter()
+            .flat_map(|crossing| profile.fixed(crossing, direction, window.quiet()));
+        let mut normal = Normal::<7>::new();
+        for (_, point) in places {
+            let Point {
+                cos,
+                sin,
+                deviation,
+            } = point;
+            let [along, across] = second_harmonic(point);
+            let [x, y] = PlaneAxis::ALL.map(|axis| lag(axis, point, direction));
+            normal.add([1.0, cos, sin, along, across, x, y], deviation);
+        }
+        let [mean, shift_x, shift_y, along, across, step_x, step_y] = normal.solve()?;
+        Some(Self {
+            direction,
+            mean,
+            shift: [shift_x, shift_y],
+            ellipse: [along, across],
+            steps: [step_x, step_y],
+        })
+    }
+
+    /// The path without any step in the direction of a point.
+    pub(super) fn smooth(&self, point: Point) -> f64 {
+        let [along, across] = second_harmonic(point);
+        self.mean
+            + self.shift[0] * point.cos
+            + self.shift[1] * point.sin
+            + self.ellipse[0] * along
+            + self.ellipse[1] * across
+    }
+
+    /// The path on one side of a crossing, continued over it, in the direction of a point.
+    pub(super) fn level(&self, crossing: Crossing, beside: Beside, point: Point) -> f64 {
+        let side = match beside {
+            Beside::Before => -1.0,
+            Beside::After => 1.0,
+        };
+        let [x, y] = self.steps;
+        let steps = match crossing.axis() {
+            PlaneAxis::X => {
+                0.5 * side * x * point.cos.abs() + y * lag(PlaneAxis::Y, point, self.direction)
+            }
+            PlaneAxis::Y => {
+                0.5 * side * y * point.sin.abs() + x * lag(PlaneAxis::X, point, self.direction)
+            }
+        };
+        self.smooth(point) + steps
+    }
+}
+
+/// The second harmonic in the direction of a point: along the axes, and at 45°.
+fn second_harmonic(Point { cos, sin, .. }: Point) -> [f64; 2] {
+    [cos * cos - sin * sin, 2.0 * cos * sin]
+}
+
+/// How far outwards an axis with a backlash of 1 moves the path: by half of it against the
+/// direction of the axis.
+fn lag(axis: PlaneAxis, Point { cos, sin, .. }: Point, direction: Direction) -> f64 {
+    let turning = direction.sign();
+    match axis {
+        PlaneAxis::X => 0.5 * turning * sin.signum() * cos,
+        PlaneAxis::Y => -0.5 * turning * cos.signum() * sin,
+    }
+}

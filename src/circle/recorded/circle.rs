@@ -1,0 +1,215 @@
+//! One turn of a recorded circle.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::cut::{Run, runs};
+use super::error::RecordedError;
+use super::fit::Fit;
+use super::limits::{MIN_POINTS, MOST_MM, WIDEST_GAP_DEG};
+use super::search::search;
+use super::trace::RecordedTrace;
+use crate::circle::direction::Direction;
+use crate::circle::profile::{Gap, Gatherer, RadialProfile};
+use crate::circle::zone::{least_squares, zone_about};
+
+/// Rounds in which the turn is fitted and cut again.
+const ROUNDS: usize = 3;
+
+/// Millimetres in a metre.
+const MM_PER_M: f64 = 1000.0;
+
+/// A circle that was recorded, in either direction.
+#[derive(Debug, Clone)]
+pub struct RecordedCircle {
+    /// The direction of travel, found from the points.
+    pub direction: Direction,
+    /// The centre of the least-squares circle.
+    pub centre_mm: [f64; 2],
+    /// Its radius.
+    pub radius_mm: f64,
+    /// How many points the evaluated turn has.
+    pub points: usize,
+    /// How long the turn took, where the times are known.
+    pub turn_s: Option<f64>,
+    /// What else was recorded.
+    pub left_out: LeftOut,
+    pub(super) profile: RadialProfile,
+}
+
+/// What a recording holds besides the turn that is evaluated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftOut {
+    /// Rows that repeat the one before them, of the whole recording.
+    pub repeated: usize,
+    /// Points before the path along the circle in this direction: the way to it, standstill, the
+    /// other direction.
+    pub before: usize,
+    /// Points after that path.
+    pub after: usize,
+    /// The angle of the whole path along the circle in this direction.
+    pub along_deg: f64,
+}
+
+impl RecordedCircle {
+    /// The circles of a recording, one for each direction in which it has a full turn. If there is
+    /// more than a turn, the one next to the middle counts.
+    ///
+    /// F and D are against the commanded radius `commanded_mm`; G, H and the glitches do not
+    /// depend on it.
+    ///
+    /// # Errors
+    /// Points that make no full circle.
+    pub fn find(
+        trace: &RecordedTrace,
+        commanded_mm: Option<f64>,
+    ) -> Result<Vec<Self>, RecordedError> {
+        let different = trace.without_repeats();
+        let points = &different.points_mm;
+        let fit = search(points);
+        if points.len() < MIN_POINTS && points.len() > 1 {
+            return Err(RecordedError::TooFew(points.len()));
+        }
+        let fit = fit?;
+        let runs = runs(&fit, points);
+        let mut found = Vec::new();
+        let repeated = trace.points_mm.len() - points.len();
+        for direction in Direction::ALL {
+            let full = runs
+                .iter()
+                .filter(|run| run.direction == direction && run.is_full());
+            let turns = full.filter_map(|run| Some((run, run.turn(&fit, points)?)));
+            let longest =
+                turns.max_by(|(one, _), (other, _)| one.covered().total_cmp(&other.covered()));
+            if let Some((run, turn)) = longest {
+                found.push(Self::of(&different, (run, turn), commanded_mm)?.with_repeats(repeated));
+            }
+        }
+        if found.is_empty() {
+            return Err(refusal(&fit, points, &runs));
+        }
+        Ok(found)
+    }
+
+    /// The circle of a run from one turn on it.
+    fn of(
+        trace: &RecordedTrace,
+        (run, mut turn): (&Run, Range<usize>),
+        commanded_mm: Option<f64>,
+    ) -> Result<Self, RecordedError> {
+        let points = &trace.points_mm;
+        let mut fit = Fit::of(&points[turn.clone()])?;
+        for _ in 0..ROUNDS {
+            turn = run.turn(&fit, points).unwrap_or(turn);
+            fit = Fit::of(&points[turn.clone()])?;
+        }
+        if turn.len() < MIN_POINTS {
+            return Err(RecordedError::TooFew(turn.len()));
+        }
+        if let Some(commanded_mm) = commanded_mm
+            && !(0.9..1.1).contains(&(fit.radius / commanded_mm))
+        {
+            return Err(RecordedError::Radius {
+                commanded_mm,
+                found_mm: fit.radius,
+            });
+        }
+        let duration_s = trace.duration_s(turn.start, turn.end - 1);
+        let turn_s = duration_s.map(|duration| duration * TAU / run.between(&turn));
+        let commanded = commanded_mm.unwrap_or(fit.radius) / MM_PER_M;
+        let about = |centre: [f64; 2]| {
+            let mut gatherer = Gatherer::new(commanded, WIDEST_GAP_DEG);
+            for [x, y] in &points[turn.clone()] {
+                gatherer.take((x - centre[0]) / MM_PER_M, (y - centre[1]) / MM_PER_M);
+            }
+            let gaps = |gap: Gap| RecordedError::Gaps(gap.missing);
+            gatherer.finish(turn_s).map_err(gaps)
+        };
+        // Each angle weighs the same, however many points it has.
+        let ([x, y], _) = least_squares(&about(fit.centre)?);
+        let centre = [fit.centre[0] + MM_PER_M * x, fit.centre[1] + MM_PER_M * y];
+        let profile = about(centre)?;
+        let ([x, y], larger) = least_squares(&profile);
+        let deviation_mm = zone_about(&[&profile], [x, y]) * MM_PER_M;
+        let radius_mm = (commanded + larger) * MM_PER_M;
+        if deviation_mm > MOST_MM {
+            return Err(RecordedError::NotRound {
+                deviation_mm,
+                radius_mm,
+                centre_mm: centre,
+            });
+        }
+        Ok(Self {
+            direction: run.direction,
+            centre_mm: centre,
+            radius_mm,
+            points: turn.len(),
+            turn_s,
+            left_out: LeftOut {
+                repeated: 0,
+                before: run.points.start,
+                after: points.len() - run.points.end,
+                along_deg: run.covered().to_degrees(),
+            },
+            profile: profile.at(centre.map(|mm| mm / MM_PER_M)),
+        })
+    }
+
+    fn with_repeats(mut self, repeated: usize) -> Self {
+        self.left_out.repeated = repeated;
+        self
+    }
+
+    /// The same circle, driven at a feed in mm/min.
+    pub(super) fn driven_at(mut self, feed: f64) -> Self {
+        let turn_s = TAU * self.radius_mm / (feed / 60.0);
+        self.turn_s = Some(turn_s);
+        self.profile = self.profile.in_time(turn_s);
+        self
+    }
+
+    /// The feed in mm/min, where the times are known.
+    pub fn feed_mm_per_min(&self) -> Option<f64> {
+        Some(TAU * self.radius_mm / self.turn_s? * 60.0)
+    }
+}
+
+/// Why no direction has a full turn.
+fn refusal(fit: &Fit, points: &[[f64; 2]], runs: &[Run]) -> RecordedError {
+    let longest = runs
+        .iter()
+        .max_by(|one, other| one.covered().total_cmp(&other.covered()));
+    if let Some(run) = longest
+        && run.is_full()
+    {
+        return RecordedError::Gaps(run.missing_deg());
+    }
+    // All around, but not on the circle: an ellipse, a square.
+    if fit.goes_round(points)
+        && let Ok(all) = Fit::of(points)
+        && let Some(refusal) = all.not_round(points)
+    {
+        return refusal;
+    }
+    RecordedError::NotATurn {
+        covered_deg: longest.map_or(0.0, Run::covered).to_degrees(),
+        radius_mm: fit.radius,
+        centre_mm: fit.centre,
+    }
+}
+
+impl Fit {
+    /// That points around the circle lie too far from it to be one, but not anywhere.
+    fn not_round(&self, points: &[[f64; 2]]) -> Option<RecordedError> {
+        let outside = points.iter().map(|&point| self.outside(point));
+        let [inner, outer] = outside.fold([f64::MAX, f64::MIN], |[inner, outer], it| {
+            [inner.min(it), outer.max(it)]
+        });
+        let is_around = inner > -0.5 * self.radius && outer < 0.5 * self.radius;
+        (is_around && outer - inner > MOST_MM).then_some(RecordedError::NotRound {
+            deviation_mm: outer - inner,
+            radius_mm: self.radius,
+            centre_mm: self.centre,
+        })
+    }
+}

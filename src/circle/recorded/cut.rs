@@ -1,0 +1,216 @@
+//! The turns on a circle among everything that was recorded (R5.26).
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::fit::Fit;
+use super::limits::WIDEST_GAP_DEG;
+use crate::circle::direction::Direction;
+
+/// The way back after which a path is taken to have turned round, in radians: more than noise and
+/// standstill make.
+const TURNED_ROUND: f64 = 5.0 * TAU / 360.0;
+
+/// A turn may lack so much at its ends, in radians.
+const LACKING: f64 = TAU / 360.0;
+
+/// A turn that deviates so much more than the best one, as a part, is as good.
+const AS_GOOD: f64 = 1.05;
+
+/// Deviations below this make no difference between turns, in mm.
+const ROUND_MM: f64 = 1e-6;
+
+/// A path along the circle without turning round.
+#[derive(Debug, Clone)]
+pub(super) struct Run {
+    pub(super) direction: Direction,
+    /// Its points.
+    pub(super) points: Range<usize>,
+    /// The angle since its first point in the direction of travel, in radians.
+    angles: Vec<f64>,
+}
+
+/// Everything on the circle that does not leave it and does not turn round, in the order of time.
+pub(super) fn runs(fit: &Fit, points: &[[f64; 2]]) -> Vec<Run> {
+    let mut runs = Vec::new();
+    let tolerance = fit.tolerance();
+    let is_on = |point: &[f64; 2]| fit.outside(*point).abs() <= tolerance;
+    let mut from = 0;
+    while from < points.len() {
+        let rest = &points[from..];
+        let Some(first) = rest.iter().position(is_on) else {
+            break;
+        };
+        let length = rest[first..].iter().position(|point| !is_on(point));
+        let begin = from + first;
+        let end = length.map_or(points.len(), |length| begin + length);
+        split(fit, points, begin..end, &mut runs);
+        from = end;
+    }
+    runs
+}
+
+/// Splits a stretch of points where it turns round.
+fn split(fit: &Fit, points: &[[f64; 2]], stretch: Range<usize>, runs: &mut Vec<Run>) {
+    let offset = stretch.start;
+    let angles = unwrapped(fit, &points[stretch]);
+    let mut from = 0;
+    // The farthest places in both directions since `from`.
+    let [mut most, mut least] = [0, 0];
+    let mut way = None;
+    let mut push = |way: Option<Direction>, from: usize, to: usize| {
+        let Some(direction) = way else { return };
+        let sign = direction.sign();
+        runs.push(Run {
+            direction,
+            points: offset + from..offset + to + 1,
+            angles: (from..=to)
+                .map(|at| sign * (angles[at] - angles[from]))
+                .collect(),
+        });
+    };
+    for (at, &angle) in angles.iter().enumerate() {
+        if angle > angles[most] {
+            most = at;
+        }
+        if angle < angles[least] {
+            least = at;
+        }
+        let rose = angle - angles[least] > TURNED_ROUND;
+        let fell = angles[most] - angle > TURNED_ROUND;
+        match way {
+            None | Some(Direction::Cw) if rose => {
+                push(way, from, least);
+                (from, way) = (least, Some(Direction::Ccw));
+                most = at;
+            }
+            None | Some(Direction::Ccw) if fell => {
+                push(way, from, most);
+                (from, way) = (most, Some(Direction::Cw));
+                least = at;
+            }
+            Some(Direction::Ccw) => least = most,
+            Some(Direction::Cw) => most = least,
+            None => {}
+        }
+    }
+    push(way, from, angles.len() - 1);
+}
+
+/// The angle of each point since the first, turns counted, in radians.
+fn unwrapped(fit: &Fit, points: &[[f64; 2]]) -> Vec<f64> {
+    let mut turned = 0.0;
+    let mut last = None;
+    let angle = |&point: &[f64; 2]| {
+        let angle = fit.angle(point);
+        if let Some(last) = last.replace(angle) {
+            let way: f64 = angle - last;
+            turned += way - TAU * (way / TAU).round();
+        }
+        turned
+    };
+    points.iter().map(angle).collect()
+}
+
+impl Run {
+    /// The angle that the run covers, in radians.
+    pub(super) fn covered(&self) -> f64 {
+        self.angles.last().copied().unwrap_or_default()
+    }
+
+    /// The angle from one point to another, in radians.
+    pub(super) fn between(&self, turn: &Range<usize>) -> f64 {
+        let at = |point: usize| self.angles[point - self.points.start];
+        at(turn.end - 1) - at(turn.start)
+    }
+
+    /// The points of one full turn: of all turns that deviate least from the circle the one next
+    /// to the middle of the run. `None` if there is no full turn without a gap.
+    pub(super) fn turn(&self, fit: &Fit, points: &[[f64; 2]]) -> Option<Range<usize>> {
+        let costs = costs(fit, &points[self.points.clone()]);
+        let cost = |turn: &Range<usize>| costs[turn.end - 1] - costs[turn.start];
+        let mut least = f64::INFINITY;
+        self.each_turn(|turn| least = least.min(cost(&turn)));
+        let most = AS_GOOD * least + TAU * fit.radius * ROUND_MM.powi(4);
+        let middle = self.covered() / 2.0;
+        let mut best: Option<(f64, Range<usize>)> = None;
+        self.each_turn(|turn| {
+            let ends = self.angles[turn.start] + self.angles[turn.end - 1];
+            let off = (ends / 2.0 - middle).abs();
+            if cost(&turn) <= most && best.as_ref().is_none_or(|(nearest, _)| off < *nearest) {
+                best = Some((off, turn));
+            }
+        });
+        let (_, turn) = best?;
+        Some(self.points.start + turn.start..self.points.start + turn.end)
+    }
+
+    /// Every full turn without a gap, as points of the run.
+    fn each_turn(&self, mut take: impl FnMut(Range<usize>)) {
+        let angles = &self.angles;
+        let mut holes = self.holes().into_iter().peekable();
+        let mut end = 0;
+        let turn = self.covered().min(TAU) - self.step();
+        for from in 0..angles.len() {
+            while holes.next_if(|&hole| hole < from).is_some() {}
+            while end < angles.len() && angles[end] - angles[from] < turn {
+                end += 1;
+            }
+            if end == angles.len() {
+                return;
+            }
+            if holes.peek().is_none_or(|&hole| hole >= end) {
+                take(from..end + 1);
+            }
+        }
+    }
+
+    /// What a turn may lack at its ends: a degree, or a few points.
+    fn lacking(&self) -> f64 {
+        LACKING.max(self.step())
+    }
+
+    /// The angle from the last point of a turn to its first one at most: that of a few points.
+    fn step(&self) -> f64 {
+        const POINTS: f64 = 3.0;
+        #[allow(clippy::cast_precision_loss)] // points of a file
+        let mean = self.covered() / (self.angles.len() - 1).max(1) as f64;
+        POINTS * mean
+    }
+
+    /// The points after which too wide a gap follows.
+    fn holes(&self) -> Vec<usize> {
+        let pairs = self.angles.windows(2).enumerate();
+        let wide =
+            pairs.filter(|(_, pair)| (pair[1] - pair[0]).abs() > WIDEST_GAP_DEG.to_radians());
+        wide.map(|(at, _)| at).collect()
+    }
+
+    /// How much of a run that has no full turn without a gap is missing, in degrees.
+    pub(super) fn missing_deg(&self) -> f64 {
+        let ways = self.holes().into_iter();
+        let ways = ways.map(|at| self.angles[at + 1] - self.angles[at]);
+        ways.sum::<f64>().to_degrees()
+    }
+
+    /// Whether there is a full turn, be it with gaps.
+    pub(super) fn is_full(&self) -> bool {
+        self.covered() >= TAU - self.lacking()
+    }
+}
+
+/// The fourth powers of the deviations along the way up to each point: what lies beside the circle
+/// costs by its length, however many points it has, and costs more than glitches do.
+fn costs(fit: &Fit, points: &[[f64; 2]]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut last: Option<([f64; 2], f64)> = None;
+    let cost = |&point: &[f64; 2]| {
+        let power = fit.outside(point).powi(4);
+        if let Some((before, power_before)) = last.replace((point, power)) {
+            let way = (point[0] - before[0]).hypot(point[1] - before[1]);
+            sum += way * f64::midpoint(power, power_before);
+        }
+        sum
+    };
+    points.iter().map(cost).collect()
+}

@@ -1,0 +1,20 @@
+//! Circles that were recorded on a machine: actual positions of two axes (R5.20, R5.26).
+//!
+//! A recording holds more than the circle: the way to it and from it, standstill, several turns,
+//! both directions. [`search`] finds the circle that most of the way lies on, whatever else there
+//! is; [`cut`] finds the turns on it, and [`circle`] evaluates them.
+
+mod circle;
+mod cut;
+mod error;
+mod fit;
+mod limits;
+mod recording;
+mod search;
+mod trace;
+
+pub use circle::{LeftOut, RecordedCircle};
+pub use error::RecordedError;
+pub use limits::MIN_POINTS;
+pub use recording::{CommandedCircle, Recording};
+pub use trace::RecordedTrace;

@@ -1,0 +1,92 @@
+//! One or two recorded circles with their figures.
+
+use super::circle::RecordedCircle;
+use super::error::RecordedError;
+use super::limits::MOST_MM;
+use crate::circle::centre::PathCentre;
+use crate::circle::compare::Side;
+use crate::circle::figures::{Nominal, Paths};
+
+/// One or two recorded circles with their figures.
+#[derive(Debug, Clone)]
+pub struct Recording {
+    /// The circles.
+    pub circles: Vec<RecordedCircle>,
+    /// How they were commanded.
+    pub commanded: CommandedCircle,
+    /// The figures.
+    pub side: Side,
+}
+
+/// How recorded circles were commanded, as far as that is known.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CommandedCircle {
+    /// The radius.
+    pub radius_mm: Option<f64>,
+    /// The feed; without it the times of the recording tell it.
+    pub feed_mm_per_min: Option<f64>,
+}
+
+impl Recording {
+    /// Whether so many recordings of such circles can be evaluated together.
+    ///
+    /// # Errors
+    /// More than two, or a radius or feed that no circle has.
+    pub fn check(recordings: usize, commanded: CommandedCircle) -> Result<(), RecordedError> {
+        if recordings > 2 {
+            return Err(RecordedError::Count(recordings));
+        }
+        match commanded.radius_mm {
+            Some(radius) if !(0.001..=1e6).contains(&radius) => {
+                return Err(RecordedError::CommandedRadius(radius));
+            }
+            _ => {}
+        }
+        match commanded.feed_mm_per_min {
+            Some(feed) if !(0.1..=1e6).contains(&feed) => Err(RecordedError::CommandedFeed(feed)),
+            _ => Ok(()),
+        }
+    }
+
+    /// The figures of one circle, or of one in each direction: G, F and D about the least-squares
+    /// centre of each, G(b) and H about `centre`.
+    ///
+    /// # Errors
+    /// Two circles in the same direction, or with centres that are far apart.
+    pub fn new(
+        circles: Vec<RecordedCircle>,
+        commanded: CommandedCircle,
+        centre: PathCentre,
+    ) -> Result<Self, RecordedError> {
+        if circles.len() > 2 {
+            return Err(RecordedError::Count(circles.len()));
+        }
+        if let [first, second] = &circles[..] {
+            if first.direction == second.direction {
+                return Err(RecordedError::SameDirection(first.direction));
+            }
+            let [x, y] = [0, 1].map(|axis| first.centre_mm[axis] - second.centre_mm[axis]);
+            let distance_mm = x.hypot(y);
+            if centre == PathCentre::Common && distance_mm > MOST_MM {
+                return Err(RecordedError::Apart { distance_mm });
+            }
+        }
+        let circles: Vec<RecordedCircle> = match commanded.feed_mm_per_min {
+            Some(feed) => circles.into_iter().map(|it| it.driven_at(feed)).collect(),
+            None => circles,
+        };
+        let mut paths = Paths::default();
+        for circle in &circles {
+            paths.set(circle.direction, circle.profile.clone());
+        }
+        let nominal = match commanded.radius_mm {
+            Some(_) => Nominal::Commanded,
+            None => Nominal::Fitted,
+        };
+        Ok(Self {
+            side: Side::of(paths, nominal, centre),
+            commanded,
+            circles,
+        })
+    }
+}

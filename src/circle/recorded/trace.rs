@@ -1,0 +1,39 @@
+//! The rows of a recording.
+
+/// Actual positions of two axes in the order of time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RecordedTrace {
+    /// X and Y.
+    pub points_mm: Vec<[f64; 2]>,
+    /// The time of each point; empty where it is not known.
+    pub times_s: Vec<f64>,
+}
+
+impl RecordedTrace {
+    /// Positions without times.
+    pub fn of_points(points_mm: Vec<[f64; 2]>) -> Self {
+        Self {
+            points_mm,
+            times_s: Vec::new(),
+        }
+    }
+
+    /// The rows without those that repeat the one before: a recorder that is faster than the
+    /// control, or standstill.
+    pub(super) fn without_repeats(&self) -> Self {
+        let mut kept = Self::default();
+        for (at, &point) in self.points_mm.iter().enumerate() {
+            if kept.points_mm.last() != Some(&point) {
+                kept.points_mm.push(point);
+                kept.times_s.extend(self.times_s.get(at));
+            }
+        }
+        kept
+    }
+
+    /// The time from one point to another, where it is known and passes.
+    pub(super) fn duration_s(&self, from: usize, to: usize) -> Option<f64> {
+        let duration = self.times_s.get(to)? - self.times_s.get(from)?;
+        (duration.is_finite() && duration > 0.0).then_some(duration)
+    }
+}

@@ -1,0 +1,102 @@
+//! How far around a crossing a disturbance is looked for (R5.22).
+
+use std::ops::RangeInclusive;
+
+use super::profile::PER_DEGREE;
+
+/// The window begins so many degrees before a crossing.
+const BEFORE_DEG: i32 = 8;
+
+/// After a crossing the window is at least this wide, in degrees.
+const LEAST_DEG: f64 = 8.0;
+
+/// After a crossing the window lasts at least this long: by then the loops of a drive have settled.
+const SETTLING_S: f64 = 0.3;
+
+/// The sides of a window reach at least this far from the crossing, in degrees.
+const SIDE_DEG: i32 = 20;
+
+/// From one crossing to the next, in degrees.
+const QUARTER_DEG: i32 = 90;
+
+/// The fastest turning in degrees per second at which twice the window ends before the next
+/// crossing.
+const FASTEST_DEG_PER_S: f64 = 45.0 / SETTLING_S;
+
+/// The window at every crossing of a path, in fixed angles in the direction of travel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Window {
+    after: i32,
+}
+
+impl Window {
+    /// The window of a path that takes so many seconds a turn; ±8° where nobody knows them. `None`
+    /// where it would reach the next crossing.
+    pub(super) fn of(turn_s: Option<f64>) -> Option<Self> {
+        let turning = turn_s.map_or(0.0, |turn_s| 360.0 / turn_s);
+        if turning > FASTEST_DEG_PER_S * (1.0 + 1e-9) {
+            return None;
+        }
+        let degrees = LEAST_DEG.max(turning * SETTLING_S);
+        #[allow(clippy::cast_possible_truncation)] // at most 4500
+        let after = (degrees * f64::from(PER_DEGREE)).round() as i32;
+        Some(Self { after })
+    }
+
+    /// Where the disturbance is.
+    pub(super) fn inside(self) -> RangeInclusive<i32> {
+        -BEFORE_DEG * PER_DEGREE..=self.after
+    }
+
+    /// The side before the window.
+    pub(super) fn before() -> RangeInclusive<i32> {
+        -SIDE_DEG * PER_DEGREE..=-BEFORE_DEG * PER_DEGREE
+    }
+
+    /// The side after the window.
+    pub(super) fn after(self) -> RangeInclusive<i32> {
+        self.after..=(2 * self.after).max(SIDE_DEG * PER_DEGREE)
+    }
+
+    /// Where nothing is left of a peak: the second half of the way to the next crossing.
+    pub(super) fn quiet(self) -> RangeInclusive<i32> {
+        let half = QUARTER_DEG * PER_DEGREE / 2;
+        self.after.max(half)..=(QUARTER_DEG - BEFORE_DEG) * PER_DEGREE
+    }
+
+    /// Half-way from a crossing to where nothing is left of a peak: a peak that is still there
+    /// leaves something.
+    pub(super) fn decaying(self) -> RangeInclusive<i32> {
+        let half = self.quiet().start() / 2;
+        half - PER_DEGREE..=half + PER_DEGREE
+    }
+
+    /// How wide the window is after a crossing, in degrees.
+    pub(super) fn degrees(self) -> f64 {
+        f64::from(self.after) / f64::from(PER_DEGREE)
+    }
+}
+
+/// The highest feed in mm/min at which a circle of this radius in mm has figures at its crossings.
+pub(super) fn fastest_feed(radius_mm: f64) -> f64 {
+    FASTEST_DEG_PER_S.to_radians() * radius_mm * 60.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_lasts_at_least_as_long_as_loops_settle() {
+        // R5.22
+        assert_eq!(Window::of(None).unwrap().inside(), -800..=800);
+        assert_eq!(Window::of(Some(60.0)).unwrap().inside(), -800..=800);
+        // Radius 10 mm at 1200 mm/min: 2 rad/s, 34.4° in 0.3 s.
+        let window = Window::of(Some(std::f64::consts::PI)).unwrap();
+        assert_eq!(window.inside(), -800..=3438);
+        assert_eq!(window.after(), 3438..=6876);
+        // Radius 5 mm at 1000 mm/min: 191°/s.
+        assert_eq!(Window::of(Some(1.885)), None);
+        assert!((fastest_feed(5.0) - 785.4).abs() < 0.1);
+    }
+}

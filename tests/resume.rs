@@ -269,7 +269,7 @@ fn a_snapshot_that_names_what_is_not_there_is_refused() {
         ("/state/frames/0/level", json!(4_000_000_000_u32)),
         ("/state/seq", json!(u64::MAX)),
         ("/state/blocks", json!(u64::MAX)),
-        ("/state/level", json!(u64::MAX)),
+        ("/state/effort/level", json!(u64::MAX)),
         ("/state/occurred", json!([true])),
         ("/state/modal/positions", json!([])),
         ("/state/modal/references", json!([1.0])),

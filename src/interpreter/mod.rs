@@ -9,65 +9,27 @@
     reason = "faults travel boxed in results; what makes one boxes it"
 )]
 
-mod at;
-mod block;
-mod budget;
-mod builder;
-mod call;
-mod carried;
-mod cause;
-mod chain;
-mod comp;
-mod coupling;
-mod cycles;
-mod endless;
-mod evaluate;
-mod event;
-mod exchange;
-mod expression;
-mod finder;
-mod fingerprint;
-mod flow;
-mod functions;
-mod hash;
-mod implicit;
-mod meeting;
-mod memory;
-mod modal;
-mod motion;
-mod names;
-mod options;
-mod program;
-mod region;
-mod remarks;
+mod blocks;
+mod coordinates;
+mod effects;
+mod execution;
+mod programs;
 mod run;
-mod sequence;
-mod snapshot;
-mod start;
-mod state;
-mod stream;
-mod target;
-mod trust;
-mod unit;
 mod unknown;
-mod value;
-mod variable;
-mod ways;
-mod words;
-mod work;
+mod values;
 
-pub use budget::Limits;
-pub use carried::{ArrayShape, Carried};
-pub use event::{
-    AxisWord, Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome,
-};
-pub use finder::{Finder, NoFiles, NoProgram};
-pub use modal::{AxisPosition, Frame as PositionFrame, Group, Modal};
-pub use motion::{
+pub use coordinates::axis_words::AxisWord;
+pub use coordinates::group::Group;
+pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, Modal};
+pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };
-pub use options::{Options, RunOutcome, StopPolicy};
-pub use run::Interpreter;
-pub use snapshot::{ResumeError, Snapshot};
-pub use value::Value;
-pub(crate) use variable::set_name;
+pub use execution::snapshot::{ResumeError, Snapshot};
+pub use programs::finder::{Finder, NoFiles, NoProgram};
+pub use run::event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};
+pub use run::interpreter::Interpreter;
+pub use run::limits::Limits;
+pub use run::options::{Options, RunOutcome, StopPolicy};
+pub use values::carried::{ArrayShape, Carried};
+pub use values::value::Value;
+pub(crate) use values::variable::set_name;

@@ -1,12 +1,9 @@
-//! No circle of imports inside a room: a type that two files need lives in a third.
+//! No circle of imports inside a room: a type that two files need lives in a third. Where the methods
+//! of a type stand in several files, a call of one in another file counts as an import.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{File, code, sources};
-
-/// Rooms whose files still import each other in circles. A room that has become clean leaves the
-/// list; a test sees to that.
-const NOT_YET_CLEAN: [&str; 1] = ["interpreter"];
 
 /// The files of a room by their module path, `friction::gms`; the room itself is the empty one.
 type Modules<'a> = BTreeMap<Vec<&'a str>, &'a File>;
@@ -129,6 +126,61 @@ fn imported<'a>(modules: &Modules<'a>, own: &[&'a str], file: &File) -> BTreeSet
     found
 }
 
+/// The bodies of the `impl` blocks that a text has for its types, not for their traits.
+fn methods(text: &str) -> Vec<(&str, &str)> {
+    let blocks = text.split("\nimpl").skip(1);
+    let own = blocks.filter_map(|block| {
+        let (head, body) = block.split_once(" {\n")?;
+        let end = body.find("\n}").unwrap_or(body.len());
+        let subject = head.rsplit(' ').next()?;
+        let name = subject.split('<').next()?;
+        (!head.contains(" for ")).then_some((name, &body[..end]))
+    });
+    own.collect()
+}
+
+/// The names that follow each of some words in a text, up to the bracket of a call.
+fn names_after<'a>(text: &'a str, words: &[&str], call: &str) -> BTreeSet<&'a str> {
+    let ends = |word: &str| -> Vec<usize> {
+        let found = text.match_indices(word);
+        found.map(|(at, word)| at + word.len()).collect()
+    };
+    let found = words.iter().flat_map(|word| ends(word));
+    let named = found.map(|end| split_name(text[end..].trim_start()));
+    let called = named.filter(|(_, rest)| rest.starts_with(call));
+    called.map(|(name, _)| name).collect()
+}
+
+/// The files whose methods of a type those of the same type in another file call.
+fn called<'a>(modules: &Modules<'a>) -> Imports<'a> {
+    let texts: Vec<(&Vec<&str>, String)> = modules
+        .iter()
+        .map(|(path, file)| (path, text_of(file)))
+        .collect();
+    let mut homes: BTreeMap<(&str, &str), &Vec<&str>> = BTreeMap::new();
+    for (path, text) in &texts {
+        for (subject, body) in methods(text) {
+            for name in names_after(body, &["fn "], "") {
+                homes.entry((subject, name)).or_insert(path);
+            }
+        }
+    }
+    let mut calls = Imports::new();
+    for (path, text) in &texts {
+        for (subject, body) in methods(text) {
+            for name in names_after(body, &["self.", "self\n            .", "Self::"], "(") {
+                if let Some(home) = homes.get(&(subject, name)).filter(|home| *home != path) {
+                    calls
+                        .entry((*path).clone())
+                        .or_default()
+                        .insert((*home).clone());
+                }
+            }
+        }
+    }
+    calls
+}
+
 /// The imports inside a room that are part of a circle: what is left when files that import none
 /// of the rest, or that none of the rest imports, are taken away again and again.
 fn circles<'a>(modules: &Modules<'a>) -> Imports<'a> {
@@ -136,6 +188,9 @@ fn circles<'a>(modules: &Modules<'a>) -> Imports<'a> {
         .iter()
         .map(|(path, file)| (path.clone(), imported(modules, path, file)))
         .collect();
+    for (path, calls) in called(modules) {
+        left.entry(path).or_default().extend(calls);
+    }
     loop {
         let before = left.len();
         let importers: BTreeSet<_> = left.keys().cloned().collect();
@@ -175,26 +230,12 @@ fn circles_of_rooms() -> BTreeMap<String, Vec<String>> {
 
 #[test]
 fn no_room_has_a_circle_inside() {
-    let wrong: Vec<String> = circles_of_rooms()
-        .into_iter()
-        .filter(|(room, _)| !NOT_YET_CLEAN.contains(&room.as_str()))
-        .flat_map(|(_, lines)| lines)
-        .collect();
+    let wrong: Vec<String> = circles_of_rooms().into_values().flatten().collect();
     assert!(
         wrong.is_empty(),
         "files import each other in a circle; what both need belongs into a third:\n{}",
         wrong.join("\n")
     );
-}
-
-#[test]
-fn a_room_that_has_become_clean_is_kept_clean() {
-    let rooms = circles_of_rooms();
-    let clean: Vec<&str> = NOT_YET_CLEAN
-        .into_iter()
-        .filter(|room| rooms.get(*room).is_none_or(Vec::is_empty))
-        .collect();
-    assert!(clean.is_empty(), "take out of NOT_YET_CLEAN: {clean:?}");
 }
 
 #[test]
@@ -237,4 +278,39 @@ fn every_way_to_write_an_import_is_seen() {
         .map(|path| path.join("::"))
         .collect();
     assert_eq!(left, ["b", "d::inner"]);
+}
+
+#[test]
+fn a_call_of_a_method_in_another_file_is_seen() {
+    let file = |path: &str, text: &str| File {
+        path: path.to_owned(),
+        room: "room".to_owned(),
+        text: text.to_owned(),
+    };
+    let files = [
+        file("room/kind.rs", "pub struct Run;\n"),
+        file(
+            "room/a.rs",
+            "use super::kind::Run;\nimpl Run {\n    fn a(&self) {\n        self.b();\n    }\n}\n",
+        ),
+        file(
+            "room/b.rs",
+            "use super::kind::Run;\nimpl Run {\n    fn b(&self) {\n        Self::c();\n    }\n}\n",
+        ),
+        file(
+            "room/c.rs",
+            "use super::kind::Run;\nimpl Run {\n    fn c() {}\n}\nimpl Other {\n    fn a(&self) {\n        self.b();\n    }\n}\n",
+        ),
+    ];
+    let modules: Modules = files.iter().map(|file| (module_path(file), file)).collect();
+    let calls = called(&modules);
+    let of = |path: &str| {
+        calls
+            .get(&vec![path])
+            .map(|found| found.iter().flatten().copied().collect::<Vec<_>>())
+    };
+    assert_eq!(of("a"), Some(vec!["b"]));
+    assert_eq!(of("b"), Some(vec!["c"]));
+    assert_eq!(of("c"), None);
+    assert!(circles(&modules).is_empty());
 }

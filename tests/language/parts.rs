@@ -175,6 +175,16 @@ fn where_a_subprogram_returns_to_must_be_there() {
 }
 
 #[test]
+fn a_return_to_a_block_that_has_not_come_yet_is_found_after_a_statement() {
+    // R2.78 R9.40: the `$IF` takes the rest of the text into memory
+    let bench = Bench::new().file("sub.nc", "M17 [MAIN N30]");
+    let program = "N10 L sub.nc\nN20 X1\n$IF 1\nX5\n$ENDIF\nN30 X2\nM30";
+    let seen = lines(&bench, program);
+    assert_snapshot!(seen, @"1 N10; 1^1; 6 N30; 7; end 4 M30 X:active Y:active");
+    assert_eq!(lines(&bench.handed(Handed::LineByLine), program), seen);
+}
+
+#[test]
 fn parts_of_a_program_that_arrives() {
     // R2.77 R9.40: what was read line by line is not kept
     let program = "N10 X1\nN20 X2\nL SEQUENCE [N10 N20]\nM30";

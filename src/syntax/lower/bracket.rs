@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::block::{Lowering, not_closed, span_of, trimmed};
+use super::lowering::{Lowering, not_closed, span_of, trimmed};
 use crate::diagnostic::{Code, Fix, did_you_mean};
 use crate::syntax::ast::{Address, Effect, Item, Word};
 use crate::syntax::known::{axis_commands, is_axis_command, is_spindle_command, is_spindle_word};

@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::block::{Lowering, not_closed, not_understood, span_of, trimmed};
+use super::lowering::{Lowering, not_closed, not_understood, span_of, trimmed};
 use crate::syntax::ast::{Call, CallForm, CallName, CallScope, Effect, Item, Repetition};
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;

@@ -3,7 +3,7 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use super::block::{Lowering, not_understood, span_of, trimmed};
+use super::lowering::{Lowering, not_understood, span_of, trimmed};
 use crate::syntax::ast::{Declaration, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
 use crate::syntax::{expression, hash_words::hash_word, mask::is_blank};

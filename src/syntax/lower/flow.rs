@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::block::{Lowering, not_closed, not_understood, span_of, trimmed};
+use super::lowering::{Lowering, not_closed, not_understood, span_of, trimmed};
 use crate::diagnostic::{Code, did_you_mean};
 use crate::syntax::ast::{Effect, Expression, Flow, Item, JumpTarget, Operand, Target};
 use crate::syntax::known::FLOW_WORDS;

@@ -3,7 +3,7 @@
 use pest::Parser;
 use pest::iterators::Pair;
 
-use super::block::{Lowering, span_of, trimmed};
+use super::lowering::{Lowering, span_of, trimmed};
 use crate::diagnostic::did_you_mean;
 use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};

@@ -6,6 +6,7 @@ mod call;
 mod declaration;
 mod flow;
 mod hash;
+mod lowering;
 mod part;
 mod word;
 

@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::block::{Lowering, not_closed, not_understood, span_of};
+use super::lowering::{Lowering, not_closed, not_understood, span_of};
 use crate::syntax::ast::{Effect, Item, JumpTarget, Levels, Operand, Return, Sequence};
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;

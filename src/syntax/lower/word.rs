@@ -2,7 +2,7 @@
 
 use pest::iterators::Pair;
 
-use super::block::{Lowering, span_of};
+use super::lowering::{Lowering, span_of};
 use crate::syntax::ast::{Address, Effect, GCall, Item, Number, Operand, Word};
 use crate::syntax::{expression, grammar::Rule};
 use crate::text::Span;

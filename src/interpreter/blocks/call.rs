@@ -1,0 +1,78 @@
+//! Calls: which program is meant (R2.13 to R2.16).
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::Code;
+use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::cycles::after_motion_only;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::expression::unquoted;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Call, CallName, Operand};
+
+impl Interpreter {
+    /// What a call statement asks for; `None` when its name is not known offline (R2.52).
+    pub(in crate::interpreter) fn wanted(
+        &mut self,
+        call: &Call,
+        at: &At<'_>,
+    ) -> Result<Option<Wanted>, Box<Fault>> {
+        let name = self.called_name(call.name, at)?;
+        let mut own = BTreeMap::new();
+        for (index, operand) in &call.arguments {
+            own.insert(*index, self.value(*operand, at)?);
+        }
+        for (_, operand) in &call.words {
+            self.value(*operand, at)?;
+        }
+        match name {
+            Value::Text(name) => Ok(Some(Wanted {
+                scope: call.scope,
+                name: name.trim().to_owned(),
+                own,
+                span: at.in_block(call.span),
+                form: call.form,
+                repeat: after_motion_only(call),
+                part: None,
+            })),
+            Value::Unknown(cause) => {
+                self.forget_all(&cause);
+                if self.work.unread.get() {
+                    return Ok(None);
+                }
+                let fault = Fault::new(
+                    Code::Fc902,
+                    call.span,
+                    format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", unknown_value(&cause)),
+                )
+                .with_help(how_to_set(&cause));
+                self.work.diagnostics.push(at.diagnostic(fault));
+                Ok(None)
+            }
+            Value::Number(_) => Err(Box::new(Fault::new(
+                Code::Fc312,
+                call.span,
+                "a number is not a program name",
+            ))),
+        }
+    }
+
+    /// The name of a called program.
+    pub(in crate::interpreter) fn called_name(
+        &mut self,
+        name: CallName,
+        at: &At<'_>,
+    ) -> Result<Value, Box<Fault>> {
+        Ok(match name {
+            CallName::Literal(span) => Value::Text(span.of(at.text).into()),
+            CallName::Quoted(span) => {
+                let name = unquoted(span.of(at.text));
+                self.state.memory.macro_or_text(name)
+            }
+            CallName::Variable(place) => self.value(Operand::Expression(place), at)?,
+        })
+    }
+}

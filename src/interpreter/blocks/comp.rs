@@ -1,0 +1,238 @@
+//! COMP commands and the messages about them (chapter 1).
+
+use crate::comp::{
+    AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
+};
+use crate::diagnostic::{Advice, Code, Diagnostic, did_you_mean};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::channel_axes::Addressed;
+use crate::interpreter::run::event::Outcome;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::machine::{AxisSet, Origin, Parameterisation};
+use crate::syntax::Fault;
+use crate::text::Span;
+
+impl Interpreter {
+    pub(in crate::interpreter) fn comp(&mut self, command: &CompCommand, at: &At<'_>) {
+        let before = self.work.changes.len();
+        let axis = match self.addressed(&command.axis) {
+            Ok(Addressed::Axis(axis)) => Ok(axis),
+            Ok(Addressed::Absent(Some(axis))) => {
+                return self.doubt(axis, command.selection.kinds());
+            }
+            Ok(Addressed::Any | Addressed::Absent(None)) => {
+                return self.doubt_any_axis(command.selection.kinds());
+            }
+            Err(error) => Err(error),
+        };
+        let result = axis.and_then(|axis| {
+            self.see(axis);
+            self.state
+                .compensation
+                .switch(axis, command.selection, &mut self.work.changes)
+                .map(|()| axis)
+        });
+        match &result {
+            Ok(axis) => {
+                self.warn_coupled(command, *axis, at);
+                self.warn_opposite(command, *axis, at);
+                self.warn_build(command, at);
+                self.warn_ineffective(command, *axis, at);
+            }
+            Err(error) => {
+                let diagnostic = self.refusal(error, command, at);
+                self.work.diagnostics.push(diagnostic);
+            }
+        }
+        self.work.outcomes.push(Outcome {
+            command: command.clone(),
+            result,
+            changes: self.work.changes.len() - before,
+        });
+    }
+
+    /// FC902: an axis that may be in a coupling, and COMP be refused (R1.9, R2.51).
+    fn warn_coupled(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+        if self.state.compensation.coupling(axis) != Coupling::Perhaps {
+            return;
+        }
+        let name = &command.axis;
+        let message = format!(
+            "whether axis `{name}` is in an active coupling is not known offline; if it is, the \
+             control refuses this command, and what the command switches is unknown"
+        );
+        let fault = Fault::new(Code::Fc902, command.span, message)
+            .with_help("release all couplings first, with `#DISABLE AX LINK ALL`");
+        let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+        self.work.diagnostics.push(diagnostic);
+    }
+
+    /// FC301: the same axis and kind twice in one block with opposite states.
+    fn warn_opposite(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+        let on = |selection| matches!(selection, Selection::On(_));
+        let opposite = self.work.outcomes.iter().find_map(|earlier| {
+            let same_axis = earlier.result.as_ref().ok() == Some(&axis);
+            let kinds = earlier
+                .command
+                .selection
+                .kinds()
+                .intersection(command.selection.kinds());
+            (same_axis
+                && !kinds.is_empty()
+                && on(earlier.command.selection) != on(command.selection))
+            .then_some((earlier.command.span, kinds))
+        });
+        if let Some((first, kinds)) = opposite {
+            let keywords: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
+            let name = &command.axis;
+            let fault = Fault::new(
+                Code::Fc301,
+                command.span,
+                format!(
+                    "`{}` of axis `{name}` is switched both on and off in this block; this command wins",
+                    keywords.join(" ")
+                ),
+            );
+            let diagnostic = at
+                .diagnostic(fault)
+                .with_axis(name.clone())
+                .with_label(at.place(first), "the opposite command is here");
+            self.work.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// FC305: a kind that the configured build does not know (R1.10).
+    fn warn_build(&mut self, command: &CompCommand, at: &At<'_>) {
+        let Some(build) = self.machine.build else {
+            return;
+        };
+        let named = match command.selection {
+            Selection::On(kinds) | Selection::Off(kinds) => kinds,
+            Selection::OffAll => KindSet::NONE,
+        };
+        for kind in named.iter() {
+            let since: CncBuild = kind.facts().since;
+            if build < since {
+                let keyword = kind.keyword();
+                let fault = Fault::new(
+                    Code::Fc305,
+                    command.span,
+                    format!(
+                        "`{keyword}` exists only since CNC build {since}; the machine has {build}"
+                    ),
+                );
+                self.work
+                    .diagnostics
+                    .push(at.diagnostic(fault).with_axis(command.axis.clone()));
+            }
+        }
+    }
+
+    /// FC303: selected, but nothing to work with (R1.26).
+    fn warn_ineffective(&mut self, command: &CompCommand, axis: AxisIndex, at: &At<'_>) {
+        let selects =
+            matches!(command.selection, Selection::On(kinds) if kinds.contains(Kind::Frict));
+        if !selects || self.state.compensation.state(axis, Kind::Frict) != State::Ineffective {
+            return;
+        }
+        let name = &command.axis;
+        let (missing, help) = match &self.machine.axis(axis).friction {
+            Parameterisation::Missing => (
+                "the axis has no value list".to_owned(),
+                Advice::from(format!(
+                    "give axis `{name}` a list with `frict_comp.mode 3` and table values"
+                )),
+            ),
+            Parameterisation::Off => (
+                "the value list says `frict_comp.mode 0`".to_owned(),
+                "set P-COMP-00041 to 3".into(),
+            ),
+            Parameterisation::Rejected { file, code } => (
+                format!("the value list `{file}` was rejected with {code}"),
+                Code::find(code)
+                    .map_or_else(|| format!("{code} says why").into(), Advice::ReadPage),
+            ),
+            Parameterisation::Assumed | Parameterisation::Accepted(_) => return,
+        };
+        let fault = Fault::new(
+            Code::Fc303,
+            command.span,
+            format!("friction compensation of axis `{name}` is selected without effect: {missing}"),
+        )
+        .with_help(help);
+        self.work
+            .diagnostics
+            .push(at.diagnostic(fault).with_axis(name.clone()));
+    }
+
+    fn refusal(&self, error: &CompensationError, command: &CompCommand, at: &At<'_>) -> Diagnostic {
+        let name = &command.axis;
+        let axis_span = Span::new(
+            command.span.start as usize,
+            command.span.start as usize + name.len(),
+        );
+        let span = match error {
+            CompensationError::UnknownAxis { .. } => axis_span,
+            _ => command.span,
+        };
+        let fault = Fault::new(error.code(), span, error.to_string());
+        let mut diagnostic = at.diagnostic(fault).with_axis(name.clone());
+        match error {
+            CompensationError::NotConfigured { .. } => {
+                let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
+                let described = self.machine.is_described();
+                diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
+                    Some(Origin::File { file, line }) => {
+                        format!("{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control").into()
+                    }
+                    _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
+                    // One list with all axes stands above (R1.37).
+                    _ => Advice::Configure(name.clone()),
+                });
+                if described {
+                    diagnostic = diagnostic.with_help(Advice::Enable(vec![name.clone()]));
+                }
+            }
+            CompensationError::UnknownAxis { .. } => {
+                diagnostic = self.advise_on_axis(diagnostic, name);
+            }
+            CompensationError::Coupled { .. } => {
+                diagnostic =
+                    diagnostic.with_help("release the coupling first, with `#DISABLE AX LINK`");
+            }
+            CompensationError::Spindle { .. } => {}
+        }
+        diagnostic
+    }
+
+    /// What to do about an axis that the machine does not have. Without a configuration nobody has
+    /// said which axes there are (R2.20).
+    fn advise_on_axis(&self, mut diagnostic: Diagnostic, name: &str) -> Diagnostic {
+        let known: Vec<&str> = self
+            .machine
+            .axes
+            .iter()
+            .map(|axis| axis.name.as_str())
+            .collect();
+        let configured = self.machine.axis_set == AxisSet::Configured;
+        let near = if configured {
+            did_you_mean(name, known.iter().copied())
+        } else {
+            let same = known.iter().find(|axis| axis.eq_ignore_ascii_case(name));
+            same.copied()
+        };
+        if let Some(near) = near {
+            diagnostic = diagnostic.with_near(name, near);
+        }
+        if configured {
+            let all = known.join(", ");
+            diagnostic = diagnostic.with_help(format!("the configuration lists all axes: {all}"));
+        } else {
+            diagnostic.message = format!(
+                "no machine is described, and `{name}` is not one of the axes assumed without one"
+            );
+        }
+        let entry = format!("`[[axis]]` with `name = \"{name}\"` in `frictcomp.toml`");
+        diagnostic.with_help(format!("if the machine has axis `{name}`, add it: {entry}"))
+    }
+}

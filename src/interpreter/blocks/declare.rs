@@ -1,0 +1,100 @@
+//! `#VAR` and `#DELETE` (R2.34).
+
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::hash_parts::declared_name;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::target::Place;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Declaration, Hash, Operand};
+
+impl Interpreter {
+    pub(in crate::interpreter) fn delete(
+        &mut self,
+        hash: &Hash,
+        at: &At<'_>,
+    ) -> Result<(), Box<Fault>> {
+        for argument in &hash.arguments {
+            let Operand::Expression(place) = *argument else {
+                continue;
+            };
+            match self.target_place(place, at)? {
+                Place::Parameter(_, index) => {
+                    self.state.ways.write_anything(self.state.seq);
+                    self.state.memory.delete_parameter(index);
+                }
+                Place::Variable(name) => {
+                    self.state.ways.write_anything(self.state.seq);
+                    self.state.memory.delete(&name);
+                }
+                unknown @ (Place::Elements(_, _) | Place::Parameters(_)) => {
+                    self.write(unknown, Value::Number(0.0));
+                }
+                Place::Nowhere => {}
+            }
+        }
+        Ok(())
+    }
+
+    pub(in crate::interpreter) fn declare(
+        &mut self,
+        declarations: &[Declaration],
+        at: &At<'_>,
+    ) -> Result<(), Box<Fault>> {
+        self.journal.begin_anew();
+        self.state.ways.write_anything(self.state.seq);
+        for declaration in declarations {
+            let mut stack = std::mem::take(&mut self.work.stack);
+            let dimensions = self.with_evaluator(at, |evaluator| {
+                evaluator.dimensions(declaration.target.place, &mut stack)
+            });
+            self.work.stack = stack;
+            let name = declared_name(declaration, at);
+            let mut values = Vec::with_capacity(declaration.initial.len());
+            for operand in &declaration.initial {
+                values.push(self.value(*operand, at)?);
+            }
+            let default = if declaration.kind.as_deref() == Some("STRING") {
+                Value::Text("".into())
+            } else {
+                Value::Number(0.0)
+            };
+            self.work.wrote = true;
+            let memory = &mut self.state.memory;
+            if dimensions.is_empty() {
+                let value = values.into_iter().next().unwrap_or(default);
+                match name.strip_prefix('P').map(str::parse) {
+                    Some(Ok(index)) => memory.set_parameter(index, value),
+                    _ => memory.declare(&name, value),
+                }
+                continue;
+            }
+            let elements: Vec<String> = (0..values.len())
+                .map(|at| element(&name, &dimensions, at))
+                .collect();
+            memory.declare_array(&name, dimensions, default);
+            for (element, value) in elements.iter().zip(values) {
+                memory.declare(element, value);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The name of the element at a place in row order.
+fn element(name: &str, dimensions: &[u32], place: usize) -> String {
+    let mut subscripts = Vec::with_capacity(dimensions.len());
+    let mut rest = place;
+    for size in dimensions.iter().rev() {
+        let size = usize::try_from(*size).unwrap_or(usize::MAX).max(1);
+        subscripts.push(rest % size);
+        rest /= size;
+    }
+    let mut element = name.to_owned();
+    for subscript in subscripts.iter().rev() {
+        element.push('[');
+        element.push_str(&subscript.to_string());
+        element.push(']');
+    }
+    element
+}

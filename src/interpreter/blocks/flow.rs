@@ -1,0 +1,417 @@
+//! Statements of flow: which block comes next (R2.40 to R2.43).
+//!
+//! The structure of control blocks is known from the index, so the position in a program is a
+//! block number and nothing else; jumps into branches and loops need no care.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::diagnostic::Code;
+use crate::interpreter::programs::index::{EntryIndex, LabelName};
+use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::region::Exit;
+use crate::interpreter::run::stack::Seeking;
+use crate::interpreter::run::step::Step;
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::functions::finite;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::text::Span;
+
+/// The counter of a `$FOR` and what it is compared with.
+struct Count {
+    counter: Value,
+    end: Operand,
+    step: Operand,
+}
+
+impl Interpreter {
+    /// The condition of `$IF c $GOTO …`; `None` for any other statement.
+    pub(in crate::interpreter) fn one_line_condition(
+        &mut self,
+        flow: &Flow,
+        at: &At<'_>,
+    ) -> Result<Option<bool>, Box<Fault>> {
+        let Flow::If(condition) = flow else {
+            return Ok(None);
+        };
+        if !at.block.jumps() {
+            return Ok(None);
+        }
+        let value = self.value(*condition, at)?;
+        if let Value::Unknown(cause) = &value {
+            self.assume_no_jump("whether this jump is taken", cause, flow_span(at.block), at);
+            self.pass_jump(cause, at);
+            return Ok(Some(false));
+        }
+        let truth = value.truth();
+        truth
+            .map(Some)
+            .ok_or_else(|| no_condition(flow_span(at.block)))
+    }
+
+    /// Executes a `$` statement.
+    pub(in crate::interpreter) fn flow(
+        &mut self,
+        flow: &Flow,
+        span: Span,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let Some(frame) = self.state.frames.running_mut() else {
+            return Ok(None);
+        };
+        let entry = frame.next - 1;
+        let seeking = frame.seeking.take();
+        let index = self.programs.index(frame.unit);
+        if !index.is_linked(entry) && !matches!(flow, Flow::Goto(_)) {
+            // It belongs to no control block, which was said before the program began.
+            return Ok(None);
+        }
+        let links = index.links(entry);
+        let after = Step::Jump(links.end + 1);
+        Ok(match flow {
+            Flow::If(condition) => self.branch(*condition, links.next, span, at)?,
+            Flow::ElseIf(condition) => match seeking {
+                Some(Seeking::Condition) => self.branch(*condition, links.next, span, at)?,
+                _ => Some(after),
+            },
+            Flow::Else => match seeking {
+                Some(Seeking::Condition) => None,
+                _ => Some(after),
+            },
+            Flow::Switch(target, operand) => {
+                let value = self.value(*operand, at)?;
+                if let Some(target) = target {
+                    let place = self.target_place(target.place, at)?;
+                    self.write(place, value.clone());
+                }
+                if let Value::Unknown(cause) = &value {
+                    self.skip_unknown(entry..links.end, cause, span, at)
+                } else {
+                    self.seek(Seeking::Case(value));
+                    Some(Step::Jump(links.next))
+                }
+            }
+            Flow::Case(operand) => match seeking {
+                Some(Seeking::Case(wanted)) => {
+                    let value = self.value(*operand, at)?;
+                    if let Value::Unknown(cause) = &value {
+                        self.skip_unknown(entry..links.end, cause, span, at)
+                    } else if same_case(&wanted, &value) {
+                        None
+                    } else {
+                        self.seek(Seeking::Case(wanted));
+                        Some(Step::Jump(links.next))
+                    }
+                }
+                // The case before ends without `$BREAK`: the control goes on with this one.
+                _ => None,
+            },
+            Flow::For {
+                counter,
+                start,
+                end,
+                step,
+            } => {
+                let start = self.value(*start, at)?;
+                let place = self.target_place(counter.place, at)?;
+                self.write(place, start.clone());
+                let count = Count {
+                    counter: start,
+                    end: *end,
+                    step: *step,
+                };
+                self.pass(&count, entry, span, at)?
+            }
+            Flow::EndFor => return self.next_pass(links.opener, span, at),
+            Flow::While(condition) | Flow::Do(Some(condition)) => {
+                self.loop_while(*condition, entry..links.end, span, at)?
+            }
+            Flow::EndWhile | Flow::EndDo(None) => Some(Step::Jump(links.opener)),
+            Flow::EndDo(Some(condition)) => {
+                let value = self.value(*condition, at)?;
+                match (&value, value.truth()) {
+                    (Value::Unknown(cause), _) => {
+                        self.skip_unknown(links.opener..entry, cause, span, at)
+                    }
+                    (_, Some(true)) => Some(Step::Jump(links.opener)),
+                    _ => None,
+                }
+            }
+            Flow::Until(condition) => {
+                let value = self.value(*condition, at)?;
+                match (&value, value.truth()) {
+                    (Value::Unknown(cause), _) => {
+                        self.skip_unknown(links.opener..entry, cause, span, at)
+                    }
+                    (_, Some(false)) => Some(Step::Jump(links.opener)),
+                    _ => None,
+                }
+            }
+            Flow::Break => Some(after),
+            Flow::Continue => Some(Step::Jump(links.end)),
+            Flow::Goto(target) => self.jump(target, span, at)?,
+            Flow::Default | Flow::EndIf | Flow::EndSwitch | Flow::Do(None) | Flow::Repeat => None,
+        })
+    }
+
+    fn seek(&mut self, seeking: Seeking) {
+        if let Some(frame) = self.state.frames.running_mut() {
+            frame.seeking = Some(seeking);
+        }
+    }
+
+    fn branch(
+        &mut self,
+        condition: Operand,
+        next: EntryIndex,
+        span: Span,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let value = self.value(condition, at)?;
+        Ok(match (&value, value.truth()) {
+            (Value::Unknown(cause), _) => self.skip_unknown(self.current_block(), cause, span, at),
+            (_, Some(true)) => None,
+            (_, Some(false)) => {
+                self.seek(Seeking::Condition);
+                Some(Step::Jump(next))
+            }
+            (_, None) => return Err(no_condition(span)),
+        })
+    }
+
+    fn loop_while(
+        &mut self,
+        condition: Operand,
+        region: Range<EntryIndex>,
+        span: Span,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let value = self.value(condition, at)?;
+        Ok(match (&value, value.truth()) {
+            (Value::Unknown(cause), _) => self.skip_unknown(region, cause, span, at),
+            (_, Some(true)) => None,
+            (_, Some(false)) => Some(Step::Jump(region.end + 1)),
+            (_, None) => return Err(no_condition(span)),
+        })
+    }
+
+    /// Goes through the loop once more, or leaves it when the counter passed the end.
+    fn pass(
+        &mut self,
+        count: &Count,
+        opener: EntryIndex,
+        span: Span,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let counter = &count.counter;
+        let end = self.value(count.end, at)?;
+        let step = self.value(count.step, at)?;
+        let region_end = self.state.frames.running().map_or(opener, |frame| {
+            self.programs.index(frame.unit).links(opener).end
+        });
+        for value in [counter, &end, &step] {
+            if let Value::Unknown(cause) = value {
+                return Ok(self.skip_unknown(opener..region_end, cause, span, at));
+            }
+        }
+        let (Some(counter), Some(end), Some(step)) =
+            (counter.number(), end.number(), step.number())
+        else {
+            return Err(no_condition(span));
+        };
+        let passed = if step > 0.0 {
+            counter > end
+        } else {
+            step < 0.0 && counter < end
+        };
+        Ok(Some(Step::Jump(if passed {
+            region_end + 1
+        } else {
+            opener + 1
+        })))
+    }
+
+    /// `$ENDFOR`: counts, and looks at the end again.
+    fn next_pass(
+        &mut self,
+        opener: EntryIndex,
+        span: Span,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let Some(unit) = self.state.frames.running().map(|frame| frame.unit) else {
+            return Ok(None);
+        };
+        let parsed = self.programs.parsed(unit, opener);
+        let shown = Shown::default();
+        let head = at.other(&parsed, &shown);
+        let statement = head.block.items.iter().find_map(|item| match item {
+            Item::Flow(
+                Flow::For {
+                    counter, end, step, ..
+                },
+                _,
+            ) => Some((*counter, *end, *step)),
+            _ => None,
+        });
+        let Some((counter, end, step)) = statement else {
+            return Ok(None);
+        };
+        let shown = |mut fault: Box<Fault>| {
+            fault.span = span;
+            fault
+        };
+        let operand = Operand::Expression(counter.place);
+        let value = self.value(operand, &head).map_err(shown)?;
+        let width = self.value(step, &head).map_err(shown)?;
+        let sum = match (value.number(), width.number()) {
+            (Some(value), Some(width)) => finite(value + width, span)?,
+            _ => match (value, width) {
+                (unknown @ Value::Unknown(_), _) | (_, unknown) => unknown,
+            },
+        };
+        let place = self.target_place(counter.place, &head).map_err(shown)?;
+        self.write(place, sum.clone());
+        let count = Count {
+            counter: sum,
+            end,
+            step,
+        };
+        let mut step = self.pass(&count, opener, span, &head).map_err(shown)?;
+        if let Some(Step::Jump(entry)) = &mut step {
+            // A jump into the loop found no opener before it; the index knows it all the same.
+            *entry = (*entry).max(opener + 1);
+        }
+        Ok(step)
+    }
+
+    fn jump(
+        &mut self,
+        target: &JumpTarget,
+        span: Span,
+        at: &At<'_>,
+    ) -> Result<Option<Step>, Box<Fault>> {
+        let value = match target {
+            JumpTarget::Number(operand) => self.value(*operand, at)?,
+            JumpTarget::Label(name) => Value::Text(name.of(at.text).into()),
+            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), at)?,
+        };
+        let label = match &value {
+            Value::Number(number) => LabelName::numbered(*number),
+            Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
+            Value::Unknown(cause) => {
+                self.assume_no_jump("where this jump goes", cause, span, at);
+                self.note_jump(&Exit::AnyLabel, cause);
+                return Ok(None);
+            }
+        };
+        let Some(frame) = self.state.frames.running() else {
+            return Ok(None);
+        };
+        let found = self
+            .programs
+            .index(frame.unit)
+            .label(frame.section, label.clone());
+        match found {
+            Some(entry) => Ok(Some(Step::Jump(entry))),
+            None if at.macro_depth == 0
+                && matches!(
+                    target,
+                    JumpTarget::Number(Operand::Number(_)) | JumpTarget::Label(_)
+                ) =>
+            {
+                // Said before the program began.
+                Ok(None)
+            }
+            None => Err(Box::new(Fault::new(
+                Code::Fc209,
+                span,
+                format!("jump label `{label}` does not exist in this program"),
+            ))),
+        }
+    }
+
+    /// Passes over the jump of a block, which may be taken.
+    pub(in crate::interpreter) fn pass_jump(&mut self, cause: &Arc<str>, at: &At<'_>) {
+        for item in &at.block.items {
+            if let Item::Flow(Flow::Goto(target), _) = item {
+                let exit = self.exit(target, at).unwrap_or(Exit::AnyLabel);
+                self.note_jump(&exit, cause);
+            }
+        }
+    }
+
+    /// Passes over what a statement decides whose operands cannot be computed.
+    pub(in crate::interpreter) fn undecided(
+        &mut self,
+        flow: &Flow,
+        cause: &Arc<str>,
+        span: Span,
+        at: &At<'_>,
+    ) -> Option<Step> {
+        let whole = self.current_block();
+        let region = match flow {
+            Flow::Goto(_) => {
+                self.note_jump(&Exit::AnyLabel, cause);
+                return None;
+            }
+            Flow::EndFor | Flow::EndDo(_) | Flow::Until(_) => {
+                let frame = self.state.frames.running()?;
+                self.programs.index(frame.unit).links(whole.start).opener..whole.start
+            }
+            _ => whole,
+        };
+        self.skip_unknown(region, cause, span, at)
+    }
+
+    /// Where a jump goes that is not taken.
+    fn exit(&mut self, target: &JumpTarget, at: &At<'_>) -> Result<Exit, Box<Fault>> {
+        let value = match target {
+            JumpTarget::Label(name) => return Ok(Exit::label(name.of(at.text))),
+            JumpTarget::Number(operand) => self.value(*operand, at)?,
+            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), at)?,
+        };
+        Ok(match value {
+            Value::Number(number) => Exit::Label(LabelName::numbered(number)),
+            Value::Text(name) => Exit::label(&name),
+            Value::Unknown(_) => Exit::AnyLabel,
+        })
+    }
+
+    /// FC902: a jump that is not known offline is not taken (R2.52).
+    fn assume_no_jump(&mut self, what: &str, cause: &str, span: Span, at: &At<'_>) {
+        if self.work.unread.get() {
+            return;
+        }
+        let value = unknown_value(cause);
+        let message =
+            format!("{what} depends on {value}; the rest of the run assumes that it is not");
+        let fault = Fault::new(Code::Fc902, span, message).with_help(how_to_set(cause));
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+}
+
+/// R2.40: both values count as equal when they differ by less than 0.001 (PM/206908427).
+fn same_case(wanted: &Value, value: &Value) -> bool {
+    match (wanted, value) {
+        (Value::Number(wanted), Value::Number(value)) => (wanted - value).abs() < 0.001,
+        (wanted, value) => wanted == value,
+    }
+}
+
+fn no_condition(span: Span) -> Box<Fault> {
+    Box::new(Fault::new(Code::Fc312, span, "a string is not a condition"))
+}
+
+fn flow_span(block: &Block) -> Span {
+    block
+        .items
+        .iter()
+        .find_map(|item| match item {
+            Item::Flow(_, span) => Some(*span),
+            _ => None,
+        })
+        .unwrap_or_default()
+}

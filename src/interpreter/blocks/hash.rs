@@ -1,0 +1,143 @@
+//! `#` commands (R2.34, R2.47).
+
+use crate::diagnostic::Code;
+use crate::interpreter::coordinates::axis_words::AxisWords;
+use crate::interpreter::coordinates::chain;
+use crate::interpreter::effects::descriptions::description_end;
+use crate::interpreter::effects::exchange::is_exchange;
+use crate::interpreter::programs::file_names::is_file_name;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::cycles::ModalCycles;
+use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::step::Step;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::Hash;
+use crate::text::Span;
+
+impl Interpreter {
+    pub(in crate::interpreter) fn hash(
+        &mut self,
+        hash: &Hash,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let rest = hash.rest.of(at.text);
+        match hash.name.as_str() {
+            "#VAR" => return self.declare(&hash.declarations, at),
+            "#DELETE" => return self.delete(hash, at),
+            "#TIME" => {
+                intent.axis_words = AxisWords::Other;
+                self.work.dwells = true;
+                if let Some(&time) = hash.arguments.first() {
+                    let seconds = self.value(time, at)?.number();
+                    self.geometry().dwell = Some(seconds);
+                }
+            }
+            // PM/207120267
+            "#SET AX LINK" | "#AX LINK" => {
+                let axes = self.axes_in(rest);
+                self.define_coupling(rest, axes, at);
+            }
+            "#SET AX LINK NBR" | "#AX LINK NBR" => {
+                let axes = self.axes_by_number(rest);
+                self.define_coupling(rest, axes, at);
+            }
+            // PM/207133579
+            "#ENABLE AX LINK" | "#AX LINK ON" => self.enable_coupling(rest, hash.span, at),
+            "#DISABLE AX LINK" | "#AX LINK OFF" => self.disable_coupling(rest, at),
+            "#DISABLE AX LINK ALL" | "#AX LINK OFF ALL" => self.release_couplings(),
+            "#DISABLE MODAL CYCLE" => self.state.cycles = ModalCycles::default(),
+            "#INIT MACRO TAB" => {
+                self.state.memory.clear_macros();
+                self.define_machine_macros();
+            }
+            "#RETAIN CYCLE CHANGES" => self.retain_cycle_changes(),
+            "#COMMENT END" | "#ENDVAR" => {}
+            name if is_file_name(name) => self.name_programs(hash, at),
+            opener if description_end(opener).is_some() => self.describe(hash, at),
+            end if self.ends_description(end) => {
+                if let Some(description) = self.state.described.take() {
+                    self.state.modal.end_description(&description.before);
+                }
+            }
+            "#RT WHILE" => self.real_time_loop(hash.span, at, intent),
+            "#RT ENDWHILE" => {}
+            "#ERROR" => self.report_error(hash, at, intent),
+            name if is_exchange(name) => self.exchange_axes(hash, at),
+            name => {
+                self.state.modal.hash(name);
+                for target in &hash.written {
+                    let place = self.target_place(target.place, at)?;
+                    self.write(place, Value::Unknown(name.into()));
+                }
+                let word = match chain::command(name) {
+                    Some((words, ..)) => words,
+                    None => name.trim_end_matches(" OFF").trim_end_matches(" ON"),
+                };
+                self.pass_over(word, hash.span, at);
+                if name.starts_with("#MACHINE DATA") && names_friction(rest) {
+                    return Err(Box::new(
+                        Fault::new(
+                            Code::Fc314,
+                            hash.span,
+                            "the program writes friction parameters into the machine data",
+                        )
+                        .with_help("from here on the machine may differ from its lists; this run continues with the lists"),
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// `#RT WHILE` runs as long as a variable of real time says so (tf5261, 783727499).
+    fn real_time_loop(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) {
+        let whole = self.current_block();
+        if !whole.is_empty() {
+            let cause = "V.RTG.LOOP.ENABLED".into();
+            intent.step = self.skip_unknown(whole, &cause, span, at);
+        }
+    }
+
+    /// FC318: the program reports an error of its own, with a remedy class that stops it. Without a
+    /// class that is known it is taken for a warning (tf5200, 207457163).
+    fn report_error(&mut self, hash: &Hash, at: &At<'_>, intent: &mut Intent) {
+        self.pass_over("#ERROR", hash.span, at);
+        let class = remedy_class(hash.rest.of(at.text));
+        let class = class.and_then(|class| self.number_in(class, at));
+        let Some(class) = class.filter(|class| *class >= 1.0) else {
+            return;
+        };
+        let message =
+            format!("the control stops here: the program reports an error with `RC={class}`");
+        let fault = Fault::new(Code::Fc318, hash.span, message)
+            .with_help("with `RC=0` it is a warning, and the program goes on");
+        self.work.diagnostics.push(at.diagnostic(fault));
+        if self.options.stop == StopPolicy::FirstError {
+            intent.step = Some(Step::End(EndedBy::Error));
+        }
+    }
+
+    /// The cycle that runs keeps what it did to G functions and feed.
+    fn retain_cycle_changes(&mut self) {
+        if let Some(frame) = self.state.frames.cycle_mut() {
+            frame.restores = None;
+        }
+    }
+}
+
+/// What stands after `RC` in the bracket of `#ERROR`, `[ID=455 RC=2]` or `[ID455 RC2]`.
+fn remedy_class(text: &str) -> Option<&str> {
+    let outside_of_texts = text.split('"').step_by(2);
+    let mut words = outside_of_texts.flat_map(|part| part.split([' ', '\t', '[', ',']));
+    let word = words.find_map(|word| word.strip_prefix("RC"))?;
+    Some(word.trim_start_matches('=').trim_end_matches(']'))
+}
+
+fn names_friction(text: &str) -> bool {
+    text.contains("lr_param.frict_comp") || text.contains("frict_comp.")
+}

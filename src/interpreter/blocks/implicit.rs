@@ -1,0 +1,133 @@
+//! Words that call a program: G80 to G89, G800 and on, M, T and D words (R2.14, R2.75).
+
+use std::collections::BTreeMap;
+
+use crate::interpreter::coordinates::chain;
+use crate::interpreter::effects::called_words::Configured;
+use crate::interpreter::programs::file_names::{FileName, file_names};
+use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::{CallScope, GCall, Hash};
+use crate::text::Span;
+
+impl Interpreter {
+    /// An M, T or D word. A number that is not known offline may be any.
+    pub(in crate::interpreter) fn function_word(
+        &mut self,
+        word: FunctionWord,
+        span: Span,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) {
+        let FunctionWord { letter, number } = word;
+        if letter == b'M' {
+            match number {
+                None => return self.unknown_word("M", span, at),
+                Some(number) if !chain::is_named_m(number) => {
+                    let called = self.call_word(word, span, at, intent);
+                    if !called && !self.machine.harmless.has_function(number) {
+                        self.state.modal.note_transformed(&format!("M{number}"));
+                    }
+                    return;
+                }
+                Some(_) => {}
+            }
+        }
+        if !self.calls_by_words() {
+            return;
+        }
+        self.call_word(word, span, at, intent);
+        if letter == b'T' && self.machine.programs.data_with_tool {
+            // P-CHAN-00014: T selects the tool data, too.
+            self.call_word(word.of_data(), span, at, intent);
+        }
+    }
+
+    /// Calls what a word calls; whether there was anything.
+    fn call_word(
+        &mut self,
+        word: FunctionWord,
+        span: Span,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> bool {
+        match self.configured(word) {
+            Configured::None => return false,
+            Configured::Program(name) => {
+                let wanted = Wanted::program(CallScope::Global, name, at.in_block(span));
+                intent.calls.push(wanted);
+            }
+            Configured::Unknown(cause) => self.unknown_program(&cause, span, at),
+        }
+        true
+    }
+
+    /// A G function outside the groups: whether it calls a program.
+    pub(in crate::interpreter) fn g_program(
+        &mut self,
+        number: u32,
+        span: Span,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> bool {
+        if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at, intent) {
+            return true;
+        }
+        if chain::is_implicit_call(number) {
+            self.pass_over_implicit(number);
+        } else if !chain::is_named_g(number) {
+            self.state.modal.note_transformed(&format!("G{number}"));
+        }
+        false
+    }
+
+    pub(in crate::interpreter) fn g_call(
+        &mut self,
+        call: &GCall,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let mut own = BTreeMap::new();
+        for (place, operand) in (1..).zip(&call.arguments) {
+            if let Some(operand) = operand {
+                own.insert(place, self.value(*operand, at)?);
+            }
+        }
+        match self.configured(FunctionWord::g(call.number)) {
+            Configured::Program(name) => {
+                let wanted = Wanted::program(CallScope::Global, name, at.in_block(call.span));
+                intent.calls.push(Wanted { own, ..wanted });
+            }
+            Configured::Unknown(cause) => self.unknown_program(&cause, call.span, at),
+            Configured::None => {
+                self.pass_over_implicit(call.number);
+                self.pass_over(&format!("G{}", call.number), call.span, at);
+            }
+        }
+        Ok(())
+    }
+
+    /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).
+    pub(in crate::interpreter) fn name_programs(&mut self, hash: &Hash, at: &At<'_>) {
+        for (word, name) in file_names(hash.rest.of(at.text)) {
+            let value = match name {
+                FileName::Written(name) => Value::Text(name.into()),
+                FileName::Elsewhere(name) => self.named_elsewhere(name),
+            };
+            self.state.named.insert(word, value);
+            self.work.wrote = true;
+        }
+    }
+
+    /// The text of a variable, or that it is not known.
+    fn named_elsewhere(&mut self, name: &str) -> Value {
+        match self.state.memory.variable(name) {
+            Some(value @ Value::Text(_)) => value,
+            _ => Value::Unknown(name.into()),
+        }
+    }
+}

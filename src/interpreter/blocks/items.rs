@@ -1,0 +1,305 @@
+//! The words and statements of a block, from left to right.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::coordinates::axis_words::AxisWords;
+use crate::interpreter::run::at::{At, MacroCode, Shown};
+use crate::interpreter::run::hash_parts::point_after;
+use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::stopping::{is_harmless, stops};
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::expression::unquoted;
+use crate::interpreter::values::value::{Value, rounded};
+use crate::syntax::ast::{Block, Flow, Item, Operand};
+use crate::syntax::{FastPath, Fault, hash_name};
+use crate::text::Span;
+
+/// Messages about one block that are said one by one (R2.85).
+pub(in crate::interpreter) const MAX_SAID: usize = 1000;
+
+impl Interpreter {
+    /// Where the control would refuse the block's text; nothing right of it is executed then.
+    pub(in crate::interpreter) fn first_refusal(&self, block: &Block) -> Option<u32> {
+        if self.options.stop != StopPolicy::FirstError {
+            return None;
+        }
+        block
+            .faults
+            .iter()
+            .find(|fault| fault.code.severity() == crate::diagnostic::Severity::Error)
+            .map(|fault| fault.span.start)
+    }
+
+    /// Adds what is wrong with the text, up to the first error when that stops the program.
+    pub(in crate::interpreter) fn take_faults(&mut self, at: &At<'_>, stopped: bool) {
+        let error = |diagnostic: &&Diagnostic| stops(diagnostic);
+        let executed = self
+            .work
+            .diagnostics
+            .iter()
+            .find(error)
+            .map(|d| d.place.span.start);
+        let limit = if stopped {
+            let refused = self.first_refusal(at.block);
+            match (executed, refused) {
+                (Some(executed), Some(refused)) => executed.min(refused),
+                (found, None) | (None, found) => found.unwrap_or(u32::MAX),
+            }
+        } else {
+            u32::MAX
+        };
+        let harmless = &self.machine.harmless;
+        for fault in at
+            .block
+            .faults
+            .iter()
+            .filter(|fault| fault.span.start <= limit && !is_harmless(harmless, fault, at.text))
+        {
+            self.work.diagnostics.push(at.diagnostic(fault.clone()));
+        }
+    }
+
+    pub(in crate::interpreter) fn items(
+        &mut self,
+        at: &At<'_>,
+        intent: &mut Intent,
+        limit: Option<u32>,
+    ) {
+        let limit = limit.unwrap_or(u32::MAX);
+        let is_reached = |span: Span| span.start < limit;
+        for word in &at.block.words {
+            if !is_reached(word.span) {
+                return;
+            }
+            if self.plain_word(word, intent) {
+                continue;
+            }
+            let done = self.word(word, at, intent);
+            if self.say(done, at).is_break() {
+                return;
+            }
+        }
+        for item in &at.block.items {
+            if !is_reached(item.span()) {
+                return;
+            }
+            let done = self.item(item, at, intent);
+            // After a statement that goes elsewhere, `$CASE 2 X10`, nothing is executed.
+            let leaves = matches!(item, Item::Flow(flow, _) if !matches!(flow, Flow::Goto(_)))
+                && intent.step.is_some();
+            if self.say(done, at).is_break() || leaves {
+                return;
+            }
+        }
+    }
+
+    /// Says what is wrong with a part of the block. `Break` where the control goes no further.
+    #[inline]
+    fn say(&mut self, done: Result<(), Box<Fault>>, at: &At<'_>) -> ControlFlow<()> {
+        if let Err(fault) = done {
+            self.complain(*fault, at);
+        }
+        let refused =
+            self.options.stop == StopPolicy::FirstError && self.work.diagnostics.iter().any(stops);
+        if refused {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    #[cold]
+    fn complain(&mut self, fault: Fault, at: &At<'_>) {
+        if self.work.diagnostics.len() < MAX_SAID || !self.work.diagnostics.iter().any(stops) {
+            self.work.diagnostics.push(at.diagnostic(fault));
+        } else {
+            self.work.unsaid.get_or_insert((fault.span, 0)).1 += 1;
+        }
+    }
+
+    #[inline(never)]
+    fn item(&mut self, item: &Item, at: &At<'_>, intent: &mut Intent) -> Result<(), Box<Fault>> {
+        match item {
+            Item::Word(word) => self.word(word, at, intent),
+            Item::Comp(command) => {
+                self.comp(command, at);
+                Ok(())
+            }
+            Item::Bracket {
+                axis,
+                keyword,
+                span,
+            } => {
+                let word = format!("{}[{}]", axis.of(at.text), keyword.of(at.text));
+                self.pass_over(&word, *span, at);
+                Ok(())
+            }
+            Item::BareNumber(operand, span) => {
+                let value = self.value(*operand, at)?;
+                if intent.axis_words != AxisWords::Motion {
+                    self.geometry().dwell = Some(value.number());
+                    return Ok(());
+                }
+                let found = span.of(at.text);
+                Err(Box::new(Fault::new(
+                    Code::Fc207,
+                    *span,
+                    format!("`{found}` has no address"),
+                )))
+            }
+            Item::Assign(assignment) => self.assign(*assignment, at),
+            Item::Hash(hash) => {
+                self.hash(hash, at, intent)?;
+                if let Some(point) = point_after(hash, at) {
+                    let inner = at.rest(&point);
+                    self.items(&inner, intent, None);
+                    self.take_faults(&inner, false);
+                }
+                Ok(())
+            }
+            Item::MacroDefinition(name, code) => {
+                let (name, code) = (unquoted(name.of(at.text)), unquoted(code.of(at.text)));
+                self.state.memory.define_macro(name, code);
+                self.work.wrote = true;
+                Ok(())
+            }
+            Item::GCall(call) => self.g_call(call, at, intent),
+            Item::Sequence(sequence) => self.sequence(sequence, at, intent),
+            Item::Return(back) => self.return_to(back, at, intent),
+            Item::Call(call) => {
+                let wanted = self.wanted(call, at)?;
+                intent.calls.extend(wanted);
+                Ok(())
+            }
+            Item::Flow(flow, span) => {
+                let condition = self.one_line_condition(flow, at);
+                let condition = condition.or_else(|fault| {
+                    let cause = cause_of(&fault, at);
+                    self.undecidable(*fault, at)?;
+                    self.pass_jump(&cause, at);
+                    Ok::<_, Box<Fault>>(Some(false))
+                })?;
+                if condition.is_some() {
+                    intent.condition = condition;
+                    return Ok(());
+                }
+                if intent.condition == Some(false) {
+                    return Ok(());
+                }
+                let step = self.flow(flow, *span, at);
+                intent.step = step.or_else(|fault| {
+                    let cause = cause_of(&fault, at);
+                    self.undecidable(*fault, at)?;
+                    Ok::<_, Box<Fault>>(self.undecided(flow, &cause, *span, at))
+                })?;
+                Ok(())
+            }
+            Item::MacroUse(span) => self.expand(*span, at, intent),
+            Item::Unread(_, span) if self.machine.harmless.has_command(span.of(at.text)) => {
+                let (name, _) = hash_name(span.of(at.text));
+                self.pass_over(&name, *span, at);
+                Ok(())
+            }
+            Item::Unread(effect, span) => {
+                self.forget_unread(*effect, &span.of(at.text).into());
+                Ok(())
+            }
+            Item::Label(_) | Item::BadCommand(_) => Ok(()),
+        }
+    }
+
+    /// A condition that cannot be computed: what depends on it is not known, and is not said again
+    /// (R2.51, R2.71).
+    fn undecidable(&mut self, fault: Fault, at: &At<'_>) -> Result<(), Box<Fault>> {
+        if self.options.stop == StopPolicy::FirstError {
+            return Err(Box::new(fault));
+        }
+        self.complain(fault, at);
+        self.work.unread.set(true);
+        Ok(())
+    }
+
+    /// A macro in place of words: its code is a block of its own, executed here (R2.35).
+    fn expand(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) -> Result<(), Box<Fault>> {
+        let name = unquoted(span.of(at.text));
+        let code = match self.state.memory.macro_code(name) {
+            Some(Value::Text(code)) => Arc::clone(code),
+            Some(Value::Unknown(cause)) => {
+                let cause = Arc::clone(cause);
+                return Err(self.lost_macro(span, name, &cause));
+            }
+            Some(Value::Number(_)) | None => {
+                let fault = Fault::new(Code::Fc207, span, format!("macro `{name}` is not defined"));
+                return Err(Box::new(fault.with_help(format!(
+                    "define it first, with `\"{name}\" = \"code\"`"
+                ))));
+            }
+        };
+        let depth = self.with_evaluator(at, |evaluator| {
+            let macros = evaluator.macros.expand(&code, evaluator.effort, span);
+            macros.map(|macros| macros.depth)
+        })?;
+        let mut block = Block::default();
+        let lines = crate::text::TextLines::new(&code);
+        let _ = crate::syntax::BlockReader::new(lines, 1, FastPath::On).next(&mut block);
+        let shown = Shown::default();
+        let code = MacroCode {
+            text: &code,
+            block: &block,
+            depth,
+        };
+        let inner = at.in_macro(&code, span, &shown);
+        let (said, moved) = (self.work.diagnostics.len(), self.work.moved.len());
+        let (switched, noted) = (self.work.outcomes.len(), self.work.notes.borrow().len());
+        let limit = self.first_refusal(&block);
+        self.items(&inner, intent, limit);
+        self.take_faults(&inner, limit.is_some());
+        // What is said about the macro's code is shown where the macro is used.
+        for diagnostic in &mut self.work.diagnostics[said..] {
+            diagnostic.place = at.place(span);
+        }
+        for word in &mut self.work.moved[moved..] {
+            word.span = span;
+        }
+        for outcome in &mut self.work.outcomes[switched..] {
+            outcome.command.span = span;
+        }
+        for note in &mut self.work.notes.borrow_mut()[noted..] {
+            note.place = at.place(span);
+        }
+        Ok(())
+    }
+
+    /// A macro whose code is not known may do anything (R2.51).
+    fn lost_macro(&mut self, span: Span, name: &str, cause: &Arc<str>) -> Box<Fault> {
+        self.forget_all(cause);
+        let what = unknown_value(cause);
+        let message = format!(
+            "what macro `{name}` does depends on {what}; whatever it could change is unknown from here on"
+        );
+        let fault = Fault::new(Code::Fc901, span, message);
+        Box::new(fault.with_help(how_to_set(cause)))
+    }
+
+    pub(in crate::interpreter) fn block_number(&mut self, at: &At<'_>) -> Option<i64> {
+        let number = at.block.number.as_ref()?;
+        let value = match &number.value {
+            Operand::Number(number) => return rounded(*number),
+            operand @ Operand::Expression(_) => self.value(*operand, at),
+        };
+        value
+            .ok()
+            .as_ref()
+            .and_then(Value::number)
+            .and_then(rounded)
+    }
+}
+
+/// What a fault is about.
+fn cause_of(fault: &Fault, at: &At<'_>) -> Arc<str> {
+    fault.span.of(at.text).trim().into()
+}

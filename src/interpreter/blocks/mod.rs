@@ -1,0 +1,13 @@
+//! What the words and statements of a block do.
+
+pub(super) mod call;
+pub(super) mod comp;
+pub(super) mod declare;
+pub(super) mod flow;
+pub(super) mod hash;
+pub(super) mod implicit;
+pub(super) mod items;
+pub(super) mod resolve;
+pub(super) mod sequence;
+pub(super) mod travel;
+pub(super) mod words;

@@ -1,0 +1,323 @@
+//! The programs that a block calls: where they are, and whether they may be called.
+
+use crate::diagnostic::{Advice, Budget, Code};
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::{LabelName, ProgramId};
+use crate::interpreter::programs::store::Caller;
+use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::cycles::{ModalCycles, Repeated, RepeatedCall};
+use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::step::{Passage, Request, Step};
+use crate::interpreter::run::stopping::stops;
+use crate::machine::Keeps;
+use crate::syntax::Fault;
+use crate::syntax::ast::{CallForm, CallScope};
+use crate::text::Span;
+
+impl Interpreter {
+    /// Looks for the programs that a block calls.
+    #[inline(never)]
+    pub(in crate::interpreter) fn resolve_all(
+        &mut self,
+        calls: Vec<Wanted>,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Vec<Request> {
+        let mut requests = Vec::new();
+        for wanted in calls {
+            let refused = self.work.diagnostics.iter().any(stops);
+            if refused && self.options.stop == StopPolicy::FirstError {
+                break;
+            }
+            requests.extend(self.resolve(wanted, at, finder));
+        }
+        requests
+    }
+
+    /// Looks for the wanted program.
+    pub(in crate::interpreter) fn resolve(
+        &mut self,
+        wanted: Wanted,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Request> {
+        if self.is_external(&wanted) {
+            self.pass_over_external(wanted, at);
+            return None;
+        }
+        let unit = self.state.frames.running().map_or(0, |frame| frame.unit);
+        let caller = Caller {
+            unit,
+            file: at.file,
+        };
+        let here = self
+            .state
+            .frames
+            .program()
+            .filter(|_| self.is_here(&wanted));
+        let found = match here.map_or_else(
+            || {
+                self.programs
+                    .find(&wanted, caller, finder, &self.state.effort)
+            },
+            |here| Ok(Some(here)),
+        ) {
+            Ok(found) => found?,
+            Err(fault) => {
+                self.work.diagnostics.push(at.diagnostic(*fault));
+                return None;
+            }
+        };
+        let is_refused = !self.programs.index(found.unit).refused.is_empty();
+        if is_refused && found.unit > 0 {
+            // What is wrong with the file is said at the first call of it (R2.85).
+            if self.state.refused.insert(found.unit) {
+                let refused = &self.programs.index(found.unit).refused;
+                self.work.diagnostics.extend(refused.said.iter().cloned());
+            }
+            if self.options.stop == StopPolicy::FirstError {
+                return None;
+            }
+        }
+        if let Some(after_motion_only) = wanted.repeat {
+            self.state.cycles = ModalCycles::of(Repeated {
+                call: RepeatedCall::Program(found),
+                own: wanted.own.clone(),
+                after_motion_only,
+            });
+        }
+        let depth = self.state.frames.level() + 1;
+        if depth > self.options.limits.calls {
+            let fault = Fault::new(
+                Code::Fc911,
+                wanted.span,
+                format!(
+                    "subprogram calls are nested more than {} levels deep",
+                    self.options.limits.calls
+                ),
+            )
+            .with_help(Advice::RaiseBudget(Budget::Calls));
+            self.work.diagnostics.push(at.diagnostic(fault));
+            return None;
+        }
+        let passage = self.passage(&wanted, found, at).ok()?;
+        Some(Request {
+            found,
+            passage,
+            own: wanted.own,
+            form: wanted.form,
+            called_from: at.place(wanted.span),
+        })
+    }
+
+    /// A program that is on the machine only (R2.83): whatever it may change is unknown after it.
+    fn pass_over_external(&mut self, wanted: Wanted, at: &At<'_>) {
+        let name = wanted.name;
+        self.pass_over(&name, wanted.span, at);
+        self.leave_to_machine(&name);
+        let keeps = self.machine.programs.keeps(&name);
+        if !keeps.compensation || !keeps.positions {
+            let what = match keeps {
+                Keeps {
+                    compensation: true, ..
+                } => "all positions become unknown",
+                Keeps {
+                    positions: true, ..
+                } => "the compensation of every axis becomes unknown",
+                Keeps { .. } => "every axis becomes unknown",
+            };
+            let fault = Fault::new(
+                Code::Fc902,
+                wanted.span,
+                format!(
+                    "the program `{name}` is only on the machine; the call is passed over, and {what}"
+                ),
+            )
+            .with_help("if it leaves them as they are, say so in `[machine.external_keeps]`");
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+        if let Some(after_motion_only) = wanted.repeat {
+            self.state.cycles = ModalCycles::of(Repeated {
+                call: RepeatedCall::External(name),
+                own: wanted.own,
+                after_motion_only,
+            });
+        }
+    }
+
+    /// The calls of a block with the modal cycle after them, unless the block is one of the
+    /// cycle's.
+    pub(in crate::interpreter) fn repetition(
+        &mut self,
+        step: Option<Step>,
+        moved: bool,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Step> {
+        if self.state.cycles.is_empty() {
+            return step;
+        }
+        let mut calls = match step {
+            Some(Step::Call(calls)) => calls,
+            // What was called with this block is the cycle itself.
+            step => {
+                debug_assert!(step.is_none());
+                Vec::new()
+            }
+        };
+        for cycle in self.state.cycles.known().to_vec() {
+            if moved || !cycle.after_motion_only {
+                calls.extend(self.repeat(cycle, &calls, at, finder));
+            }
+        }
+        (!calls.is_empty()).then_some(Step::Call(calls))
+    }
+
+    /// A modal cycle after a block that made some calls.
+    fn repeat(
+        &mut self,
+        cycle: Repeated,
+        calls: &[Request],
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Request> {
+        let found = match &cycle.call {
+            RepeatedCall::Program(found) | RepeatedCall::Perhaps(found) => *found,
+            RepeatedCall::External(name) => {
+                self.leave_to_machine(name);
+                return None;
+            }
+        };
+        let inside = self.state.frames.iter().any(|frame| {
+            frame.level > 0 && (frame.unit, frame.section) == (found.unit, found.section)
+        });
+        if inside || calls.iter().any(|call| call.found == found) {
+            return None;
+        }
+        if let RepeatedCall::Perhaps(_) = cycle.call {
+            let section = self.programs.section(found);
+            let region = section.start..section.end;
+            let cause = self.programs.index(found.unit).source.name().clone();
+            self.forget_region(found.unit, region, &cause);
+            self.forget_called(finder);
+            return None;
+        }
+        Some(Request {
+            found,
+            passage: None,
+            own: cycle.own,
+            form: CallForm::Cycle,
+            called_from: at.place(Span::new(0, at.text.len())),
+        })
+    }
+
+    /// Whether a part is one of the program that is executed.
+    pub(in crate::interpreter) fn is_here(&self, wanted: &Wanted) -> bool {
+        let own_name = || {
+            let found = self.state.frames.program()?;
+            let index = self.programs.index(found.unit);
+            index.sections[found.section].name.clone()
+        };
+        wanted
+            .part
+            .as_ref()
+            .is_some_and(|part| part.here || own_name().as_deref() == Some(&*wanted.name))
+    }
+
+    /// The blocks that a call asks for; `Err` where they are not in the program.
+    pub(in crate::interpreter) fn passage(
+        &mut self,
+        wanted: &Wanted,
+        found: ProgramId,
+        at: &At<'_>,
+    ) -> Result<Option<Passage>, ()> {
+        let Some(part) = &wanted.part else {
+            return Ok(None);
+        };
+        let here = self.state.frames.program() == Some(found);
+        let call = self.state.frames.entry();
+        let end = self.programs.section(found).end;
+        let first = self
+            .programs
+            .block_of(found, &part.first, &self.state.effort);
+        let last = match &part.last {
+            Some(last) => self
+                .programs
+                .block_of(found, last, &self.state.effort)
+                .map(Some),
+            None => Some(None),
+        };
+        let (Some(first), Some(last)) = (first, last) else {
+            let missing = match first {
+                None => &part.first,
+                Some(_) => part.last.as_ref().unwrap_or(&part.first),
+            };
+            self.no_block(missing, found.unit, wanted.span, at);
+            return Err(());
+        };
+        // The part ends in front of its call.
+        let tag = call.filter(|call| part.end_tag && here && *call > first);
+        let tag = tag.map(|call| call - 1);
+        let last = last.filter(|last| *last >= first);
+        let last = match (last, tag) {
+            (Some(last), Some(tag)) => last.min(tag),
+            (Some(last), None) => last,
+            (None, Some(tag)) => tag,
+            // Without an end the block alone is executed; one that stands before it never comes.
+            (None, None) if part.last.is_none() && !part.end_tag => first,
+            (None, None) => end.saturating_sub(1),
+        };
+        Ok(Some(Passage {
+            first,
+            last,
+            left: part.passes - 1,
+            begun: self.state.seq,
+        }))
+    }
+
+    /// Says that a program has no such block; what was read line by line is not kept.
+    fn no_block(&mut self, name: &LabelName, unit: usize, span: Span, at: &At<'_>) {
+        let source = &self.programs.index(unit).source;
+        let is_cut = unit == 0 && (source.name().is_empty() || source.lines().first() > 1);
+        let fault = if is_cut {
+            self.forget_all(&"L SEQUENCE".into());
+            Fault::new(
+                Code::Fc902,
+                span,
+                format!("`{name}` is in a part of the program that was read line by line and is not kept; the call is passed over, and every axis becomes unknown"),
+            )
+            .with_help("give the program as a file")
+        } else {
+            Fault::new(
+                Code::Fc209,
+                span,
+                format!("block `{name}` does not exist in this program"),
+            )
+        };
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// The program ends, after the configured program that runs before its end (R2.15).
+    pub(in crate::interpreter) fn program_end(
+        &mut self,
+        by: EndedBy,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        if self.state.ending.is_none() {
+            self.meet_at_end(finder);
+            if let Some(name) = self.machine.programs.end.clone() {
+                let wanted = Wanted::program(CallScope::Global, name, Span::new(0, at.text.len()));
+                self.state.frames.clear();
+                if let Some(request) = self.resolve(wanted, at, finder) {
+                    self.state.ending = Some(by);
+                    return Step::Call(vec![request]);
+                }
+            }
+        }
+        Step::End(self.state.ending.take().unwrap_or(by))
+    }
+}

@@ -1,0 +1,181 @@
+//! Parts of programs: `L SEQUENCE` (R2.77), and M17 and M29 with a place to return to (R2.78).
+
+use crate::diagnostic::Code;
+use crate::interpreter::programs::index::{LabelName, ProgramId};
+use crate::interpreter::programs::wanted::{Part, Wanted};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::stack::Frame;
+use crate::interpreter::run::step::{Destination, Sought, Step};
+use crate::interpreter::values::value::{Value, rounded};
+use crate::syntax::Fault;
+use crate::syntax::ast::{CallScope, JumpTarget, Levels, Operand, Return, Sequence};
+use crate::text::Span;
+
+impl Interpreter {
+    /// `L SEQUENCE […]`
+    pub(in crate::interpreter) fn sequence(
+        &mut self,
+        sequence: &Sequence,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let span = sequence.span;
+        let name = match sequence.name {
+            None => String::new(),
+            Some(name) => match self.called_name(name, at)? {
+                Value::Text(name) => name.trim().to_owned(),
+                Value::Unknown(cause) => {
+                    self.unknown_program(&cause, span, at);
+                    return Ok(());
+                }
+                Value::Number(_) => {
+                    return Err(Box::new(Fault::new(
+                        Code::Fc312,
+                        span,
+                        "a number is not a program name",
+                    )));
+                }
+            },
+        };
+        let passes = match sequence.passes {
+            None => Value::Number(1.0),
+            Some(passes) => self.value(passes, at)?,
+        };
+        let Some(passes) = passes.number().and_then(rounded) else {
+            self.unknown_program("REPEAT", span, at);
+            return Ok(());
+        };
+        let first = self.label_of(sequence.first, at)?;
+        let last = match sequence.last {
+            Some(last) => self.label_of(last, at)?.map(Some),
+            None => Some(None),
+        };
+        let (Some(first), Some(last)) = (first, last) else {
+            self.unknown_program("N", span, at);
+            return Ok(());
+        };
+        let part = Part {
+            first,
+            last,
+            end_tag: sequence.end_tag,
+            passes: u64::try_from(passes).unwrap_or_default().max(1),
+            here: name.is_empty(),
+        };
+        let wanted = Wanted::program(CallScope::Global, name, at.in_block(span));
+        intent.calls.push(Wanted {
+            part: Some(part),
+            ..wanted
+        });
+        Ok(())
+    }
+
+    /// What a target names; `None` where that is not known offline.
+    fn label_of(
+        &mut self,
+        target: JumpTarget,
+        at: &At<'_>,
+    ) -> Result<Option<LabelName>, Box<Fault>> {
+        let value = match target {
+            JumpTarget::Label(name) => {
+                return Ok(Some(LabelName::Text(name.of(at.text).to_owned())));
+            }
+            JumpTarget::Number(operand) => self.value(operand, at)?,
+            JumpTarget::Variable(place) => self.value(Operand::Expression(place), at)?,
+        };
+        match value {
+            Value::Number(number) => Ok(rounded(number).map(LabelName::Number)),
+            Value::Text(name) => Ok(Some(LabelName::Text(name.to_string()))),
+            Value::Unknown(_) => Ok(None),
+        }
+    }
+
+    /// `M17 [MAIN [LABEL]]`
+    pub(in crate::interpreter) fn return_to(
+        &mut self,
+        back: &Return,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let here = self.state.frames.level();
+        let level = match back.levels {
+            Levels::One => here.saturating_sub(1),
+            Levels::Main => 0,
+            Levels::Number(operand) => {
+                let value = self.value(operand, at)?;
+                if let Value::Unknown(cause) = &value {
+                    self.unknown_program(cause, back.span, at);
+                    intent.returns = true;
+                    return Ok(());
+                }
+                let number = value
+                    .number()
+                    .and_then(rounded)
+                    .filter(|number| *number > 0);
+                let Some(number) = number else {
+                    return Err(Box::new(Fault::new(
+                        Code::Fc312,
+                        back.span,
+                        "`JUMPS` is a number of programs, 1 or more",
+                    )));
+                };
+                let number = u32::try_from(number).unwrap_or(u32::MAX);
+                self.warn_too_many_jumps(number, here, back.span, at);
+                here.saturating_sub(number)
+            }
+        };
+        if here == 0 {
+            intent.returns = true;
+            return Ok(());
+        }
+        let entry = match back.target {
+            None => None,
+            Some(target) => {
+                let Some(name) = self.label_of(target, at)? else {
+                    self.unknown_program("N", back.span, at);
+                    intent.step = Some(Step::ReturnTo(Destination { level, entry: None }));
+                    return Ok(());
+                };
+                let frame = self.state.frames.at_level(level);
+                let program = frame.map_or(ProgramId::FIRST, Frame::program);
+                let found = self.programs.block_of(program, &name, &self.state.effort);
+                if found.is_none() {
+                    let missing = Fault::new(
+                        Code::Fc209,
+                        back.span,
+                        format!(
+                            "jump label `{name}` does not exist in the program that is returned to"
+                        ),
+                    );
+                    let arrives = self.programs.index(program.unit).source.name().is_empty();
+                    if !arrives || level > 0 {
+                        return Err(Box::new(missing));
+                    }
+                    self.sought = Some(Sought {
+                        label: name,
+                        missing: at.diagnostic(missing),
+                    });
+                }
+                found
+            }
+        };
+        intent.step = Some(Step::ReturnTo(Destination { level, entry }));
+        Ok(())
+    }
+
+    /// FC317: the control warns and goes back to the main program (PM/206781707). A subprogram that
+    /// is run by itself is none.
+    fn warn_too_many_jumps(&mut self, number: u32, here: u32, span: Span, at: &At<'_>) {
+        if here == 0 || number <= here {
+            return;
+        }
+        let programs = if here == 1 { "program" } else { "programs" };
+        let message = format!(
+            "`JUMPS` leaves {number} programs, but only {here} {programs} can be left here; the main program continues"
+        );
+        let fault = Fault::new(Code::Fc317, span, message)
+            .with_help("`M17 [MAIN]` says that the main program is meant");
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+}

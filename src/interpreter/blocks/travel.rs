@@ -1,0 +1,231 @@
+//! What a block makes the axes do, from its words (R5.1).
+
+use crate::comp::AxisIndex;
+use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
+use crate::interpreter::coordinates::geometry::{Geometry, Given};
+use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::coordinates::motion::{
+    Arc, BlockEnd, Centre, Form, Motion, PathFeed, Travel, Turn,
+};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::value::rounded;
+use crate::text::Span;
+
+impl Interpreter {
+    /// The geometry words of the block.
+    pub(in crate::interpreter) fn geometry(&mut self) -> &mut Geometry {
+        self.work.geometry.get_or_insert_default()
+    }
+
+    /// I, J, K or R of a circle.
+    pub(in crate::interpreter) fn circle_word(
+        &mut self,
+        letter: u8,
+        value: Option<f64>,
+        span: Span,
+    ) {
+        let metric = self.state.modal.is_known(Group::Unit);
+        let inch = self.state.modal.functions.inch;
+        let value = value.filter(|_| metric);
+        let value = value.map(|value| if inch { value * 25.4 } else { value });
+        let geometry = self.geometry();
+        geometry.span.get_or_insert(span);
+        match letter {
+            b'R' => geometry.radius = Some(value),
+            _ => geometry.centre[usize::from(letter.saturating_sub(b'I')).min(2)] = Some(value),
+        }
+    }
+
+    /// A circle moves both axes of its plane, also those that have no word: `G2 I5` goes all the way
+    /// round (R2.46). They end where they stand.
+    #[inline]
+    pub(in crate::interpreter) fn move_around(&mut self, words: AxisWords) {
+        let turns = matches!(self.state.modal.functions.motion, 2 | 3);
+        if (turns || self.work.geometry.is_some()) && words == AxisWords::Motion {
+            self.move_around_in_plane(turns);
+        }
+    }
+
+    fn move_around_in_plane(&mut self, turns: bool) {
+        let letters = [b'X', b'Y'].map(|letter| self.main_axis(letter));
+        let plane = letters.into_iter().flatten();
+        let geometry = self.work.geometry.as_ref();
+        let centred = geometry.is_some_and(|it| it.centre.iter().any(Option::is_some));
+        let is_circle = turns || !self.state.modal.is_known(Group::Motion);
+        let own = self.work.moved.len();
+        let word = self.work.moved.iter();
+        let word = word.filter(|word| letters.contains(&Some(word.axis)));
+        let word = word.map(|word| word.span).next();
+        let along = geometry.and_then(|it| it.span);
+        let Some(span) = along.filter(|_| centred).or(word) else {
+            return;
+        };
+        if !is_circle || (!turns && !centred) || self.work.dwells {
+            return;
+        }
+        for axis in plane {
+            if self.work.moved[..own].iter().all(|word| word.axis != axis) {
+                self.see(axis);
+                let value = None;
+                self.work.moved.push(AxisWord { axis, span, value });
+            }
+        }
+        let around = self.work.moved.len() - own;
+        if around > 0 {
+            self.geometry().around = around;
+        }
+    }
+
+    /// The words of the block that say where axes go.
+    #[inline]
+    pub(in crate::interpreter) fn coordinates(&self) -> usize {
+        let around = self.work.geometry.as_ref().map_or(0, |it| it.around);
+        self.work.moved.len() - around
+    }
+
+    /// `G04 P1`: the parameter holds the seconds (PM/206132747).
+    pub(in crate::interpreter) fn dwell_parameter(&mut self, index: Option<f64>) {
+        let index = index
+            .and_then(rounded)
+            .and_then(|index| u32::try_from(index).ok());
+        let value = index.and_then(|index| self.state.memory.parameter(index));
+        let seconds = value.and_then(|value| value.number());
+        self.geometry().dwell = Some(seconds);
+    }
+
+    /// The position of every axis, for a block that may move.
+    pub(in crate::interpreter) fn stand(&self) -> Vec<Option<f64>> {
+        self.state.modal.positions().to_vec()
+    }
+
+    /// Makes the motion of the block, which started at `from`.
+    #[inline(never)]
+    pub(in crate::interpreter) fn take_motion(
+        &mut self,
+        from: Option<Vec<Option<f64>>>,
+        words: AxisWords,
+    ) {
+        let geometry = self.work.geometry.take();
+        if let Some(Some(radius)) = geometry.as_ref().map(|geometry| geometry.radius) {
+            // The radius holds until another one is given (PM, radius programming).
+            self.state.modal.radius = radius;
+        }
+        let Some(from) = from else { return };
+        let geometry = geometry.unwrap_or_default();
+        self.work.motion = self.motion(&geometry, from, words);
+    }
+
+    fn motion(
+        &self,
+        geometry: &Geometry,
+        from: Vec<Option<f64>>,
+        words: AxisWords,
+    ) -> Option<Motion> {
+        if self.work.dwells {
+            let by_axis = self.work.moved.first().map(|word| word.value);
+            return Some(Motion::Dwell(geometry.dwell.or(by_axis).flatten()));
+        }
+        let circular = matches!(self.state.modal.functions.motion, 2 | 3);
+        let centred = geometry.centre.iter().any(Option::is_some);
+        let moves = !self.work.moved.is_empty() || (circular && centred);
+        let form = match words {
+            _ if !moves => return None,
+            AxisWords::Motion | AxisWords::Measuring => self.form(geometry, &from),
+            AxisWords::Homing => Form::Unknown("homing ends at a reference point of the machine"),
+            AxisWords::Reference | AxisWords::Other => return None,
+        };
+        let modal = &self.state.modal;
+        Some(Motion::Travel(Travel {
+            form,
+            from,
+            to: modal.positions().to_vec(),
+            feed: self.path_feed(),
+            end: match geometry.end {
+                BlockEnd::Through => modal.functions.block_end,
+                BlockEnd::ExactStop => BlockEnd::ExactStop,
+            },
+        }))
+    }
+
+    fn form(&self, geometry: &Geometry, from: &[Option<f64>]) -> Form {
+        let modal = &self.state.modal;
+        if let Some(reason) = geometry.foreign {
+            return Form::Unknown(reason);
+        }
+        if !modal.is_known(Group::Motion) {
+            return Form::Unknown("it is not known whether G00, G01, G02 or G03 is active");
+        }
+        match modal.functions.motion {
+            0 => Form::Rapid,
+            1 => Form::Line,
+            motion => self.arc(motion, geometry, from),
+        }
+    }
+
+    fn arc(&self, motion: u32, geometry: &Geometry, from: &[Option<f64>]) -> Form {
+        let modal = &self.state.modal;
+        let letters = [b'X', b'Y'].map(|letter| modal.main_axis(letter));
+        let [Some(first), Some(second)] = letters else {
+            return Form::Unknown("the active plane is not known");
+        };
+        let axes = [first, second].map(|letter| self.letters[usize::from(letter - b'A')]);
+        let [Some(one), Some(two)] = axes else {
+            return Form::Unknown("the machine lacks an axis of the plane");
+        };
+        let centre = if geometry.centre.iter().any(Option::is_some) {
+            let offset = |letter: u8| geometry.centre[usize::from(letter - b'X')];
+            let at = |axis: AxisIndex, letter| self.centre_of(axis, offset(letter), from);
+            match (at(one, first), at(two, second)) {
+                (Some(a), Some(b)) => Centre::Point([a, b]),
+                _ => return Form::Unknown("the centre of the circle is not known"),
+            }
+        } else {
+            match modal.radius {
+                Some(radius) => Centre::Radius(radius),
+                None => return Form::Unknown("the circle has neither a centre nor a known radius"),
+            }
+        };
+        Form::Arc(Arc {
+            axes: [one, two],
+            turn: if motion == 2 {
+                Turn::Clockwise
+            } else {
+                Turn::CounterClockwise
+            },
+            centre,
+        })
+    }
+
+    /// The centre on one axis: G162 counts from the start of the arc, G161 from the origin of the
+    /// program (PM/206537483). Only with G162 a word may be left out.
+    fn centre_of(&self, axis: AxisIndex, word: Given, from: &[Option<f64>]) -> Option<f64> {
+        let modal = &self.state.modal;
+        if !modal.is_known(Group::CircleCentre) {
+            return None;
+        }
+        let start = if modal.functions.centre_absolute {
+            modal.reference(axis)
+        } else {
+            from.get(axis.get()).copied().flatten()
+        };
+        let word = match word {
+            None if !modal.functions.centre_absolute => Some(0.0),
+            word => word.flatten(),
+        };
+        start.zip(word).map(|(start, word)| start + word)
+    }
+
+    fn path_feed(&self) -> PathFeed {
+        let modal = &self.state.modal;
+        if !modal.is_known(Group::Feed) {
+            return PathFeed::Unknown("it is not known whether G93, G94 or G95 is active");
+        }
+        match (modal.functions.feed_mode, modal.functions.feeds) {
+            (93, [Some(seconds), ..]) => PathFeed::Seconds(seconds),
+            (94, [_, Some(feed), _]) => PathFeed::PerMinute(feed),
+            (95, _) => PathFeed::Unknown("G95 needs the speed of a spindle"),
+            (194, _) => PathFeed::Unknown("G194 weights feeds of the machine"),
+            _ => PathFeed::Unknown("F is not known"),
+        }
+    }
+}

@@ -1,0 +1,406 @@
+//! Words of a block: axes, G, M, T and the other letters (R2.20 to R2.25, R2.45, R2.46).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use crate::comp::{AxisIndex, State};
+use crate::diagnostic::Code;
+use crate::interpreter::coordinates::axis_words::{AxisWord, AxisWords};
+use crate::interpreter::coordinates::chain;
+use crate::interpreter::coordinates::geometry::foreign;
+use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
+use crate::interpreter::programs::wanted::FunctionWord;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::intent::{Feed, Intent};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::value::{exact, rounded};
+use crate::syntax::ast::{Address, Operand, Word};
+use crate::syntax::{Fault, is_letter, not_known};
+use crate::text::Span;
+
+/// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
+/// ramp time and jerk, feedforward (PM/206590731, 206596619, 206565643), manual mode (PM/206639371),
+/// mirroring by axis (PM/206266379).
+const NO_MOTION: [u32; 23] = [
+    98, 99, 112, 129, 130, 131, 132, 133, 134, 135, 136, 137, 200, 201, 202, 230, 231, 233, 333,
+    334, 338, 339, 351,
+];
+
+/// Homing: the axes move, their words are no coordinates.
+const HOMING: u32 = 74;
+
+/// A word of one letter with its value, where that is known.
+#[derive(Debug, Clone, Copy)]
+struct LetterWord {
+    letter: u8,
+    value: Option<f64>,
+    span: Span,
+}
+
+impl Interpreter {
+    pub(in crate::interpreter) fn word(
+        &mut self,
+        word: &Word,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let number = match &word.value {
+            None => None,
+            Some(Operand::Number(number)) => Some(*number),
+            Some(operand) => self.value(*operand, at)?.number(),
+        };
+        if let Address::Letter(letter @ b'A'..=b'Z') = word.address {
+            if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+                self.axis_word(axis, word.span, number);
+                return Ok(());
+            }
+            let word = LetterWord {
+                letter,
+                value: number,
+                span: word.span,
+            };
+            return self.letter(word, at, intent);
+        }
+        self.named_word(word, number, at);
+        Ok(())
+    }
+
+    /// A word whose address is not one of the letters that all axes and functions have.
+    fn named_word(&mut self, word: &Word, number: Option<f64>, at: &At<'_>) {
+        let name = match word.address {
+            Address::Name(name) => {
+                let name = name.of(at.text);
+                match self.names.get(name).copied() {
+                    Some(axis) => self.axis_word(axis, word.span, number),
+                    None if name.starts_with('S') => {}
+                    None => self.pass_over(name, word.span, at),
+                }
+                return;
+            }
+            Address::Main(letter) => match self.main_axis(letter) {
+                Some(axis) => return self.axis_word(axis, word.span, number),
+                // The plane is not known, or it is `@I`, `@S`.
+                None if letter >= b'X' => format!("@{}", char::from(letter)),
+                None => return,
+            },
+            Address::Lower(letter) => return self.lower_axis(letter, word.span, at),
+            Address::Letter(letter) => char::from(letter).to_string(),
+        };
+        self.pass_over(&name, word.span, at);
+    }
+
+    /// `x10`: axis names are case-sensitive (R2.20), so its meaning is not known.
+    fn lower_axis(&mut self, letter: u8, span: Span, at: &At<'_>) {
+        let upper = letter.to_ascii_uppercase();
+        let axis = self.letters[usize::from(upper - b'A')];
+        let mut fault = not_known(span.of(at.text), span);
+        if let Some(axis) = axis {
+            self.state.modal.forget_position(axis);
+            fault = fault.with_help(format!("did you mean `{}`?", char::from(upper)));
+        }
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// FC210: a word that is not known here may do anything (R2.70).
+    fn unread_word(&mut self, span: Span, at: &At<'_>) {
+        let text = span.of(at.text);
+        self.forget_all(&text.into());
+        self.work
+            .diagnostics
+            .push(at.diagnostic(not_known(text, span)));
+    }
+
+    /// Takes a word that most blocks are made of and that nothing can be said about: a coordinate, a
+    /// feed, a G function of a group, each with a plain number. Any other is left to [`Self::word`].
+    #[inline]
+    pub(in crate::interpreter) fn plain_word(&mut self, word: &Word, intent: &mut Intent) -> bool {
+        let Address::Letter(letter @ b'A'..=b'Z') = word.address else {
+            return false;
+        };
+        let Some(Operand::Number(number)) = word.value else {
+            return false;
+        };
+        if let Some(axis) = self.letters[usize::from(letter - b'A')] {
+            self.axis_word(axis, word.span, Some(number));
+            return true;
+        }
+        match letter {
+            b'F' => intent.feed = Feed::Given(Some(number)),
+            b'G' => return self.modal_word(number, intent),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Puts a G function of a group into force, unless the block has another one of the group.
+    #[inline]
+    fn modal_word(&mut self, number: f64, intent: &mut Intent) -> bool {
+        let Some(number) = exact(number) else {
+            return false;
+        };
+        let Some(group) = Group::of(number) else {
+            return false;
+        };
+        if *intent.groups[group as usize].get_or_insert(number) != number {
+            return false;
+        }
+        self.state.modal.set(group, number);
+        true
+    }
+
+    #[inline]
+    pub(in crate::interpreter) fn axis_word(
+        &mut self,
+        axis: AxisIndex,
+        span: Span,
+        value: Option<f64>,
+    ) {
+        self.see(axis);
+        let bit = 1 << (axis.get() % 64);
+        self.work.again |= self.work.seen & bit;
+        self.work.seen |= bit;
+        self.work.moved.push(AxisWord { axis, span, value });
+    }
+
+    /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
+    pub(in crate::interpreter) fn refuse_repeated_axes(&mut self, words: AxisWords, at: &At<'_>) {
+        let modal = &self.state.modal;
+        let absolute = modal.functions.absolute && modal.is_known(Group::Distance);
+        if !absolute || words == AxisWords::Other {
+            return;
+        }
+        let (mut first, mut said) = (BTreeMap::new(), BTreeSet::new());
+        let machine = Arc::clone(&self.machine);
+        let diagnostics = &mut self.work.diagnostics;
+        self.work.moved.retain(|word| {
+            let Some(&earlier) = first.get(&word.axis) else {
+                first.insert(word.axis, word.span);
+                return true;
+            };
+            if !said.insert(word.axis) {
+                return false;
+            }
+            let name = &machine.axis(word.axis).name;
+            let fault = Fault::new(
+                Code::Fc313,
+                word.span,
+                format!("axis `{name}` has a second coordinate in this block"),
+            )
+            .with_help("give an axis one coordinate per block; several add up only with G91");
+            let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+            diagnostics.push(diagnostic.with_label(at.place(earlier), "the first one is here"));
+            false
+        });
+    }
+
+    /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
+    /// block took effect before the motion (R1.9).
+    pub(in crate::interpreter) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
+        if !self.any_required || matches!(words, AxisWords::Reference | AxisWords::Other) {
+            return;
+        }
+        let machine = std::sync::Arc::clone(&self.machine);
+        for &AxisWord { axis, span, .. } in &self.work.moved {
+            let state = |kind| self.state.compensation.state(axis, kind);
+            let required = machine.axis(axis).required;
+            let missing = required
+                .iter()
+                .find(|kind| !matches!(state(*kind), State::Active | State::Unknown));
+            let name = &machine.axis(axis).name;
+            let Some(kind) = missing else {
+                if let Some(kind) = required.iter().find(|kind| state(*kind) == State::Unknown) {
+                    let keyword = kind.keyword();
+                    let message = format!(
+                        "whether axis `{name}` moves with `{keyword}`, which P-AXIS-00465 requires, \
+                         is not known offline; the rest assumes that it does"
+                    );
+                    let help = format!("set it before, with `{name}[COMP ON {keyword}]`");
+                    let fault = Fault::new(Code::Fc902, span, message).with_help(help);
+                    let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+                    self.work.diagnostics.push(diagnostic);
+                }
+                continue;
+            };
+            let keyword = kind.keyword();
+            let fault = Fault::new(
+                Code::PErr70435,
+                span,
+                format!("axis `{name}` moves without `{keyword}`, which P-AXIS-00465 requires"),
+            )
+            .with_help(format!(
+                "switch it on first, with `{name}[COMP ON {keyword}]`"
+            ));
+            let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+            self.work.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn letter(
+        &mut self,
+        word: LetterWord,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let LetterWord {
+            letter,
+            value: number,
+            span,
+        } = word;
+        let whole = match letter {
+            b'G' | b'M' | b'T' | b'D' => number.and_then(rounded),
+            _ => None,
+        };
+        #[allow(clippy::float_cmp)] // whole numbers are exact
+        let is_other =
+            |whole: i64| i32::try_from(whole).is_ok_and(|whole| Some(f64::from(whole)) != number);
+        if whole.is_some_and(is_other) {
+            // `G54.1` is a function of its own, not G54.
+            self.unread_word(span, at);
+            return Ok(());
+        }
+        match (letter, whole) {
+            (b'G', Some(number)) => return self.g_word(number, span, at, intent),
+            (b'G', None) => {
+                self.unknown_word("G", span, at);
+                self.state.modal.forget_g(None);
+            }
+            (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
+            (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
+            (b'M', Some(17 | 29)) => intent.returns = true,
+            (b'F', _) => intent.feed = Feed::Given(number),
+            (b'M' | b'T' | b'D', number) => {
+                self.function_word(FunctionWord { letter, number }, span, at, intent);
+            }
+            (b'R', _) => {
+                intent.radius = Some(at.in_block(span));
+                self.circle_word(letter, number, span);
+            }
+            (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
+            (b'P', _) if self.work.dwells => self.dwell_parameter(number),
+            (b'H' | b'E' | b'S' | b'N', _) => {}
+            _ if !is_letter(letter) => self.unread_word(span, at),
+            _ => self.pass_over(&char::from(letter).to_string(), span, at),
+        }
+        Ok(())
+    }
+
+    fn g_word(
+        &mut self,
+        number: i64,
+        span: Span,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) -> Result<(), Box<Fault>> {
+        let Ok(number) = u32::try_from(number) else {
+            self.pass_over(&format!("G{number}"), span, at);
+            return Ok(());
+        };
+        let group = Group::of(number);
+        if let Some(group) = group {
+            let first = *intent.groups[group as usize].get_or_insert(number);
+            if first != number {
+                return Err(Box::new(
+                    Fault::new(
+                        Code::Fc313,
+                        span,
+                        format!("`G{number:02}` and `G{first:02}` belong to one group"),
+                    )
+                    .with_help("a block takes one G function of each group"),
+                ));
+            }
+        }
+        match (group, number) {
+            (Some(group), _) => self.state.modal.set(group, number),
+            (None, 4) => {
+                intent.axis_words = AxisWords::Other;
+                self.work.dwells = true;
+            }
+            (None, 20..=23) => self.state.modal.mirror(number),
+            // PM/207256971, 207263627
+            (None, 150) => self.state.modal.hash("#SPLINE OFF"),
+            (None, 151) => self.state.modal.hash("#SPLINE ON"),
+            (None, 60) => self.geometry().end = BlockEnd::ExactStop,
+            (None, 92) => intent.axis_words = AxisWords::Reference,
+            // G61 and the like have no bearing on the compensation; a configured cycle has.
+            (None, _) => {
+                if self.g_program(number, span, at, intent) {
+                    return Ok(());
+                }
+                if number == HOMING {
+                    intent.axis_words = AxisWords::Homing;
+                } else if NO_MOTION.contains(&number) {
+                    intent.axis_words = AxisWords::Other;
+                } else if let Some(reason) = foreign(number) {
+                    self.geometry().foreign = Some(reason);
+                    if chain::is_measuring(number) {
+                        intent.axis_words = AxisWords::Measuring;
+                    }
+                }
+                self.pass_over(&format!("G{number}"), span, at);
+            }
+        }
+        Ok(())
+    }
+
+    /// Axis words become positions when the whole block is known: G90, G91, G70 and G92 count
+    /// wherever they stand, and F belongs to the feed mode of its block.
+    pub(in crate::interpreter) fn move_axes(&mut self, intent: &Intent, at: &At<'_>) {
+        if let Feed::Given(feed) = intent.feed {
+            self.state.modal.set_feed(feed);
+        }
+        if self.state.described.is_some() {
+            self.work.moved.clear();
+            self.work.geometry = None;
+            return;
+        }
+        let start = (self.options.motions == Motions::Taken).then(|| self.stand());
+        let before = intent.radius.map(|_| self.ends());
+        let coordinates = self.coordinates();
+        let modal = &mut self.state.modal;
+        match intent.axis_words {
+            AxisWords::Motion => modal.move_axes(&self.work.moved[..coordinates]),
+            AxisWords::Homing | AxisWords::Measuring => {
+                for word in &self.work.moved {
+                    modal.forget_position(word.axis);
+                }
+            }
+            AxisWords::Reference => modal.set_references(&self.work.moved),
+            AxisWords::Other => {}
+        }
+        if let (Some(span), Some(before)) = (intent.radius, before) {
+            self.warn_full_circle(span, &before, at);
+        }
+        if start.is_some() || self.work.geometry.is_some() {
+            self.take_motion(start, intent.axis_words);
+        }
+        if matches!(intent.axis_words, AxisWords::Reference | AxisWords::Other) {
+            self.work.moved.clear();
+        }
+    }
+
+    /// Where the axes of the block's words stand, as far as that is known.
+    fn ends(&self) -> Vec<Option<f64>> {
+        let words = self.work.moved[..self.coordinates()].iter();
+        words
+            .map(|word| self.state.modal.position(word.axis).value)
+            .collect()
+    }
+
+    /// FC316: R makes no full circle, the end point must differ from the start (R2.46).
+    fn warn_full_circle(&mut self, span: Span, before: &[Option<f64>], at: &At<'_>) {
+        let circular = matches!(self.state.modal.functions.motion, 2 | 3);
+        let ends = self.ends();
+        let stays = !ends.is_empty() && ends.iter().all(Option::is_some) && ends == before;
+        if circular && stays {
+            let fault = Fault::new(
+                Code::Fc316,
+                span,
+                "a circle by its radius ends where it starts; `R` cannot describe a full circle",
+            )
+            .with_help("give the centre of a full circle with `I`, `J`, `K`");
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! The axis words of a block.
+
+use crate::comp::AxisIndex;
+use crate::text::Span;
+
+/// An axis word of a block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisWord {
+    /// The axis.
+    pub axis: AxisIndex,
+    /// The word.
+    pub span: Span,
+    /// The coordinate as it is programmed, where it is known.
+    pub value: Option<f64>,
+}
+
+/// What axis words of a block are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::interpreter) enum AxisWords {
+    /// Coordinates to move to.
+    #[default]
+    Motion,
+    /// G74: the axes move to an unknown position.
+    Homing,
+    /// A measuring motion ends where the probe says.
+    Measuring,
+    /// G92: offsets.
+    Reference,
+    /// G04 and the like: other values.
+    Other,
+}

@@ -1,0 +1,149 @@
+//! What touches the chain of coordinates: which commands and functions take positions away from
+//! the machine's, and which are known not to (R2.47, R2.82).
+//!
+//! PM/n is page n of the TF5200 programming manual.
+
+/// What a `#` command does to positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Step {
+    /// It switches to other coordinates, and back.
+    Coordinates,
+    /// It switches all offsets off, and on again (PM/208517515).
+    Machine,
+    /// It leaves the programmed points as they are and the path to them open (PM/207256971).
+    Path,
+    /// It moves the origin, by values of the machine's own or for one block.
+    Origin,
+}
+
+/// The `#` commands that touch the chain, by their first words.
+const COMMANDS: [(&str, Step); 28] = [
+    ("#TRAFO", Step::Coordinates),
+    ("#CS", Step::Coordinates),
+    ("#ACS", Step::Coordinates),
+    ("#BCS", Step::Coordinates),
+    ("#ECS", Step::Coordinates),
+    ("#ROTATION", Step::Coordinates),
+    ("#SCALE", Step::Coordinates),
+    ("#KIN", Step::Coordinates),
+    ("#MIRROR", Step::Coordinates),
+    ("#RTCP", Step::Coordinates),
+    ("#TLC", Step::Coordinates),
+    ("#CYL", Step::Coordinates),
+    ("#FACE", Step::Coordinates),
+    ("#TRANSFORM", Step::Coordinates),
+    ("#TRACK CS", Step::Coordinates),
+    ("#MCS", Step::Machine),
+    ("#SPLINE", Step::Path),
+    ("#SET SPLINE", Step::Path),
+    ("#PSET", Step::Origin),
+    ("#PRESET", Step::Origin),
+    ("#SHIFT", Step::Origin),
+    ("#SET OFFSET", Step::Origin),
+    ("#SUPPRESS OFFSETS", Step::Origin),
+    ("#SET IPO SOLLPOS", Step::Origin),
+    ("#CALL AX", Step::Origin),
+    ("#SET AX", Step::Origin),
+    ("#AX REQUEST", Step::Origin),
+    ("#AX DEF", Step::Origin),
+];
+
+/// Commands that begin like those and touch nothing.
+const APART: [&str; 4] = [
+    "#MCS TO WCS",
+    "#SET AX LINK",
+    "#SCALE FACTOR",
+    "#SET SPLINETYPE",
+];
+
+/// The words of the command that is meant, what it does, and whether it switches that off.
+pub(in crate::interpreter) fn command(name: &str) -> Option<(&'static str, Step, bool)> {
+    let begins = |words: &str| {
+        name.strip_prefix(words)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    if APART.iter().any(|words| begins(words)) {
+        return None;
+    }
+    let &(words, step) = COMMANDS.iter().find(|(words, _)| begins(words))?;
+    let mut further = name[words.len()..].split(' ');
+    let off = further.any(|word| matches!(word, "OFF" | "DEL"));
+    // The older name of one command.
+    let words = if words == "#SET SPLINE" {
+        "#SPLINE"
+    } else {
+        words
+    };
+    Some((words, step, off))
+}
+
+/// M functions that are known to move no origin: those of DIN 66025-2 and of the manual's overview
+/// (tccncprogramming/15557312651).
+pub(in crate::interpreter) fn is_named_m(number: i64) -> bool {
+    matches!(number, 0..=17 | 19 | 29..=31 | 40..=49 | 60)
+}
+
+/// G functions that are known to leave coordinates alone, beside those of the groups: block ends,
+/// feedforward, gain, weights of dynamics, insertion of chamfers and roundings, override, contouring
+/// modes, threads, measuring, software limits (PM/206089483 and its neighbours).
+pub(in crate::interpreter) fn is_named_g(number: u32) -> bool {
+    matches!(
+        number,
+        4 | 5 | 8..=13
+            | 25 | 26
+            | 28
+            | 33
+            | 60 | 61 | 63
+            | 74
+            | 92
+            | 96..=102
+            | 106..=109
+            | 112
+            | 115..=117
+            | 120..=122
+            | 129..=141
+            | 160 | 163..=167
+            | 180
+            | 193 | 196 | 197
+            | 230 | 231 | 233
+            | 236..=239
+            | 260 | 261
+            | 293 | 296
+            | 301..=303
+            | 310
+            | 331..=334
+            | 338 | 339
+            | 900 | 901
+    )
+}
+
+/// Implicit calls: G80 to G89, G800 to G839 (PM/206278923, P-CHAN-00187).
+pub(in crate::interpreter) fn is_implicit_call(number: u32) -> bool {
+    matches!(number, 80..=89 | 800..=839)
+}
+
+/// Measuring motions, which end where the probe says.
+pub(in crate::interpreter) fn is_measuring(number: u32) -> bool {
+    matches!(number, 100..=102 | 106 | 108)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commands_are_told_apart_by_their_words() {
+        // R2.47 R2.82
+        let of = |name| command(name).map(|(words, _, off)| (words, off));
+        assert_eq!(of("#MCS ON"), Some(("#MCS", false)));
+        assert_eq!(of("#MCS ON EX TOOL"), Some(("#MCS", false)));
+        assert_eq!(of("#MCS OFF"), Some(("#MCS", true)));
+        assert_eq!(of("#MCS TO WCS"), None);
+        assert_eq!(of("#CS DEL ALL"), Some(("#CS", true)));
+        assert_eq!(of("#CSX ON"), None);
+        assert_eq!(of("#SPLINE OFF X10"), Some(("#SPLINE", true)));
+        assert_eq!(of("#SET SPLINETYPE AKIMA"), None);
+        assert_eq!(of("#SET AX LINK"), None);
+        assert_eq!(of("#MSG"), None);
+    }
+}

@@ -1,0 +1,37 @@
+//! The words of a block that shape its motion: I, J, K, R and the like (R2.46).
+
+use super::motion::BlockEnd;
+use crate::text::Span;
+
+/// What a word says: nothing, or a value that may be unknown.
+pub(in crate::interpreter) type Given = Option<Option<f64>>;
+
+/// The words of a block that shape its motion and nothing else.
+#[derive(Debug, Default)]
+pub(in crate::interpreter) struct Geometry {
+    /// I, J, K.
+    pub(in crate::interpreter) centre: [Given; 3],
+    /// R.
+    pub(in crate::interpreter) radius: Given,
+    /// The seconds of `G04 2.5` and `#TIME 2.5`.
+    pub(in crate::interpreter) dwell: Given,
+    pub(in crate::interpreter) end: BlockEnd,
+    /// Where the first of I, J, K and R stands.
+    pub(in crate::interpreter) span: Option<Span>,
+    /// How many axes move along the circle without a word of their own.
+    pub(in crate::interpreter) around: usize,
+    /// A G function that makes the block's motion something else.
+    pub(in crate::interpreter) foreign: Option<&'static str>,
+}
+
+/// G functions with which axis words are a motion that is not modelled.
+pub(in crate::interpreter) fn foreign(number: u32) -> Option<&'static str> {
+    Some(match number {
+        33 => "G33 follows a spindle",
+        63 => "G63 follows a spindle",
+        100..=102 | 106 | 108 => "a measuring motion ends where the probe triggers",
+        301 | 302 => "G301 and G302 insert a contour",
+        303 => "G303 is an arc in space",
+        _ => return None,
+    })
+}

@@ -1,0 +1,8 @@
+//! What words of geometry mean: G functions, positions, motions.
+
+pub(super) mod axis_words;
+pub(super) mod chain;
+pub(super) mod geometry;
+pub(super) mod group;
+pub(super) mod modal;
+pub(super) mod motion;

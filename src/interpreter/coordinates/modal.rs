@@ -1,0 +1,456 @@
+//! Modal state and programmed positions (R2.45 to R2.47).
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::axis_words::AxisWord;
+use super::chain::{self, Step};
+use super::group::{Group, GroupSet};
+use super::motion::BlockEnd;
+use crate::comp::AxisIndex;
+
+/// Whether a position is one of the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Frame {
+    /// No transformation is active.
+    Machine,
+    /// A transformation, rotation, mirroring or cutter radius compensation is active: positions
+    /// are those of the program (R2.47).
+    Programmed,
+}
+
+/// The position of an axis after a block.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct AxisPosition {
+    /// The programmed coordinate in mm or degrees with the offset of G92; `None` where it is not
+    /// known.
+    pub value: Option<f64>,
+    /// Whether it is one of the machine.
+    pub frame: Frame,
+}
+
+/// The G functions in force and the feeds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GFunctions {
+    /// G00 to G03.
+    pub motion: u32,
+    /// G17 to G19.
+    pub plane: u32,
+    /// Whether G90 is in force.
+    pub absolute: bool,
+    /// Whether G70 is in force.
+    pub inch: bool,
+    /// G93 to G95, G194.
+    pub feed_mode: u32,
+    /// The feed of each mode, G93, G94, G95, where one was programmed.
+    pub feeds: [Option<f64>; 3],
+    /// G53 to G59, G159.
+    pub offset: u32,
+    /// Whether the circle centre is absolute, G161.
+    pub centre_absolute: bool,
+    /// How blocks end, G359 and G360.
+    pub block_end: BlockEnd,
+    /// Groups whose active function is not known offline (R2.51).
+    unknown: GroupSet,
+}
+
+impl Default for GFunctions {
+    /// Those at program start.
+    fn default() -> Self {
+        Self {
+            motion: 0,
+            plane: 17,
+            absolute: true,
+            inch: false,
+            feed_mode: 94,
+            feeds: [None; 3],
+            offset: 53,
+            centre_absolute: false,
+            block_end: BlockEnd::Through,
+            unknown: GroupSet::default(),
+        }
+    }
+}
+
+/// The G functions in force and the programmed positions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Modal {
+    /// The G functions in force and the feeds.
+    pub functions: GFunctions,
+    /// The radius of circles without a centre, R; `None` where it is not known.
+    pub radius: Option<f64>,
+    /// What takes positions away from the machine's: names of `#` commands and G functions.
+    pub transformed: BTreeSet<String>,
+    /// Absolute positions: the programmed coordinate and the offset of G92.
+    positions: Vec<Option<f64>>,
+    /// G92; `None` where it is not known.
+    references: Vec<Option<f64>>,
+    /// What G92 set before `#MCS ON`, which comes back with `#MCS OFF`.
+    suspended: Option<Vec<Option<f64>>>,
+}
+
+/// What the end of a cycle brings back (P-CHAN-00210): G functions and feeds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Saved {
+    functions: GFunctions,
+    transformed: [bool; 2],
+}
+
+/// A coordinate that counts from a place; not known where any part is not, nor where the sum
+/// leaves the range of numbers.
+#[inline]
+fn shifted(from: Option<f64>, value: Option<f64>, scale: Option<f64>) -> Option<f64> {
+    Some(from? + value? * scale?).filter(|sum| sum.is_finite())
+}
+
+/// G functions that take positions away from the machine's.
+const TRANSFORMING: [&str; 2] = ["G41", "G21"];
+
+impl Modal {
+    /// The defaults at program start. Where the axes stand is not known.
+    pub fn new(axes: usize) -> Self {
+        Self {
+            functions: GFunctions::default(),
+            radius: None,
+            transformed: BTreeSet::new(),
+            positions: vec![None; axes],
+            references: vec![Some(0.0); axes],
+            suspended: None,
+        }
+    }
+
+    /// The state at the start of the next program: the axes stay where they are.
+    pub(in crate::interpreter) fn next_program(&self) -> Self {
+        Self {
+            positions: self.positions.clone(),
+            ..Self::new(self.positions.len())
+        }
+    }
+
+    /// Whether it describes so many axes.
+    pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
+        let suspended = self.suspended.as_ref().map_or(axes, Vec::len);
+        [self.positions.len(), self.references.len(), suspended] == [axes; 3]
+    }
+
+    /// Whether it is known which G function of a group is in force.
+    pub fn is_known(&self, group: Group) -> bool {
+        !self.functions.unknown.contains(group)
+    }
+
+    /// What a cycle may change and its end brings back.
+    pub(in crate::interpreter) fn save(&self) -> Saved {
+        Saved {
+            functions: self.functions.clone(),
+            transformed: TRANSFORMING.map(|name| self.transformed.contains(name)),
+        }
+    }
+
+    /// The end of a cycle.
+    pub(in crate::interpreter) fn restore(&mut self, saved: &Saved) {
+        if self.functions.offset != saved.functions.offset {
+            self.forget_positions();
+        }
+        self.functions = saved.functions.clone();
+        for (name, on) in TRANSFORMING.into_iter().zip(saved.transformed) {
+            self.transform(name, on);
+        }
+    }
+
+    /// The axis letter that `@X`, `@Y` or `@Z` means in the active plane; `None` where the plane is
+    /// not known.
+    pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<u8> {
+        let place = usize::from(letter.checked_sub(b'X')?);
+        let axes = match self.functions.plane {
+            _ if !self.is_known(Group::Plane) => return None,
+            18 => b"ZXY",
+            19 => b"YZX",
+            _ => b"XYZ",
+        };
+        axes.get(place).copied()
+    }
+
+    /// Puts a G function of a group into force.
+    #[inline]
+    pub(in crate::interpreter) fn set(&mut self, group: Group, number: u32) {
+        self.functions.unknown.remove(group);
+        match group {
+            Group::Motion => self.functions.motion = number,
+            Group::Plane => self.functions.plane = number,
+            Group::Unit => self.functions.inch = number == 70,
+            Group::Distance => self.functions.absolute = number == 90,
+            Group::Feed => self.functions.feed_mode = number,
+            Group::Offset => {
+                // An offset's values are the machine's own; coordinates lose their meaning.
+                if self.functions.offset != number {
+                    self.forget_positions();
+                }
+                self.functions.offset = number;
+            }
+            Group::CutterRadius => self.transform("G41", number != 40),
+            Group::CircleCentre => self.functions.centre_absolute = number == 161,
+            Group::ExactStop if number == 360 => self.functions.block_end = BlockEnd::ExactStop,
+            Group::ExactStop => self.functions.block_end = BlockEnd::Through,
+        }
+    }
+
+    /// G20 switches mirroring off, G21 to G23 switch it on.
+    pub(in crate::interpreter) fn mirror(&mut self, number: u32) {
+        self.transform("G21", number != 20);
+    }
+
+    /// Enters or leaves a transformation.
+    /// The coordinates before and after are those of different systems, except with cutter radius
+    /// compensation, which leaves the program's coordinates as they are.
+    fn transform(&mut self, name: &str, on: bool) {
+        let changed = if on {
+            self.transformed.insert(name.to_owned())
+        } else {
+            self.transformed.remove(name)
+        };
+        if changed && name != "G41" {
+            self.forget_positions();
+        }
+    }
+
+    /// What a `#` command does to the coordinate chain.
+    pub fn hash(&mut self, name: &str) {
+        let Some((words, step, off)) = chain::command(name) else {
+            return;
+        };
+        match step {
+            Step::Coordinates => self.transform(words, !off),
+            Step::Machine => self.machine_coordinates(words, off),
+            Step::Path if off => _ = self.transformed.remove(words),
+            Step::Path => self.note_transformed(words),
+            Step::Origin => {
+                self.note_transformed(words);
+                self.forget_positions();
+            }
+        }
+    }
+
+    /// `#MCS ON` takes all offsets away until `#MCS OFF`. What is programmed after either of them
+    /// is no sure place of the machine any more.
+    fn machine_coordinates(&mut self, words: &str, off: bool) {
+        if off {
+            if let Some(references) = self.suspended.take() {
+                self.references = references;
+            }
+        } else if self.suspended.is_none() {
+            let none = vec![Some(0.0); self.references.len()];
+            self.suspended = Some(std::mem::replace(&mut self.references, none));
+        }
+        self.note_transformed(words);
+        self.forget_positions();
+    }
+
+    /// Positions are the program's from here on.
+    pub(in crate::interpreter) fn note_transformed(&mut self, name: &str) {
+        if !self.transformed.contains(name) {
+            self.transformed.insert(name.to_owned());
+        }
+    }
+
+    /// A `#` command that may or may not have been executed.
+    pub(in crate::interpreter) fn forget_hash(&mut self, name: &str) {
+        let mut after = self.clone();
+        after.hash(name);
+        if after != *self {
+            if after.references != self.references {
+                self.references.fill(None);
+                self.suspended = None;
+            }
+            self.transformed.extend(after.transformed);
+            self.forget_positions();
+        }
+    }
+
+    /// What the blocks of a contour description leave of the state before it: whether their G
+    /// functions and feeds hold after it is not documented (R2.81).
+    pub(in crate::interpreter) fn end_description(&mut self, before: &Self) {
+        self.doubt_functions(before);
+        for (feed, before) in self.functions.feeds.iter_mut().zip(before.functions.feeds) {
+            *feed = feed.filter(|_| *feed == before);
+        }
+        self.radius = self.radius.filter(|_| self.radius == before.radius);
+        self.forget_positions();
+    }
+
+    /// What says which function of a group is in force.
+    fn value(&self, group: Group) -> u32 {
+        let functions = &self.functions;
+        match group {
+            Group::Motion => functions.motion,
+            Group::Plane => functions.plane,
+            Group::Unit => u32::from(functions.inch),
+            Group::Distance => u32::from(functions.absolute),
+            Group::Feed => functions.feed_mode,
+            Group::Offset => functions.offset,
+            Group::CutterRadius => u32::from(self.transformed.contains("G41")),
+            Group::CircleCentre => u32::from(functions.centre_absolute),
+            Group::ExactStop => u32::from(functions.block_end == BlockEnd::ExactStop),
+        }
+    }
+
+    /// The groups in which two states differ, or may, become unknown.
+    fn doubt_functions(&mut self, other: &Self) {
+        for group in Group::ALL {
+            let differs = self.value(group) != other.value(group);
+            if differs || other.functions.unknown.contains(group) {
+                self.functions.unknown.insert(group);
+            }
+        }
+    }
+
+    fn metric(&self) -> Option<f64> {
+        let factor = if self.functions.inch { 25.4 } else { 1.0 };
+        self.is_known(Group::Unit).then_some(factor)
+    }
+
+    /// Millimetres of a programmed unit, where what coordinates count from is known, too.
+    fn scale(&self) -> Option<f64> {
+        self.metric().filter(|_| self.is_known(Group::Distance))
+    }
+
+    /// Programmed coordinates.
+    pub(in crate::interpreter) fn move_axes(&mut self, words: &[AxisWord]) {
+        let scale = self.scale();
+        for word in words {
+            let axis = word.axis.get();
+            let from = if self.functions.absolute {
+                self.references[axis]
+            } else {
+                self.positions[axis]
+            };
+            self.positions[axis] = shifted(from, word.value, scale);
+        }
+    }
+
+    /// G92: offsets for the absolute coordinates that follow; in G91 they add to those in force
+    /// (PM/206145291). The axes do not move.
+    pub(in crate::interpreter) fn set_references(&mut self, words: &[AxisWord]) {
+        let scale = self.scale();
+        for word in words {
+            let axis = word.axis.get();
+            let from = if self.functions.absolute {
+                Some(0.0)
+            } else {
+                self.references[axis]
+            };
+            self.references[axis] = shifted(from, word.value, scale);
+        }
+    }
+
+    /// Forgets where the axes stand.
+    pub fn forget_positions(&mut self) {
+        self.positions.fill(None);
+    }
+
+    /// Forgets the position of one axis.
+    pub fn forget_position(&mut self, axis: AxisIndex) {
+        self.positions[axis.get()] = None;
+    }
+
+    /// Forgets what G92 set for an axis.
+    pub(in crate::interpreter) fn forget_reference(&mut self, axis: AxisIndex) {
+        self.references[axis.get()] = None;
+    }
+
+    /// Any word may have been executed.
+    pub(in crate::interpreter) fn forget_words(&mut self) {
+        self.forget_g(None);
+        self.functions.feeds = [None; 3];
+        self.radius = None;
+    }
+
+    /// A G function that may or may not have been executed; `None` for one that is not known.
+    pub(in crate::interpreter) fn forget_g(&mut self, number: Option<i64>) {
+        let Some(number) = number.and_then(|number| u32::try_from(number).ok()) else {
+            self.functions.unknown = Group::ALL.into_iter().collect();
+            self.forget_positions();
+            self.references.fill(None);
+            return;
+        };
+        match Group::of(number) {
+            Some(Group::Offset) => self.forget_positions(),
+            Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
+            None if (21..=23).contains(&number) => self.transform("G21", true),
+            None if number == 151 => self.note_transformed("#SPLINE"),
+            _ => {}
+        }
+        if let Some(group) = Group::of(number) {
+            self.functions.unknown.insert(group);
+        }
+    }
+
+    /// What may also have been another state becomes unknown.
+    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+        self.doubt_functions(other);
+        let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {
+            if mine != theirs {
+                *mine = None;
+            }
+        };
+        unless_same(&mut self.radius, &other.radius);
+        let mut pairs: Vec<(&mut Option<f64>, &Option<f64>)> = Vec::new();
+        pairs.extend(self.functions.feeds.iter_mut().zip(&other.functions.feeds));
+        pairs.extend(self.positions.iter_mut().zip(&other.positions));
+        pairs.extend(self.references.iter_mut().zip(&other.references));
+        for (mine, theirs) in pairs {
+            unless_same(mine, theirs);
+        }
+        self.transformed.extend(other.transformed.iter().cloned());
+        if self.suspended != other.suspended {
+            self.suspended = None;
+            self.references.fill(None);
+        }
+    }
+
+    /// A feed word in mm/min, or the unit of the mode in force.
+    pub fn set_feed(&mut self, value: Option<f64>) {
+        match self.functions.feed_mode {
+            _ if !self.is_known(Group::Feed) => self.functions.feeds = [None; 3],
+            93 => self.functions.feeds[0] = value,
+            95 => self.functions.feeds[2] = value,
+            // A weight of feeds that the machine knows, no feed.
+            194 => {}
+            _ => self.functions.feeds[1] = value,
+        }
+    }
+
+    /// The programmed coordinate, without the offset of G92.
+    pub(in crate::interpreter) fn programmed(&self, axis: AxisIndex) -> Option<f64> {
+        let position = self.positions[axis.get()].zip(self.references[axis.get()]);
+        position.map(|(position, reference)| position - reference)
+    }
+
+    /// Where the axes stand: the programmed coordinate with the offset of G92.
+    pub(in crate::interpreter) fn positions(&self) -> &[Option<f64>] {
+        &self.positions
+    }
+
+    /// The offset of G92 of an axis; `None` where it is not known.
+    pub(in crate::interpreter) fn reference(&self, axis: AxisIndex) -> Option<f64> {
+        self.references[axis.get()]
+    }
+
+    /// Takes over the position of an axis.
+    pub(in crate::interpreter) fn place(&mut self, axis: AxisIndex, position: Option<f64>) {
+        self.positions[axis.get()] = position;
+    }
+
+    /// The position of an axis.
+    pub fn position(&self, axis: AxisIndex) -> AxisPosition {
+        AxisPosition {
+            value: self.positions[axis.get()],
+            frame: if self.transformed.is_empty() {
+                Frame::Machine
+            } else {
+                Frame::Programmed
+            },
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The canonical motion of a block: what moves, along what and how fast, without any words (R5.1).
+//!
+//! It is made only where [`Motions::Taken`] asks for it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::comp::AxisIndex;
+
+/// Whether blocks say what they move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Motions {
+    /// They do not.
+    #[default]
+    None,
+    /// They do, see [`Motion`].
+    Taken,
+}
+
+/// What a block makes the machine do.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Motion {
+    /// Axes move.
+    Travel(Travel),
+    /// The axes rest, in seconds; `None` where it is not known how long.
+    Dwell(Option<f64>),
+}
+
+/// A motion from one place to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Travel {
+    /// Along what.
+    pub form: Form,
+    /// The position of each axis of the machine before, in mm or degrees, where that is known.
+    pub from: Vec<Option<f64>>,
+    /// The position of each axis after it.
+    pub to: Vec<Option<f64>>,
+    /// How fast; a rapid motion takes no notice of it.
+    pub feed: PathFeed,
+    /// What happens at the end of the block.
+    pub end: BlockEnd,
+}
+
+/// What a motion follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Form {
+    /// G00: a straight line, as fast as the axes can.
+    Rapid,
+    /// G01: a straight line at the path feed.
+    Line,
+    /// G02, G03: an arc, or a helix when the third axis moves.
+    Arc(Arc),
+    /// Something that is not modelled, or not known offline, in words.
+    Unknown(&'static str),
+}
+
+/// A circular arc in the plane of two axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arc {
+    /// The first and the second axis of the plane: X Y with G17, Z X with G18, Y Z with G19.
+    pub axes: [AxisIndex; 2],
+    /// The sense of rotation, seen against the third axis.
+    pub turn: Turn,
+    /// Where the centre lies.
+    pub centre: Centre,
+}
+
+/// The sense of rotation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Turn {
+    /// G02.
+    Clockwise,
+    /// G03.
+    CounterClockwise,
+}
+
+/// How the centre of an arc is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Centre {
+    /// By its coordinates on the two axes of the plane, in mm.
+    Point([f64; 2]),
+    /// By the radius in mm: positive for the short arc, negative for the long one.
+    Radius(f64),
+}
+
+/// How fast the path is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum PathFeed {
+    /// G94: in mm/min, or °/min where only rotary axes move.
+    PerMinute(f64),
+    /// G93: the seconds that the block takes (PM/206602507).
+    Seconds(f64),
+    /// Not known, and why.
+    Unknown(&'static str),
+}
+
+/// What happens at the end of a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum BlockEnd {
+    /// The path goes on as fast as its corner allows.
+    #[default]
+    Through,
+    /// G60, or G360 until G359: the axes come to rest (PM/206301707).
+    ExactStop,
+}

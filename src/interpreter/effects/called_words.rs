@@ -1,0 +1,137 @@
+//! Which program a word calls, and what is unknown where nobody knows which (R2.14, R2.75).
+
+use std::sync::Arc;
+
+use crate::diagnostic::Code;
+use crate::interpreter::coordinates::chain;
+use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::journal::Scan;
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::CallScope;
+use crate::text::Span;
+
+/// What a word calls.
+pub(in crate::interpreter) enum Configured {
+    /// Nothing.
+    None,
+    /// A program.
+    Program(String),
+    /// A program, or none; the name depends on a value that only the machine knows.
+    Unknown(Arc<str>),
+}
+
+impl Interpreter {
+    /// The program for a word, `G80`, `M6`, else for its letter.
+    pub(in crate::interpreter) fn configured(&self, word: FunctionWord) -> Configured {
+        let letter = char::from(word.letter);
+        let word = word.number.map(|number| format!("{letter}{number}"));
+        let words = word.into_iter().chain([letter.to_string()]);
+        for word in words {
+            match self.state.named.get(&word) {
+                Some(Value::Text(name)) if name.is_empty() => return Configured::None,
+                Some(Value::Text(name)) => return Configured::Program(name.to_string()),
+                Some(Value::Unknown(cause)) => return Configured::Unknown(cause.clone()),
+                Some(Value::Number(_)) | None => {}
+            }
+            if let Some(name) = self.machine.programs.word(&word) {
+                return Configured::Program(name.to_owned());
+            }
+        }
+        Configured::None
+    }
+
+    /// Whether any word calls a program.
+    #[inline]
+    pub(in crate::interpreter) fn calls_by_words(&self) -> bool {
+        !self.machine.programs.words.is_empty() || !self.state.named.is_empty()
+    }
+
+    /// A word whose number is not known: it may call any program.
+    pub(in crate::interpreter) fn unknown_word(&mut self, letter: &str, span: Span, at: &At<'_>) {
+        self.forget_all(&letter.into());
+        self.state.modal.note_transformed(letter);
+        if self.work.unread.get() {
+            return;
+        }
+        let fault = Fault::new(
+            Code::Fc902,
+            at.in_block(span),
+            format!(
+                "only the machine knows which {letter} function this is; it is passed over, \
+                 everything that a program could change becomes unknown"
+            ),
+        );
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    pub(in crate::interpreter) fn unknown_program(&mut self, cause: &str, span: Span, at: &At<'_>) {
+        self.forget_all(&cause.into());
+        let fault = Fault::new(
+            Code::Fc902,
+            at.in_block(span),
+            format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", unknown_value(cause)),
+        )
+        .with_help(how_to_set(cause));
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// An implicit call without a program (R2.82): it may have moved axes.
+    pub(in crate::interpreter) fn pass_over_implicit(&mut self, number: u32) {
+        self.state.modal.forget_positions();
+        self.state.modal.note_transformed(&format!("G{number}"));
+    }
+
+    /// A word in a region that may or may not be executed.
+    pub(in crate::interpreter) fn forget_function(
+        &mut self,
+        word: FunctionWord,
+        unit: usize,
+        cause: &Arc<str>,
+    ) {
+        let mut configured = vec![self.configured(word)];
+        if word.letter == b'T' && self.machine.programs.data_with_tool {
+            configured.push(self.configured(word.of_data()));
+        }
+        for configured in configured {
+            match configured {
+                Configured::None => {}
+                Configured::Unknown(_) => self.forget_all(cause),
+                Configured::Program(name) => self.pending.push(Scan {
+                    call: Wanted::program(CallScope::Global, name, Span::default()),
+                    cause: cause.clone(),
+                    unit,
+                    region: None,
+                }),
+            }
+        }
+        let letter = char::from(word.letter);
+        match (letter, word.number) {
+            (_, Some(number)) => {
+                let number = u32::try_from(number).unwrap_or(u32::MAX);
+                let known = match letter {
+                    'M' => chain::is_named_m(i64::from(number)),
+                    'G' => {
+                        Group::of(number).is_some()
+                            || matches!(number, 20..=23 | 150 | 151)
+                            || chain::is_named_g(number)
+                    }
+                    _ => true,
+                };
+                if letter == 'G' && chain::is_implicit_call(number) {
+                    self.pass_over_implicit(number);
+                } else if !known {
+                    let word = format!("{letter}{number}");
+                    self.state.modal.note_transformed(&word);
+                }
+            }
+            ('M', None) => self.forget_all(cause),
+            ('G', None) if self.calls_by_words() => self.forget_all(cause),
+            (_, None) => {}
+        }
+    }
+}

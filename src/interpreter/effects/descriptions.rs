@@ -1,0 +1,49 @@
+//! Descriptions of geometry, whose blocks do not move (R2.81).
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::description::Description;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::syntax::ast::Hash;
+
+/// The commands between which blocks describe geometry and do not move: what a cycle shall cut
+/// (tf5293, 717505035), a stroke, the limits of an area (tccncprogramming, 15557317259).
+pub(in crate::interpreter) const DESCRIPTIONS: [(&str, &str); 3] = [
+    ("#CONTOUR BEGIN", "#CONTOUR END"),
+    ("#STROKE DEF BEGIN", "#STROKE DEF END"),
+    ("#CONTROL AREA BEGIN", "#CONTROL AREA END"),
+];
+
+impl Interpreter {
+    /// The blocks up to the end describe geometry.
+    pub(in crate::interpreter) fn describe(&mut self, hash: &Hash, at: &At<'_>) {
+        if self.state.described.is_none() {
+            self.state.described = Some(Box::new(Description {
+                opener: hash.name.clone(),
+                place: at.place(hash.span),
+                before: self.state.modal.clone(),
+            }));
+        }
+    }
+
+    /// Whether a command ends the description that is open.
+    pub(in crate::interpreter) fn ends_description(&self, name: &str) -> bool {
+        let open = self.state.described.as_ref();
+        open.is_some_and(|open| description_end(&open.opener) == Some(name))
+    }
+
+    /// FC208: the program ends inside a description.
+    pub(in crate::interpreter) fn open_description(&mut self) -> Option<Diagnostic> {
+        let open = self.state.described.take()?;
+        let end = description_end(&open.opener)?;
+        let message = format!("`{}` has no `{end}`", open.opener);
+        let help = format!("write `{end}` in a block of its own");
+        Some(Diagnostic::new(Code::Fc208, open.place, message).with_help(help))
+    }
+}
+
+/// What ends the description that a command opens.
+pub(in crate::interpreter) fn description_end(opener: &str) -> Option<&'static str> {
+    let row = DESCRIPTIONS.iter().find(|(begin, _)| *begin == opener);
+    row.map(|(_, end)| *end)
+}

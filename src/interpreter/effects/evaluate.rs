@@ -1,0 +1,287 @@
+//! Values of operands, system variables, and what assignments write.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::comp::{AxisIndex, Kind, State};
+use crate::interpreter::coordinates::modal::Frame as PositionFrame;
+use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::event::{Note, NoteKind, Notes};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::expression::{Evaluator, Given, Macros, Scope};
+use crate::interpreter::values::target::{Place, Target};
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::syntax::ast::{Assignment, BinaryOperator, Block, Expression, Node, Operand, Owner};
+use crate::text::Span;
+
+/// Different words that are counted as passed over, one by one.
+const MAX_OPAQUE: usize = 1000;
+
+/// What further ones are counted under.
+const OTHER_WORDS: &str = "other words";
+
+/// The widest step of something that only counts. It would take longer than any run to leave the
+/// range of numbers.
+const WIDEST_STEP: f64 = 1e9;
+
+impl Interpreter {
+    /// The value of an operand.
+    pub(in crate::interpreter) fn value(
+        &mut self,
+        operand: Operand,
+        at: &At<'_>,
+    ) -> Result<Value, Box<Fault>> {
+        if let Operand::Number(number) = operand {
+            return Ok(Value::Number(number));
+        }
+        let mut stack = std::mem::take(&mut self.work.stack);
+        let value = self.with_evaluator(at, |evaluator| evaluator.value(operand, &mut stack));
+        self.work.stack = stack;
+        value
+    }
+
+    pub(in crate::interpreter) fn with_evaluator<T>(
+        &self,
+        at: &At<'_>,
+        work: impl FnOnce(&Evaluator<'_>) -> T,
+    ) -> T {
+        static NONE: BTreeMap<u32, Value> = BTreeMap::new();
+        let frame = self.state.frames.running();
+        let given = match frame {
+            Some(frame) if frame.level > 0 => Given::ByCall,
+            _ => Given::FromOutside,
+        };
+        let taken = self.options.notes == Notes::Taken;
+        work(&Evaluator {
+            block: at.block,
+            text: at.text,
+            shown: None,
+            macros: Macros {
+                depth: at.macro_depth,
+                limit: self.options.limits.macros,
+                expansions: &self.work.expansions,
+                until: self.work_bound(),
+            },
+            effort: &self.state.effort,
+            scope: Scope {
+                memory: &self.state.memory,
+                reads: self.state.watching.then_some(&self.state.reads),
+                own: frame.map_or(&NONE, |frame| &frame.own),
+                given,
+                unread: &self.work.unread,
+                system: &|name| self.system_variable(name),
+                unknown: &|name, span| {
+                    if taken {
+                        self.work.notes.borrow_mut().push(Note {
+                            kind: NoteKind::Unknown,
+                            name: name.to_owned(),
+                            place: at.place(span),
+                        });
+                    }
+                },
+            },
+        })
+    }
+
+    /// Counts something that was accepted and passed over.
+    pub(in crate::interpreter) fn pass_over(&mut self, word: &str, span: Span, at: &At<'_>) {
+        let counts = &mut self.state.opaque;
+        let full = counts.len() >= MAX_OPAQUE && !counts.contains_key(word);
+        let word_or_rest = if full { OTHER_WORDS } else { word };
+        match counts.get_mut(word_or_rest) {
+            Some(count) => *count += 1,
+            None => {
+                counts.insert(word_or_rest.to_owned(), 1);
+            }
+        }
+        if self.options.notes == Notes::Taken {
+            self.work.notes.borrow_mut().push(Note {
+                kind: NoteKind::Opaque,
+                name: word.to_owned(),
+                place: at.place(span),
+            });
+        }
+    }
+
+    /// What the dry run knows of the machine's own variables (R1.35, R2.36).
+    fn system_variable(&self, name: &str) -> Option<Value> {
+        if let Some(index) = given_parameter(name) {
+            return self.is_given(index);
+        }
+        let rest = name.strip_prefix("V.A.")?;
+        let (variable, axis) = if let Some((variable, index)) = rest.split_once('[') {
+            let position = index.trim_end_matches(']').parse().ok()?;
+            (
+                variable,
+                (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
+            )
+        } else {
+            let (variable, axis) = rest.rsplit_once('.')?;
+            (variable, self.machine.find(axis)?)
+        };
+        if let Some(kind) = variable
+            .strip_suffix("_COMP_ACTIVE")
+            .and_then(compensation_kind)
+        {
+            return match self.state.compensation.state(axis, kind) {
+                State::Unknown => None,
+                state => Some((state == State::Active).into()),
+            };
+        }
+        if let Some(kind) = variable
+            .strip_suffix("_COMP_INIT")
+            .and_then(compensation_kind)
+        {
+            let machine = self.machine.axis(axis);
+            let ready = machine.configured.contains(kind) && machine.parameterised().contains(kind);
+            return Some(ready.into());
+        }
+        match variable {
+            "ABS" => {
+                let position = self.state.modal.position(axis);
+                let value = position
+                    .value
+                    .filter(|_| position.frame == PositionFrame::Machine);
+                value.map(Value::Number)
+            }
+            "PROG" => self.state.modal.programmed(axis).map(Value::Number),
+            _ => None,
+        }
+    }
+
+    /// Whether the call gave an own parameter (R2.79).
+    fn is_given(&self, index: u32) -> Option<Value> {
+        let frame = self.state.frames.running()?;
+        let name = format!("@P{index}");
+        let given = frame.own.contains_key(&index) || self.state.memory.variable(&name).is_some();
+        (given || frame.level > 0).then(|| given.into())
+    }
+
+    pub(in crate::interpreter) fn assign(
+        &mut self,
+        assignment: Assignment,
+        at: &At<'_>,
+    ) -> Result<(), Box<Fault>> {
+        let watching = self.state.watching;
+        if watching {
+            // What only counts is not read (R2.84).
+            let place = self.target_place(assignment.target.place, at)?;
+            self.state.watching = !only_counts(assignment, &place, at);
+        }
+        let value = self.value(assignment.value, at);
+        self.state.watching = watching;
+        let value = value?;
+        let place = self.target_place(assignment.target.place, at)?;
+        self.write(place, value);
+        Ok(())
+    }
+
+    pub(in crate::interpreter) fn target_place(
+        &mut self,
+        place: Expression,
+        at: &At<'_>,
+    ) -> Result<Place, Box<Fault>> {
+        let mut stack = std::mem::take(&mut self.work.stack);
+        let found = self.with_evaluator(at, |evaluator| evaluator.place(place, &mut stack));
+        self.work.stack = stack;
+        found
+    }
+
+    pub(in crate::interpreter) fn write(&mut self, place: Place, value: Value) {
+        self.work.wrote = true;
+        self.journal.write(&place, &value);
+        if self.state.ways.is_open() {
+            self.state.ways.write(&place, self.state.seq);
+        }
+        match place {
+            Place::Parameter(Owner::Program, index) => {
+                self.state.memory.set_parameter(index, value);
+            }
+            Place::Parameter(Owner::Call, index) => {
+                if let Some(frame) = self.state.frames.running_mut() {
+                    frame.own.insert(index, value);
+                }
+            }
+            Place::Variable(name) => self.state.memory.set_variable(&name, value),
+            Place::Elements(name, cause) => self.state.memory.forget_elements(&name, &cause),
+            Place::Parameters(cause) => self.state.memory.forget_parameters(&cause),
+            Place::Nowhere => {}
+        }
+    }
+
+    /// The number that a text is, `2` or `P1+1`, if it is known.
+    pub(in crate::interpreter) fn number_in(&mut self, text: &str, at: &At<'_>) -> Option<f64> {
+        let mut block = Block::default();
+        let operand = crate::syntax::parse_expression(text, &mut block)?;
+        let shown = Shown::default();
+        let inner = at.part(text, &block, &shown);
+        match self.value(operand, &inner) {
+            Ok(Value::Number(number)) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// A value may have been written.
+    pub(in crate::interpreter) fn lose(&mut self, target: &Target, cause: &Arc<str>) {
+        let unknown = || Value::Unknown(cause.clone());
+        match target {
+            Target::Parameter(owner, index) => {
+                self.write(Place::Parameter(*owner, *index), unknown());
+            }
+            Target::Variable(name) => self.write(Place::Variable(name.clone()), unknown()),
+            Target::Elements(name) => {
+                self.write(Place::Elements(name.clone(), cause.clone()), unknown());
+            }
+            Target::Parameters => self.write(Place::Parameters(cause.clone()), unknown()),
+        }
+    }
+}
+
+/// The number in `V.G.@P[1].VALID`.
+fn given_parameter(name: &str) -> Option<u32> {
+    let rest = name.strip_prefix("V.G.@P")?;
+    let index = rest.strip_suffix(".VALID")?;
+    index.trim_matches(['[', ']']).parse().ok()
+}
+
+fn compensation_kind(name: &str) -> Option<Kind> {
+    Kind::from_keyword(name).filter(|kind| *kind != Kind::Backlash)
+}
+
+/// Whether an assignment counts: `P1 = P1 + 1`.
+pub(in crate::interpreter) fn only_counts(
+    assignment: Assignment,
+    place: &Place,
+    at: &At<'_>,
+) -> bool {
+    let Operand::Expression(value) = assignment.value else {
+        return false;
+    };
+    let range = value.start as usize..value.end as usize;
+    let (Some(nodes), Some(spans)) = (at.block.nodes.get(range.clone()), at.block.spans.get(range))
+    else {
+        return false;
+    };
+    let steps = |step: &f64| step.abs() <= WIDEST_STEP;
+    let read = match nodes {
+        [
+            read,
+            Node::Number(step),
+            Node::Binary(BinaryOperator::Add | BinaryOperator::Subtract),
+        ] if steps(step) => Some((read, spans.first())),
+        [Node::Number(step), read, Node::Binary(BinaryOperator::Add)] if steps(step) => {
+            Some((read, spans.get(1)))
+        }
+        _ => None,
+    };
+    match (read, place) {
+        (Some((Node::Parameter { owner, index }, _)), Place::Parameter(to, number)) => {
+            owner == to && index == number
+        }
+        (Some((Node::Variable { subscripts: 0 }, Some(span))), Place::Variable(name)) => {
+            span.of(at.text) == name
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,199 @@
+//! Axis exchange: which axes the channel has, and under which names
+//! (TF5200 programming manual, 206977419 and its neighbours).
+//!
+//! A name stands for the machine's axis of that name until the program says otherwise. An axis that
+//! is given back keeps its compensation: what another channel does with it is said where the
+//! programs of that channel are checked.
+
+use std::collections::BTreeSet;
+
+use crate::comp::{AxisIndex, CompensationError};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::channel_axes::{Addressed, ChannelAxes, Meaning};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::values::value::rounded;
+use crate::syntax::ast::Hash;
+
+/// What an exchange command does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Exchange {
+    /// The named axes come.
+    Request,
+    /// The named axes go.
+    Release,
+    /// The named axes come, all others go.
+    Define,
+    /// The axes are again those of an earlier moment.
+    Restore,
+}
+
+/// The exchange commands by their first words.
+const COMMANDS: [(&str, Exchange); 7] = [
+    ("#CALL AX", Exchange::Request),
+    ("#AX REQUEST", Exchange::Request),
+    ("#PUT AX", Exchange::Release),
+    ("#AX RELEASE", Exchange::Release),
+    ("#SET AX", Exchange::Define),
+    ("#AX DEF", Exchange::Define),
+    ("#LOAD CONFIG", Exchange::Restore),
+];
+
+impl Interpreter {
+    /// The axis that a COMP command switches under the names of the moment.
+    pub(in crate::interpreter) fn addressed(
+        &self,
+        name: &str,
+    ) -> Result<Addressed, CompensationError> {
+        let channel = &self.state.channel_axes;
+        if channel.doubtful {
+            return Ok(Addressed::Any);
+        }
+        Ok(match channel.names.get(name) {
+            None => Addressed::Axis(self.state.compensation.resolve(name)?),
+            Some(Meaning::Axis(axis)) => Addressed::Axis(*axis),
+            Some(Meaning::Released(axis)) => Addressed::Absent(*axis),
+            Some(Meaning::Unknown) => Addressed::Any,
+        })
+    }
+
+    /// Executes an exchange command.
+    pub(in crate::interpreter) fn exchange_axes(&mut self, hash: &Hash, at: &At<'_>) {
+        let Some(exchange) = exchange(&hash.name) else {
+            return;
+        };
+        self.state.modal.hash(&hash.name);
+        let rest = hash.rest.of(at.text);
+        let every = |word: &str| hash.name.ends_with(word) || rest.trim_start().starts_with(word);
+        if every("DEFAULT") {
+            self.state.channel_axes = ChannelAxes::default();
+        }
+        match exchange {
+            Exchange::Restore if self.state.channel_axes == ChannelAxes::default() => {}
+            Exchange::Restore => self.doubt_exchange(),
+            Exchange::Request => self.request_axes(rest, at),
+            Exchange::Release if every("ALL") => self.release_others(&[]),
+            Exchange::Release => {
+                // `[X, B]` or `[NAME=X]`.
+                let named = groups(rest).flatten();
+                named.for_each(|name| self.release_axis(name.trim_start_matches("NAME=")));
+            }
+            Exchange::Define => {
+                if !every("DEFAULT") {
+                    let named: Vec<&str> =
+                        groups(rest).filter_map(|group| axis_of(&group).0).collect();
+                    self.release_others(&named);
+                }
+                self.request_axes(rest, at);
+            }
+        }
+    }
+
+    fn request_axes(&mut self, rest: &str, at: &At<'_>) {
+        for group in groups(rest) {
+            let (Some(name), number) = axis_of(&group) else {
+                continue;
+            };
+            let number = number.and_then(|number| self.number_in(number, at));
+            let number = number.and_then(rounded).and_then(|n| u32::try_from(n).ok());
+            let meaning = self.requested(name, number);
+            let names = &mut self.state.channel_axes.names;
+            let own = self.machine.find(name);
+            if own.is_some() && meaning == own.map(Meaning::Axis) {
+                names.remove(name);
+            } else {
+                names.insert(name.to_owned(), meaning.unwrap_or(Meaning::Unknown));
+            }
+        }
+    }
+
+    /// What a name means after a request with this logical axis number, if that is known. An axis
+    /// of the machine without a number is taken to be the one of its name.
+    fn requested(&self, name: &str, number: Option<u32>) -> Option<Meaning> {
+        let number = number?;
+        let axes = self.machine.axes.iter();
+        let by_number = axes.clone().position(|axis| axis.number == Some(number));
+        let by_name = axes
+            .clone()
+            .position(|axis| axis.name == name && axis.number.is_none());
+        let found = by_number.or(by_name)?;
+        Some(Meaning::Axis(AxisIndex::new(found)))
+    }
+
+    fn release_axis(&mut self, name: &str) {
+        let names = &mut self.state.channel_axes.names;
+        let known = names.get(name).copied();
+        let own = self.machine.find(name).map(Meaning::Axis);
+        let released = match known.or(own) {
+            Some(Meaning::Axis(axis)) => Meaning::Released(Some(axis)),
+            Some(Meaning::Unknown) => Meaning::Released(None),
+            // The channel does not have it; the control does not mind.
+            Some(Meaning::Released(_)) | None => return,
+        };
+        names.insert(name.to_owned(), released);
+    }
+
+    /// Releases every axis but those of these names.
+    fn release_others(&mut self, stay: &[&str]) {
+        let names = &self.state.channel_axes.names;
+        let is_here = |name: &str| !matches!(names.get(name), Some(Meaning::Released(_)));
+        let machine = self.machine.axes.iter().map(|axis| &axis.name);
+        let gone: BTreeSet<String> = machine
+            .chain(names.keys())
+            .filter(|name| is_here(name) && !stay.contains(&name.as_str()))
+            .cloned()
+            .collect();
+        self.state
+            .effort
+            .charge(ITEM + self.machine.axes.len() + names.len());
+        for name in &gone {
+            self.release_axis(name);
+        }
+    }
+
+    /// An exchange that may or may not have been executed.
+    pub(in crate::interpreter) fn doubt_exchange(&mut self) {
+        self.state.channel_axes.doubtful = true;
+    }
+}
+
+fn exchange(name: &str) -> Option<Exchange> {
+    let begins = |words: &str| {
+        let rest = name.strip_prefix(words);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    let is_coupling = name.starts_with("#SET AX LINK");
+    let row = COMMANDS.iter().find(|(words, _)| begins(words));
+    row.filter(|_| !is_coupling).map(|(_, exchange)| *exchange)
+}
+
+/// Whether a `#` command exchanges axes.
+pub(in crate::interpreter) fn is_exchange(name: &str) -> bool {
+    exchange(name).is_some()
+}
+
+/// The words of each bracket, `[X, 1, 0][Y, 2, 1]`.
+fn groups(text: &str) -> impl Iterator<Item = Vec<&str>> {
+    let brackets = text.split('[').skip(1);
+    brackets.map(|group| {
+        let inside = group.split(']').next().unwrap_or_default();
+        inside.split(',').map(str::trim).collect()
+    })
+}
+
+/// The name and the logical number of a bracket, `X, 1, 0` or `NAME=X NR=1 IDX=0`; no name where
+/// it holds switches for conflicts, `NAM, NBR, IDX`.
+fn axis_of<'a>(group: &[&'a str]) -> (Option<&'a str>, Option<&'a str>) {
+    let first = group.first().copied().unwrap_or_default();
+    if first.contains('=') {
+        let value = |key: &str| {
+            let mut words = group.iter().flat_map(|word| word.split_whitespace());
+            words.find_map(|word| word.strip_prefix(key)?.strip_prefix('='))
+        };
+        return (value("NAME"), value("NR"));
+    }
+    if first.is_empty() || matches!(first, "NAM" | "NBR" | "IDX" | "FAST") {
+        return (None, None);
+    }
+    (Some(first), group.get(1).copied())
+}

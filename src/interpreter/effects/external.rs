@@ -1,0 +1,29 @@
+//! Programs that are on the machine only (R2.83).
+
+use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::syntax::ast::CallScope;
+
+impl Interpreter {
+    /// Whether only the machine has the program.
+    pub(in crate::interpreter) fn is_external(&self, wanted: &Wanted) -> bool {
+        wanted.scope == CallScope::Global && self.machine.programs.is_external(&wanted.name)
+    }
+
+    /// Makes unknown what a program that is on the machine only does not keep.
+    pub(in crate::interpreter) fn leave_to_machine(&mut self, name: &str) {
+        let keeps = self.machine.programs.keeps(name);
+        if !keeps.compensation {
+            self.doubt_couplings();
+            self.forget_compensation();
+        }
+        if !keeps.parameters {
+            // It writes the P parameters and variables of its caller (R2.33, R2.52).
+            self.forget_memory(&name.into());
+        }
+        if !keeps.positions {
+            self.state.modal.forget_positions();
+            self.state.modal.note_transformed(name);
+        }
+    }
+}

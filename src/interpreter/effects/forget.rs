@@ -1,0 +1,111 @@
+//! What becomes unknown (R2.50, R2.70).
+
+use std::sync::Arc;
+
+use super::descriptions::DESCRIPTIONS;
+use crate::comp::{AxisIndex, KindSet};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::stack::Retains;
+use crate::interpreter::values::memory::unescaped;
+use crate::interpreter::values::target::Place;
+use crate::interpreter::values::value::Value;
+use crate::syntax::ast::Effect as Unread;
+
+impl Interpreter {
+    /// What text could change that is not known here (R2.70).
+    pub(in crate::interpreter) fn forget_unread(&mut self, effect: Unread, cause: &Arc<str>) {
+        match effect {
+            Unread::Everything => self.forget_all(cause),
+            Unread::Parameters => {
+                self.write(
+                    Place::Parameters(cause.clone()),
+                    Value::Unknown(cause.clone()),
+                );
+            }
+            Unread::Spindle => {}
+        }
+    }
+
+    /// Everything that a program could change becomes unknown: every kind of every axis, positions and
+    /// modal words, parameters and variables (R2.52).
+    pub(in crate::interpreter) fn forget_all(&mut self, cause: &Arc<str>) {
+        self.forget_memory(cause);
+        self.state.memory.forget_macros(cause, |_, _| false);
+        self.state.modal.forget_words();
+        self.doubt_couplings();
+        self.forget_compensation();
+    }
+
+    /// Every parameter and variable becomes unknown.
+    pub(in crate::interpreter) fn forget_memory(&mut self, cause: &Arc<str>) {
+        self.journal.begin_anew();
+        self.work.wrote = true;
+        self.state.memory.forget_all(cause);
+    }
+
+    /// Every kind of every axis becomes unknown.
+    pub(in crate::interpreter) fn forget_compensation(&mut self) {
+        for position in 0..self.machine.axes.len() {
+            let axis = AxisIndex::new(position);
+            self.state
+                .compensation
+                .forget(axis, KindSet::ALL, &mut self.work.changes);
+        }
+    }
+
+    /// The macros of programs may be gone; those of the machine are what it says, now as before.
+    pub(in crate::interpreter) fn doubt_macros(&mut self, cause: &Arc<str>) {
+        let machine = &self.machine.programs.macros;
+        let stays = |name: &str, code: &str| {
+            let last = machine.iter().rev().find(|(own, _)| own.trim() == name);
+            last.is_some_and(|(_, own)| unescaped(own) == code)
+        };
+        self.state.memory.forget_macros(cause, stays);
+    }
+
+    /// Kinds of an axis become unknown.
+    pub(in crate::interpreter) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
+        let compensation = &mut self.state.compensation;
+        compensation.forget(axis, kinds, &mut self.work.changes);
+        let doubted = compensation.unknown(axis).intersection(kinds);
+        if !doubted.is_empty() {
+            self.work.doubted.push((axis, doubted));
+        }
+    }
+
+    /// A COMP command switched kinds of an axis, but it is not known of which.
+    pub(in crate::interpreter) fn doubt_any_axis(&mut self, kinds: KindSet) {
+        for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {
+            self.doubt(axis, kinds);
+        }
+    }
+
+    /// A command that may or may not have been executed (R2.51).
+    pub(in crate::interpreter) fn forget_hash(&mut self, name: &str, cause: &Arc<str>) {
+        match name {
+            "#DISABLE MODAL CYCLE" => self.state.cycles.doubt(),
+            "#INIT MACRO TAB" => self.doubt_macros(cause),
+            "#ENABLE AX LINK"
+            | "#AX LINK ON"
+            | "#DISABLE AX LINK"
+            | "#AX LINK OFF"
+            | "#DISABLE AX LINK ALL"
+            | "#AX LINK OFF ALL" => self.doubt_couplings(),
+            "#RETAIN CYCLE CHANGES" => {
+                if let Some(frame) = self.state.frames.cycle_mut() {
+                    frame.retains = Retains::Perhaps;
+                }
+            }
+            name if DESCRIPTIONS
+                .iter()
+                .any(|(begin, end)| [*begin, *end].contains(&name)) =>
+            {
+                // What follows may be a description, or not.
+                let modal = &mut self.state.modal;
+                modal.forget_words();
+                modal.note_transformed(name);
+            }
+            name => self.state.modal.forget_hash(name),
+        }
+    }
+}

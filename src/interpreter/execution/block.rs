@@ -1,0 +1,206 @@
+//! One block as a whole: its words, what it does after them, and what it tells.
+
+use std::ops::ControlFlow;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::blocks::items::MAX_SAID;
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
+use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
+use crate::interpreter::run::state::Last;
+use crate::interpreter::run::step::{Departure, Request, Step};
+use crate::interpreter::run::stopping::{ended_by, stops};
+use crate::syntax::Fault;
+use crate::text::Span;
+
+impl Interpreter {
+    /// Executes a block and tells the observer. `Continue` where the next block follows.
+    pub(in crate::interpreter) fn execute(
+        &mut self,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<Departure> {
+        self.work.clear();
+        self.state.seq += 1;
+        self.state.blocks += 1;
+        if self.state.ways.has_targets() {
+            self.arrive(finder);
+        }
+        let mut intent = Intent::default();
+        let limit = self.first_refusal(at.block);
+        self.items(at, &mut intent, limit);
+        if self.work.again != 0 {
+            self.refuse_repeated_axes(intent.axis_words, at);
+        }
+        self.move_around(intent.axis_words);
+        if self.any_required && self.state.described.is_none() {
+            let goes_on = !self.work.diagnostics.iter().any(stops);
+            if goes_on || self.options.stop != StopPolicy::FirstError {
+                self.check_required(intent.axis_words, at);
+            }
+        }
+        if !self.pending.is_empty() {
+            self.forget_called(finder);
+        }
+        if !self.work.doubted.is_empty() {
+            self.name_doubted();
+        }
+        if !self.departing.is_empty() {
+            self.depart(finder, at);
+        }
+        let calls = if intent.calls.is_empty() {
+            Vec::new()
+        } else {
+            self.resolve_all(std::mem::take(&mut intent.calls), at, finder)
+        };
+        let refused = self.work.diagnostics.iter().any(stops);
+        let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
+        if !at.block.faults.is_empty() {
+            self.take_faults(at, stopped);
+        }
+        if !stopped {
+            self.move_axes(&intent, at);
+        }
+        let number = self.block_number(at);
+        self.state.effort.grant(at.text);
+        let is_plain = !self.work.wrote
+            && self.work.unsaid.is_none()
+            && self.state.effort.level() <= self.options.limits.work;
+        let is_over = !is_plain && self.settle(at);
+        if !self.work.changes.is_empty() || self.work.new_axes {
+            self.version += 1;
+        }
+        self.remember_last(at);
+        let step = if is_over {
+            Some(Step::End(EndedBy::Budget))
+        } else if stopped {
+            Some(Step::End(ended_by(&self.work.diagnostics)))
+        } else if calls.is_empty() && intent.goes_on() && self.state.cycles.is_empty() {
+            None
+        } else {
+            match self.step(intent, calls, at, finder) {
+                Some(Step::Jump(target)) if self.state.frames.is_passed(target) => {
+                    Some(self.come_round(target, at, finder))
+                }
+                step => step,
+            }
+        };
+        let flow = observer.event(Event::Executed(Executed {
+            seq: self.state.seq,
+            file: at.file,
+            line: at.line,
+            text: at.text,
+            comments: at.comments,
+            remark: at.remark,
+            number,
+            level: (at.level > 0).then_some(at.level),
+            block: at.block,
+            outcomes: &self.work.outcomes,
+            changes: &self.work.changes,
+            doubted: &self.work.doubted,
+            moved: if stopped { &[] } else { &self.work.moved },
+            motion: self.work.motion.as_ref(),
+            notes: &self.work.notes.borrow(),
+            diagnostics: &self.work.diagnostics,
+            stopped,
+            compensation: &self.state.compensation,
+            modal: &self.state.modal,
+            occurred: &self.state.occurred,
+            version: self.version,
+        }));
+        // They are said; what is left at program end belongs to no executed block.
+        self.work.diagnostics.clear();
+        self.work.changes.clear();
+        match step {
+            step if flow.is_break() => {
+                self.state.parked = step;
+                ControlFlow::Break(Departure::Paused)
+            }
+            None => ControlFlow::Continue(()),
+            Some(step) => ControlFlow::Break(Departure::Step(step)),
+        }
+    }
+
+    /// What a block that did more than move says at its end: how much it left unsaid, and which
+    /// budget it used up. Whether it used up one.
+    #[inline(never)]
+    fn settle(&mut self, at: &At<'_>) -> bool {
+        if let Some((span, more)) = self.work.unsaid.take() {
+            let message = format!(
+                "the first {MAX_SAID} messages about this block are shown; there are {more} more"
+            );
+            let fault = Fault::new(Code::Fc905, at.in_block(span), message);
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+        let Some(over) = self.used_up(at) else {
+            return false;
+        };
+        // The faults of the parts that were given up say no more than it does.
+        let is_part = |said: &Diagnostic| said.code == Code::Fc919;
+        self.work.diagnostics.retain(|said| !is_part(said));
+        self.work.diagnostics.push(over);
+        true
+    }
+
+    /// What the control does next, where that is not the next block.
+    #[inline(never)]
+    fn step(
+        &mut self,
+        mut intent: Intent,
+        calls: Vec<Request>,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Step> {
+        let moved = !self.work.moved.is_empty();
+        if !calls.is_empty() {
+            intent.step = Some(Step::Call(calls));
+        }
+        if let Some(by) = intent.end {
+            if self.state.ending.is_none() && at.level > 0 {
+                let fault = Fault::new(
+                    Code::Fc315,
+                    Span::new(0, at.text.len()),
+                    "a program end inside a subprogram ends the whole run",
+                )
+                .with_help("end a subprogram with `M17` or `M29`");
+                self.work.diagnostics.push(at.diagnostic(fault));
+            }
+            if at.level == 0 && at.used.is_none() && self.state.ending.is_none() {
+                self.work.end = Some(at.place(Span::new(0, at.text.len())));
+            }
+            return Some(self.program_end(by, at, finder));
+        }
+        if intent.returns {
+            return Some(Step::Return);
+        }
+        let step = intent.step.take();
+        if step.is_none() || matches!(step, Some(Step::Call(_))) {
+            return self.repetition(step, moved, at, finder);
+        }
+        step
+    }
+
+    /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.
+    fn remember_last(&mut self, at: &At<'_>) {
+        if at.level > 0 {
+            return;
+        }
+        match &mut self.state.last {
+            Some(last) => {
+                at.text.clone_into(&mut last.text);
+                last.line = at.line;
+            }
+            None => {
+                self.state.last = Some(Last {
+                    file: at.file.clone(),
+                    line: at.line,
+                    text: at.text.to_owned(),
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! What a run may use up (R2.60).
+
+use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::syntax::Fault;
+use crate::text::Span;
+
+impl Interpreter {
+    /// FC910 when the next block may not be executed any more.
+    #[inline]
+    pub(in crate::interpreter) fn over_budget(&self, at: &At<'_>) -> Option<Diagnostic> {
+        let budget = self.options.limits.blocks;
+        (self.state.blocks >= budget).then(|| too_many_blocks(budget, at))
+    }
+
+    /// FC919 or FC918 when the block used up what it must not. What it could have changed besides is
+    /// unknown then: the run did not get to the end of it.
+    pub(in crate::interpreter) fn used_up(&mut self, at: &At<'_>) -> Option<Diagnostic> {
+        let wrote = std::mem::take(&mut self.work.wrote);
+        if self.state.effort.level() > self.options.limits.work && self.is_worn_out() {
+            self.forget_all(&"the budget of work".into());
+            return Some(self.too_much_work(at));
+        }
+        let limit = usize::try_from(self.options.limits.values).unwrap_or(usize::MAX);
+        let held = || {
+            self.state
+                .memory
+                .weight()
+                .saturating_add(self.state.couplings.len())
+        };
+        if wrote && held() > limit {
+            return Some(too_many_values(limit, at));
+        }
+        None
+    }
+
+    #[cold]
+    fn too_much_work(&self, at: &At<'_>) -> Diagnostic {
+        let budget = self.options.limits.work;
+        let fault = Fault::new(
+            Code::Fc919,
+            Span::new(0, at.text.len()),
+            format!("this block made more than {budget} units of work beyond its own text"),
+        )
+        .with_help(Advice::RaiseBudget(Budget::Work));
+        let diagnostic = at.diagnostic(fault);
+        match self.state.frames.running() {
+            Some(frame) => self.with_loop(diagnostic, frame.unit, frame.next.saturating_sub(1)),
+            None => diagnostic,
+        }
+    }
+
+    /// The budget's message with the loop that used it up.
+    pub(in crate::interpreter) fn with_loop(
+        &self,
+        diagnostic: Diagnostic,
+        unit: usize,
+        entry: EntryIndex,
+    ) -> Diagnostic {
+        let index = self.programs.index(unit);
+        match index.innermost_loop(entry) {
+            Some(opener) => {
+                let place = index.block_place(opener);
+                let passes = match self.passes(unit, opener) {
+                    Some(passes) => format!("in this loop, after {passes} passes"),
+                    None => "in this loop".to_owned(),
+                };
+                diagnostic.with_label(place, passes)
+            }
+            None => diagnostic,
+        }
+    }
+}
+
+/// FC910.
+#[cold]
+fn too_many_blocks(budget: u64, at: &At<'_>) -> Diagnostic {
+    at.diagnostic(
+        Fault::new(
+            Code::Fc910,
+            Span::new(0, at.text.len()),
+            format!("more than {budget} blocks were executed; the dry run ends here"),
+        )
+        .with_help(Advice::RaiseBudget(Budget::Blocks)),
+    )
+}
+
+/// FC918.
+#[cold]
+fn too_many_values(limit: usize, at: &At<'_>) -> Diagnostic {
+    at.diagnostic(
+        Fault::new(
+            Code::Fc918,
+            Span::new(0, at.text.len()),
+            format!("the program holds more than {limit} values; a string counts once more for every 32 bytes"),
+        )
+        .with_help(Advice::RaiseBudget(Budget::Values)),
+    )
+}

@@ -1,0 +1,119 @@
+//! How programs are entered and left.
+
+use std::collections::BTreeMap;
+
+use crate::interpreter::programs::index::ProgramId;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::stack::{Frame, Retains};
+use crate::interpreter::run::step::{Destination, Request};
+use crate::syntax::ast::CallForm;
+
+impl Interpreter {
+    pub(in crate::interpreter) fn push_call(&mut self, request: Request) {
+        let ProgramId { unit, section } = request.found;
+        let level = self.state.frames.level() + 1;
+        self.state
+            .memory
+            .enter_call(usize::try_from(level).unwrap_or(usize::MAX));
+        let restores = match request.form {
+            CallForm::Plain => None,
+            CallForm::Cycle => Some(Box::new(self.state.modal.save())),
+        };
+        self.journal.begin_anew();
+        self.state.frames.push(Frame {
+            unit,
+            section,
+            next: request.passage.map_or(
+                self.programs.section(ProgramId { unit, section }).start,
+                |passage| passage.first,
+            ),
+            level,
+            own: request.own,
+            seeking: None,
+            called_from: Some(request.called_from),
+            restores,
+            retains: Retains::Nothing,
+            waiting: Vec::new(),
+            passage: request.passage,
+        });
+    }
+
+    pub(in crate::interpreter) fn leave(&mut self) {
+        if let Some(frame) = self.state.frames.pop() {
+            self.journal.begin_anew();
+            self.state
+                .memory
+                .leave_call(usize::try_from(frame.level).unwrap_or(usize::MAX));
+            if let Some(saved) = &frame.restores {
+                let kept = (frame.retains == Retains::Perhaps).then(|| self.state.modal.clone());
+                self.state.modal.restore(saved);
+                if let Some(kept) = kept {
+                    self.state.modal.doubt(&kept);
+                }
+            }
+            if self.state.ways.has_targets() {
+                self.leave_ways(&frame);
+            }
+        }
+    }
+
+    /// Calls the next of several programs that one block calls.
+    #[cold]
+    pub(in crate::interpreter) fn call_waiting(&mut self) {
+        let frame = self.state.frames.running_mut();
+        if let Some(request) = frame.and_then(|frame| frame.waiting.pop()) {
+            self.push_call(request);
+        }
+    }
+
+    /// A part of a program begins once more, or a program is left.
+    pub(in crate::interpreter) fn end_of_pass(&mut self) {
+        let executed = self.state.seq;
+        let frame = self.state.frames.running_mut();
+        let again = frame.and_then(|frame| {
+            let start = frame.passage.as_mut()?.again(executed)?;
+            frame.next = start;
+            frame.seeking = None;
+            Some(())
+        });
+        if again.is_none() {
+            self.leave();
+        }
+    }
+
+    /// Leaves programs down to the one that is returned to.
+    pub(in crate::interpreter) fn go_back(&mut self, to: &Destination) {
+        while self
+            .state
+            .frames
+            .running()
+            .is_some_and(|frame| frame.level > to.level)
+        {
+            self.leave();
+        }
+        if let Some(frame) = self.state.frames.running_mut() {
+            frame.waiting.clear();
+            if let Some(entry) = to.entry {
+                frame.next = entry;
+                frame.seeking = None;
+            }
+        }
+    }
+
+    pub(in crate::interpreter) fn enter(&mut self, unit: usize, section: usize) {
+        let next = self.programs.section(ProgramId { unit, section }).start;
+        self.state.frames.push(Frame {
+            unit,
+            section,
+            next,
+            level: 0,
+            own: BTreeMap::new(),
+            seeking: None,
+            called_from: None,
+            restores: None,
+            retains: Retains::Nothing,
+            waiting: Vec::new(),
+            passage: None,
+        });
+    }
+}

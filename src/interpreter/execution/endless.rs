@@ -1,0 +1,297 @@
+//! Loops that never end by themselves (R2.84).
+//!
+//! A run depends on its state and on nothing else. Where a loop is repeated and the state is what
+//! it was some passes ago, every further pass does what those did: the loop is known to be
+//! endless. Parameters that only count, `P1 = P1 + 1`, and that nothing else reads may differ.
+//! What is compared is all of the state, so what a pass can see need not be known.
+//!
+//! Where a value that is not known offline may lead out of such a loop, the loop is not endless:
+//! the run goes on where that way goes (R2.51, R2.52).
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Advice, Code, Diagnostic};
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::event::EndedBy;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::loops::{LeftLoop, Loop, Mark};
+use crate::interpreter::run::state::State;
+use crate::interpreter::run::step::Step;
+use crate::interpreter::run::ways::{Leaving, WayOut};
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::reads::Reads;
+use crate::interpreter::values::target::Target;
+
+/// How many passes the state may take to come back to what it was.
+const LONGEST_PERIOD: u64 = 8;
+
+/// The weight of values beyond which nothing is compared.
+const MAX_WEIGHT: usize = 10_000;
+
+/// The passes after which a loop is left that a value of the machine may end, whatever its state.
+const MOST_PASSES: u64 = 1 << 20;
+
+/// How often a loop is run until its state repeats. One that is left more often stands in another
+/// loop, and loops in each other must not multiply their passes.
+const RUN_THROUGH: u32 = 2;
+
+/// Why a loop need not be run any further.
+#[derive(Debug)]
+enum Enough {
+    /// Its state repeats.
+    Repeated,
+    /// It was run through often enough; the value that may end it.
+    TooMany(Arc<str>),
+}
+
+impl Interpreter {
+    /// A block jumps back: what the control does next, which is something else where only a value
+    /// of the machine ends the loop.
+    pub(in crate::interpreter) fn come_round(
+        &mut self,
+        target: EntryIndex,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        let left = self.note_pass(target).and_then(|why| {
+            if let Enough::TooMany(cause) = &why {
+                self.forget_loop(cause, finder);
+            }
+            let out = self.way_out()?;
+            self.leave_loop(&why, &out, at, finder)
+        });
+        left.unwrap_or(Step::Jump(target))
+    }
+
+    /// Counts a pass of a loop; why it need not be run any further, where that is so.
+    fn note_pass(&mut self, target: EntryIndex) -> Option<Enough> {
+        let depth = self.state.frames.depth();
+        let place = self.state.frames.program()?;
+        let from = self.state.frames.running()?.next.checked_sub(1)?;
+        let index = self.programs.index(place.unit);
+        // A `$FOR` goes back to the block after its opener.
+        let head = if index.is_linked(from) {
+            index.links(from).opener
+        } else {
+            target
+        };
+        while let Some(last) = self.state.loops.last() {
+            let stays =
+                last.depth < depth || (last.depth == depth && last.is_around(place, head, from));
+            if stays {
+                break;
+            }
+            self.state.loops.pop();
+        }
+        let known = self.state.loops.last();
+        if known.is_none_or(|last| last.depth < depth || last.head != head) {
+            self.state.loops.push(Loop {
+                depth,
+                unit: place.unit,
+                section: place.section,
+                head,
+                from,
+                passes: 0,
+                since: self.state.seq,
+                mark: None,
+                endless: None,
+            });
+        }
+        let last = self.state.loops.last_mut()?;
+        last.from = last.from.max(from);
+        last.passes += 1;
+        let (passes, is_due) = (last.passes, last.is_due());
+        if passes == 1
+            && let Some(cause) = self.left_often(place.unit, head)
+        {
+            return Some(Enough::TooMany(cause));
+        }
+        if !is_due {
+            return None;
+        }
+        if self.repeats() {
+            return Some(Enough::Repeated);
+        }
+        let out = self.way_out().filter(|_| passes >= MOST_PASSES)?;
+        Some(Enough::TooMany(out.cause))
+    }
+
+    /// Whether the state is that of an earlier pass; if there is none, it is kept for that.
+    #[cold]
+    fn repeats(&mut self) -> bool {
+        let Some(mut last) = self.state.loops.pop() else {
+            return false;
+        };
+        if let Some(mark) = &last.mark {
+            last.endless = counters(mark, &self.state);
+            if last.passes >= mark.pass + LONGEST_PERIOD {
+                last.mark = None;
+            }
+        } else if self.state.memory.weight() <= MAX_WEIGHT {
+            last.mark = Some(Box::new(mark_of(&self.state, last.passes)));
+        }
+        let repeats = last.endless.is_some();
+        self.state.loops.push(last);
+        self.state.watching = self.state.loops.iter().any(|known| known.mark.is_some());
+        if !self.state.watching {
+            *self.state.reads.borrow_mut() = Reads::default();
+        }
+        repeats
+    }
+
+    /// The value that may end a loop which was left often enough.
+    fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
+        let mut left = self.state.left_loops.iter();
+        let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
+        (found.times >= RUN_THROUGH).then(|| found.cause.clone())
+    }
+
+    /// Where the innermost loop may be left.
+    fn way_out(&self) -> Option<WayOut> {
+        let last = self.state.loops.last()?;
+        self.state.ways.out_of(last.depth, last.from, last.since)
+    }
+
+    /// Makes unknown what the innermost loop could change in the passes that are not run.
+    #[cold]
+    fn forget_loop(&mut self, cause: &Arc<str>, finder: &mut dyn Finder) {
+        let Some(last) = self.state.loops.last() else {
+            return;
+        };
+        let (unit, head, from) = (last.unit, last.head, last.from);
+        let region = self.forget_region(unit, head..from.saturating_add(1), cause);
+        self.note_exits(&region, head..=from, cause, None);
+        self.forget_called(finder);
+        self.take_departing();
+        if !self.work.changes.is_empty() {
+            self.version += 1;
+        }
+    }
+
+    /// Goes out of the innermost loop, and says so (FC902).
+    #[cold]
+    fn leave_loop(
+        &mut self,
+        why: &Enough,
+        out: &WayOut,
+        at: &At<'_>,
+        finder: &mut dyn Finder,
+    ) -> Option<Step> {
+        let known = self.state.loops.pop()?;
+        let (unit, head) = (known.unit, known.head);
+        let mut left = self.state.left_loops.iter_mut();
+        match left.find(|it| (it.unit, it.head) == (unit, head)) {
+            Some(left) => left.times = left.times.saturating_add(1),
+            None => self.state.left_loops.push(LeftLoop {
+                unit,
+                head,
+                times: 1,
+                cause: out.cause.clone(),
+            }),
+        }
+        let decides = unknown_value(&out.cause);
+        let passes = match known.passes {
+            1 => "one pass".to_owned(),
+            passes => format!("{passes} passes"),
+        };
+        let message = match why {
+            Enough::Repeated => format!(
+                "this loop ends only where {decides}, says so; the dry run leaves it after {passes}"
+            ),
+            Enough::TooMany(_) => format!(
+                "this loop may end where {decides}, says so; the dry run leaves it after {passes}, \
+                 what it could change is unknown"
+            ),
+        };
+        let said = Diagnostic::new(
+            Code::Fc902,
+            self.programs.index(unit).block_place(head),
+            message,
+        );
+        let said = said.with_help(how_to_set(&out.cause));
+        self.work.diagnostics.push(said);
+        Some(match out.to {
+            Leaving::To(block) => Step::Jump(block),
+            Leaving::Return => Step::Return,
+            Leaving::End => self.program_end(EndedBy::M30, at, finder),
+        })
+    }
+
+    /// FC910 where the innermost loop is known to be endless.
+    pub(in crate::interpreter) fn endless_loop(&self) -> Option<Diagnostic> {
+        let known = self.state.loops.last()?;
+        let counters = known.endless.as_ref()?;
+        Some(self.endless(known, counters))
+    }
+
+    fn endless(&self, known: &Loop, counters: &[Target]) -> Diagnostic {
+        let place = self.programs.index(known.unit).block_place(known.head);
+        let passes = known.passes;
+        let names: Vec<String> = counters.iter().map(|name| format!("`{name}`")).collect();
+        let but = if names.is_empty() {
+            "nothing changes any more".to_owned()
+        } else {
+            format!(
+                "nothing changes any more except {}, which nothing reads",
+                names.join(", ")
+            )
+        };
+        let message =
+            format!("this loop never ends: after {passes} passes {but}; the dry run ends here");
+        Diagnostic::new(Code::Fc910, place, message)
+            .with_help("nothing after the loop runs; to see it, remove the loop or give it an end")
+            .with_help(Advice::EndLoop)
+    }
+
+    /// How often the loop that begins at a block was repeated.
+    pub(in crate::interpreter) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
+        let loops = self.state.loops.iter().rev();
+        let mut known = loops.filter(|known| known.unit == unit);
+        let found = known.find(|known| known.head == opener);
+        found.map(|known| known.passes)
+    }
+}
+
+/// The state at the start of a pass.
+fn mark_of(state: &State, pass: u64) -> Mark {
+    Mark {
+        pass,
+        compensation: state.compensation.clone(),
+        memory: state.memory.clone(),
+        modal: state.modal.clone(),
+        frames: state.frames.clone(),
+        occurred: state.occurred.clone(),
+        couplings: state.couplings.clone(),
+        cycles: state.cycles.clone(),
+        refused: state.refused.clone(),
+        ending: state.ending,
+        named: state.named.clone(),
+        channel_axes: state.channel_axes.clone(),
+        described: state.described.clone(),
+    }
+}
+
+/// What differs from the state of the moment, where that only counts; `None` where anything
+/// else differs.
+fn counters(mark: &Mark, state: &State) -> Option<Vec<Target>> {
+    let same = mark.frames == state.frames
+        && mark.modal == state.modal
+        && mark.compensation == state.compensation
+        && mark.occurred == state.occurred
+        && mark.couplings.is_like(&state.couplings)
+        && mark.cycles == state.cycles
+        && mark.refused == state.refused
+        && mark.ending == state.ending
+        && mark.named == state.named
+        && mark.channel_axes == state.channel_axes
+        && mark.described == state.described;
+    if !same {
+        return None;
+    }
+    let differing = mark.memory.differing_numbers(&state.memory)?;
+    let reads = state.reads.borrow();
+    let only_counts = differing.iter().all(|target| !reads.has(target));
+    only_counts.then_some(differing)
+}

@@ -1,0 +1,15 @@
+//! Blocks one after another: the beginning, the way and the end of a program.
+
+pub(super) mod block;
+pub(super) mod budget;
+pub(super) mod calling;
+pub(super) mod ending;
+pub(super) mod endless;
+pub(super) mod fingerprint;
+pub(super) mod handover;
+pub(super) mod remarks;
+pub(super) mod running;
+pub(super) mod snapshot;
+pub(super) mod start;
+pub(super) mod stream;
+pub(super) mod trust;

@@ -1,0 +1,53 @@
+//! Comments that speak to this tool and stand above no block (R9.24).
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Code, Collected};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::StopPolicy;
+use crate::syntax::{LostRemarks, Remark, allow};
+use crate::text::Place;
+
+impl Interpreter {
+    /// What there is to say about such comments: in all files, or up to the last block of each that
+    /// was reached where the rest is not checked.
+    pub(in crate::interpreter) fn lost_remarks(&mut self) -> Collected {
+        let mut said = std::mem::take(&mut self.lost);
+        for unit in self.programs.units() {
+            let reached = unit.high.checked_sub(1);
+            let last = reached.and_then(|last| unit.index.entries.get(last as usize));
+            let last = match self.options.stop {
+                StopPolicy::CheckAll => u32::MAX,
+                StopPolicy::FirstError | StopPolicy::KeepGoing => last.map_or(0, |last| last.line),
+            };
+            let file = unit.index.source.name();
+            gather(file, &unit.index.lost, last, &mut said);
+        }
+        said
+    }
+
+    /// Keeps in mind what there is to say about lines that are not kept.
+    pub(in crate::interpreter) fn note_lost(&mut self, file: &Arc<str>, lost: &LostRemarks) {
+        gather(file, lost, u32::MAX, &mut self.lost);
+    }
+}
+
+/// FC490 or FC491 for each comment down to a line.
+fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
+    let lines = lost.remarks.iter().flat_map(Remark::lines);
+    for (text, line) in lines.take_while(|(_, line)| *line <= until) {
+        let Some(fault) = allow::lost(text) else {
+            continue;
+        };
+        let place = Place {
+            file: file.clone(),
+            text: text.into(),
+            first_line: line,
+            span: fault.span,
+        };
+        said.push(fault.into_diagnostic(place, |_| None));
+    }
+    if lost.more > 0 && until == u32::MAX {
+        *said.unsaid.entry(Code::Fc490).or_default() += lost.more;
+    }
+}

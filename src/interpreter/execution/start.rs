@@ -1,0 +1,188 @@
+//! The beginning of a program.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::diagnostic::{Collected, Diagnostic};
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::Index;
+use crate::interpreter::programs::store::Caller;
+use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::run::channel_axes::ChannelAxes;
+use crate::interpreter::run::cycles::ModalCycles;
+use crate::interpreter::run::event::{EndedBy, Event, Observer};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::{Handed, RunOutcome, StopPolicy};
+use crate::interpreter::run::step::{Request, Step};
+use crate::interpreter::run::stopping::one;
+use crate::interpreter::run::ways::Ways;
+use crate::syntax::ast::{CallForm, CallScope};
+use crate::text::{Place, SourceFile, Span};
+
+impl Interpreter {
+    /// Runs a main program whose text is in memory.
+    pub fn program(
+        &mut self,
+        source: SourceFile,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        self.start();
+        self.handed = Handed::Whole;
+        self.whole(source, finder, observer)
+    }
+
+    /// Announces and runs a program whose text is in memory, in a state that is prepared.
+    pub(in crate::interpreter) fn whole(
+        &mut self,
+        source: SourceFile,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        let index = Index::new(source, self.options.limits.nesting);
+        let main = index.main();
+        let name = main.and_then(|main| index.sections[main].name.clone());
+        self.programs.clear();
+        self.sought = None;
+        self.programs.hold(index);
+        if self.announce(name.as_deref(), observer).is_break() {
+            self.state.parked = Some(Step::Begin);
+            return RunOutcome::Paused;
+        }
+        self.begin(main, finder, observer)
+    }
+
+    /// Runs the program that was announced, from the start of a section on.
+    pub(in crate::interpreter) fn begin(
+        &mut self,
+        main: Option<usize>,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        if self.is_refused() {
+            return self.refuse(observer);
+        }
+        if let Some(section) = main {
+            self.enter(0, section);
+        }
+        let main = Arc::clone(self.programs.index(0).source.name());
+        if let Err(missing) = self.start_program(&main, finder) {
+            return self.ended(EndedBy::Error, &one(*missing), observer);
+        }
+        let outcome = self.run(finder, observer);
+        self.close(outcome, observer)
+    }
+
+    /// Goes on with a run that an observer stopped. One whose program is read line by line stays
+    /// [`RunOutcome::Stopped`].
+    pub fn go_on(&mut self, finder: &mut dyn Finder, observer: &mut dyn Observer) -> RunOutcome {
+        if self.handed == Handed::LineByLine {
+            return RunOutcome::Stopped;
+        }
+        let outcome = match self.state.parked.take() {
+            Some(Step::Begin) => {
+                let main = self.programs.index(0).main();
+                return self.begin(main, finder, observer);
+            }
+            Some(step) => match self.follow(step) {
+                ControlFlow::Break(by) => RunOutcome::Ended(by),
+                ControlFlow::Continue(()) => self.run(finder, observer),
+            },
+            None => self.run(finder, observer),
+        };
+        self.close(outcome, observer)
+    }
+
+    /// Prepares the state for a program start.
+    pub(in crate::interpreter) fn start(&mut self) {
+        self.state.modal = self.state.modal.next_program();
+        self.state.memory.start_program(self.machine.parameters);
+        self.state.frames.clear();
+        self.state.seq = 0;
+        self.state.cycles = ModalCycles::default();
+        self.state.loops.clear();
+        self.state.left_loops.clear();
+        self.state.watching = false;
+        self.state.refused.clear();
+        self.state.ending = None;
+        self.state.last = None;
+        self.state.parked = None;
+        self.state.named.clear();
+        self.state.channel_axes = ChannelAxes::default();
+        self.state.described = None;
+        self.state.ways = Ways::default();
+        self.programs.clear();
+        self.pending.clear();
+        self.departing.clear();
+        self.work.changes.clear();
+        self.regions.clear();
+        self.lost = Collected::default();
+        self.journal.begin_anew();
+    }
+
+    pub(in crate::interpreter) fn announce(
+        &mut self,
+        name: Option<&str>,
+        observer: &mut dyn Observer,
+    ) -> ControlFlow<()> {
+        observer.event(Event::Started {
+            name,
+            compensation: &self.state.compensation,
+            occurred: &self.state.occurred,
+            version: self.version,
+        })
+    }
+
+    /// Calls the configured program that runs before every main program (R2.15).
+    pub(in crate::interpreter) fn start_program(
+        &mut self,
+        main: &str,
+        finder: &mut dyn Finder,
+    ) -> Result<(), Box<Diagnostic>> {
+        let Some(name) = self.machine.programs.start.clone() else {
+            return Ok(());
+        };
+        if self.machine.programs.is_external(&name) {
+            self.leave_to_machine(&name);
+            return Ok(());
+        }
+        let place = Place {
+            file: name.as_str().into(),
+            text: "".into(),
+            first_line: 1,
+            span: Span::default(),
+        };
+        let wanted = Wanted::program(CallScope::Global, name, Span::default());
+        let caller = Caller {
+            unit: 0,
+            file: main,
+        };
+        match self
+            .programs
+            .find(&wanted, caller, finder, &self.state.effort)
+        {
+            Ok(Some(found)) => {
+                let refused = &self.programs.index(found.unit).refused;
+                if let (Some(first), StopPolicy::FirstError) =
+                    (refused.said.first(), self.options.stop)
+                {
+                    return Err(Box::new(first.clone()));
+                }
+                self.push_call(Request {
+                    found,
+                    passage: None,
+                    own: BTreeMap::new(),
+                    form: CallForm::Plain,
+                    called_from: place,
+                });
+                Ok(())
+            }
+            Ok(None) => Ok(()),
+            Err(fault) => {
+                // The call stands in the configuration, not in a block.
+                Err(Box::new(fault.into_diagnostic(place, |_| None)))
+            }
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! Programs whose lines come one after another.
+//!
+//! Straight blocks are executed and forgotten. A block that makes the rest of the text count, for
+//! instance a jump label or a `$` statement, is the first one that can be reached again: it and
+//! everything after it is taken into memory, and the run continues there. Nothing ever goes back to
+//! what was forgotten.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::diagnostic::Collected;
+use crate::interpreter::programs::builder::REAL_TIME_LOOP;
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::{Index, LabelName, ProgramId};
+use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::event::{EndedBy, Observer};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::options::{Handed, RunOutcome, StopPolicy};
+use crate::interpreter::run::step::Departure;
+use crate::interpreter::run::stopping::one;
+use crate::interpreter::values::value::rounded;
+use crate::syntax::ast::{Block, CallScope, Item, Operand};
+use crate::syntax::{BlockReader, RawBlock, Stretch};
+use crate::text::{LineSource, SourceFile};
+
+/// How far the program has come.
+#[derive(Clone, Copy)]
+enum Stage {
+    /// Nothing was read yet.
+    Before,
+    /// The program was announced by its `%` line.
+    Announced,
+    /// Its first block was met.
+    Running,
+    /// It ended, by the command given or where another program begins; what follows is only checked.
+    Beyond(Option<EndedBy>),
+}
+
+/// How far the program has come, and what there is to say about blocks after its end.
+struct Progress {
+    stage: Stage,
+    notes: Collected,
+}
+
+impl Interpreter {
+    /// Runs a main program whose lines come one after another. Memory does not grow with its length
+    /// until a block makes the rest count; from there on it is held in memory.
+    ///
+    /// Control blocks and labels are checked when the rest is read, where a program in memory is
+    /// refused before its first block; [`crate::syntax::FlowScan`] tells which program may have any.
+    /// An observer that stops it ends it: see [`RunOutcome::Stopped`].
+    pub fn stream(
+        &mut self,
+        file: &str,
+        lines: &mut dyn LineSource,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        self.start();
+        self.handed = Handed::LineByLine;
+        match self.run_lines(file, lines, finder, observer) {
+            RunOutcome::Paused => RunOutcome::Stopped,
+            outcome => outcome,
+        }
+    }
+
+    fn run_lines(
+        &mut self,
+        file: &str,
+        lines: &mut dyn LineSource,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        let none = Index::new(SourceFile::new("", ""), self.options.limits.nesting);
+        self.programs.hold(none);
+        let file: Arc<str> = file.into();
+        let mut reader = BlockReader::new(lines, 1, self.options.fast_path);
+        let mut block = std::mem::take(&mut self.work.block);
+        let mut stage = Stage::Before;
+        let mut notes = Collected::default();
+        while let Some(raw) = reader.next(&mut block) {
+            if !raw.plain && needs_rest(&raw, &block) {
+                let (mut text, first) = opening(&raw);
+                reader.append_rest(&mut text);
+                self.note_lost(&file, reader.lost_remarks());
+                let rest = SourceFile::new(file, text).from_line(first);
+                let progress = Progress { stage, notes };
+                return self.go_on_with(rest, progress, finder, observer);
+            }
+            if let Stretch::Program { name, .. } = raw.stretch {
+                if matches!(stage, Stage::Before) {
+                    stage = Stage::Announced;
+                    if self.announce(Some(name.of(raw.text)), observer).is_break() {
+                        return RunOutcome::Paused;
+                    }
+                    continue;
+                }
+                if let Stage::Announced = stage {
+                    stage = Stage::Running;
+                    if let Some(outcome) = self.begin_lines(&file, finder, observer) {
+                        return outcome;
+                    }
+                }
+                // Another program of the file: never executed, as where the text is whole.
+                if self.options.stop != StopPolicy::CheckAll {
+                    break;
+                }
+                if !matches!(stage, Stage::Beyond(_)) {
+                    stage = Stage::Beyond(None);
+                }
+                continue;
+            }
+            match stage {
+                Stage::Running => {}
+                Stage::Beyond(_) => {
+                    if !self.is_skipped(&block) {
+                        self.check_unexecuted(&file, &raw, &block, &mut notes);
+                    }
+                    continue;
+                }
+                Stage::Before | Stage::Announced => {
+                    if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
+                        return RunOutcome::Paused;
+                    }
+                    stage = Stage::Running;
+                    if let Some(outcome) = self.begin_lines(&file, finder, observer) {
+                        return outcome;
+                    }
+                }
+            }
+            if self.is_on_the_way(&block) {
+                continue;
+            }
+            let shown = Shown::default();
+            let at = At::of_raw(&file, &raw, &block, &shown);
+            if let Some(over) = self.over_budget(&at) {
+                return self.ended(EndedBy::Budget, &one(over), observer);
+            }
+            if self.is_skipped(&block) {
+                continue;
+            }
+            let step = match self.execute(&at, finder, observer) {
+                ControlFlow::Continue(()) => continue,
+                ControlFlow::Break(Departure::Step(step)) => step,
+                ControlFlow::Break(Departure::Paused) => return RunOutcome::Paused,
+            };
+            match self.follow(step) {
+                ControlFlow::Continue(()) => match self.run_called(finder, observer) {
+                    None => {}
+                    Some(outcome) => return outcome,
+                },
+                ControlFlow::Break(ended) => {
+                    stage = Stage::Beyond(Some(ended));
+                    if self.options.stop != StopPolicy::CheckAll {
+                        break;
+                    }
+                }
+            }
+        }
+        self.note_lost(&file, reader.lost_remarks());
+        self.work.block = block;
+        if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
+            return RunOutcome::Paused;
+        }
+        if let Stage::Before | Stage::Announced = stage
+            && let Some(outcome) = self.begin_lines(&file, finder, observer)
+        {
+            return outcome;
+        }
+        self.end_of_lines(stage, &notes, observer)
+    }
+
+    /// Whether a block is passed over on the way to the one that M17 returned to.
+    fn is_on_the_way(&mut self, block: &Block) -> bool {
+        let Some(sought) = &self.sought else {
+            return false;
+        };
+        let number = block.number.map(|number| number.value);
+        let is_it = match (&sought.label, number) {
+            (LabelName::Number(wanted), Some(Operand::Number(number))) => {
+                rounded(number) == Some(*wanted)
+            }
+            _ => false,
+        };
+        if is_it {
+            self.sought = None;
+        }
+        !is_it
+    }
+
+    /// Enters the program that was announced and runs the one that comes before each; an outcome
+    /// when that is the end.
+    fn begin_lines(
+        &mut self,
+        file: &str,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Option<RunOutcome> {
+        self.enter(0, 0);
+        match self.start_program(file, finder) {
+            Ok(()) => self.run_called(finder, observer),
+            Err(missing) => Some(self.ended(EndedBy::Error, &one(*missing), observer)),
+        }
+    }
+
+    /// Runs called programs until the one that called them goes on; `None` when it does.
+    fn run_called(
+        &mut self,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> Option<RunOutcome> {
+        let frame = self.state.frames.running();
+        if frame.is_none_or(|frame| frame.level == 0) {
+            return None;
+        }
+        match self.run(finder, observer) {
+            RunOutcome::Ended(EndedBy::EndOfFile) => None,
+            RunOutcome::Ended(by) => {
+                let mut notes = Collected::default();
+                notes.extend(self.work.over.take());
+                Some(self.ended(by, &notes, observer))
+            }
+            stopped @ (RunOutcome::Paused | RunOutcome::Stopped) => Some(stopped),
+        }
+    }
+
+    /// Takes the rest of the text into memory and goes on in it.
+    fn go_on_with(
+        &mut self,
+        rest: SourceFile,
+        progress: Progress,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        let Progress { stage, notes } = progress;
+        if matches!(stage, Stage::Before) {
+            return self.whole(rest, finder, observer);
+        }
+        // The blocks so far stood in front of the first one of the index, and so does the frame.
+        self.programs
+            .hold_first(Index::new(rest, self.options.limits.nesting));
+        match stage {
+            Stage::Before | Stage::Announced => self.begin(Some(0), finder, observer),
+            Stage::Running if self.is_refused() => self.refuse(observer),
+            Stage::Running => {
+                if let Some(sought) = self.sought.take() {
+                    let found =
+                        self.programs
+                            .block_of(ProgramId::FIRST, &sought.label, &self.state.effort);
+                    match (found, self.state.frames.running_mut()) {
+                        (Some(entry), Some(frame)) => frame.next = entry,
+                        _ => return self.ended(EndedBy::Error, &one(sought.missing), observer),
+                    }
+                }
+                let outcome = self.run(finder, observer);
+                self.close(outcome, observer)
+            }
+            Stage::Beyond(_) => self.end_of_lines(stage, &notes, observer),
+        }
+    }
+
+    /// Ends a program all of whose lines were read; `notes` are about blocks after its end.
+    fn end_of_lines(
+        &mut self,
+        stage: Stage,
+        notes: &Collected,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        if let Some(sought) = self.sought.take() {
+            return self.ended(EndedBy::Error, &one(sought.missing), observer);
+        }
+        let mut said = self.refused();
+        let by = if let Stage::Beyond(Some(by)) = stage {
+            by
+        } else {
+            said.extend(self.missing_end());
+            EndedBy::EndOfFile
+        };
+        said.append(notes);
+        self.check_all_unexecuted(&mut said);
+        self.ended(by, &said, observer)
+    }
+}
+
+/// Whether a block can be reached again, or needs what follows it.
+fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
+    match raw.stretch {
+        Stretch::Program { local, .. } => local,
+        Stretch::Block => {
+            block.number.is_some_and(|number| number.label)
+                || block.items.iter().any(|item| match item {
+                    // A macro's code may be a jump or a call.
+                    Item::Label(_) | Item::Flow(..) | Item::MacroUse(_) => true,
+                    Item::Call(call) => call.scope == CallScope::Local,
+                    Item::Sequence(sequence) => sequence.name.is_none(),
+                    Item::Hash(hash) => hash.name == REAL_TIME_LOOP,
+                    _ => false,
+                })
+        }
+    }
+}
+
+/// The text of a block with the remark above it, and the number of its first line.
+fn opening(raw: &RawBlock<'_>) -> (String, u32) {
+    match raw.remark {
+        Some(remark) => (format!("{}\n{}\n", remark.text, raw.text), remark.line),
+        None => (format!("{}\n", raw.text), raw.line),
+    }
+}

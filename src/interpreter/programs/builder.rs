@@ -1,0 +1,440 @@
+//! How the index of a program is made: control blocks are paired, labels and jumps noted.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::index::{Entry, EntryIndex, Index, LabelName, Links, Section};
+use crate::diagnostic::{Advice, Budget, Code, Collected, Diagnostic};
+use crate::interpreter::values::value::rounded;
+use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
+use crate::syntax::{BlockReader, FastPath, Fault, LostRemarks, Stretch, is_statement};
+use crate::text::{SourceFile, Span, TextLines};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    If,
+    Switch,
+    For,
+    While,
+    Do,
+    Repeat,
+    /// `#RT WHILE`, which real time leaves.
+    RealTime,
+}
+
+impl Kind {
+    fn opener(self) -> &'static str {
+        match self {
+            Self::If => "$IF",
+            Self::Switch => "$SWITCH",
+            Self::For => "$FOR",
+            Self::While => "$WHILE",
+            Self::Do => "$DO",
+            Self::Repeat => "$REPEAT",
+            Self::RealTime => REAL_TIME_LOOP,
+        }
+    }
+
+    fn closer(self) -> &'static str {
+        match self {
+            Self::If => "$ENDIF",
+            Self::Switch => "$ENDSWITCH",
+            Self::For => "$ENDFOR",
+            Self::While => "$ENDWHILE",
+            Self::Do => "$ENDDO",
+            Self::Repeat => "$UNTIL",
+            Self::RealTime => REAL_TIME_END,
+        }
+    }
+}
+
+/// The loop of real time and its end (tf5261, 783727499).
+pub(in crate::interpreter) const REAL_TIME_LOOP: &str = "#RT WHILE";
+
+const REAL_TIME_END: &str = "#RT ENDWHILE";
+
+/// A control block that is not closed yet.
+struct Open {
+    kind: Kind,
+    opener: EntryIndex,
+    /// All statements of the control block so far.
+    parts: Vec<EntryIndex>,
+    span: Span,
+    /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
+    sign: Option<char>,
+}
+
+/// A jump whose label is looked up when the section is known.
+struct Jump {
+    section: usize,
+    label: LabelName,
+    entry: EntryIndex,
+    span: Span,
+}
+
+impl Index {
+    /// Indexes a text. At most `nesting` control blocks may stand in each other.
+    pub(in crate::interpreter) fn new(source: SourceFile, nesting: u32) -> Self {
+        let builder = Builder {
+            index: Self {
+                source,
+                entries: Vec::new(),
+                sections: Vec::new(),
+                links: BTreeMap::new(),
+                loops: Vec::new(),
+                labels: HashMap::new(),
+                locals: HashMap::new(),
+                remarks: HashMap::new(),
+                lost: LostRemarks::default(),
+                interpreted: BTreeMap::new(),
+                refused: Collected::default(),
+            },
+            nesting: nesting as usize,
+            open: Vec::new(),
+            jumps: Vec::new(),
+            inner: Vec::new(),
+        };
+        builder.build()
+    }
+}
+
+/// A statement of a control block, with the block that holds it.
+#[derive(Clone, Copy)]
+struct Statement<'a> {
+    entry: EntryIndex,
+    span: Span,
+    text: &'a str,
+}
+
+impl<'a> Statement<'a> {
+    fn word(self) -> &'a str {
+        self.span.of(self.text)
+    }
+
+    /// What it begins with, `$` or `#`.
+    fn sign(self) -> char {
+        self.word().chars().next().unwrap_or('$')
+    }
+}
+
+struct Builder {
+    index: Index,
+    nesting: usize,
+    open: Vec<Open>,
+    jumps: Vec<Jump>,
+    /// `$BREAK` and `$CONTINUE` with the loops that they stand in, by opener.
+    inner: Vec<(EntryIndex, EntryIndex)>,
+}
+
+impl Builder {
+    fn build(mut self) -> Index {
+        let text = self.index.source.shared_text();
+        let first = self.index.source.lines().first();
+        let mut reader = BlockReader::new(TextLines::new(&text), first, FastPath::On);
+        let mut block = Block::default();
+        self.section(None, false);
+        while let Some(raw) = reader.next(&mut block) {
+            match raw.stretch {
+                Stretch::Program { name, local } => {
+                    self.close_section();
+                    self.section(Some(name.of(raw.text).to_owned()), local);
+                }
+                Stretch::Block => {
+                    let entry = Span::new(self.index.entries.len(), raw.offset);
+                    self.index.entries.push(Entry {
+                        offset: entry.end,
+                        line: raw.line,
+                    });
+                    if let Some(remark) = raw.remark {
+                        self.index.remarks.insert(entry.start, remark.clone());
+                    }
+                    self.block(entry.start, &block, raw.text);
+                }
+            }
+        }
+        self.index.lost = reader.lost_remarks().clone();
+        self.close_section();
+        self.check_jumps();
+        for (statement, opener) in std::mem::take(&mut self.inner) {
+            let end = self.index.links(opener).end;
+            let links = Links {
+                opener,
+                next: end,
+                end,
+            };
+            self.index.links.insert(statement, links);
+        }
+        self.index
+            .refused
+            .said
+            .sort_by(|one, other| one.place.cmp_start(&other.place));
+        self.index
+    }
+
+    fn at(&self) -> EntryIndex {
+        Span::new(self.index.entries.len(), self.index.entries.len()).start
+    }
+
+    fn section(&mut self, name: Option<String>, local: bool) {
+        let start = self.at();
+        if let Some(name) = name.as_ref().filter(|_| local) {
+            let number = self.index.sections.len();
+            let locals = &mut self.index.locals;
+            locals.entry(name.clone()).or_insert(number);
+        }
+        self.index.sections.push(Section {
+            name,
+            local,
+            start,
+            end: start,
+        });
+    }
+
+    fn close_section(&mut self) {
+        let end = self.at();
+        if let Some(section) = self.index.sections.last_mut() {
+            section.end = end;
+        }
+        for open in std::mem::take(&mut self.open) {
+            self.refuse_open(&open);
+        }
+    }
+
+    fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
+        let place = |span| self.index.place(entry, span);
+        let at = place(fault.span);
+        let diagnostic = fault.into_diagnostic(at, |span| Some(place(span)));
+        self.index.refused.push(diagnostic);
+    }
+
+    /// What is not closed, unless it is misspelt, which the block says itself.
+    fn refuse_open(&mut self, open: &Open) {
+        if let Some(fault) = not_closed(open) {
+            self.refuse(open.opener, fault);
+        }
+    }
+
+    fn refuse_stray(&mut self, kind: Kind, at: Statement<'_>) {
+        if is_spelt(kind, at.word()) {
+            self.refuse(at.entry, stray(kind, at));
+        }
+    }
+
+    fn block(&mut self, entry: EntryIndex, block: &Block, text: &str) {
+        if let Some(number) = block.number.filter(|number| number.label)
+            && let Operand::Number(value) = number.value
+        {
+            if rounded(value).is_some() {
+                self.label(entry, LabelName::numbered(value), number.span);
+            } else {
+                let shown = number.span.of(text).trim();
+                let message = format!("`{shown}` is larger than any block number");
+                self.refuse(entry, Fault::new(Code::Fc209, number.span, message));
+            }
+        }
+        let jumps = block.jumps();
+        let at = |span| Statement { entry, span, text };
+        for item in &block.items {
+            match item {
+                Item::Label(span) => {
+                    let name = LabelName::Text(span.of(text).to_owned());
+                    self.label(entry, name, *span);
+                }
+                // `$IF c $GOTO N10` opens nothing.
+                Item::Flow(Flow::If(_), _) if jumps => {}
+                Item::Flow(flow, span) => self.flow(flow, at(*span)),
+                Item::Hash(hash) if hash.name == REAL_TIME_LOOP => {
+                    self.opens(Kind::RealTime, at(hash.span));
+                }
+                Item::Hash(hash) if hash.name == REAL_TIME_END => {
+                    self.closes(Kind::RealTime, at(hash.span));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn label(&mut self, entry: EntryIndex, name: LabelName, span: Span) {
+        let section = self.index.sections.len() - 1;
+        let key = (section, name);
+        if let Some(&first) = self.index.labels.get(&key) {
+            let line = self.index.entries[first as usize].line;
+            let fault = Fault::new(
+                Code::Fc209,
+                span,
+                format!("jump label `{}` already exists on line {line}", key.1),
+            );
+            self.refuse(entry, fault);
+        } else {
+            self.index.labels.insert(key, entry);
+        }
+    }
+
+    fn flow(&mut self, flow: &Flow, at: Statement<'_>) {
+        match flow {
+            Flow::If(_) => self.opens(Kind::If, at),
+            Flow::Switch(..) => self.opens(Kind::Switch, at),
+            Flow::For { .. } => self.opens(Kind::For, at),
+            Flow::While(_) => self.opens(Kind::While, at),
+            Flow::Do(_) => self.opens(Kind::Do, at),
+            Flow::Repeat => self.opens(Kind::Repeat, at),
+            Flow::ElseIf(_) | Flow::Else => self.branches(Kind::If, at),
+            Flow::Case(_) | Flow::Default => self.branches(Kind::Switch, at),
+            Flow::EndIf => self.closes(Kind::If, at),
+            Flow::EndSwitch => self.closes(Kind::Switch, at),
+            Flow::EndFor => self.closes(Kind::For, at),
+            Flow::EndWhile => self.closes(Kind::While, at),
+            Flow::EndDo(_) => self.closes(Kind::Do, at),
+            Flow::Until(_) => self.closes(Kind::Repeat, at),
+            Flow::Break => self.leaves(at, |kind| !matches!(kind, Kind::If | Kind::RealTime)),
+            Flow::Continue => {
+                self.leaves(at, |kind| {
+                    !matches!(kind, Kind::If | Kind::Switch | Kind::RealTime)
+                });
+            }
+            Flow::Goto(target) => self.jump(target, at),
+        }
+    }
+
+    fn opens(&mut self, kind: Kind, at: Statement<'_>) {
+        if self.open.len() >= self.nesting {
+            let fault = Fault::new(
+                Code::Fc912,
+                at.span,
+                format!(
+                    "control blocks are nested more than {} levels deep",
+                    self.nesting
+                ),
+            )
+            .with_help(Advice::RaiseBudget(Budget::Nesting));
+            self.refuse(at.entry, fault);
+        }
+        if !matches!(kind, Kind::If | Kind::Switch) {
+            self.index.loops.push(at.entry);
+        }
+        self.open.push(Open {
+            kind,
+            opener: at.entry,
+            parts: vec![at.entry],
+            span: at.span,
+            sign: is_spelt(kind, at.word()).then(|| at.sign()),
+        });
+    }
+
+    fn branches(&mut self, kind: Kind, at: Statement<'_>) {
+        match self.open.last_mut() {
+            Some(open) if open.kind == kind => open.parts.push(at.entry),
+            _ => self.refuse_stray(kind, at),
+        }
+    }
+
+    fn closes(&mut self, kind: Kind, at: Statement<'_>) {
+        let Some(depth) = self.open.iter().rposition(|open| open.kind == kind) else {
+            self.refuse_stray(kind, at);
+            return;
+        };
+        for open in self.open.split_off(depth + 1) {
+            self.refuse_open(&open);
+        }
+        let Some(mut open) = self.open.pop() else {
+            return;
+        };
+        if open.kind == Kind::If && open.sign == Some('#') {
+            self.index.interpreted.insert(open.opener, at.entry);
+        }
+        open.parts.push(at.entry);
+        for pair in open.parts.windows(2) {
+            let links = Links {
+                opener: open.opener,
+                next: pair[1],
+                end: at.entry,
+            };
+            self.index.links.insert(pair[0], links);
+        }
+        let links = Links {
+            opener: open.opener,
+            next: at.entry,
+            end: at.entry,
+        };
+        self.index.links.insert(at.entry, links);
+    }
+
+    fn leaves(&mut self, at: Statement<'_>, left: fn(Kind) -> bool) {
+        if let Some(open) = self.open.iter().rfind(|open| left(open.kind)) {
+            self.inner.push((at.entry, open.opener));
+        } else {
+            let word = at.word().trim();
+            let fault = Fault::new(
+                Code::Fc208,
+                at.span,
+                format!("`{word}` is not inside a loop"),
+            );
+            self.refuse(at.entry, fault);
+        }
+    }
+
+    fn jump(&mut self, target: &JumpTarget, at: Statement<'_>) {
+        let label = match target {
+            JumpTarget::Number(Operand::Number(number)) => LabelName::numbered(*number),
+            JumpTarget::Label(name) => LabelName::Text(name.of(at.text).to_owned()),
+            _ => return,
+        };
+        self.jumps.push(Jump {
+            section: self.index.sections.len() - 1,
+            label,
+            entry: at.entry,
+            span: at.span,
+        });
+    }
+
+    fn check_jumps(&mut self) {
+        for jump in std::mem::take(&mut self.jumps) {
+            if self.index.label(jump.section, jump.label.clone()).is_none() {
+                let help = match &jump.label {
+                    LabelName::Number(number) => {
+                        format!("write the label with a colon, `N{number}:`, in the same program")
+                    }
+                    LabelName::Text(name) => {
+                        format!("write `[{name}]` at the start of the block to jump to")
+                    }
+                };
+                let diagnostic = Diagnostic::new(
+                    Code::Fc209,
+                    self.index.place(jump.entry, jump.span),
+                    format!("jump label `{}` does not exist in this program", jump.label),
+                )
+                .with_help(help);
+                self.index.refused.push(diagnostic);
+            }
+        }
+    }
+}
+
+fn not_closed(open: &Open) -> Option<Fault> {
+    let sign = open.sign?;
+    let (opener, closer) = (open.kind.opener(), open.kind.closer());
+    let shown = |word: &str| word.replace('$', sign.encode_utf8(&mut [0; 4]));
+    let (opener, closer) = (shown(opener), shown(closer));
+    let fault = Fault::new(
+        Code::Fc208,
+        open.span,
+        format!("`{opener}` has no `{closer}`"),
+    );
+    Some(fault.with_help(format!("write `{closer}` in a block of its own")))
+}
+
+/// Whether a statement is one of the language, and not a misspelt one.
+fn is_spelt(kind: Kind, text: &str) -> bool {
+    kind == Kind::RealTime || is_statement(text)
+}
+
+fn stray(kind: Kind, at: Statement<'_>) -> Fault {
+    let word = at.word().split_whitespace().next().unwrap_or_default();
+    let opener = kind
+        .opener()
+        .replace('$', at.sign().encode_utf8(&mut [0; 4]));
+    Fault::new(
+        Code::Fc208,
+        at.span,
+        format!("`{word}` without an open `{opener}`"),
+    )
+}

@@ -1,0 +1,70 @@
+//! `#FILE NAME`: words and the programs that they call (PM/207504523).
+
+/// Whether a command names programs; the older manuals write one word.
+pub(in crate::interpreter) fn is_file_name(name: &str) -> bool {
+    matches!(name, "#FILE NAME" | "#FILENAME")
+}
+
+/// The words that get a program after `#FILE NAME`.
+pub(in crate::interpreter) fn named_words(text: &str) -> impl Iterator<Item = String> {
+    file_names(text).into_iter().map(|(word, _)| word)
+}
+
+/// The name of a program after `#FILE NAME`.
+pub(in crate::interpreter) enum FileName<'a> {
+    /// It stands there.
+    Written(&'a str),
+    /// It is the value of a variable, or of something that is not followed here.
+    Elsewhere(&'a str),
+}
+
+/// The words and program names of `[ G80="part.nc" M6 "change.nc" ]`; the equals sign is optional.
+pub(in crate::interpreter) fn file_names(text: &str) -> Vec<(String, FileName<'_>)> {
+    let mut names = Vec::new();
+    let mut rest = text.trim_start().strip_prefix('[').unwrap_or(text);
+    loop {
+        rest = rest.trim_start_matches([' ', '\t', '\n', ',', '\\']);
+        let length = rest
+            .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+            .unwrap_or(rest.len());
+        if length == 0 {
+            return names;
+        }
+        let (word, behind) = rest.split_at(length);
+        let behind = behind.trim_start();
+        let behind = behind.strip_prefix('=').unwrap_or(behind).trim_start();
+        let word = crate::machine::canonical_word(word);
+        if let Some((name, behind)) = behind.strip_prefix('"').and_then(|it| it.split_once('"')) {
+            names.push((word, FileName::Written(name.trim())));
+            rest = behind;
+        } else {
+            let end = behind
+                .find([' ', '\t', '\n', ']', ','])
+                .unwrap_or(behind.len());
+            names.push((word, FileName::Elsewhere(&behind[..end])));
+            rest = &behind[end..];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn file_names_are_read_with_and_without_an_equals_sign() {
+        // R2.75
+        let shown = |text| {
+            let names = file_names(text).into_iter();
+            let names = names.map(|(word, name)| match name {
+                FileName::Written(name) => format!("{word}={name}"),
+                FileName::Elsewhere(name) => format!("{word}?{name}"),
+            });
+            names.collect::<Vec<_>>().join(" ")
+        };
+        let text = " [ G080=\"a b.nc\" m06 \"c.nc\",T = \"\" D=V.P.NAME ] (x)";
+        assert_eq!(shown(text), "G80=a b.nc M6=c.nc T= D?V.P.NAME");
+        assert_eq!(shown(""), "");
+        assert_eq!(shown("[G80=\"open"), "G80?\"open");
+    }
+}

@@ -1,0 +1,251 @@
+//! The index of a program with flow: blocks, sections, labels, control blocks.
+//!
+//! It holds offsets, not trees: blocks are parsed when they are executed, and kept only when they
+//! are executed again.
+
+use std::collections::{BTreeMap, HashMap};
+
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::Collected;
+use crate::interpreter::values::value::rounded;
+use crate::syntax::ast::{Block, Operand};
+use crate::syntax::{BlockReader, FastPath, LostRemarks, Remark, Stretch};
+use crate::text::{Place, SourceFile, Span, TextLines};
+
+/// The position of a block in [`Index::entries`].
+pub(in crate::interpreter) type EntryIndex = u32;
+
+/// A program of the run: a section of one of its files, both by their positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ProgramId {
+    pub(in crate::interpreter) unit: usize,
+    pub(in crate::interpreter) section: usize,
+}
+
+impl ProgramId {
+    /// The first section of the main file.
+    pub(in crate::interpreter) const FIRST: Self = Self {
+        unit: 0,
+        section: 0,
+    };
+}
+
+/// One block of the text.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::interpreter) struct Entry {
+    pub(in crate::interpreter) offset: u32,
+    pub(in crate::interpreter) line: u32,
+}
+
+/// A main program or a local subprogram.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct Section {
+    pub(in crate::interpreter) name: Option<String>,
+    pub(in crate::interpreter) local: bool,
+    pub(in crate::interpreter) start: EntryIndex,
+    pub(in crate::interpreter) end: EntryIndex,
+}
+
+/// How the parts of a control block hang together.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::interpreter) struct Links {
+    /// The statement that opened the control block.
+    pub(in crate::interpreter) opener: EntryIndex,
+    /// The next branch: `$ELSEIF`, `$ELSE`, `$CASE`, `$DEFAULT`, or the end.
+    pub(in crate::interpreter) next: EntryIndex,
+    /// The statement that closes it.
+    pub(in crate::interpreter) end: EntryIndex,
+}
+
+/// A jump label within a section.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(in crate::interpreter) enum LabelName {
+    Number(i64),
+    Text(String),
+}
+
+impl LabelName {
+    /// The label of a number. One that is larger than any block number names no block.
+    pub(in crate::interpreter) fn numbered(number: f64) -> Self {
+        rounded(number).map_or_else(|| Self::Text(format!("N{number}")), Self::Number)
+    }
+}
+
+impl std::fmt::Display for LabelName {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "N{number}"),
+            Self::Text(text) => write!(f, "[{text}]"),
+        }
+    }
+}
+
+/// The index of one file.
+#[derive(Debug)]
+pub(in crate::interpreter) struct Index {
+    pub(in crate::interpreter) source: SourceFile,
+    pub(in crate::interpreter) entries: Vec<Entry>,
+    pub(in crate::interpreter) sections: Vec<Section>,
+    pub(in crate::interpreter) links: BTreeMap<EntryIndex, Links>,
+    /// The statements that open loops.
+    pub(in crate::interpreter) loops: Vec<EntryIndex>,
+    pub(in crate::interpreter) labels: HashMap<(usize, LabelName), EntryIndex>,
+    /// The local subprograms by name, the first of each.
+    pub(in crate::interpreter) locals: HashMap<String, usize>,
+    pub(in crate::interpreter) remarks: HashMap<EntryIndex, Remark>,
+    /// Comments that speak to this tool and stand above no block.
+    pub(in crate::interpreter) lost: LostRemarks,
+    /// Where the branches of each `#IF` end.
+    pub(in crate::interpreter) interpreted: BTreeMap<EntryIndex, EntryIndex>,
+    /// What keeps the program from running at all.
+    pub(in crate::interpreter) refused: Collected,
+}
+
+impl Index {
+    /// Whether a `$` statement belongs to a control block that is whole.
+    pub(in crate::interpreter) fn is_linked(&self, entry: EntryIndex) -> bool {
+        self.links.contains_key(&entry)
+    }
+
+    /// The links of a `$` statement.
+    pub(in crate::interpreter) fn links(&self, entry: EntryIndex) -> Links {
+        self.links.get(&entry).copied().unwrap_or(Links {
+            opener: entry,
+            next: entry,
+            end: entry,
+        })
+    }
+
+    /// The section that a run of the file begins with: blocks in front of any `%` line, else the
+    /// first program that is no local subprogram.
+    pub(in crate::interpreter) fn main(&self) -> Option<usize> {
+        let has_blocks = |section: &&Section| section.end > section.start;
+        self.sections
+            .iter()
+            .take(1)
+            .find(|section| section.name.is_none() && has_blocks(section))
+            .map(|_| 0)
+            .or_else(|| {
+                self.sections
+                    .iter()
+                    .position(|section| !section.local && section.name.is_some())
+            })
+    }
+
+    /// A local subprogram by its name.
+    pub(in crate::interpreter) fn local(&self, name: &str) -> Option<usize> {
+        self.locals.get(name).copied()
+    }
+
+    /// The names of the local subprograms.
+    pub(in crate::interpreter) fn local_names(&self) -> impl Iterator<Item = &str> {
+        self.sections
+            .iter()
+            .filter(|section| section.local)
+            .filter_map(|section| section.name.as_deref())
+    }
+
+    /// The block of a label.
+    pub(in crate::interpreter) fn label(
+        &self,
+        section: usize,
+        label: LabelName,
+    ) -> Option<EntryIndex> {
+        self.labels.get(&(section, label)).copied()
+    }
+
+    /// The blocks of a section that have jump labels.
+    pub(in crate::interpreter) fn labels(
+        &self,
+        section: usize,
+    ) -> impl Iterator<Item = EntryIndex> {
+        let mut found: Vec<EntryIndex> = self
+            .labels
+            .iter()
+            .filter(|((of, _), _)| *of == section)
+            .map(|(_, entry)| *entry)
+            .collect();
+        found.sort_unstable();
+        found.into_iter()
+    }
+
+    /// The blocks of a section by their numbers; of a number given twice the first one.
+    pub(in crate::interpreter) fn numbers(&self, section: usize) -> HashMap<i64, EntryIndex> {
+        let mut numbers = HashMap::new();
+        let Some(section) = self.sections.get(section) else {
+            return numbers;
+        };
+        let Some(mut reader) = self.reader(section.start) else {
+            return numbers;
+        };
+        let mut block = Block::default();
+        for entry in section.start..section.end {
+            while let Some(raw) = reader.next(&mut block) {
+                if raw.stretch == Stretch::Block {
+                    break;
+                }
+            }
+            if let Some(number) = &block.number
+                && let Operand::Number(value) = number.value
+                && let Some(value) = rounded(value)
+            {
+                numbers.entry(value).or_insert(entry);
+            }
+        }
+        numbers
+    }
+
+    /// The place of a span in the text of a block.
+    pub(in crate::interpreter) fn place(&self, entry: EntryIndex, span: Span) -> Place {
+        let mut block = Block::default();
+        let Some(mut reader) = self.reader(entry) else {
+            return self.block_place(entry);
+        };
+        reader.next(&mut block).map_or_else(
+            || self.block_place(entry),
+            |raw| Place {
+                file: self.source.name().clone(),
+                text: raw.text.into(),
+                first_line: raw.line,
+                span,
+            },
+        )
+    }
+
+    /// The place of a whole block's first line.
+    pub(in crate::interpreter) fn block_place(&self, entry: EntryIndex) -> Place {
+        let line = self
+            .entries
+            .get(entry as usize)
+            .map_or(1, |entry| entry.line);
+        let span = self.source.lines().line_span(self.source.text(), line);
+        self.source.place(span)
+    }
+
+    /// The loop that contains a block, by its opener.
+    pub(in crate::interpreter) fn innermost_loop(&self, entry: EntryIndex) -> Option<EntryIndex> {
+        let around = |opener: &&EntryIndex| **opener <= entry && entry <= self.links(**opener).end;
+        self.loops.iter().filter(around).max().copied()
+    }
+
+    /// Where the branches of an `#IF` end.
+    pub(in crate::interpreter) fn interpreted_to(&self, entry: EntryIndex) -> Option<EntryIndex> {
+        self.interpreted.get(&entry).copied()
+    }
+
+    /// The comment line above a block that speaks to this tool.
+    pub(in crate::interpreter) fn remark(&self, entry: EntryIndex) -> Option<Remark> {
+        self.remarks.get(&entry).cloned()
+    }
+
+    /// A reader that is positioned before a block.
+    pub(in crate::interpreter) fn reader(
+        &self,
+        entry: EntryIndex,
+    ) -> Option<BlockReader<TextLines<'_>>> {
+        let entry = self.entries.get(entry as usize)?;
+        let lines = TextLines::starting_at(self.source.text(), entry.offset as usize);
+        Some(BlockReader::new(lines, entry.line, FastPath::On))
+    }
+}

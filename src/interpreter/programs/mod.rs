@@ -1,0 +1,9 @@
+//! The texts of a run: the index of each, and what calls find.
+
+pub(super) mod builder;
+pub(super) mod file_names;
+pub(super) mod finder;
+pub(super) mod index;
+pub(super) mod store;
+pub(super) mod unit;
+pub(super) mod wanted;

@@ -1,0 +1,297 @@
+//! The files of a run: held when they are needed first, looked up by what called them.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use super::finder::{Finder, NoProgram};
+use super::index::{EntryIndex, Index, LabelName, ProgramId, Section};
+use super::unit::{Parsed, Unit};
+use super::wanted::Wanted;
+use crate::diagnostic::{Advice, Code, did_you_mean};
+use crate::interpreter::values::effort::{Effort, ITEM};
+use crate::syntax::ast::{Block, CallScope};
+use crate::syntax::{Comments, Fault, Stretch};
+
+/// How many names a run compares with those of calls that find nothing.
+const MAX_COMPARED: usize = 100_000;
+
+/// How many parsed blocks a run keeps.
+pub(in crate::interpreter) const MAX_KEPT: usize = 100_000;
+
+/// Units of work that a byte of a program in memory brings with it: its regions may have to be
+/// looked through once.
+const PER_BYTE_HELD: u64 = 16;
+
+/// What calls a program.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::interpreter) struct Caller<'a> {
+    pub(in crate::interpreter) unit: usize,
+    /// The name of its file.
+    pub(in crate::interpreter) file: &'a str,
+}
+
+/// The files of a run, the main program first.
+#[derive(Default)]
+pub(in crate::interpreter) struct Programs {
+    units: Vec<Unit>,
+    /// How deep control blocks may be nested.
+    nesting: u32,
+    /// The files by name.
+    names: HashMap<Arc<str>, usize>,
+    /// Which file a call by name from a file meant.
+    found: BTreeMap<(String, String), usize>,
+    /// Which calls found none, and why.
+    missing: BTreeMap<(String, String), NoProgram>,
+    /// The blocks of sections by their numbers, where those were asked for.
+    numbers: HashMap<ProgramId, HashMap<i64, EntryIndex>>,
+    /// How many parsed blocks are kept.
+    kept: usize,
+    /// Bytes of the texts.
+    held_text: u64,
+    /// Names that were compared with those of calls that found nothing.
+    compared: usize,
+}
+
+impl Programs {
+    /// No file yet.
+    pub(in crate::interpreter) fn new(nesting: u32) -> Self {
+        Self {
+            nesting,
+            ..Self::default()
+        }
+    }
+
+    /// Lets go of all files.
+    pub(in crate::interpreter) fn clear(&mut self) {
+        *self = Self::new(self.nesting);
+    }
+
+    /// The files.
+    pub(in crate::interpreter) fn units(&self) -> &[Unit] {
+        &self.units
+    }
+
+    /// A file.
+    pub(in crate::interpreter) fn unit_mut(&mut self, unit: usize) -> &mut Unit {
+        &mut self.units[unit]
+    }
+
+    /// The index of a file.
+    #[inline]
+    pub(in crate::interpreter) fn index(&self, unit: usize) -> &Index {
+        &self.units[unit].index
+    }
+
+    /// A program.
+    #[inline]
+    pub(in crate::interpreter) fn section(&self, program: ProgramId) -> &Section {
+        &self.units[program.unit].index.sections[program.section]
+    }
+
+    /// The work that the texts bring with them.
+    pub(in crate::interpreter) fn granted(&self) -> u64 {
+        PER_BYTE_HELD.saturating_mul(self.held_text)
+    }
+
+    /// Takes a file into the run; returns its number.
+    pub(in crate::interpreter) fn hold(&mut self, index: Index) -> usize {
+        let bytes = u64::try_from(index.source.text().len()).unwrap_or(u64::MAX);
+        self.held_text = self.held_text.saturating_add(bytes);
+        let unit = self.units.len();
+        let name = index.source.name().clone();
+        self.names.entry(name).or_insert(unit);
+        self.units.push(Unit::new(index));
+        unit
+    }
+
+    /// The main program takes the place that was kept for it. The programs that were called so far
+    /// stay where they are: a modal cycle and the calls that were found name them by their places.
+    pub(in crate::interpreter) fn hold_first(&mut self, index: Index) {
+        self.names.retain(|_, unit| *unit != 0);
+        let held = self.hold(index);
+        let name = self.units[held].index.source.name().clone();
+        self.units.swap_remove(0);
+        self.numbers.clear();
+        self.names.insert(name, 0);
+    }
+
+    /// A parsed block; those that are executed again are kept.
+    pub(in crate::interpreter) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
+        let place = entry as usize;
+        let unit = &mut self.units[unit];
+        if let Some(Some(kept)) = unit.kept.get(place) {
+            return Arc::clone(kept);
+        }
+        unit.executed[place] = true;
+        let mut block = Block::default();
+        let mut text = String::new();
+        let mut comments = Comments::Possible;
+        let mut remark = None;
+        if let Some(mut reader) = unit.index.reader(entry)
+            && let Some(raw) = reader.next(&mut block)
+        {
+            debug_assert_eq!(raw.stretch, Stretch::Block);
+            raw.text.clone_into(&mut text);
+            comments = raw.comments;
+            remark = raw.remark.cloned();
+        }
+        let remark = remark.or_else(|| unit.index.remark(entry));
+        let parsed = Arc::new(Parsed {
+            block,
+            file: Arc::clone(unit.index.source.name()),
+            line: unit.index.entries[place].line,
+            text,
+            comments,
+            remark,
+        });
+        let again = entry < unit.high;
+        unit.high = unit.high.max(entry + 1);
+        if again && self.kept < MAX_KEPT {
+            if unit.kept.len() <= place {
+                unit.kept.resize(unit.index.entries.len(), None);
+            }
+            unit.kept[place] = Some(Arc::clone(&parsed));
+            self.kept += 1;
+        }
+        parsed
+    }
+
+    /// The block of a section that a jump label or a block number names.
+    pub(in crate::interpreter) fn block_of(
+        &mut self,
+        program: ProgramId,
+        name: &LabelName,
+        effort: &Effort,
+    ) -> Option<EntryIndex> {
+        let ProgramId { unit, section } = program;
+        if let Some(entry) = self.units[unit].index.label(section, name.clone()) {
+            return Some(entry);
+        }
+        let LabelName::Number(number) = name else {
+            return None;
+        };
+        let index = &self.units[unit].index;
+        let numbers = self.numbers.entry(program).or_insert_with(|| {
+            effort.charge(ITEM * index.entries.len());
+            index.numbers(section)
+        });
+        numbers.get(number).copied()
+    }
+
+    /// The program that a call means; `None` where its file holds nothing to execute.
+    pub(in crate::interpreter) fn find(
+        &mut self,
+        wanted: &Wanted,
+        caller: Caller<'_>,
+        finder: &mut dyn Finder,
+        effort: &Effort,
+    ) -> Result<Option<ProgramId>, Box<Fault>> {
+        let name = wanted.name.as_str();
+        let unit = caller.unit;
+        if wanted.scope == CallScope::Local {
+            let section = self.units.get(unit);
+            return match section.and_then(|unit| unit.index.local(name)) {
+                Some(section) => Ok(Some(ProgramId { unit, section })),
+                None => Err(self.no_local(wanted, unit, effort)),
+            };
+        }
+        let key = (caller.file.to_owned(), name.to_owned());
+        let unit = if let Some(&unit) = self.found.get(&key) {
+            unit
+        } else {
+            let source = match self.missing.get(&key) {
+                Some(why) => Err(why.clone()),
+                None => finder.find(name, caller.file),
+            };
+            let source = match source {
+                Ok(source) => source,
+                Err(why) => {
+                    let fault = not_at_hand(wanted, &why);
+                    self.missing.insert(key, why);
+                    return Err(fault);
+                }
+            };
+            let known = self.names.get(source.name()).copied();
+            let unit = known.unwrap_or_else(|| self.hold(Index::new(source, self.nesting)));
+            self.found.insert(key, unit);
+            unit
+        };
+        let index = &self.units[unit].index;
+        match index.main() {
+            Some(section) => Ok(Some(ProgramId { unit, section })),
+            None if index.local_names().next().is_some() => Err(Box::new(
+                Fault::new(
+                    Code::Fc320,
+                    wanted.span,
+                    format!(
+                        "the called program `{name}` contains only local subprograms, nothing to \
+                         call"
+                    ),
+                )
+                .with_help(
+                    "a program that is called begins with `%NAME` or has no `%` line at all",
+                ),
+            )),
+            // An empty file does nothing (R2.8).
+            None => Ok(None),
+        }
+    }
+
+    /// FC320 for a local subprogram. Names are compared for the first calls only: a file of calls
+    /// that all fail has as many names as calls (R2.60).
+    fn no_local(&mut self, wanted: &Wanted, unit: usize, effort: &Effort) -> Box<Fault> {
+        let name = wanted.name.as_str();
+        let fault = Fault::new(
+            Code::Fc320,
+            wanted.span,
+            format!("the file has no local subprogram `{name}`"),
+        );
+        let left = MAX_COMPARED.saturating_sub(self.compared);
+        let mut compared = 0;
+        let near = self.units.get(unit).and_then(|unit| {
+            let known = unit.index.local_names().take(left);
+            did_you_mean(name, known.inspect(|_| compared += 1))
+        });
+        let fault = match near {
+            Some(near) => fault.with_help(Advice::DidYouMean(near.to_owned())),
+            None => fault.with_help(format!(
+                "a local subprogram begins with `%L {name}` in the same file"
+            )),
+        };
+        self.compared += compared;
+        effort.charge(compared);
+        Box::new(fault)
+    }
+}
+
+fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
+    let name = &wanted.name;
+    let fault = |code, what: &str| {
+        Fault::new(
+            code,
+            wanted.span,
+            format!("the called program `{name}` {what}"),
+        )
+    };
+    Box::new(match why {
+        NoProgram::Absent if name.is_empty() => {
+            Fault::new(Code::Fc320, wanted.span, "the name of the called program is empty")
+        }
+        NoProgram::Absent => fault(Code::Fc320, "was not found")
+            .with_help("it was looked for beside the calling file, then in the `program_dirs` of the configuration")
+            .with_help(on_machine_only(name)),
+        NoProgram::Unusable(what) => fault(Code::Fc320, what)
+            .with_help("a called program must be a readable file of at most 1 GiB"),
+        NoProgram::Outside => fault(Code::Fc321, "is outside the folders that programs may be called from")
+            .with_help("these are the caller's folder, that of `frictcomp.toml` (the current folder if there is none), `program_dirs`, and everything below them; a file of the same name is also looked for there")
+            .with_help(Advice::AllowOutside),
+    })
+}
+
+/// How a program is passed over that only the machine has (R2.83).
+fn on_machine_only(name: &str) -> String {
+    let last = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    format!(
+        "to pass over a program that only the machine has, set `external = [\"{last}\"]` in `[machine]`"
+    )
+}

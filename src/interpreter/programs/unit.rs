@@ -1,0 +1,43 @@
+//! A file of a run: which of its blocks were executed, and those that are kept parsed.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::index::{EntryIndex, Index};
+use crate::syntax::ast::Block;
+use crate::syntax::{Comments, Remark};
+
+/// A file of the run.
+pub(in crate::interpreter) struct Unit {
+    pub(in crate::interpreter) index: Index,
+    /// Blocks that were executed more than once, parsed.
+    pub(in crate::interpreter) kept: Vec<Option<Arc<Parsed>>>,
+    /// Blocks below this one were executed before.
+    pub(in crate::interpreter) high: EntryIndex,
+    /// Which blocks were executed, where that is asked for.
+    pub(in crate::interpreter) executed: Vec<bool>,
+    /// Control blocks whose branch is not known offline.
+    pub(in crate::interpreter) undecided: BTreeSet<EntryIndex>,
+}
+
+impl Unit {
+    pub(in crate::interpreter) fn new(index: Index) -> Self {
+        Self {
+            kept: Vec::new(),
+            high: 0,
+            executed: vec![false; index.entries.len()],
+            undecided: BTreeSet::new(),
+            index,
+        }
+    }
+}
+
+/// A parsed block with its text and its place.
+pub(in crate::interpreter) struct Parsed {
+    pub(in crate::interpreter) block: Block,
+    pub(in crate::interpreter) file: Arc<str>,
+    pub(in crate::interpreter) line: u32,
+    pub(in crate::interpreter) text: String,
+    pub(in crate::interpreter) comments: Comments,
+    pub(in crate::interpreter) remark: Option<Remark>,
+}

@@ -1,0 +1,75 @@
+//! What a block asks for when it calls a program.
+
+use std::collections::BTreeMap;
+
+use super::index::LabelName;
+use crate::interpreter::values::value::Value;
+use crate::syntax::ast::{CallForm, CallScope};
+use crate::text::Span;
+
+/// A word that may call a program: G, M, T or D with its number, where that is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(in crate::interpreter) struct FunctionWord {
+    pub(in crate::interpreter) letter: u8,
+    pub(in crate::interpreter) number: Option<i64>,
+}
+
+impl FunctionWord {
+    /// A G function.
+    pub(in crate::interpreter) fn g(number: u32) -> Self {
+        Self {
+            letter: b'G',
+            number: Some(i64::from(number)),
+        }
+    }
+
+    /// The D word with the number of a T word.
+    pub(in crate::interpreter) fn of_data(self) -> Self {
+        Self {
+            letter: b'D',
+            ..self
+        }
+    }
+}
+
+/// A call whose program has not been looked for yet.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct Wanted {
+    pub(in crate::interpreter) scope: CallScope,
+    pub(in crate::interpreter) name: String,
+    pub(in crate::interpreter) own: BTreeMap<u32, Value>,
+    pub(in crate::interpreter) span: Span,
+    /// Whether it is a cycle.
+    pub(in crate::interpreter) form: CallForm,
+    /// Set for a modal cycle: whether it waits for motion.
+    pub(in crate::interpreter) repeat: Option<bool>,
+    /// The part of the program, where it is not the whole.
+    pub(in crate::interpreter) part: Option<Part>,
+}
+
+impl Wanted {
+    /// A call of a program without parameters.
+    pub(in crate::interpreter) fn program(scope: CallScope, name: String, span: Span) -> Self {
+        Self {
+            scope,
+            name,
+            own: BTreeMap::new(),
+            span,
+            form: CallForm::Plain,
+            repeat: None,
+            part: None,
+        }
+    }
+}
+
+/// What `L SEQUENCE` asks for.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct Part {
+    pub(in crate::interpreter) first: LabelName,
+    pub(in crate::interpreter) last: Option<LabelName>,
+    /// Whether the call itself ends the part, too.
+    pub(in crate::interpreter) end_tag: bool,
+    pub(in crate::interpreter) passes: u64,
+    /// Whether it is one of the program that is executed.
+    pub(in crate::interpreter) here: bool,
+}

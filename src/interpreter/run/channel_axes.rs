@@ -1,0 +1,52 @@
+//! Which axes the channel has, and under which names.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::comp::AxisIndex;
+
+/// The names of the channel's axes, as far as the program changed them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ChannelAxes {
+    pub(in crate::interpreter) names: BTreeMap<String, Meaning>,
+    /// Whether the meaning of every name is unknown.
+    pub(in crate::interpreter) doubtful: bool,
+}
+
+impl ChannelAxes {
+    /// Whether it names no axis beyond so many.
+    pub(in crate::interpreter) fn fits(&self, count: usize) -> bool {
+        self.names.values().all(|meaning| match meaning {
+            Meaning::Axis(axis) | Meaning::Released(Some(axis)) => axis.get() < count,
+            Meaning::Released(None) | Meaning::Unknown => true,
+        })
+    }
+
+    /// The names may or may not be those of another way through the program.
+    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+        self.doubtful |= self != other;
+    }
+}
+
+/// What a name of an axis means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::interpreter) enum Meaning {
+    /// This axis of the machine, whatever its own name is.
+    Axis(AxisIndex),
+    /// An axis that the channel has given back.
+    Released(Option<AxisIndex>),
+    /// Some axis.
+    Unknown,
+}
+
+/// Which axis a COMP command switches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Addressed {
+    /// This one.
+    Axis(AxisIndex),
+    /// One that the channel does not have; the control refuses it.
+    Absent(Option<AxisIndex>),
+    /// Any of them.
+    Any,
+}

@@ -1,0 +1,94 @@
+//! Modal cycles: what is called again after blocks or motions (R2.13).
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::interpreter::programs::index::ProgramId;
+use crate::interpreter::values::value::Value;
+use crate::syntax::ast::{Call, Repetition};
+
+/// The modal cycle in force, or those of which nobody knows which one is.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct ModalCycles {
+    cycles: Vec<Repeated>,
+}
+
+/// A modal cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Repeated {
+    pub(in crate::interpreter) call: RepeatedCall,
+    pub(in crate::interpreter) own: BTreeMap<u32, Value>,
+    pub(in crate::interpreter) after_motion_only: bool,
+}
+
+/// What a modal cycle calls.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) enum RepeatedCall {
+    /// A program that is at hand.
+    Program(ProgramId),
+    /// The same, or nothing: it is not known whether the cycle is in force.
+    Perhaps(ProgramId),
+    /// A program that is on the machine only, by its name.
+    External(String),
+}
+
+impl ModalCycles {
+    /// A cycle that is in force.
+    pub(in crate::interpreter) fn of(cycle: Repeated) -> Self {
+        Self {
+            cycles: vec![cycle],
+        }
+    }
+
+    /// Whether no cycle is in force.
+    #[inline]
+    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+        self.cycles.is_empty()
+    }
+
+    /// The cycles that may be in force.
+    pub(in crate::interpreter) fn known(&self) -> &[Repeated] {
+        &self.cycles
+    }
+
+    /// It may have been switched off.
+    pub(in crate::interpreter) fn doubt(&mut self) {
+        for cycle in &mut self.cycles {
+            if let RepeatedCall::Program(found) = cycle.call {
+                cycle.call = RepeatedCall::Perhaps(found);
+            }
+        }
+    }
+
+    /// Another cycle may be in force instead.
+    pub(in crate::interpreter) fn add(&mut self, cycle: Repeated) {
+        self.cycles.push(cycle);
+        self.doubt();
+        if let Some((last, before)) = self.cycles.split_last()
+            && before.contains(last)
+        {
+            self.cycles.pop();
+        }
+    }
+
+    /// Those of another way may be in force instead.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) {
+        if self == other {
+            return;
+        }
+        self.doubt();
+        for cycle in &other.cycles {
+            self.add(cycle.clone());
+        }
+    }
+}
+
+/// What a call repeats after.
+pub(in crate::interpreter) fn after_motion_only(call: &Call) -> Option<bool> {
+    match call.repetition {
+        Repetition::Once => None,
+        Repetition::AfterMotion => Some(true),
+        Repetition::AfterBlock => Some(false),
+    }
+}

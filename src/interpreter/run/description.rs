@@ -1,0 +1,16 @@
+//! A description of geometry that is open (R2.81).
+
+use serde::{Deserialize, Serialize};
+
+use crate::interpreter::coordinates::modal::Modal;
+use crate::text::Place;
+
+/// A description of geometry whose blocks do not move (R2.81).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Description {
+    /// What opened it, `#CONTOUR BEGIN`.
+    pub(in crate::interpreter) opener: String,
+    pub(in crate::interpreter) place: Place,
+    /// What was in force before it.
+    pub(in crate::interpreter) before: Modal,
+}

@@ -1,0 +1,199 @@
+//! What the interpreter tells while it runs.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, KindSet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::coordinates::axis_words::AxisWord;
+use crate::interpreter::coordinates::modal::Modal;
+use crate::interpreter::coordinates::motion::Motion;
+use crate::syntax::ast::Block;
+use crate::syntax::{Comments, Remark};
+use crate::text::Place;
+
+/// Why a program ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum EndedBy {
+    /// M30.
+    M30,
+    /// M02.
+    M02,
+    /// The file ended without either.
+    EndOfFile,
+    /// An error of the control.
+    Error,
+    /// A budget was used up.
+    Budget,
+}
+
+impl EndedBy {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::M30 => "M30",
+            Self::M02 => "M02",
+            Self::EndOfFile => "end-of-file",
+            Self::Error => "error",
+            Self::Budget => "budget",
+        }
+    }
+}
+
+impl fmt::Display for EndedBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+/// What became of a COMP command.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// The command.
+    pub command: CompCommand,
+    /// The axis, or the control's refusal.
+    pub result: Result<AxisIndex, CompensationError>,
+    /// How many of the block's changes it made.
+    pub changes: usize,
+}
+
+/// What a run came across that a user may want to look at.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// Why.
+    pub kind: NoteKind,
+    /// The value's name, or the word that was passed over.
+    pub name: String,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// Why a [`Note`] is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum NoteKind {
+    /// A value that only the machine knows was read (R2.50).
+    Unknown,
+    /// A word or command was accepted and passed over.
+    Opaque,
+}
+
+/// Whether notes are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Notes {
+    /// They are not.
+    #[default]
+    None,
+    /// They are, with the places.
+    Taken,
+}
+
+/// A block that was executed.
+#[derive(Debug, Clone, Copy)]
+pub struct Executed<'a> {
+    /// The executed block of the program, from 1.
+    pub seq: u64,
+    /// The file that holds it.
+    pub file: &'a Arc<str>,
+    /// The line on which it starts, from 1.
+    pub line: u32,
+    /// The source lines joined by `\n`, without trailing blanks.
+    pub text: &'a str,
+    /// Whether comments stand in the text.
+    pub comments: Comments,
+    /// The comment line directly above that speaks to this tool.
+    pub remark: Option<&'a Remark>,
+    /// Its block number, where it is known.
+    pub number: Option<i64>,
+    /// The call depth, from 1; absent in the main program.
+    pub level: Option<u32>,
+    /// What stands in it.
+    pub block: &'a Block,
+    /// Its COMP commands, from left to right, as far as it was executed.
+    pub outcomes: &'a [Outcome],
+    /// What it changed.
+    pub changes: &'a [Change],
+    /// What it leaves unknown, though no command of it names that (R2.51).
+    pub doubted: &'a [(AxisIndex, KindSet)],
+    /// The axes that it moves.
+    pub moved: &'a [AxisWord],
+    /// What it makes the machine do, where motions are taken.
+    pub motion: Option<&'a Motion>,
+    /// The notes on it, where they are taken.
+    pub notes: &'a [Note],
+    /// What is to be said about it, in no order.
+    pub diagnostics: &'a [Diagnostic],
+    /// Whether an error stopped the program in this block.
+    pub stopped: bool,
+    /// The state after it.
+    pub compensation: &'a Compensation,
+    /// G functions and positions after it.
+    pub modal: &'a Modal,
+    /// The axes that occurred so far.
+    pub occurred: &'a [bool],
+    /// Rises whenever the state or the axes that occurred change.
+    pub version: u64,
+}
+
+/// The end of a program.
+#[derive(Debug, Clone, Copy)]
+pub struct Ended<'a> {
+    /// How many blocks were executed.
+    pub seq: u64,
+    /// Why.
+    pub by: EndedBy,
+    /// Whether it would run until a reset ends it: its state repeats (R2.84).
+    pub endless: bool,
+    /// The block of the main program that ends it, `M30` for instance.
+    pub at: Option<&'a Place>,
+    /// What program end changed itself.
+    pub changes: &'a [Change],
+    /// What is to be said about the program and belongs to no executed block.
+    pub diagnostics: &'a [Diagnostic],
+    /// How many more messages of the kind there are, by code (R2.85).
+    pub unsaid: &'a BTreeMap<Code, u64>,
+    /// The state that is left.
+    pub compensation: &'a Compensation,
+    /// The axes that occurred so far.
+    pub occurred: &'a [bool],
+    /// Rises whenever the state or the axes that occurred change.
+    pub version: u64,
+}
+
+/// What the interpreter tells.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub enum Event<'a> {
+    /// A program begins; its name stands after `%`.
+    Started {
+        /// The name, where it has one.
+        name: Option<&'a str>,
+        /// The state that it starts with.
+        compensation: &'a Compensation,
+        /// The axes that occurred so far.
+        occurred: &'a [bool],
+        /// Rises whenever the state or the axes that occurred change.
+        version: u64,
+    },
+    /// A block was executed.
+    Executed(Executed<'a>),
+    /// The program ended.
+    Ended(Ended<'a>),
+}
+
+/// Listens to a run.
+pub trait Observer {
+    /// Takes an event; `Break` stops the run, which can be resumed.
+    fn event(&mut self, event: Event<'_>) -> ControlFlow<()>;
+}
+
+impl<F: FnMut(Event<'_>) -> ControlFlow<()>> Observer for F {
+    fn event(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        self(event)
+    }
+}

@@ -1,0 +1,48 @@
+//! What a block does after its words.
+
+use super::event::EndedBy;
+use super::step::Step;
+use crate::interpreter::coordinates::axis_words::AxisWords;
+use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::programs::wanted::Wanted;
+use crate::text::Span;
+
+/// The F word of a block.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::interpreter) enum Feed {
+    /// There is none.
+    #[default]
+    Absent,
+    /// Its value, where it is known.
+    Given(Option<f64>),
+}
+
+/// What a block does after its words.
+#[derive(Default)]
+pub(in crate::interpreter) struct Intent {
+    /// M02, M30.
+    pub(in crate::interpreter) end: Option<EndedBy>,
+    /// M17, M29.
+    pub(in crate::interpreter) returns: bool,
+    /// A jump, or a control block's business.
+    pub(in crate::interpreter) step: Option<Step>,
+    /// Calls, in the order in which they are made.
+    pub(in crate::interpreter) calls: Vec<Wanted>,
+    /// The G functions of the block, to find two of one group.
+    pub(in crate::interpreter) groups: [Option<u32>; Group::COUNT],
+    /// What axis words are: G04, G92 … make them something else than coordinates.
+    pub(in crate::interpreter) axis_words: AxisWords,
+    /// F, which may be unknown.
+    pub(in crate::interpreter) feed: Feed,
+    /// R of a circle.
+    pub(in crate::interpreter) radius: Option<Span>,
+    /// The condition of an `$IF` in a block with `$GOTO`.
+    pub(in crate::interpreter) condition: Option<bool>,
+}
+
+impl Intent {
+    /// Whether nothing in the block itself leads elsewhere than to the next one.
+    pub(in crate::interpreter) fn goes_on(&self) -> bool {
+        self.end.is_none() && !self.returns && self.step.is_none()
+    }
+}

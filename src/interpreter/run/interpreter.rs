@@ -1,0 +1,269 @@
+//! The interpreter: a machine, the state of a run on it, and the files it consists of.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::channel_axes::ChannelAxes;
+use super::coupling::Couplings;
+use super::cycles::ModalCycles;
+use super::journal::{Journal, Regions, Scan};
+use super::options::{Handed, Options};
+use super::stack::CallStack;
+use super::state::State;
+use super::step::Sought;
+use super::ways::{Departing, Ways};
+use super::work::Work;
+use crate::comp::{AxisIndex, Compensation};
+use crate::diagnostic::Collected;
+use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::programs::store::Programs;
+use crate::interpreter::values::effort::Effort;
+use crate::interpreter::values::memory::Memory;
+use crate::interpreter::values::value::Value;
+use crate::machine::{AxisSet, Machine, Setting};
+use crate::syntax::ast::Block;
+
+/// Runs programs on a machine.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use frictcomp::interpreter::{Event, Interpreter, NoFiles, Options};
+/// use frictcomp::{machine::Machine, text::SourceFile};
+///
+/// let machine = Machine::enabled(["X"]);
+/// let comp = machine.compensation();
+/// let mut run = Interpreter::new(machine, comp, Options::default());
+/// let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
+/// let mut changes = 0;
+/// run.program(program, &mut NoFiles, &mut |event: Event<'_>| {
+///     if let Event::Executed(block) = event {
+///         changes += block.changes.len();
+///     }
+///     ControlFlow::Continue(())
+/// });
+/// assert_eq!(changes, 1);
+/// ```
+pub struct Interpreter {
+    pub(in crate::interpreter) machine: Arc<Machine>,
+    pub(in crate::interpreter) options: Options,
+    pub(in crate::interpreter) handed: Handed,
+    /// The axes with one-letter names.
+    pub(in crate::interpreter) letters: [Option<AxisIndex>; 26],
+    /// The axes with longer names.
+    pub(in crate::interpreter) names: BTreeMap<String, AxisIndex>,
+    /// Whether any axis requires a compensation (P-AXIS-00465).
+    pub(in crate::interpreter) any_required: bool,
+    pub(in crate::interpreter) programs: Programs,
+    /// Where a main program that is read line by line goes on.
+    pub(in crate::interpreter) sought: Option<Sought>,
+    /// Calls in regions that may or may not be executed.
+    pub(in crate::interpreter) pending: Vec<Scan>,
+    /// Ways that leave at the block that is executed.
+    pub(in crate::interpreter) departing: Vec<Departing>,
+    pub(in crate::interpreter) regions: Regions,
+    /// What there is to say about comments of lines that are not kept.
+    pub(in crate::interpreter) lost: Collected,
+    pub(in crate::interpreter) journal: Journal,
+    pub(in crate::interpreter) state: State,
+    pub(in crate::interpreter) version: u64,
+    pub(in crate::interpreter) work: Work,
+}
+
+impl Interpreter {
+    /// An interpreter for a machine whose compensation is in a given state.
+    pub fn new(
+        machine: impl Into<Arc<Machine>>,
+        compensation: Compensation,
+        options: Options,
+    ) -> Self {
+        let machine = machine.into();
+        let axes = machine.axes.len();
+        let configured = machine.axis_set == AxisSet::Configured;
+        let occurred = machine
+            .axes
+            .iter()
+            .map(|axis| configured || axis.frict_comp_origin != crate::machine::Origin::Default)
+            .collect();
+        let state = State {
+            compensation,
+            memory: Memory::default(),
+            modal: Modal::new(axes),
+            frames: CallStack::default(),
+            seq: 0,
+            blocks: 0,
+            effort: Effort::default(),
+            opaque: BTreeMap::new(),
+            occurred,
+            couplings: Couplings::default(),
+            channel_axes: ChannelAxes::default(),
+            cycles: ModalCycles::default(),
+            loops: Vec::new(),
+            left_loops: Vec::new(),
+            watching: false,
+            reads: RefCell::default(),
+            refused: BTreeSet::new(),
+            ending: None,
+            last: None,
+            parked: None,
+            named: BTreeMap::new(),
+            described: None,
+            ways: Ways::default(),
+        };
+        let mut interpreter = Self::with_state(machine, options, state);
+        interpreter.define_machine_macros();
+        interpreter
+    }
+
+    pub(in crate::interpreter) fn with_state(
+        machine: Arc<Machine>,
+        options: Options,
+        state: State,
+    ) -> Self {
+        let mut letters = [None; 26];
+        let mut names = BTreeMap::new();
+        for (position, axis) in machine.axes.iter().enumerate() {
+            let index = AxisIndex::new(position);
+            match axis.name.as_bytes() {
+                [letter @ b'A'..=b'Z'] => letters[usize::from(letter - b'A')] = Some(index),
+                _ => {
+                    names.insert(axis.name.clone(), index);
+                }
+            }
+        }
+        Self {
+            any_required: machine.axes.iter().any(|axis| !axis.required.is_empty()),
+            machine,
+            options,
+            programs: Programs::new(options.limits.nesting),
+            handed: Handed::Whole,
+            letters,
+            names,
+            sought: None,
+            pending: Vec::new(),
+            departing: Vec::new(),
+            regions: Regions::new(),
+            lost: Collected::default(),
+            journal: Journal::default(),
+            state,
+            version: 0,
+            work: Work::default(),
+        }
+    }
+
+    /// Gives a variable the value that only the machine knows (R2.36).
+    pub fn set(&mut self, name: &str, setting: &Setting) {
+        self.state.memory.give(name, setting.into());
+        self.journal.begin_anew();
+    }
+
+    /// The machine.
+    pub fn machine(&self) -> &Arc<Machine> {
+        &self.machine
+    }
+
+    /// The compensation state of the moment.
+    pub fn compensation(&self) -> &Compensation {
+        &self.state.compensation
+    }
+
+    /// The axes that occurred so far, by position; every axis of a configured machine.
+    pub fn occurred(&self) -> &[bool] {
+        &self.state.occurred
+    }
+
+    /// Takes an axis for one that occurred.
+    pub fn expect_axis(&mut self, axis: AxisIndex) {
+        self.state.occurred[axis.get()] = true;
+        self.version += 1;
+    }
+
+    /// Rises whenever the compensation state or the axes that occurred change.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// The executed blocks of the session.
+    pub fn blocks(&self) -> u64 {
+        self.state.blocks
+    }
+
+    /// What was passed over, by word.
+    pub fn opaque(&self) -> &BTreeMap<String, u64> {
+        &self.state.opaque
+    }
+
+    /// The position of an axis after the last block: the programmed coordinate in mm or degrees.
+    pub fn position(&self, axis: AxisIndex) -> AxisPosition {
+        self.state.modal.position(axis)
+    }
+
+    /// The G functions in force.
+    pub fn modal(&self) -> &Modal {
+        &self.state.modal
+    }
+
+    /// The `V.S.` variables, which outlive programs (R2.34).
+    pub fn shared_variables(&self) -> BTreeMap<String, Value> {
+        self.state.memory.shared()
+    }
+
+    /// Takes over the compensation state of an earlier session.
+    pub fn set_compensation(&mut self, compensation: Compensation) {
+        self.state.compensation = compensation;
+        self.version += 1;
+    }
+
+    /// The axis that `@X` means in the plane in force.
+    pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
+        let letter = self.state.modal.main_axis(letter)?;
+        self.letters[usize::from(letter - b'A')]
+    }
+
+    /// An axis occurs.
+    #[inline]
+    pub(in crate::interpreter) fn see(&mut self, axis: AxisIndex) {
+        self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
+    }
+
+    pub(in crate::interpreter) fn is_skipped(&self, block: &Block) -> bool {
+        block
+            .skip
+            .is_some_and(|level| self.options.skip & (1 << level.min(15)) != 0)
+    }
+
+    /// The work of the session so far, in units: characters of macros, texts and regions that were
+    /// gone through, operands that were computed, names that were compared (R2.60).
+    pub fn work(&self) -> u64 {
+        self.state.effort.spent()
+    }
+
+    /// How high the level of work may rise.
+    pub(in crate::interpreter) fn work_bound(&self) -> u64 {
+        let granted = self.programs.granted();
+        self.options.limits.work.saturating_add(granted)
+    }
+
+    /// Whether the budget of work is used up.
+    pub(in crate::interpreter) fn is_worn_out(&self) -> bool {
+        self.state.effort.level() > self.work_bound()
+    }
+
+    /// The macros of the channel list, which no program takes away (TF5200 Programming manual,
+    /// 208400267).
+    pub(in crate::interpreter) fn define_machine_macros(&mut self) {
+        for (name, code) in &self.machine.programs.macros {
+            self.state.memory.define_macro(name, code);
+        }
+    }
+
+    /// The statement that is executed and the end of its control block.
+    pub(in crate::interpreter) fn current_block(&self) -> Range<EntryIndex> {
+        self.state.frames.running().map_or(0..0, |frame| {
+            let entry = frame.next - 1;
+            entry..self.programs.index(frame.unit).links(entry).end
+        })
+    }
+}

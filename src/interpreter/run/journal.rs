@@ -1,0 +1,83 @@
+//! What is kept about regions that were made unknown, so that a loop that comes back to one need not
+//! look at it again.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::region::Region;
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::values::target::{Place, Target};
+use crate::interpreter::values::value::Value;
+
+/// A call found in a region that may or may not be executed.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct Scan {
+    pub(in crate::interpreter) call: Wanted,
+    pub(in crate::interpreter) cause: Arc<str>,
+    /// The file that holds the call.
+    pub(in crate::interpreter) unit: usize,
+    /// The region that holds it, where it is written there.
+    pub(in crate::interpreter) region: Option<RegionKey>,
+}
+
+/// What was written since regions were made unknown last: a loop that comes back to a region need
+/// only look at that.
+#[derive(Debug, Default)]
+pub(in crate::interpreter) struct Journal {
+    written: Vec<Target>,
+    /// Rises when the list is restarted.
+    epoch: u64,
+    /// Up to where the list counted when a region was made unknown.
+    seen: HashMap<RegionKey, (u64, usize)>,
+}
+
+impl Journal {
+    /// A value became known.
+    #[inline]
+    pub(in crate::interpreter) fn write(&mut self, place: &Place, value: &Value) {
+        // Where no region was looked through, nothing has to be kept.
+        if self.seen.is_empty() || matches!(value, Value::Unknown(_)) {
+            return;
+        }
+        match place {
+            Place::Parameter(owner, index) => self.note(Target::Parameter(*owner, *index)),
+            Place::Variable(name) => self.note(Target::Variable(name.clone())),
+            Place::Elements(..) | Place::Parameters(_) | Place::Nowhere => {}
+        }
+    }
+
+    fn note(&mut self, target: Target) {
+        if self.written.len() >= MAX_WRITTEN {
+            self.begin_anew();
+        } else {
+            self.written.push(target);
+        }
+    }
+
+    /// Something happened that the list does not tell.
+    pub(in crate::interpreter) fn begin_anew(&mut self) {
+        self.written.clear();
+        self.epoch += 1;
+        self.seen.clear();
+    }
+
+    /// What was written since the region was made unknown last; `None` where that is not known.
+    pub(in crate::interpreter) fn since(&self, key: RegionKey) -> Option<&[Target]> {
+        let &(epoch, from) = self.seen.get(&key)?;
+        (epoch == self.epoch).then(|| self.written.get(from..).unwrap_or_default())
+    }
+
+    pub(in crate::interpreter) fn mark(&mut self, key: RegionKey) {
+        self.seen.insert(key, (self.epoch, self.written.len()));
+    }
+}
+
+/// A file and a range of its blocks.
+pub(in crate::interpreter) type RegionKey = (usize, EntryIndex, EntryIndex);
+
+/// How long the list may become.
+const MAX_WRITTEN: usize = 4096;
+
+/// Regions that were looked through.
+pub(in crate::interpreter) type Regions = HashMap<RegionKey, Arc<Region>>;

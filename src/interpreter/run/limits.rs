@@ -1,0 +1,71 @@
+//! What a run may use up (R2.60).
+
+/// Bounds on what a dry run may do (R2.60).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Limits {
+    /// Executed blocks of a session, `--max-blocks`.
+    pub blocks: u64,
+    /// Work beyond what the executed blocks bring with them, `--max-work`.
+    pub work: u64,
+    /// Values that are held at a time, `--max-values`; a text counts as one more for every 32
+    /// bytes.
+    pub values: u32,
+    /// Depth of subprogram calls, `--max-calls`.
+    pub calls: u32,
+    /// Depth of nested `$` blocks, `--max-nesting`.
+    pub nesting: u32,
+    /// Depth of macro expansion, `--max-macros`.
+    pub macros: u32,
+}
+
+impl Limits {
+    /// The same with another value of [`blocks`](Self::blocks).
+    pub fn with_blocks(mut self, blocks: u64) -> Self {
+        self.blocks = blocks;
+        self
+    }
+
+    /// The same with another value of [`work`](Self::work).
+    pub fn with_work(mut self, work: u64) -> Self {
+        self.work = work;
+        self
+    }
+
+    /// The same with another value of [`values`](Self::values).
+    pub fn with_values(mut self, values: u32) -> Self {
+        self.values = values;
+        self
+    }
+
+    /// The same with another value of [`calls`](Self::calls).
+    pub fn with_calls(mut self, calls: u32) -> Self {
+        self.calls = calls;
+        self
+    }
+
+    /// The same with another value of [`nesting`](Self::nesting).
+    pub fn with_nesting(mut self, nesting: u32) -> Self {
+        self.nesting = nesting;
+        self
+    }
+
+    /// The same with another value of [`macros`](Self::macros).
+    pub fn with_macros(mut self, macros: u32) -> Self {
+        self.macros = macros;
+        self
+    }
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            blocks: 100_000_000,
+            work: 10_000_000,
+            values: 1_000_000,
+            calls: 50,
+            nesting: 50,
+            macros: 16,
+        }
+    }
+}

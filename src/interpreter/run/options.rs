@@ -1,0 +1,97 @@
+//! How programs are run, and how a run goes on.
+
+use super::event::{EndedBy, Notes};
+use super::limits::Limits;
+use crate::interpreter::coordinates::motion::Motions;
+use crate::syntax::FastPath;
+
+/// What happens at an error of the control (R9.20).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum StopPolicy {
+    /// The first error stops the program and the session, as on the control.
+    #[default]
+    FirstError,
+    /// The failing command is treated as if it were not there.
+    KeepGoing,
+    /// As `KeepGoing`; blocks that are never executed are checked for their syntax too.
+    CheckAll,
+}
+
+/// How programs are run.
+#[derive(Debug, Clone, Copy, Default)]
+#[non_exhaustive]
+pub struct Options {
+    /// What happens at an error.
+    pub stop: StopPolicy,
+    /// The levels of blocks that are skipped, bit 1 for `/` and `/1`, up to bit 10 (R2.3).
+    pub skip: u16,
+    /// Budgets.
+    pub limits: Limits,
+    /// Whether plain blocks are parsed by hand.
+    pub fast_path: FastPath,
+    /// Whether notes are taken.
+    pub notes: Notes,
+    /// Whether blocks say what they move.
+    pub motions: Motions,
+}
+
+impl Options {
+    /// The same with another value of [`stop`](Self::stop).
+    pub fn with_stop(mut self, stop: StopPolicy) -> Self {
+        self.stop = stop;
+        self
+    }
+
+    /// The same with another value of [`skip`](Self::skip).
+    pub fn with_skip(mut self, skip: u16) -> Self {
+        self.skip = skip;
+        self
+    }
+
+    /// The same with another value of [`limits`](Self::limits).
+    pub fn with_limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// The same with another value of [`fast_path`](Self::fast_path).
+    pub fn with_fast_path(mut self, fast_path: FastPath) -> Self {
+        self.fast_path = fast_path;
+        self
+    }
+
+    /// The same with another value of [`notes`](Self::notes).
+    pub fn with_notes(mut self, notes: Notes) -> Self {
+        self.notes = notes;
+        self
+    }
+
+    /// The same with another value of [`motions`](Self::motions).
+    pub fn with_motions(mut self, motions: Motions) -> Self {
+        self.motions = motions;
+        self
+    }
+}
+
+/// How a run goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RunOutcome {
+    /// The program ended.
+    Ended(EndedBy),
+    /// The observer stopped it; it can go on, or be saved and resumed.
+    Paused,
+    /// The observer stopped a program that is read line by line: it cannot go on.
+    Stopped,
+}
+
+/// How the running program was handed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::interpreter) enum Handed {
+    /// As a text in memory.
+    #[default]
+    Whole,
+    /// Line by line; its lines are gone once they are executed.
+    LineByLine,
+}

@@ -1,0 +1,94 @@
+//! What a region of a program could change, and how it may be left (R2.51).
+
+use std::collections::HashSet;
+use std::hash::Hash;
+
+use crate::comp::{AxisIndex, KindSet};
+use crate::interpreter::programs::index::{EntryIndex, LabelName};
+use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
+use crate::interpreter::values::target::Target;
+use crate::syntax::ast::Owner;
+
+/// Something that a region could change.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(in crate::interpreter) enum Effect {
+    /// These kinds on this axis.
+    Compensation(String, KindSet),
+    /// A G function comes into force; `None` for one that is not known.
+    G(Option<i64>),
+    /// The feeds.
+    Feeds,
+    /// The radius of circles.
+    Radius,
+    /// The position of an axis.
+    Position(AxisIndex),
+    /// The position of any axis.
+    Positions,
+    /// What G92 set for an axis.
+    Reference(AxisIndex),
+    /// A `#` command.
+    Hash(String),
+    /// A coupling group is defined with these axes.
+    Coupling(Vec<AxisIndex>),
+    /// A declaration.
+    Declaration(String),
+    /// A G, M, T or D word, which may call a program.
+    Function(FunctionWord),
+    /// A macro is defined.
+    Macro(String),
+    /// A word gets another program by `#FILE NAME`.
+    FileName(String),
+    /// Everything, through a call of an unknown program.
+    All,
+}
+
+/// How a region may be left other than at its end.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(in crate::interpreter) enum Exit {
+    /// A jump of the same program.
+    Label(LabelName),
+    /// A jump to an unknown place.
+    AnyLabel,
+    /// `$BREAK`, `$CONTINUE`.
+    Block(EntryIndex),
+    /// M17, M29.
+    Return,
+    /// The same over programs or to a label.
+    Far,
+    /// M02, M30.
+    End,
+}
+
+impl Exit {
+    /// Where a jump to a label goes.
+    pub(in crate::interpreter) fn label(name: &str) -> Self {
+        Self::Label(LabelName::Text(name.trim_matches(['[', ']']).to_owned()))
+    }
+}
+
+/// What a region could change.
+#[derive(Debug, Default)]
+pub(in crate::interpreter) struct Region {
+    pub(in crate::interpreter) effects: Vec<Effect>,
+    pub(in crate::interpreter) targets: Vec<Target>,
+    /// The targets, to ask whether something is one.
+    pub(in crate::interpreter) written: HashSet<Target>,
+    pub(in crate::interpreter) calls: Vec<Wanted>,
+    pub(in crate::interpreter) exits: Vec<Exit>,
+    /// The macros that it was looked through with.
+    pub(in crate::interpreter) macro_version: u64,
+}
+
+impl Region {
+    /// Whether the region could write what was written.
+    pub(in crate::interpreter) fn writes(&self, written: &Target) -> bool {
+        let whole = match written {
+            Target::Parameter(Owner::Program, _) => self.written.contains(&Target::Parameters),
+            Target::Variable(name) => name.split_once('[').is_some_and(|(array, _)| {
+                self.written.contains(&Target::Elements(array.to_owned()))
+            }),
+            _ => false,
+        };
+        whole || self.written.contains(written)
+    }
+}

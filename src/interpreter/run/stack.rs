@@ -1,0 +1,153 @@
+//! The call stack: the programs that run, each called by the one before it.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::step::{Passage, Request};
+use crate::interpreter::coordinates::modal;
+use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::value::Value;
+use crate::text::Place;
+
+/// The programs that run, the main program first.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct CallStack(Vec<Frame>);
+
+/// One level of the call stack: where a program or subprogram stands.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Frame {
+    /// The file, by its position among the files of the run.
+    pub(in crate::interpreter) unit: usize,
+    pub(in crate::interpreter) section: usize,
+    /// The next block.
+    pub(in crate::interpreter) next: EntryIndex,
+    /// The call depth; 0 is the main program.
+    pub(in crate::interpreter) level: u32,
+    /// Own parameters of the call.
+    pub(in crate::interpreter) own: BTreeMap<u32, Value>,
+    /// Set between `$IF` or `$SWITCH` and the branch that is looked for.
+    pub(in crate::interpreter) seeking: Option<Seeking>,
+    /// Where it was called.
+    pub(in crate::interpreter) called_from: Option<Place>,
+    /// What the end of a cycle brings back.
+    pub(in crate::interpreter) restores: Option<Box<modal::Saved>>,
+    pub(in crate::interpreter) retains: Retains,
+    /// Programs that are called before the next block, the first one last.
+    pub(in crate::interpreter) waiting: Vec<Request>,
+    /// The blocks that are executed, where that is not the whole program.
+    pub(in crate::interpreter) passage: Option<Passage>,
+}
+
+impl Frame {
+    /// The program that it belongs to.
+    pub(in crate::interpreter) fn program(&self) -> ProgramId {
+        ProgramId {
+            unit: self.unit,
+            section: self.section,
+        }
+    }
+}
+
+/// Whether a cycle keeps what it did to G functions and feed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::interpreter) enum Retains {
+    /// It does not.
+    Nothing,
+    /// `#RETAIN CYCLE CHANGES` may have been executed.
+    Perhaps,
+}
+
+/// What the next branch statement has to decide.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) enum Seeking {
+    /// A true condition.
+    Condition,
+    /// A case with this value.
+    Case(Value),
+}
+
+impl CallStack {
+    /// The program whose blocks are executed.
+    #[inline]
+    pub(in crate::interpreter) fn running(&self) -> Option<&Frame> {
+        self.0.last()
+    }
+
+    /// The program whose blocks are executed.
+    #[inline]
+    pub(in crate::interpreter) fn running_mut(&mut self) -> Option<&mut Frame> {
+        self.0.last_mut()
+    }
+
+    /// The main program.
+    pub(in crate::interpreter) fn main(&self) -> Option<&Frame> {
+        self.0.first()
+    }
+
+    /// The cycle that runs, whose end brings back what was in force before it.
+    pub(in crate::interpreter) fn cycle_mut(&mut self) -> Option<&mut Frame> {
+        let mut frames = self.0.iter_mut().rev();
+        frames.find(|frame| frame.restores.is_some())
+    }
+
+    /// The place of the program whose blocks are executed.
+    pub(in crate::interpreter) fn program(&self) -> Option<ProgramId> {
+        self.running().map(Frame::program)
+    }
+
+    /// The call depth of the program whose blocks are executed; 0 is the main program.
+    pub(in crate::interpreter) fn level(&self) -> u32 {
+        self.running().map_or(0, |frame| frame.level)
+    }
+
+    /// The block that is executed.
+    pub(in crate::interpreter) fn entry(&self) -> Option<EntryIndex> {
+        self.running()?.next.checked_sub(1)
+    }
+
+    /// Whether a block of the running program stands before the next one.
+    pub(in crate::interpreter) fn is_passed(&self, target: EntryIndex) -> bool {
+        self.running().is_some_and(|frame| target < frame.next)
+    }
+
+    /// The outermost program of a call depth.
+    pub(in crate::interpreter) fn at_level(&self, level: u32) -> Option<&Frame> {
+        self.0.iter().find(|frame| frame.level == level)
+    }
+
+    /// The program so many calls deep, the main program being the first.
+    pub(in crate::interpreter) fn at_depth_mut(&mut self, depth: usize) -> Option<&mut Frame> {
+        self.0.get_mut(depth.checked_sub(1)?)
+    }
+
+    /// How many programs run.
+    pub(in crate::interpreter) fn depth(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether no program runs.
+    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The programs, the main program first.
+    pub(in crate::interpreter) fn iter(&self) -> impl DoubleEndedIterator<Item = &Frame> {
+        self.0.iter()
+    }
+
+    /// A program is called.
+    pub(in crate::interpreter) fn push(&mut self, frame: Frame) {
+        self.0.push(frame);
+    }
+
+    /// A program is left.
+    pub(in crate::interpreter) fn pop(&mut self) -> Option<Frame> {
+        self.0.pop()
+    }
+
+    /// All programs are left.
+    pub(in crate::interpreter) fn clear(&mut self) {
+        self.0.clear();
+    }
+}

@@ -1,0 +1,335 @@
+//! Ways that the control may go and the dry run does not (R2.51, R2.52): a jump, a return or a
+//! program end that depends on a value which is not known offline.
+//!
+//! Where such a way leaves, it is remembered with the state of that moment. Where it meets the way
+//! of the dry run again, everything in which both may differ becomes unknown. A way that would end
+//! the program is met at program end.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::channel_axes::ChannelAxes;
+use super::cycles::ModalCycles;
+use crate::comp::KindSet;
+use crate::interpreter::coordinates::modal::Modal;
+use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::values::target::{Place, Target};
+use crate::interpreter::values::value::Value;
+use crate::text::Span;
+
+/// The target of a way that returns to the caller.
+pub(in crate::interpreter) const RETURN: EntryIndex = EntryIndex::MAX;
+
+/// Different targets beyond which everything counts as written.
+const MAX_WRITTEN: usize = 4096;
+
+/// All the ways that the control may have gone.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Ways {
+    /// Sorted by depth and target, one for each.
+    pub(in crate::interpreter) open: Vec<Way>,
+    /// The ways that ended the program, as one.
+    pub(in crate::interpreter) end: Option<Box<Way>>,
+    /// What was written since the first of them left, and after which block last.
+    pub(in crate::interpreter) written: Written,
+    /// The block that may have written anything.
+    pub(in crate::interpreter) everything: u64,
+}
+
+/// Targets with the executed block that wrote them last.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<(Target, u64)>", from = "Vec<(Target, u64)>")]
+pub(in crate::interpreter) struct Written(pub(in crate::interpreter) BTreeMap<Target, u64>);
+
+impl From<Vec<(Target, u64)>> for Written {
+    fn from(written: Vec<(Target, u64)>) -> Self {
+        Self(written.into_iter().collect())
+    }
+}
+
+impl From<Written> for Vec<(Target, u64)> {
+    fn from(written: Written) -> Self {
+        written.0.into_iter().collect()
+    }
+}
+
+/// A way that left the one of the dry run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Way {
+    /// How many programs call each other where it goes on.
+    pub(in crate::interpreter) depth: usize,
+    /// The block where it goes on.
+    pub(in crate::interpreter) target: EntryIndex,
+    /// The executed block at which it left.
+    pub(in crate::interpreter) since: u64,
+    /// The executed block at which it left last, where it left several times.
+    pub(in crate::interpreter) latest: u64,
+    pub(in crate::interpreter) cause: Arc<str>,
+    pub(in crate::interpreter) standing: Standing,
+    /// What it executes on its way to the target.
+    pub(in crate::interpreter) tails: Vec<Tail>,
+}
+
+/// The part of a state that is kept for a way.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Standing {
+    /// What is selected and what is unknown, by axis.
+    pub(in crate::interpreter) kinds: Vec<AxisKinds>,
+    pub(in crate::interpreter) modal: Modal,
+    pub(in crate::interpreter) cycles: ModalCycles,
+    /// The couplings, by the number of their changes.
+    pub(in crate::interpreter) couplings: u64,
+    pub(in crate::interpreter) named: BTreeMap<String, Value>,
+    pub(in crate::interpreter) channel_axes: ChannelAxes,
+    /// The macros, by the number of their changes.
+    pub(in crate::interpreter) macros: u64,
+}
+
+/// What is selected and what is unknown of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct AxisKinds {
+    pub(in crate::interpreter) selected: KindSet,
+    pub(in crate::interpreter) unknown: KindSet,
+}
+
+impl AxisKinds {
+    /// The kinds in which two states may differ.
+    pub(in crate::interpreter) fn differing(self, other: Self) -> KindSet {
+        let (mine, theirs) = (self.selected, other.selected);
+        let differ = mine.without(theirs).union(theirs.without(mine));
+        differ.union(self.unknown).union(other.unknown)
+    }
+}
+
+/// A section from a block on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Tail {
+    pub(in crate::interpreter) unit: usize,
+    pub(in crate::interpreter) section: usize,
+    pub(in crate::interpreter) from: EntryIndex,
+}
+
+/// A way that leaves at the block that is executed.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct Departing {
+    pub(in crate::interpreter) to: Aim,
+    pub(in crate::interpreter) cause: Arc<str>,
+    /// The block after what is passed over.
+    pub(in crate::interpreter) here: EntryIndex,
+    /// What is shown, where it was not said yet.
+    pub(in crate::interpreter) say: Option<Span>,
+}
+
+/// Where a way goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Aim {
+    Block(EntryIndex),
+    Return,
+    /// A return over programs.
+    Far,
+    End,
+}
+
+/// How a way leads out of a loop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Leaving {
+    /// To a block of the same program.
+    To(EntryIndex),
+    /// To the caller.
+    Return,
+    /// The program ends.
+    End,
+}
+
+/// A way out of a loop, and the value that decides whether it is gone.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct WayOut {
+    pub(in crate::interpreter) to: Leaving,
+    pub(in crate::interpreter) cause: Arc<str>,
+}
+
+impl Ways {
+    /// Whether any way is open.
+    #[inline]
+    pub(in crate::interpreter) fn is_open(&self) -> bool {
+        !self.open.is_empty() || self.end.is_some()
+    }
+
+    /// Whether a way goes on somewhere.
+    #[inline]
+    pub(in crate::interpreter) fn has_targets(&self) -> bool {
+        !self.open.is_empty()
+    }
+
+    /// A value was written.
+    pub(in crate::interpreter) fn write(&mut self, place: &Place, seq: u64) {
+        if self.written.0.len() >= MAX_WRITTEN {
+            return self.write_anything(seq);
+        }
+        let target = match place {
+            Place::Parameter(owner, index) => Target::Parameter(*owner, *index),
+            Place::Variable(name) => Target::Variable(name.clone()),
+            Place::Elements(name, _) => Target::Elements(name.clone()),
+            Place::Parameters(_) => Target::Parameters,
+            Place::Nowhere => return,
+        };
+        self.written.0.insert(target, seq);
+    }
+
+    /// Something was declared or deleted.
+    pub(in crate::interpreter) fn write_anything(&mut self, seq: u64) {
+        self.everything = seq;
+        self.written.0.clear();
+    }
+
+    pub(in crate::interpreter) fn place(
+        &self,
+        depth: usize,
+        target: EntryIndex,
+    ) -> Result<usize, usize> {
+        let key = |way: &Way| (way.depth, way.target);
+        self.open.binary_search_by_key(&(depth, target), key)
+    }
+
+    pub(in crate::interpreter) fn add(&mut self, way: Way) {
+        match self.place(way.depth, way.target) {
+            Ok(place) => self.open[place].take_in(way),
+            Err(place) => self.open.insert(place, way),
+        }
+    }
+
+    pub(in crate::interpreter) fn add_end(&mut self, way: Way) {
+        match &mut self.end {
+            Some(end) => end.take_in(way),
+            None => self.end = Some(Box::new(way)),
+        }
+    }
+
+    /// The nearest way that left since a block was executed and goes on beyond another block of the
+    /// same program, else returns from it or ends it.
+    pub(in crate::interpreter) fn out_of(
+        &self,
+        depth: usize,
+        from: EntryIndex,
+        since: u64,
+    ) -> Option<WayOut> {
+        let place = self
+            .place(depth, from.saturating_add(1))
+            .unwrap_or_else(|place| place);
+        let beyond = self.open[place..].iter();
+        let beyond = beyond.take_while(|way| way.depth == depth);
+        let way = beyond
+            .chain(self.end.as_deref())
+            .find(|way| way.latest >= since)?;
+        let to = match way.target {
+            _ if way.depth == 0 => Leaving::End,
+            RETURN => Leaving::Return,
+            target => Leaving::To(target),
+        };
+        Some(WayOut {
+            to,
+            cause: way.cause.clone(),
+        })
+    }
+
+    /// The first way of a program that goes on before a block or at it.
+    pub(in crate::interpreter) fn arrived(
+        &mut self,
+        depth: usize,
+        here: EntryIndex,
+    ) -> Option<Way> {
+        let place = self.place(depth, 0).unwrap_or_else(|place| place);
+        let first = self.open.get(place)?;
+        (first.depth == depth && first.target <= here).then(|| self.open.remove(place))
+    }
+
+    /// The ways of a program that is left.
+    pub(in crate::interpreter) fn left(&mut self, depth: usize) -> Vec<Way> {
+        let place = self.place(depth, 0).unwrap_or_else(|place| place);
+        self.open.split_off(place)
+    }
+
+    pub(in crate::interpreter) fn all(&self) -> impl Iterator<Item = &Way> {
+        self.open.iter().chain(self.end.as_deref())
+    }
+
+    /// Whether what is kept for each way describes so many axes.
+    pub(in crate::interpreter) fn fit(&self, axes: usize) -> bool {
+        let standings = self.all().map(|way| &way.standing);
+        standings
+            .into_iter()
+            .all(|standing| standing.kinds.len() == axes && standing.modal.fits(axes))
+    }
+
+    /// The sections that ways execute, each from a block on.
+    pub(in crate::interpreter) fn tails(&self) -> impl Iterator<Item = (ProgramId, EntryIndex)> {
+        self.all().flat_map(|way| &way.tails).map(|tail| {
+            let Tail {
+                unit,
+                section,
+                from,
+            } = *tail;
+            (ProgramId { unit, section }, from)
+        })
+    }
+
+    /// The modal cycles of each way.
+    pub(in crate::interpreter) fn cycles(&self) -> impl Iterator<Item = &ModalCycles> {
+        self.all().map(|way| &way.standing.cycles)
+    }
+
+    /// Forgets what no way needs any more.
+    pub(in crate::interpreter) fn tidy(&mut self) {
+        if !self.is_open() {
+            self.written.0.clear();
+            self.everything = 0;
+        }
+    }
+}
+
+impl Way {
+    /// Two ways to one place are one.
+    pub(in crate::interpreter) fn take_in(&mut self, other: Self) {
+        self.since = self.since.min(other.since);
+        self.latest = self.latest.max(other.latest);
+        self.standing.macros = self.standing.macros.min(other.standing.macros);
+        self.standing.couplings = self.standing.couplings.min(other.standing.couplings);
+        for (mine, theirs) in self.standing.kinds.iter_mut().zip(&other.standing.kinds) {
+            mine.unknown = mine.differing(*theirs);
+        }
+        self.standing.modal.doubt(&other.standing.modal);
+        self.standing.cycles.join(&other.standing.cycles);
+        doubt_names(
+            &mut self.standing.named,
+            &other.standing.named,
+            &other.cause,
+        );
+        self.standing
+            .channel_axes
+            .doubt(&other.standing.channel_axes);
+        for tail in other.tails {
+            if !self.tails.contains(&tail) {
+                self.tails.push(tail);
+            }
+        }
+    }
+}
+
+/// Words that may call another program on one way become unknown.
+pub(in crate::interpreter) fn doubt_names(
+    names: &mut BTreeMap<String, Value>,
+    other: &BTreeMap<String, Value>,
+    cause: &Arc<str>,
+) {
+    if names == other {
+        return;
+    }
+    let words: Vec<String> = names.keys().chain(other.keys()).cloned().collect();
+    for word in words {
+        if names.get(&word) != other.get(&word) {
+            names.insert(word, Value::Unknown(cause.clone()));
+        }
+    }
+}

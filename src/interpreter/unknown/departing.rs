@@ -1,0 +1,95 @@
+//! Where ways leave the one of the dry run (R2.51, R2.52).
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::region::{Exit, Region};
+use crate::interpreter::run::ways::{Aim, Departing};
+use crate::interpreter::values::effort::ITEM;
+use crate::text::Span;
+
+impl Interpreter {
+    /// The ways that leave a region of the running program.
+    pub(in crate::interpreter) fn note_exits(
+        &mut self,
+        region: &Region,
+        passed: RangeInclusive<EntryIndex>,
+        cause: &Arc<str>,
+        say: Option<Span>,
+    ) {
+        let Some(place) = self.state.frames.program() else {
+            return;
+        };
+        for exit in &region.exits {
+            let labels = self.aims(exit, place);
+            for to in labels {
+                if !matches!(to, Aim::Block(target) if passed.contains(&target)) {
+                    self.departing.push(Departing {
+                        to,
+                        cause: cause.clone(),
+                        here: *passed.end(),
+                        say,
+                    });
+                }
+            }
+        }
+    }
+
+    /// The ways that leave a called program and do not come back to its caller.
+    pub(in crate::interpreter) fn note_far_exits(&mut self, region: &Region, cause: &Arc<str>) {
+        for exit in &region.exits {
+            let to = match exit {
+                Exit::End => Aim::End,
+                Exit::Far => Aim::Far,
+                Exit::Label(_) | Exit::AnyLabel | Exit::Block(_) | Exit::Return => continue,
+            };
+            self.departing.push(Departing {
+                to,
+                cause: cause.clone(),
+                here: 0,
+                say: Some(Span::default()),
+            });
+        }
+    }
+
+    /// A jump that is not taken.
+    pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Arc<str>) {
+        let Some(frame) = self.state.frames.running() else {
+            return;
+        };
+        let here = frame.next;
+        for to in self.aims(exit, frame.program()) {
+            if to != Aim::Block(here) {
+                self.departing.push(Departing {
+                    to,
+                    cause: cause.clone(),
+                    here,
+                    say: None,
+                });
+            }
+        }
+    }
+
+    pub(in crate::interpreter) fn aims(&self, exit: &Exit, program: ProgramId) -> Vec<Aim> {
+        let ProgramId { unit, section } = program;
+        let index = self.programs.index(unit);
+        match exit {
+            Exit::Label(name) => index
+                .label(section, name.clone())
+                .map(Aim::Block)
+                .into_iter()
+                .collect(),
+            Exit::AnyLabel => {
+                let labels: Vec<Aim> = index.labels(section).map(Aim::Block).collect();
+                self.state.effort.charge(ITEM * labels.len());
+                labels
+            }
+            Exit::Block(target) => vec![Aim::Block(*target)],
+            Exit::Return => vec![Aim::Return],
+            Exit::Far => vec![Aim::Far],
+            Exit::End => vec![Aim::End],
+        }
+    }
+}

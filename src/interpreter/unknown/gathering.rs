@@ -1,0 +1,486 @@
+//! What a region of a program could change, found by looking through it without executing it
+//! (R2.51).
+//!
+//! What a region could change depends on its text and on the macros, not on the state: an
+//! assignment whose target has to be computed could go anywhere in its array. So a region is
+//! looked through once, however often a loop comes back to it.
+
+use std::collections::HashSet;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::comp::AxisIndex;
+use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::programs::file_names::{is_file_name, named_words};
+use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
+use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
+use crate::interpreter::run::at::{At, MacroCode, Shown};
+use crate::interpreter::run::cycles::after_motion_only;
+use crate::interpreter::run::event::Notes;
+use crate::interpreter::run::hash_parts::{declared_name, point_after};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::region::{Effect, Exit, Region};
+use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::values::expression::unquoted;
+use crate::interpreter::values::target::Target;
+use crate::interpreter::values::value::{Value, rounded};
+use crate::interpreter::values::variable::{canonical, with_subscripts};
+use crate::syntax::ast::{
+    Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
+    Hash as HashCommand, Item, JumpTarget, Levels, Node, Operand, Owner, Word,
+};
+use crate::syntax::{Stretch, is_letter};
+use crate::text::Span;
+
+/// A region on its way to be known.
+struct Gathering<'a> {
+    run: &'a Interpreter,
+    region: Region,
+    effects: HashSet<Effect>,
+    calls: HashSet<(bool, Option<bool>, String)>,
+    exits: HashSet<Exit>,
+    /// The block that is looked at.
+    place: (usize, EntryIndex),
+    /// Macros of the region whose code was not looked through yet.
+    macros: Vec<(String, Span)>,
+    expanded: HashSet<String>,
+    /// Whether it may execute any part of its program.
+    whole: bool,
+}
+
+impl Gathering<'_> {
+    fn blocks(&mut self, unit: usize, range: Range<EntryIndex>) {
+        let index = self.run.programs.index(unit);
+        let file = index.source.name();
+        let Some(mut reader) = index.reader(range.start) else {
+            return;
+        };
+        let mut block = Block::default();
+        let mut left = range.len();
+        self.place = (unit, range.start);
+        while left > 0 && !self.run.is_worn_out() {
+            let Some(raw) = reader.next(&mut block) else {
+                return;
+            };
+            if raw.stretch != Stretch::Block {
+                continue;
+            }
+            left -= 1;
+            self.run.state.effort.charge(ITEM + raw.text.len());
+            let shown = Shown::default();
+            let at = At::of_raw(file, &raw, &block, &shown);
+            // Blocks that are skipped change nothing (R2.3).
+            if !self.run.is_skipped(&block) {
+                self.block(&at);
+                self.expand(&at);
+            }
+            self.place.1 += 1;
+        }
+    }
+
+    fn block(&mut self, at: &At<'_>) {
+        self.run.note_reads(at);
+        for word in &at.block.words {
+            self.word(word, at);
+        }
+        for item in &at.block.items {
+            self.item(item, at);
+        }
+    }
+
+    /// Looks through the code of macros, each once however often it is used: macros that use each
+    /// other would be looked through without end.
+    fn expand(&mut self, at: &At<'_>) {
+        while let Some((name, used)) = self.macros.pop() {
+            let code = match self.run.state.memory.macro_code(&name) {
+                Some(Value::Text(code)) => &**code,
+                Some(Value::Unknown(_)) => {
+                    self.effect(Effect::All);
+                    continue;
+                }
+                Some(Value::Number(_)) | None => continue,
+            };
+            self.run.state.effort.charge(ITEM + code.len());
+            let block = crate::syntax::parse_block(code);
+            let shown = Shown::default();
+            let code = MacroCode {
+                text: code,
+                block: &block,
+                depth: at.macro_depth,
+            };
+            self.block(&at.in_macro(&code, used, &shown));
+        }
+    }
+
+    fn effect(&mut self, effect: Effect) {
+        if !self.effects.contains(&effect) {
+            self.effects.insert(effect.clone());
+            self.region.effects.push(effect);
+        }
+    }
+
+    fn writes(&mut self, target: Target) {
+        if !self.region.written.contains(&target) {
+            self.region.written.insert(target.clone());
+            self.region.targets.push(target);
+        }
+    }
+
+    fn calls(&mut self, wanted: Wanted) {
+        let local = wanted.scope == CallScope::Local;
+        let key = (local, wanted.repeat, wanted.name.clone());
+        if self.calls.insert(key) {
+            self.region.calls.push(wanted);
+        }
+    }
+
+    fn item(&mut self, item: &Item, at: &At<'_>) {
+        match item {
+            Item::Comp(command) => {
+                let kinds = command.selection.kinds();
+                self.effect(Effect::Compensation(command.axis.clone(), kinds));
+            }
+            Item::Assign(assignment) => self.assigns(assignment.target.place, at),
+            Item::Flow(Flow::For { counter, .. }, _) => self.assigns(counter.place, at),
+            Item::Flow(Flow::Switch(Some(target), _), _) => self.assigns(target.place, at),
+            Item::Word(word) => self.word(word, at),
+            Item::Call(call) => self.call(call, at),
+            Item::Sequence(sequence) => match sequence.name {
+                // Some part of the program that holds the region.
+                None => self.whole = true,
+                Some(CallName::Variable(_)) => self.effect(Effect::All),
+                Some(CallName::Literal(name) | CallName::Quoted(name)) => {
+                    let name = unquoted(name.of(at.text));
+                    let Value::Text(name) = self.run.state.memory.macro_or_text(name) else {
+                        return self.effect(Effect::All);
+                    };
+                    let span = at.in_block(sequence.span);
+                    self.calls(Wanted::program(CallScope::Global, name.to_string(), span));
+                }
+            },
+            Item::GCall(call) => {
+                self.effect(Effect::Function(FunctionWord::g(call.number)));
+            }
+            Item::Hash(hash) => {
+                for target in &hash.written {
+                    self.assigns(target.place, at);
+                }
+                self.hash(hash, at);
+            }
+            Item::MacroUse(span) => {
+                let name = unquoted(span.of(at.text)).trim();
+                if self.expanded.insert(name.to_owned()) {
+                    self.macros.push((name.to_owned(), at.in_block(*span)));
+                }
+            }
+            Item::MacroDefinition(name, _) => {
+                let name = unquoted(name.of(at.text)).trim();
+                self.effect(Effect::Macro(name.to_owned()));
+            }
+            Item::Unread(Unread::Everything, span) => {
+                if !self.run.machine.harmless.has_command(span.of(at.text)) {
+                    self.effect(Effect::All);
+                }
+            }
+            Item::Unread(Unread::Parameters, _) => self.writes(Target::Parameters),
+            Item::Flow(flow, _) => self.flow(flow, at),
+            Item::Return(back) if back.levels != Levels::One || back.target.is_some() => {
+                self.exit(Exit::Far);
+            }
+            Item::Return(_) => self.exit(Exit::Return),
+            Item::Unread(Unread::Spindle, _)
+            | Item::BadCommand(_)
+            | Item::Bracket { .. }
+            | Item::BareNumber(..)
+            | Item::Label(_) => {}
+        }
+    }
+
+    fn flow(&mut self, flow: &Flow, at: &At<'_>) {
+        let (unit, entry) = self.place;
+        let index = self.run.programs.index(unit);
+        match flow {
+            Flow::Goto(JumpTarget::Label(name)) => self.exit(Exit::label(name.of(at.text))),
+            Flow::Goto(JumpTarget::Number(Operand::Number(number))) => {
+                self.exit(Exit::Label(LabelName::numbered(*number)));
+            }
+            Flow::Goto(_) => self.exit(Exit::AnyLabel),
+            Flow::Break if index.is_linked(entry) => {
+                self.exit(Exit::Block(index.links(entry).end + 1));
+            }
+            Flow::Continue if index.is_linked(entry) => {
+                self.exit(Exit::Block(index.links(entry).end));
+            }
+            _ => {}
+        }
+    }
+
+    fn exit(&mut self, exit: Exit) {
+        if !self.exits.contains(&exit) {
+            self.exits.insert(exit.clone());
+            self.region.exits.push(exit);
+        }
+    }
+
+    fn call(&mut self, call: &Call, at: &At<'_>) {
+        let name = match call.name {
+            CallName::Literal(span) => Value::Text(span.of(at.text).into()),
+            CallName::Quoted(span) => {
+                let name = unquoted(span.of(at.text));
+                self.run.state.memory.macro_or_text(name)
+            }
+            CallName::Variable(_) => return self.effect(Effect::All),
+        };
+        let Value::Text(name) = name else {
+            return self.effect(Effect::All);
+        };
+        let span = at.in_block(call.span);
+        let wanted = Wanted::program(call.scope, name.to_string(), span);
+        self.calls(Wanted {
+            repeat: after_motion_only(call),
+            ..wanted
+        });
+    }
+
+    fn hash(&mut self, hash: &HashCommand, at: &At<'_>) {
+        for declaration in &hash.declarations {
+            let name = declared_name(declaration, at);
+            self.effect(Effect::Declaration(name));
+        }
+        if is_file_name(&hash.name) {
+            for word in named_words(hash.rest.of(at.text)) {
+                self.effect(Effect::FileName(word));
+            }
+            return;
+        }
+        if hash.name == "#DELETE" {
+            for argument in &hash.arguments {
+                if let Operand::Expression(place) = argument {
+                    self.deletes(*place, at);
+                }
+            }
+            return;
+        }
+        if let Some(axes) = self.run.defined_axes(&hash.name, hash.rest.of(at.text)) {
+            self.effect(Effect::Coupling(axes));
+            return;
+        }
+        self.effect(Effect::Hash(hash.name.clone()));
+        if let Some(point) = point_after(hash, at) {
+            let inner = at.rest(&point);
+            let items = point.items.iter().filter_map(|item| match item {
+                Item::Word(word) => Some(word),
+                _ => None,
+            });
+            for word in point.words.iter().chain(items) {
+                self.word(word, &inner);
+            }
+        }
+    }
+
+    fn assigns(&mut self, place: Expression, at: &At<'_>) {
+        if let Some(target) = Self::target(place, at) {
+            self.writes(target);
+        }
+    }
+
+    /// A deleted variable is unknown, and so are the elements that it may have.
+    fn deletes(&mut self, place: Expression, at: &At<'_>) {
+        let target = Self::target(place, at);
+        match &target {
+            Some(Target::Variable(name)) => self.writes(Target::Elements(name.clone())),
+            Some(Target::Parameter(Owner::Program, index)) => {
+                self.writes(Target::Elements(format!("P{index}")));
+            }
+            _ => {}
+        }
+        if let Some(target) = target {
+            self.writes(target);
+        }
+    }
+
+    /// What an assignment could write. A place that has to be computed may be another one each time.
+    fn target(place: Expression, at: &At<'_>) -> Option<Target> {
+        let root = place.end.checked_sub(1)?;
+        let inner = place.start as usize..root as usize;
+        let operands = at.block.nodes.get(inner).unwrap_or_default();
+        let is_plain = operands.iter().all(|node| matches!(node, Node::Number(_)));
+        let root = root as usize;
+        let (node, span) = (at.block.nodes.get(root)?, at.block.spans.get(root)?);
+        let name = || {
+            let name = span.of(at.text).split('[').next().unwrap_or_default();
+            canonical(name).into_owned()
+        };
+        Some(match node {
+            Node::Parameter { owner, index } => Target::Parameter(*owner, *index),
+            Node::Variable { subscripts: 0 } => Target::Variable(name()),
+            Node::Variable { .. } if is_plain => {
+                let values: Vec<String> = operands.iter().map(subscript).collect();
+                let name = with_subscripts(span.of(at.text), &values);
+                Target::Variable(name)
+            }
+            Node::Variable { .. } => Target::Elements(name()),
+            Node::IndexedParameter { owner, subscripts } => {
+                let index = match operands.first() {
+                    Some(Node::Number(number)) if is_plain || *subscripts > 0 => rounded(*number),
+                    _ => None,
+                };
+                let index = index.and_then(|index| u32::try_from(index).ok());
+                match (index, *subscripts) {
+                    (Some(index), 0) => Target::Parameter(*owner, index),
+                    (Some(index), _) if is_plain => {
+                        let mut element = format!("P{index}");
+                        for node in &operands[1..] {
+                            element.extend(["[", &subscript(node), "]"]);
+                        }
+                        Target::Variable(element)
+                    }
+                    (Some(index), _) => Target::Elements(format!("P{index}")),
+                    (None, _) => Target::Parameters,
+                }
+            }
+            Node::Unread => Target::Parameters,
+            _ => return None,
+        })
+    }
+
+    fn word(&mut self, word: &Word, at: &At<'_>) {
+        let number = match word.value {
+            Some(Operand::Number(number)) => rounded(number),
+            _ => None,
+        };
+        match (word.address, number) {
+            (Address::Letter(b'M'), Some(2 | 30)) => self.exit(Exit::End),
+            (Address::Letter(b'M'), Some(17 | 29)) => self.exit(Exit::Return),
+            _ => {}
+        }
+        match word.address {
+            Address::Letter(b'G') => self.g(number),
+            Address::Letter(b'F') => self.effect(Effect::Feeds),
+            Address::Letter(b'R') => self.effect(Effect::Radius),
+            Address::Letter(letter @ b'A'..=b'Z') if !is_letter(letter) => {
+                self.effect(Effect::All);
+            }
+            Address::Lower(letter) => {
+                let upper = letter.to_ascii_uppercase();
+                if let Some(axis) = self.run.letters[usize::from(upper - b'A')] {
+                    self.axis(axis, at);
+                }
+            }
+            Address::Letter(letter @ (b'M' | b'T' | b'D')) => {
+                self.effect(Effect::Function(FunctionWord { letter, number }));
+            }
+            Address::Letter(letter @ b'A'..=b'Z') => {
+                if let Some(axis) = self.run.letters[usize::from(letter - b'A')] {
+                    self.axis(axis, at);
+                }
+            }
+            // Which axis it is depends on the plane, which the region may change.
+            Address::Main(_) => self.effect(Effect::Positions),
+            Address::Name(name) => {
+                if let Some(&axis) = self.run.names.get(name.of(at.text)) {
+                    self.axis(axis, at);
+                }
+            }
+            Address::Letter(_) => {}
+        }
+    }
+
+    fn g(&mut self, number: Option<i64>) {
+        let plain = number.and_then(|number| u32::try_from(number).ok());
+        let matters =
+            plain.is_none_or(|number| Group::of(number).is_some() || (20..=23).contains(&number));
+        if matters || number == Some(151) {
+            self.effect(Effect::G(number));
+        }
+        if plain.is_none_or(|number| Group::of(number).is_none()) {
+            self.effect(Effect::Function(FunctionWord {
+                letter: b'G',
+                number,
+            }));
+        }
+    }
+
+    fn axis(&mut self, axis: AxisIndex, at: &At<'_>) {
+        let is_reference = |word: &Word| {
+            word.address == Address::Letter(b'G') && word.value == Some(Operand::Number(92.0))
+        };
+        let after = at.block.items.iter().filter_map(|item| match item {
+            Item::Word(word) => Some(word),
+            _ => None,
+        });
+        let effect = if at.block.words.iter().chain(after).any(is_reference) {
+            Effect::Reference(axis)
+        } else {
+            Effect::Position(axis)
+        };
+        self.effect(effect);
+    }
+}
+
+impl Interpreter {
+    /// What a region could change.
+    pub(in crate::interpreter) fn region(
+        &mut self,
+        unit: usize,
+        range: Range<EntryIndex>,
+    ) -> Arc<Region> {
+        let key = (unit, range.start, range.end);
+        let version = self.state.memory.macro_version();
+        let known = self.regions.get(&key);
+        if let Some(known) = known.filter(|known| known.macro_version == version) {
+            return Arc::clone(known);
+        }
+        let mut gathering = Gathering {
+            run: self,
+            region: Region {
+                macro_version: version,
+                ..Region::default()
+            },
+            effects: HashSet::new(),
+            calls: HashSet::new(),
+            exits: HashSet::new(),
+            place: (unit, range.start),
+            macros: Vec::new(),
+            expanded: HashSet::new(),
+            whole: false,
+        };
+        gathering.blocks(unit, range.clone());
+        if gathering.whole {
+            let sections = &self.programs.index(unit).sections;
+            let around = |section: &&Section| (section.start..section.end).contains(&range.start);
+            if let Some(section) = sections.iter().find(around) {
+                gathering.blocks(unit, section.start..section.end);
+            }
+        }
+        let region = Arc::new(gathering.region);
+        self.regions.insert(key, Arc::clone(&region));
+        region
+    }
+
+    /// Notes the values of the machine that a block would read.
+    fn note_reads(&self, at: &At<'_>) {
+        if self.options.notes == Notes::None {
+            return;
+        }
+        let nodes = at.block.nodes.iter().enumerate();
+        let read = nodes.filter(|(_, node)| matches!(node, Node::Variable { subscripts: 0 }));
+        for (place, _) in read {
+            let node = Span::new(place, place + 1);
+            let read = Operand::Expression(Expression {
+                start: node.start,
+                end: node.end,
+            });
+            let _ = self.with_evaluator(at, |evaluator| evaluator.value(read, &mut Vec::new()));
+        }
+    }
+}
+
+/// A subscript that is a plain number.
+fn subscript(node: &Node) -> String {
+    let number = match node {
+        Node::Number(number) => rounded(*number),
+        _ => None,
+    };
+    number.unwrap_or(i64::MAX).to_string()
+}

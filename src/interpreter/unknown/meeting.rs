@@ -1,0 +1,309 @@
+//! Where ways meet the one of the dry run again (R2.51, R2.52).
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use crate::comp::AxisIndex;
+use crate::diagnostic::Code;
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::{EntryIndex, ProgramId};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::stack::Frame;
+use crate::interpreter::run::ways::{
+    Aim, AxisKinds, Departing, RETURN, Standing, Tail, Way, Ways, doubt_names,
+};
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::values::target::Target;
+use crate::syntax::Fault;
+use crate::text::Span;
+
+impl Interpreter {
+    /// Remembers the ways that leave at the block that was executed, and says that they are not
+    /// gone (FC902).
+    #[cold]
+    pub(in crate::interpreter) fn depart(&mut self, finder: &mut dyn Finder, at: &At<'_>) {
+        let said = self.departing.iter().filter(|way| way.say.is_some());
+        if let Some(way) = said.max_by_key(|way| rank(way.to))
+            && !self.work.unread.get()
+        {
+            let what = match way.to {
+                Aim::End => "the program may end here, which",
+                Aim::Return | Aim::Far => "the program may be left here, which",
+                Aim::Block(_) => "a jump may leave this control block, which",
+            };
+            let value = unknown_value(&way.cause);
+            let message =
+                format!("{what} depends on {value}; the rest assumes that this does not happen");
+            let span = way.say.filter(|span| span.end > span.start);
+            let span = span.unwrap_or(Span::new(0, at.text.len()));
+            let help = how_to_set(&way.cause);
+            let fault = Fault::new(Code::Fc902, span, message).with_help(help);
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+        let here = self.take_departing();
+        self.meet(here, finder);
+    }
+
+    /// Opens the ways that leave; returns the block after what is passed over.
+    pub(in crate::interpreter) fn take_departing(&mut self) -> EntryIndex {
+        let departing = std::mem::take(&mut self.departing);
+        let depth = self.state.frames.depth();
+        let mut here = 0;
+        let mut known = HashSet::new();
+        for Departing {
+            to,
+            cause,
+            here: behind,
+            ..
+        } in departing
+        {
+            here = here.max(behind);
+            let targets: Vec<(usize, EntryIndex)> = match to {
+                Aim::Block(target) => vec![(depth, target)],
+                Aim::Return => vec![(depth, RETURN)],
+                Aim::Far => {
+                    let main = self.state.frames.main();
+                    let labels = main.map(|main| {
+                        let index = self.programs.index(main.unit);
+                        index.labels(main.section).map(|label| (1, label))
+                    });
+                    let returns = (2..=depth).map(|depth| (depth, RETURN));
+                    returns.chain(labels.into_iter().flatten()).collect()
+                }
+                Aim::End => vec![(0, 0)],
+            };
+            for (depth, target) in targets {
+                if !known.insert((depth, target)) {
+                    continue;
+                }
+                let way = self.way(depth, target, cause.clone());
+                // M17 ends a main program.
+                if depth == 0 || (depth == 1 && target == RETURN) {
+                    self.state.ways.add_end(way);
+                } else {
+                    self.state.ways.add(way);
+                }
+            }
+        }
+        here
+    }
+
+    fn kinds(&self, axis: AxisIndex) -> AxisKinds {
+        let compensation = &self.state.compensation;
+        AxisKinds {
+            selected: compensation.selected(axis),
+            unknown: compensation.unknown(axis),
+        }
+    }
+
+    /// A way that leaves now.
+    fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> Way {
+        let count = self.state.compensation.len();
+        let axes = (0..count).map(AxisIndex::new);
+        self.state.effort.charge(ITEM + count);
+        Way {
+            depth,
+            target,
+            since: self.state.seq,
+            latest: self.state.seq,
+            cause,
+            standing: Standing {
+                kinds: axes.map(|axis| self.kinds(axis)).collect(),
+                modal: self.state.modal.clone(),
+                cycles: self.state.cycles.clone(),
+                couplings: self.state.couplings.version(),
+                named: self.state.named.clone(),
+                channel_axes: self.state.channel_axes.clone(),
+                macros: self.state.memory.macro_version(),
+            },
+            tails: Vec::new(),
+        }
+    }
+
+    /// The ways that go on at the block that is executed next, or before it, meet it.
+    #[cold]
+    pub(in crate::interpreter) fn arrive(&mut self, finder: &mut dyn Finder) {
+        let here = self.state.frames.running().map_or(0, |frame| frame.next);
+        self.meet(here.saturating_sub(1), finder);
+    }
+
+    fn meet(&mut self, here: EntryIndex, finder: &mut dyn Finder) {
+        let depth = self.state.frames.depth();
+        while let Some(way) = self.state.ways.arrived(depth, here) {
+            let (target, cause) = (way.target, way.cause.clone());
+            let mut tails = HashSet::new();
+            self.join(way, &mut tails);
+            let place = self.state.frames.program().filter(|_| target < here);
+            if let Some(place) = place
+                && self.programs.index(place.unit).entries.len() >= here as usize
+            {
+                // It executes what the dry run jumped over, or what it has after it.
+                let region = self.forget_region(place.unit, target..here, &cause);
+                self.note_exits(&region, target..=here, &cause, None);
+            }
+            self.forget_called(finder);
+            self.take_departing();
+            if self.is_worn_out() {
+                break;
+            }
+        }
+        self.state.ways.tidy();
+    }
+
+    /// A program is left: its ways go on in the caller, after what they still execute.
+    pub(in crate::interpreter) fn leave_ways(&mut self, frame: &Frame) {
+        let depth = self.state.frames.depth();
+        let caller = self.state.frames.running().map(|caller| {
+            let waiting = caller.waiting.iter().map(|request| Tail {
+                unit: request.found.unit,
+                section: request.found.section,
+                from: self.programs.section(request.found).start,
+            });
+            (caller.next, waiting.collect::<Vec<_>>())
+        });
+        for mut way in self.state.ways.left(depth + 1) {
+            if way.target != RETURN {
+                way.tails.push(Tail {
+                    unit: frame.unit,
+                    section: frame.section,
+                    from: way.target,
+                });
+            }
+            if let Some(saved) = &frame.restores {
+                way.standing.modal.restore(saved);
+            }
+            let Some((next, waiting)) = &caller else {
+                self.state.ways.add_end(way);
+                continue;
+            };
+            way.tails.extend(waiting);
+            (way.depth, way.target) = (depth, *next);
+            self.state.ways.add(way);
+        }
+    }
+
+    /// The program ends: every way ends it too.
+    pub(in crate::interpreter) fn meet_at_end(&mut self, finder: &mut dyn Finder) {
+        if !self.state.ways.is_open() {
+            return;
+        }
+        let mut tails = HashSet::new();
+        let open = std::mem::take(&mut self.state.ways.open);
+        for mut way in open {
+            let frames = self.state.frames.iter().take(way.depth);
+            let behind = frames.enumerate().filter_map(|(level, frame)| {
+                let from = if level + 1 == way.depth {
+                    (way.target != RETURN).then_some(way.target)?
+                } else {
+                    frame.next
+                };
+                Some(Tail {
+                    unit: frame.unit,
+                    section: frame.section,
+                    from,
+                })
+            });
+            let behind: Vec<Tail> = behind.collect();
+            way.tails.extend(behind);
+            self.join(way, &mut tails);
+        }
+        self.forget_called(finder);
+        self.departing.clear();
+        if let Some(end) = self.state.ways.end.take() {
+            self.join(*end, &mut tails);
+            self.forget_called(finder);
+            self.departing.clear();
+        }
+        self.state.ways = Ways::default();
+        if !self.work.changes.is_empty() {
+            self.version += 1;
+        }
+    }
+
+    /// What may differ between the way of the dry run and another that goes on here becomes unknown.
+    fn join(&mut self, way: Way, tails: &mut HashSet<Tail>) {
+        let Way {
+            since,
+            cause,
+            standing,
+            ..
+        } = way;
+        for (position, kinds) in standing.kinds.iter().enumerate() {
+            let axis = AxisIndex::new(position);
+            let known = self.kinds(axis);
+            let differing = known.differing(*kinds);
+            self.doubt(axis, differing.without(known.unknown));
+        }
+        self.state.modal.doubt(&standing.modal);
+        if standing.macros != self.state.memory.macro_version() {
+            self.doubt_macros(&cause);
+        }
+        self.state.cycles.join(&standing.cycles);
+        if standing.couplings != self.state.couplings.version() {
+            self.doubt_couplings();
+        }
+        doubt_names(&mut self.state.named, &standing.named, &cause);
+        self.state.channel_axes.doubt(&standing.channel_axes);
+        let written = &self.state.ways.written.0;
+        self.state.effort.charge(ITEM + written.len());
+        let later = written.iter().filter(|(_, seq)| **seq > since);
+        let later: Vec<Target> = later.map(|(target, _)| target.clone()).collect();
+        if self.state.ways.everything > since {
+            self.forget_memory(&cause);
+        }
+        for target in &later {
+            self.lose(target, &cause);
+        }
+        for tail in way.tails {
+            if tails.insert(tail) {
+                self.forget_tail(tail, &cause);
+            }
+        }
+    }
+
+    /// What a section could change from a block on, and what it jumps back to.
+    fn forget_tail(&mut self, tail: Tail, cause: &Arc<str>) {
+        let Tail {
+            unit,
+            section,
+            mut from,
+        } = tail;
+        let program = ProgramId { unit, section };
+        let Some(end) = self.programs.units().get(unit).and_then(|unit| {
+            let has_text = !unit.index.entries.is_empty();
+            has_text.then(|| unit.index.sections[section].end)
+        }) else {
+            // Lines that are read one after another.
+            self.forget_all(cause);
+            return;
+        };
+        while from < end && !self.is_worn_out() {
+            let region = self.region(unit, from..end);
+            let aims = region.exits.iter();
+            let aims = aims.flat_map(|exit| self.aims(exit, program));
+            let lowest = aims.filter_map(|aim| match aim {
+                Aim::Block(target) => Some(target),
+                Aim::Return | Aim::Far | Aim::End => None,
+            });
+            match lowest.min() {
+                Some(lowest) if lowest < from => from = lowest,
+                _ => {
+                    let region = self.forget_region(unit, from..end, cause);
+                    self.note_far_exits(&region, cause);
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Which way is spoken of.
+fn rank(to: Aim) -> u8 {
+    match to {
+        Aim::Block(_) => 0,
+        Aim::Return | Aim::Far => 1,
+        Aim::End => 2,
+    }
+}

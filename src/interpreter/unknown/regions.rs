@@ -1,0 +1,283 @@
+//! What cannot be known offline: a region that may or may not be executed makes unknown whatever
+//! it could change (R2.50, R2.51).
+
+use std::collections::{BTreeMap, HashSet};
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::comp::Kind;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::effects::exchange::is_exchange;
+use crate::interpreter::programs::finder::Finder;
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::programs::store::Caller;
+use crate::interpreter::programs::wanted::Wanted;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::channel_axes::Addressed;
+use crate::interpreter::run::cycles::{Repeated, RepeatedCall};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::journal::Scan;
+use crate::interpreter::run::region::{Effect, Region};
+use crate::interpreter::run::step::Step;
+use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::effort::ITEM;
+use crate::interpreter::values::target::Target;
+use crate::interpreter::values::value::Value;
+use crate::syntax::Fault;
+use crate::text::Span;
+
+/// How many axes a message names.
+const MAX_NAMED: usize = 8;
+
+impl Interpreter {
+    /// Passes over a control block, from its statement to its end, and says so (FC901).
+    pub(in crate::interpreter) fn skip_unknown(
+        &mut self,
+        passed: Range<EntryIndex>,
+        cause: &Arc<str>,
+        span: Span,
+        at: &At<'_>,
+    ) -> Option<Step> {
+        if !self.work.unread.get() {
+            let what = unknown_value(cause);
+            let message = format!(
+                "this control block depends on {what}; whatever it could change is unknown from here on"
+            );
+            let fault = Fault::new(Code::Fc901, span, message);
+            let fault = fault.with_help(how_to_set(cause));
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+        let unit = self.state.frames.running()?.unit;
+        let (from, after) = (passed.start, passed.end + 1);
+        self.programs.unit_mut(unit).undecided.insert(from);
+        let region = self.forget_region(unit, passed, cause);
+        self.note_exits(&region, from..=after, cause, Some(span));
+        Some(Step::Jump(after))
+    }
+
+    /// Makes unknown what the blocks of a region could change. Calls are kept for later, when
+    /// their programs can be looked for.
+    pub(in crate::interpreter) fn forget_region(
+        &mut self,
+        unit: usize,
+        range: Range<EntryIndex>,
+        cause: &Arc<str>,
+    ) -> Arc<Region> {
+        let version = self.state.memory.macro_version();
+        let region = self.forget_blocks(unit, range.clone(), cause);
+        // What it defines it may use as well, before or after: the second look finds such macros
+        // unknown, and no third one is needed.
+        if self.state.memory.macro_version() != version {
+            return self.forget_blocks(unit, range, cause);
+        }
+        region
+    }
+
+    fn forget_blocks(
+        &mut self,
+        unit: usize,
+        range: Range<EntryIndex>,
+        cause: &Arc<str>,
+    ) -> Arc<Region> {
+        let key = (unit, range.start, range.end);
+        let version = self.state.memory.macro_version();
+        let known = self.regions.get(&key);
+        let is_new = known.is_none_or(|known| known.macro_version != version);
+        let region = self.region(unit, range);
+        self.state
+            .effort
+            .charge(ITEM * (region.effects.len() + region.calls.len()));
+        for effect in &region.effects {
+            self.suffer(effect, unit, cause);
+        }
+        let since = self.journal.since(key).filter(|_| !is_new);
+        if let Some(written) = since {
+            let known: Vec<Target> = written
+                .iter()
+                .filter(|written| region.writes(written))
+                .cloned()
+                .collect();
+            self.state.effort.charge(written.len());
+            for target in &known {
+                self.lose(target, cause);
+            }
+        } else {
+            self.state.effort.charge(region.targets.len());
+            for target in &region.targets {
+                self.lose(target, cause);
+            }
+        }
+        self.journal.mark(key);
+        let calls = region.calls.iter().map(|call| Scan {
+            call: call.clone(),
+            cause: cause.clone(),
+            unit,
+            region: Some(key),
+        });
+        self.pending.extend(calls);
+        region
+    }
+
+    /// Something of the state may have changed.
+    fn suffer(&mut self, effect: &Effect, unit: usize, cause: &Arc<str>) {
+        let modal = &mut self.state.modal;
+        match effect {
+            Effect::Compensation(axis, kinds) => match self.addressed(axis) {
+                Ok(Addressed::Axis(axis)) => {
+                    self.see(axis);
+                    self.doubt(axis, *kinds);
+                }
+                Ok(Addressed::Absent(Some(axis))) => self.doubt(axis, *kinds),
+                Ok(Addressed::Any | Addressed::Absent(None)) => self.doubt_any_axis(*kinds),
+                Err(_) => {}
+            },
+            Effect::G(number) => modal.forget_g(*number),
+            Effect::Feeds => modal.functions.feeds = [None; 3],
+            Effect::Radius => modal.radius = None,
+            Effect::Position(axis) => {
+                modal.forget_position(*axis);
+                self.see(*axis);
+            }
+            Effect::Positions => modal.forget_positions(),
+            Effect::Reference(axis) => {
+                modal.forget_reference(*axis);
+                self.see(*axis);
+            }
+            Effect::Macro(name) => {
+                self.state.memory.forget_macro(name, cause);
+                self.work.wrote = true;
+            }
+            Effect::Hash(name) => {
+                self.forget_hash(name, cause);
+                if is_exchange(name) {
+                    self.doubt_exchange();
+                }
+            }
+            Effect::Coupling(axes) => self.doubt_definitions(axes),
+            Effect::Function(word) => self.forget_function(*word, unit, cause),
+            Effect::FileName(word) => {
+                let unknown = Value::Unknown(cause.clone());
+                self.state.named.insert(word.clone(), unknown);
+                self.work.wrote = true;
+            }
+            Effect::Declaration(name) => {
+                let unknown = Value::Unknown(cause.clone());
+                self.state.memory.declare(name, unknown);
+                self.state.memory.forget_elements(name, cause);
+                self.work.wrote = true;
+            }
+            Effect::All => self.forget_all(cause),
+        }
+    }
+
+    /// Names the kinds that a control block makes unknown, as soon as the programs are known that it
+    /// may call.
+    #[cold]
+    pub(in crate::interpreter) fn name_doubted(&mut self) {
+        let is_block = |said: &Diagnostic| said.code == Code::Fc901;
+        if !self.work.diagnostics.iter().any(is_block) {
+            return;
+        }
+        let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
+        for (axis, doubted) in &self.work.doubted {
+            for kind in doubted.iter() {
+                let names = kinds.entry(kind).or_default();
+                let name = self.machine.axis(*axis).name.as_str();
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+        }
+        let named = kinds.iter().map(|(kind, axes)| {
+            let shown: Vec<String> = axes
+                .iter()
+                .take(MAX_NAMED)
+                .map(|it| format!("`{it}`"))
+                .collect();
+            let more = if axes.len() > MAX_NAMED { " …" } else { "" };
+            format!("`{}` of {}{more}", kind.keyword(), shown.join(" "))
+        });
+        let named: Vec<String> = named.collect();
+        let said = self.work.diagnostics.iter_mut();
+        for said in said.filter(|said| is_block(said)) {
+            said.message.push_str(", including ");
+            said.message.push_str(&named.join(", "));
+        }
+    }
+
+    /// What called programs of a region could change becomes unknown too (R2.51).
+    pub(in crate::interpreter) fn forget_called(&mut self, finder: &mut dyn Finder) {
+        let mut pending = std::mem::take(&mut self.pending);
+        let mut seen = HashSet::new();
+        let version = self.state.memory.macro_version();
+        let mut callers = BTreeMap::new();
+        while let Some(Scan {
+            call,
+            cause,
+            unit,
+            region,
+        }) = pending.pop()
+        {
+            if self.is_worn_out() {
+                return;
+            }
+            callers.extend(region.map(|region| (region, cause.clone())));
+            if self.is_external(&call) {
+                self.leave_to_machine(&call.name);
+                let name = call.name.clone();
+                self.perhaps_repeat(&call, RepeatedCall::External(name));
+                continue;
+            }
+            let caller = self
+                .programs
+                .units()
+                .get(unit)
+                .map(|unit| unit.index.source.name());
+            let caller = caller.cloned().unwrap_or_default();
+            let found = match self.programs.find(
+                &call,
+                Caller {
+                    unit,
+                    file: &caller,
+                },
+                finder,
+                &self.state.effort,
+            ) {
+                Ok(Some(found)) => found,
+                Ok(None) => continue,
+                Err(_) => {
+                    // What it would have done is not known.
+                    self.forget_all(&cause);
+                    continue;
+                }
+            };
+            self.perhaps_repeat(&call, RepeatedCall::Perhaps(found));
+            if !seen.insert((found.unit, found.section)) {
+                continue;
+            }
+            let section = self.programs.section(found);
+            let region = section.start..section.end;
+            let region = self.forget_region(found.unit, region, &cause);
+            self.note_far_exits(&region, &cause);
+            pending.append(&mut self.pending);
+        }
+        // Macros that a called program may define are used where it was called from.
+        if self.state.memory.macro_version() != version {
+            for ((unit, from, to), cause) in callers {
+                self.forget_blocks(unit, from..to, &cause);
+            }
+            self.pending.clear();
+        }
+    }
+
+    /// A modal cycle of a region may be in force after it.
+    fn perhaps_repeat(&mut self, wanted: &Wanted, call: RepeatedCall) {
+        if let Some(after_motion_only) = wanted.repeat {
+            self.state.cycles.add(Repeated {
+                call,
+                own: BTreeMap::new(),
+                after_motion_only,
+            });
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! What outlives programs beside the states of the axes, as data (R2.34, R9.32): variables, arrays,
+//! macros, kept parameters, coupling groups.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::value::Value;
+
+/// A declared array without its elements.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArrayShape {
+    /// How many elements each dimension has.
+    pub dimensions: Vec<u32>,
+    /// The value of elements that were never written.
+    pub default: Value,
+}
+
+/// What programs leave to the next one beside the states of the axes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Carried {
+    /// Variables and elements of arrays, by their full names.
+    pub variables: BTreeMap<String, Value>,
+    /// Arrays of which some element was written, but it is not known which, with the value that made it
+    /// so.
+    pub lost: BTreeMap<String, Arc<str>>,
+    /// Declared arrays.
+    pub arrays: BTreeMap<String, ArrayShape>,
+    /// P parameters, where the machine keeps them.
+    pub parameters: BTreeMap<u32, Value>,
+    /// Set when some kept parameter was written, but it is not known which.
+    pub lost_parameters: Option<Arc<str>>,
+    /// Macros with their code.
+    pub macros: BTreeMap<String, String>,
+    /// Macros that may have been redefined, with the value that made it so.
+    pub lost_macros: BTreeMap<String, Arc<str>>,
+    /// The coupling groups that `#SET AX LINK` defined, with the names of their axes.
+    pub couplings: BTreeMap<String, Vec<String>>,
+    /// The axes that coupling groups may name which nobody knows any more.
+    pub lost_couplings: Vec<String>,
+}

@@ -1,0 +1,58 @@
+//! Work: what a block makes the run do beyond its own length (R2.60).
+//!
+//! Work is macros that expand, texts that grow, regions that are looked through because their
+//! condition is not known, names that are compared. It is a level that rises with each unit and falls
+//! with each executed block, so that a program that loops on purpose never comes near the bound, and
+//! one whose blocks do far more than is written in them soon does.
+
+use std::cell::Cell;
+
+use serde::{Deserialize, Serialize};
+
+/// The cost of looking at one block or one name, whatever its length.
+pub(in crate::interpreter) const ITEM: usize = 32;
+
+/// Units of work that an executed block brings with it.
+const PER_BLOCK: u64 = 500;
+
+/// Units of work that a byte of an executed block brings with it.
+const PER_BYTE: u64 = 4;
+
+/// The work of a session, in units.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Effort {
+    spent: Cell<u64>,
+    /// What the executed blocks did not bring with them.
+    level: Cell<u64>,
+}
+
+impl Effort {
+    /// Counts work.
+    pub(in crate::interpreter) fn charge(&self, units: usize) {
+        let units = u64::try_from(units).unwrap_or(u64::MAX);
+        self.spent.set(self.spent.get().saturating_add(units));
+        self.level.set(self.level.get().saturating_add(units));
+    }
+
+    /// An executed block brings work with it.
+    #[inline]
+    pub(in crate::interpreter) fn grant(&self, text: &str) {
+        let level = self.level.get();
+        if level > 0 {
+            let bytes = u64::try_from(text.len()).unwrap_or(u64::MAX);
+            let granted = PER_BYTE.saturating_mul(bytes).saturating_add(PER_BLOCK);
+            self.level.set(level.saturating_sub(granted));
+        }
+    }
+
+    /// All work so far.
+    pub(in crate::interpreter) fn spent(&self) -> u64 {
+        self.spent.get()
+    }
+
+    /// How high the level of work is.
+    #[inline]
+    pub(in crate::interpreter) fn level(&self) -> u64 {
+        self.level.get()
+    }
+}

@@ -1,0 +1,538 @@
+//! Expressions to values.
+//!
+//! The nodes of an expression stand in postfix order, so a stack is all it takes: no recursion,
+//! whatever a program writes.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::effort::{Effort, ITEM};
+use super::functions::{binary, call, fault, wrong_type};
+use super::memory::Memory;
+use super::reads::Reads;
+use super::target::{Place, Target};
+use super::value::{Slot, Value, rounded};
+use super::variable::{as_written, canonical, set_name, with_subscripts};
+use crate::diagnostic::{Advice, Budget, Code};
+use crate::syntax::ast::{Block, Expression, Function, Node, Operand, Owner};
+use crate::syntax::{Fault, MAX_LINE};
+use crate::text::Span;
+
+/// Macros that one block may expand, whatever their depth: each may use others several times.
+pub(in crate::interpreter) const MAX_EXPANSIONS: u32 = 4096;
+
+/// What an expression reads: the memory of the run and what the machine offers.
+#[derive(Clone, Copy)]
+pub(in crate::interpreter) struct Scope<'a> {
+    pub(in crate::interpreter) memory: &'a Memory,
+    /// Where what is read is noted, while that matters (R2.84).
+    pub(in crate::interpreter) reads: Option<&'a RefCell<Reads>>,
+    /// Own parameters of the call.
+    pub(in crate::interpreter) own: &'a BTreeMap<u32, Value>,
+    /// Where those come from that it does not hold.
+    pub(in crate::interpreter) given: Given,
+    /// System variables: `V.A.…`, `V.G.…`; `None` when only the machine knows it.
+    pub(in crate::interpreter) system: &'a dyn Fn(&str) -> Option<Value>,
+    /// Hears of every value that only the machine knows.
+    pub(in crate::interpreter) unknown: &'a dyn Fn(&str, Span),
+    /// Set where a text had no meaning that is known here, which the block's faults say.
+    pub(in crate::interpreter) unread: &'a Cell<bool>,
+}
+
+/// Where the own parameters of a program come from, `@P1` ….
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Given {
+    /// A call gave some, and no others.
+    ByCall,
+    /// The program is a cycle that runs without a call: whoever calls it gives them.
+    FromOutside,
+}
+
+/// How far macros have been expanded.
+#[derive(Clone, Copy)]
+pub(in crate::interpreter) struct Macros<'a> {
+    pub(in crate::interpreter) depth: u32,
+    pub(in crate::interpreter) limit: u32,
+    /// How many the block has expanded.
+    pub(in crate::interpreter) expansions: &'a Cell<u32>,
+    /// The level of work up to which macros may expand.
+    pub(in crate::interpreter) until: u64,
+}
+
+impl Macros<'_> {
+    /// One macro more, whose code is so long; FC914 past the budget.
+    pub(in crate::interpreter) fn expand(
+        self,
+        code: &str,
+        effort: &Effort,
+        span: Span,
+    ) -> Result<Self, Box<Fault>> {
+        effort.charge(ITEM + code.len());
+        if effort.level() > self.until {
+            // The block ends with FC919, which says what there is to say.
+            return Err(fault(Code::Fc919, span, "the budget of work is used up"));
+        }
+        let expansions = self.expansions.get() + 1;
+        self.expansions.set(expansions);
+        if self.depth >= self.limit {
+            let message = format!("macros are nested more than {} levels deep", self.limit);
+            return Err(Box::new(
+                Fault::new(Code::Fc914, span, message)
+                    .with_help(Advice::RaiseBudget(Budget::Macros)),
+            ));
+        }
+        if expansions > MAX_EXPANSIONS {
+            let message = format!("this block expands more than {MAX_EXPANSIONS} macros");
+            return Err(fault(Code::Fc914, span, message));
+        }
+        Ok(Self {
+            depth: self.depth + 1,
+            ..self
+        })
+    }
+}
+
+/// Evaluates expressions of one block.
+pub(in crate::interpreter) struct Evaluator<'a> {
+    pub(in crate::interpreter) block: &'a Block,
+    pub(in crate::interpreter) text: &'a str,
+    /// Where the macro stands whose code is evaluated.
+    pub(in crate::interpreter) shown: Option<Span>,
+    pub(in crate::interpreter) macros: Macros<'a>,
+    pub(in crate::interpreter) scope: Scope<'a>,
+    /// Where work is counted.
+    pub(in crate::interpreter) effort: &'a Effort,
+}
+
+impl Evaluator<'_> {
+    /// The value of an operand.
+    pub(in crate::interpreter) fn value(&self, operand: Operand, stack: &mut Vec<Slot>) -> Slot {
+        match operand {
+            Operand::Number(number) => Ok(Value::Number(number)),
+            Operand::Expression(expression) => {
+                let bottom = stack.len();
+                self.run(expression, stack);
+                let value = stack.pop().unwrap_or(Ok(Value::Number(0.0)));
+                stack.truncate(bottom);
+                value
+            }
+        }
+    }
+
+    fn run(&self, expression: Expression, stack: &mut Vec<Slot>) {
+        let nodes = expression.end.saturating_sub(expression.start);
+        self.effort
+            .charge(usize::try_from(nodes).unwrap_or(usize::MAX));
+        for at in expression.start..expression.end {
+            let at = at as usize;
+            let span = self.block.spans[at];
+            let slot = match self.block.nodes[at] {
+                Node::Number(number) if !number.is_finite() => {
+                    let reason = if number.is_nan() {
+                        "this is not a number"
+                    } else {
+                        "this number is too large to compute with"
+                    };
+                    Err(fault(Code::Fc312, span, reason))
+                }
+                Node::Number(number) => Ok(Value::Number(number)),
+                Node::Text => self.text(span),
+                Node::Parameter { owner, index } => self.parameter(owner, index, span),
+                Node::IndexedParameter { owner, subscripts } => {
+                    Self::parameter_key(owner, usize::from(subscripts), stack)
+                        .and_then(|key| self.keyed_parameter(&key, span))
+                }
+                Node::Variable { subscripts: 0 } => {
+                    self.variable(&canonical(span.of(self.text)), span)
+                }
+                Node::Variable { subscripts } => self
+                    .variable_key(at, usize::from(subscripts), stack)
+                    .and_then(|key| self.keyed_variable(key, span)),
+                Node::Unread => {
+                    self.scope.unread.set(true);
+                    let text = span.of(self.text).trim();
+                    Ok(Value::Unknown(
+                        text.chars().take(40).collect::<String>().into(),
+                    ))
+                }
+                Node::Negate => pop(stack).and_then(|value| match value {
+                    Value::Number(number) => Ok(Value::Number(-number)),
+                    Value::Text(_) => Err(wrong_type(span, "a string has no sign")),
+                    unknown @ Value::Unknown(_) => Ok(unknown),
+                }),
+                Node::Binary(operator) => {
+                    let right = pop(stack);
+                    let left = pop(stack);
+                    self.bounded(binary(operator, left, right, span), span)
+                }
+                Node::Call {
+                    function: Function::Sizeof,
+                    arguments,
+                } => {
+                    let from = stack.len().saturating_sub(usize::from(arguments));
+                    let dimension = stack.drain(from..).nth(1);
+                    self.sizeof(span, dimension)
+                }
+                Node::Call {
+                    function,
+                    arguments,
+                } => {
+                    let from = stack.len().saturating_sub(usize::from(arguments));
+                    let slots: Vec<Slot> = stack.drain(from..).collect();
+                    let read = slots.iter().map(|slot| match slot {
+                        Ok(Value::Text(text)) => text.len(),
+                        _ => 0,
+                    });
+                    self.effort.charge(read.sum());
+                    self.bounded(call(function, slots, span), span)
+                }
+            };
+            stack.push(slot);
+        }
+    }
+
+    /// A text that an operation made; FC312 where it is longer than any text of a program.
+    fn bounded(&self, slot: Slot, span: Span) -> Slot {
+        if let Ok(Value::Text(text)) = &slot {
+            self.effort.charge(text.len());
+            if text.len() > MAX_LINE && text.chars().count() > MAX_LINE {
+                let message = format!("the string has more than {MAX_LINE} characters");
+                return Err(fault(Code::Fc312, span, message));
+            }
+        }
+        slot
+    }
+
+    fn parameter(&self, owner: Owner, index: u32, span: Span) -> Slot {
+        if let Some(reads) = self.scope.reads {
+            reads.borrow_mut().note(Target::Parameter(owner, index));
+        }
+        let found = match owner {
+            Owner::Program => self.scope.memory.parameter(index),
+            Owner::Call => match (self.scope.own.get(&index), self.scope.given) {
+                (None, Given::FromOutside) => return Ok(self.outside(&format!("@P{index}"), span)),
+                (found, _) => found.cloned(),
+            },
+        };
+        let given = || self.scope.memory.given(&format!("P{index}")).cloned();
+        found
+            .or_else(given)
+            .ok_or_else(|| never_written(span, self.text))
+    }
+
+    /// What only a call or the machine gives, unless the user says what it is.
+    fn outside(&self, name: &str, span: Span) -> Value {
+        self.scope.memory.variable(name).unwrap_or_else(|| {
+            (self.scope.unknown)(name, self.shown.unwrap_or(span));
+            Value::Unknown(name.into())
+        })
+    }
+
+    fn keyed_parameter(&self, key: &ParameterKey, span: Span) -> Slot {
+        match key {
+            ParameterKey::Plain(owner, index) => self.parameter(*owner, *index, span),
+            ParameterKey::Element(name) => {
+                self.note_read(name);
+                let known = self.scope.memory.variable(name);
+                let given = || self.scope.memory.given(name).cloned();
+                let known = known.or_else(given).or_else(|| self.as_set(span));
+                known.ok_or_else(|| never_written(span, self.text))
+            }
+            ParameterKey::Unknown(_, cause) => Ok(cause.clone()),
+        }
+    }
+
+    /// A text: the name of a macro whose code is an expression stands for its value
+    /// (PM/206014219), any other text for itself.
+    fn text(&self, span: Span) -> Slot {
+        let name = unquoted(span.of(self.text));
+        let plain = || Ok(Value::Text(name.replace("\\\"", "\"").into()));
+        let code = match self.scope.memory.macro_code(name) {
+            Some(Value::Text(code)) => &**code,
+            Some(unknown @ Value::Unknown(_)) => return Ok(unknown.clone()),
+            Some(Value::Number(_)) | None => return plain(),
+        };
+        let macros = self.macros.expand(code, self.effort, span)?;
+        let mut block = Block::default();
+        let Some(operand) = crate::syntax::parse_expression(code, &mut block) else {
+            return plain();
+        };
+        let shown = self.shown.unwrap_or(span);
+        let inner = Evaluator {
+            block: &block,
+            text: code,
+            shown: Some(shown),
+            macros,
+            scope: self.scope,
+            effort: self.effort,
+        };
+        inner.value(operand, &mut Vec::new()).map_err(|mut fault| {
+            fault.span = span;
+            fault
+        })
+    }
+
+    /// Pops the number and the subscripts of a parameter.
+    fn parameter_key(
+        owner: Owner,
+        subscripts: usize,
+        stack: &mut Vec<Slot>,
+    ) -> Result<ParameterKey, Box<Fault>> {
+        let from = stack.len().saturating_sub(subscripts + 1);
+        let mut numbers = Vec::with_capacity(subscripts + 1);
+        let mut unknown = None;
+        for slot in stack.drain(from..) {
+            match slot? {
+                Value::Number(number) => numbers.push(rounded(number).unwrap_or(i64::MAX)),
+                other => {
+                    numbers.push(i64::MAX);
+                    unknown = unknown.or(Some((numbers.len() == 1, other)));
+                }
+            }
+        }
+        let index = numbers.first().copied().unwrap_or_default();
+        let index = u32::try_from(index).unwrap_or(u32::MAX);
+        let array = format!("P{index}");
+        if let Some((no_index, cause)) = unknown {
+            let array = (!no_index).then_some(array);
+            return Ok(ParameterKey::Unknown(array, cause));
+        }
+        if subscripts == 0 {
+            return Ok(ParameterKey::Plain(owner, index));
+        }
+        let mut name = array;
+        for number in &numbers[1..] {
+            name.push('[');
+            name.push_str(&number.to_string());
+            name.push(']');
+        }
+        Ok(ParameterKey::Element(name))
+    }
+
+    /// The full name of a variable whose subscripts are on the stack.
+    fn variable_key(
+        &self,
+        at: usize,
+        subscripts: usize,
+        stack: &mut Vec<Slot>,
+    ) -> Result<VariableKey, Box<Fault>> {
+        let from = stack.len().saturating_sub(subscripts);
+        let mut values = Vec::with_capacity(subscripts);
+        let mut unknown = None;
+        for slot in stack.drain(from..) {
+            match slot? {
+                Value::Number(number) => {
+                    values.push(rounded(number).unwrap_or(i64::MAX).to_string());
+                }
+                Value::Text(text) => values.push(text.to_string()),
+                Value::Unknown(cause) => unknown = unknown.or(Some(cause)),
+            }
+        }
+        let text = self.block.spans[at].of(self.text);
+        if let Some(cause) = unknown {
+            let array = text.split('[').next().unwrap_or_default();
+            return Ok(VariableKey::Unknown(canonical(array).into_owned(), cause));
+        }
+        Ok(VariableKey::Name(with_subscripts(text, &values)))
+    }
+
+    fn keyed_variable(&self, key: VariableKey, span: Span) -> Slot {
+        match key {
+            VariableKey::Name(name) => self.variable(&name, span),
+            VariableKey::Unknown(_, cause) => {
+                Ok(self.as_set(span).unwrap_or(Value::Unknown(cause)))
+            }
+        }
+    }
+
+    /// The value that the user gave an element as the program writes it.
+    fn as_set(&self, span: Span) -> Option<Value> {
+        let text = span.of(self.text);
+        let name = text.contains('[').then(|| set_name(text))?;
+        let given = || self.scope.memory.given(&name).cloned();
+        self.scope.memory.variable(&name).or_else(given)
+    }
+
+    fn note_read(&self, name: &str) {
+        if let Some(reads) = self.scope.reads {
+            reads.borrow_mut().note(Target::Variable(name.to_owned()));
+        }
+    }
+
+    fn variable(&self, name: &str, span: Span) -> Slot {
+        self.note_read(name);
+        if let Some(value) = self.scope.memory.variable(name) {
+            return Ok(value);
+        }
+        if let Some(value) = self.scope.memory.given(name) {
+            return Ok(value.clone());
+        }
+        if let Some(value) = self.as_set(span) {
+            return Ok(value);
+        }
+        if is_program_variable(name) {
+            return Err(never_written(span, self.text));
+        }
+        Ok((self.scope.system)(name).unwrap_or_else(|| {
+            let written = as_written(span.of(self.text));
+            (self.scope.unknown)(&written, self.shown.unwrap_or(span));
+            Value::Unknown(written.into())
+        }))
+    }
+
+    /// The elements of an array: of its first dimension, or of the one that is asked for.
+    fn sizeof(&self, span: Span, dimension: Option<Slot>) -> Slot {
+        let text = span.of(self.text);
+        let argument = text.split_once('[').map_or("", |(_, argument)| argument);
+        let name = argument.split(['[', ']', ',']).next().unwrap_or_default();
+        let name = name.trim();
+        let place = match dimension.transpose()? {
+            Some(Value::Unknown(cause)) => return Ok(Value::Unknown(cause)),
+            Some(value) => value.number().and_then(rounded).unwrap_or(1),
+            None => 1,
+        };
+        let place = usize::try_from(place.max(1) - 1).unwrap_or(usize::MAX);
+        match self.scope.memory.dimensions(name) {
+            Some(dimensions) => match dimensions.get(place) {
+                Some(size) => Ok(Value::Number(f64::from(*size))),
+                None => Err(wrong_type(
+                    span,
+                    "the array does not have that many dimensions",
+                )),
+            },
+            None if is_program_variable(name) => Err(never_written(span, self.text)),
+            None => {
+                (self.scope.unknown)(name, self.shown.unwrap_or(span));
+                Ok(Value::Unknown(name.into()))
+            }
+        }
+    }
+
+    /// The place that an assignment writes.
+    pub(in crate::interpreter) fn place(
+        &self,
+        place: Expression,
+        stack: &mut Vec<Slot>,
+    ) -> Result<Place, Box<Fault>> {
+        let bottom = stack.len();
+        let Some(root) = place.end.checked_sub(1) else {
+            return Ok(Place::Nowhere);
+        };
+        self.run(
+            Expression {
+                start: place.start,
+                end: root,
+            },
+            stack,
+        );
+        let root = root as usize;
+        let span = self.block.spans[root];
+        let found = match self.block.nodes[root] {
+            Node::Parameter { owner, index } => Ok(Place::Parameter(owner, index)),
+            Node::Unread => {
+                self.scope.unread.set(true);
+                let text: Arc<str> = span.of(self.text).trim().into();
+                Ok(Place::Parameters(text))
+            }
+            Node::IndexedParameter { owner, subscripts } => {
+                Self::parameter_key(owner, usize::from(subscripts), stack).map(|key| match key {
+                    ParameterKey::Plain(owner, index) => Place::Parameter(owner, index),
+                    ParameterKey::Element(name) => Place::Variable(name),
+                    ParameterKey::Unknown(array, Value::Unknown(cause)) => match array {
+                        Some(array) => Place::Elements(array, cause),
+                        None => Place::Parameters(cause),
+                    },
+                    ParameterKey::Unknown(..) => Place::Nowhere,
+                })
+            }
+            Node::Variable { subscripts: 0 } => {
+                Ok(Place::Variable(canonical(span.of(self.text)).into_owned()))
+            }
+            Node::Variable { subscripts } => self
+                .variable_key(root, usize::from(subscripts), stack)
+                .map(|key| match key {
+                    VariableKey::Name(name) => Place::Variable(name),
+                    VariableKey::Unknown(array, cause) => Place::Elements(array, cause),
+                }),
+            _ => Ok(Place::Nowhere),
+        };
+        stack.truncate(bottom);
+        found
+    }
+
+    /// The dimensions in a declaration's subscripts.
+    pub(in crate::interpreter) fn dimensions(
+        &self,
+        place: Expression,
+        stack: &mut Vec<Slot>,
+    ) -> Vec<u32> {
+        let bottom = stack.len();
+        let root = place.end.saturating_sub(1);
+        self.run(
+            Expression {
+                start: place.start,
+                end: root,
+            },
+            stack,
+        );
+        let skip = match self.block.nodes.get(root as usize) {
+            Some(Node::IndexedParameter { .. }) => 1,
+            _ => 0,
+        };
+
+        stack
+            .drain(bottom..)
+            .skip(skip)
+            .map(|slot| {
+                let number = slot.ok().and_then(|value| value.number()).and_then(rounded);
+                number
+                    .and_then(|number| u32::try_from(number).ok())
+                    .unwrap_or_default()
+            })
+            .collect()
+    }
+}
+
+enum ParameterKey {
+    Plain(Owner, u32),
+    Element(String),
+    /// The number or a subscript is not known; the array where its name is.
+    Unknown(Option<String>, Value),
+}
+
+enum VariableKey {
+    Name(String),
+    /// A subscript is not known.
+    Unknown(String, Arc<str>),
+}
+
+fn pop(stack: &mut Vec<Slot>) -> Slot {
+    stack.pop().unwrap_or(Ok(Value::Number(0.0)))
+}
+
+fn never_written(span: Span, text: &str) -> Box<Fault> {
+    let name = span.of(text);
+    Box::new(
+        Fault::new(
+            Code::Fc311,
+            span,
+            format!("`{name}` is read but was never written"),
+        )
+        .with_help(Advice::AssignVariable(name.to_owned())),
+    )
+}
+
+/// A text without its quotes.
+pub(in crate::interpreter) fn unquoted(text: &str) -> &str {
+    let inner = text.strip_prefix('"').unwrap_or(text);
+    inner.strip_suffix('"').unwrap_or(inner)
+}
+
+/// `V.P.`, `V.L.`, `V.S.`: what only programs write.
+fn is_program_variable(name: &str) -> bool {
+    ["V.P.", "V.L.", "V.S."]
+        .iter()
+        .any(|prefix| name.starts_with(prefix))
+        || name.starts_with('P')
+}

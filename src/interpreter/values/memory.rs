@@ -1,0 +1,433 @@
+//! Parameters, variables and macros of a run.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::carried::Carried;
+use super::names::{Array, Names, Weight, compare, parts, sorted, weight};
+use super::target::Target;
+use super::value::Value;
+use super::variable::set_name;
+use crate::machine::Parameters;
+use crate::syntax::ast::Owner;
+
+/// Parameters up to this number have a place in a vector of their own.
+const DIRECT: u32 = 1024;
+
+/// Everything a program can write and read back.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Memory {
+    direct: Vec<Option<Value>>,
+    parameters: BTreeMap<u32, Value>,
+    /// Set when some parameter was written, but it is not known which: the value that made it so.
+    lost: Option<Arc<str>>,
+    /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
+    variables: Names,
+    /// What the user said that parameters and variables hold which no program wrote.
+    given: BTreeMap<String, Value>,
+    /// Set when any of those that programs write may have been: the text that made it so.
+    unknown_names: Option<Arc<str>>,
+    /// `V.L.` of each call level.
+    locals: Vec<Names>,
+    /// The code of each, or why it is not known.
+    #[serde(serialize_with = "sorted")]
+    macros: HashMap<String, Value>,
+    /// Rises with every change of the macros.
+    macro_version: u64,
+    /// The weight of parameters beyond the direct ones, and of macros.
+    weight: Weight,
+}
+
+impl Memory {
+    /// Forgets what a program start clears: P parameters unless they are kept, and `V.P.`, `V.L.`, `V.CYC.` variables
+    /// (R2.33, R2.34). `V.S.`, macros (PM/206014219: valid across programs) and what the machine
+    /// holds stay.
+    pub(in crate::interpreter) fn start_program(&mut self, parameters: Parameters) {
+        let kept = |name: &str| is_kept(name, parameters);
+        if parameters == Parameters::Cleared {
+            self.direct.clear();
+            self.parameters.clear();
+            self.lost = None;
+        }
+        self.unknown_names = None;
+        self.locals.clear();
+        self.variables.names.retain(|name, _| kept(name));
+        self.variables.weight = Weight(self.variables.weigh());
+    }
+
+    /// How much is held, in values and shares of texts (R2.60).
+    pub(in crate::interpreter) fn weight(&self) -> usize {
+        let own = [self.direct.len(), self.parameters.len()];
+        let levels = self.locals.iter().chain([&self.variables]);
+        let weights = levels.map(|names| names.weight.0).chain([self.weight.0]);
+        own.into_iter()
+            .chain(weights)
+            .fold(0, usize::saturating_add)
+    }
+
+    pub(in crate::interpreter) fn parameter(&self, index: u32) -> Option<Value> {
+        let known = if index < DIRECT {
+            self.direct.get(index as usize).and_then(Option::as_ref)
+        } else {
+            self.parameters.get(&index)
+        };
+        match (known, &self.lost) {
+            (Some(value), _) => Some(value.clone()),
+            (None, Some(cause)) => Some(Value::Unknown(cause.clone())),
+            (None, None) => None,
+        }
+    }
+
+    pub(in crate::interpreter) fn set_parameter(&mut self, index: u32, value: Value) {
+        if index < DIRECT {
+            let place = index as usize;
+            if self.direct.len() <= place {
+                self.direct.resize(place + 1, None);
+            }
+            self.direct[place] = Some(value);
+        } else {
+            self.weight.add(weight("", &value) - 1);
+            if let Some(before) = self.parameters.insert(index, value) {
+                self.weight.take(weight("", &before) - 1);
+            }
+        }
+    }
+
+    /// The value of a variable, the declared default of an array element that was never written.
+    pub(in crate::interpreter) fn variable(&self, name: &str) -> Option<Value> {
+        if name.starts_with("V.L.") {
+            return self.locals.iter().rev().find_map(|level| level.value(name));
+        }
+        let unknown = self.unknown_names.as_ref().filter(|_| is_written(name));
+        let written = self.variables.value(name);
+        written.or_else(|| unknown.map(|cause| Value::Unknown(cause.clone())))
+    }
+
+    /// A value from the user (R2.36). What programs write themselves goes before it.
+    pub(in crate::interpreter) fn give(&mut self, name: &str, value: Value) {
+        let name = set_name(name);
+        if is_written(&name) {
+            self.given.insert(name, value);
+        } else {
+            self.set_variable(&name, value);
+        }
+    }
+
+    /// The value that the user gave.
+    pub(in crate::interpreter) fn given(&self, name: &str) -> Option<&Value> {
+        self.given.get(name)
+    }
+
+    pub(in crate::interpreter) fn set_variable(&mut self, name: &str, value: Value) {
+        if !name.starts_with("V.L.") {
+            self.variables.set(name, value);
+            return;
+        }
+        let holds = |level: &&mut Names| level.value(name).is_some();
+        match self.locals.iter_mut().rev().find(holds) {
+            Some(level) => level.set(name, value),
+            None => self.level().set(name, value),
+        }
+    }
+
+    /// The `V.L.` variables of the current level.
+    fn level(&mut self) -> &mut Names {
+        if self.locals.is_empty() {
+            self.locals.push(Names::default());
+        }
+        let last = self.locals.len() - 1;
+        &mut self.locals[last]
+    }
+
+    /// Where a declaration of the name goes.
+    fn declared(&mut self, name: &str) -> &mut Names {
+        if name.starts_with("V.L.") {
+            self.level()
+        } else {
+            &mut self.variables
+        }
+    }
+
+    /// Declares a scalar on the current level.
+    pub(in crate::interpreter) fn declare(&mut self, name: &str, value: Value) {
+        self.declared(name).set(name, value);
+    }
+
+    /// Declares an array on the current level; its elements have a default value.
+    pub(in crate::interpreter) fn declare_array(
+        &mut self,
+        name: &str,
+        dimensions: Vec<u32>,
+        default: Value,
+    ) {
+        let array = Array {
+            dimensions,
+            default,
+        };
+        self.declared(name).declare_array(name, array);
+    }
+
+    pub(in crate::interpreter) fn dimensions(&self, name: &str) -> Option<&[u32]> {
+        let mut levels = self.locals.iter().rev();
+        let local = levels.find_map(|level| level.dimensions(name));
+        local.or_else(|| self.variables.dimensions(name))
+    }
+
+    pub(in crate::interpreter) fn delete(&mut self, name: &str) {
+        if !name.starts_with("V.L.") {
+            self.variables.delete(name);
+            return;
+        }
+        let (base, subscripts) = parts(name);
+        let holds = |level: &&mut Names| {
+            let variable = level.names.get(base);
+            variable.is_some_and(|variable| {
+                subscripts.is_empty() || variable.element(subscripts).is_some()
+            })
+        };
+        if let Some(level) = self.locals.iter_mut().rev().find(holds) {
+            level.delete(name);
+        }
+    }
+
+    /// Some element of an array was written, but it is not known which: none is known any more.
+    pub(in crate::interpreter) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
+        let levels = self.locals.iter_mut().chain([&mut self.variables]);
+        let holding = levels.filter(|names| names.names.contains_key(name));
+        let known = holding.map(|names| names.forget_elements(name, cause));
+        if known.count() == 0 {
+            self.declared(name).forget_elements(name, cause);
+        }
+    }
+
+    /// Some P parameter was written, but it is not known which: none is known any more.
+    pub(in crate::interpreter) fn forget_parameters(&mut self, cause: &Arc<str>) {
+        self.direct.clear();
+        self.parameters.clear();
+        self.lost = Some(cause.clone());
+    }
+
+    /// Everything that a program can write may have been written: nothing is known any more.
+    /// What only the machine holds is not the program's.
+    pub(in crate::interpreter) fn forget_all(&mut self, cause: &Arc<str>) {
+        self.forget_parameters(cause);
+        self.unknown_names = Some(cause.clone());
+        let levels = self.locals.iter_mut().chain([&mut self.variables]);
+        for names in levels {
+            let written = names.names.iter_mut();
+            for (_, variable) in written.filter(|(name, _)| is_written(name)) {
+                variable.forget(cause);
+            }
+            names.weight = Weight(names.weigh());
+        }
+    }
+
+    pub(in crate::interpreter) fn delete_parameter(&mut self, index: u32) {
+        if let Some(before) = self.parameters.remove(&index) {
+            self.weight.take(weight("", &before) - 1);
+        }
+        if let Some(place) = self.direct.get_mut(index as usize) {
+            *place = None;
+        }
+    }
+
+    /// The names whose numbers differ in another memory; `None` where anything else does, or more
+    /// than a few.
+    pub(in crate::interpreter) fn differing_numbers(&self, other: &Self) -> Option<Vec<Target>> {
+        let same = self.lost == other.lost
+            && self.unknown_names == other.unknown_names
+            && self.direct.len() == other.direct.len()
+            && self.parameters.len() == other.parameters.len()
+            && self.locals.len() == other.locals.len()
+            && self.macro_version == other.macro_version;
+        if !same {
+            return None;
+        }
+        let mut differing = Vec::new();
+        let parameter = |index| Target::Parameter(Owner::Program, index);
+        for (index, pair) in (0..).zip(self.direct.iter().zip(&other.direct)) {
+            match pair {
+                (Some(mine), Some(theirs)) => {
+                    compare(mine, theirs, || parameter(index), &mut differing)?;
+                }
+                (None, None) => {}
+                _ => return None,
+            }
+        }
+        for ((index, mine), (at, theirs)) in self.parameters.iter().zip(&other.parameters) {
+            if index != at {
+                return None;
+            }
+            compare(mine, theirs, || parameter(*index), &mut differing)?;
+        }
+        let levels = self.locals.iter().zip(&other.locals);
+        for (mine, theirs) in levels.chain([(&self.variables, &other.variables)]) {
+            mine.differing(theirs, &mut differing)?;
+        }
+        Some(differing)
+    }
+
+    pub(in crate::interpreter) fn enter_call(&mut self, depth: usize) {
+        while self.locals.len() < depth {
+            self.locals.push(Names::default());
+        }
+        self.locals.push(Names::default());
+    }
+
+    pub(in crate::interpreter) fn leave_call(&mut self, depth: usize) {
+        self.locals.truncate(depth);
+    }
+
+    pub(in crate::interpreter) fn define_macro(&mut self, name: &str, code: &str) {
+        self.hold_macro(name.trim(), Value::Text(unescaped(code).into()));
+    }
+
+    fn hold_macro(&mut self, name: &str, code: Value) {
+        self.macro_version = self.macro_version.wrapping_add(1);
+        self.weight.add(weight(name, &code));
+        if let Some(before) = self.macros.insert(name.to_owned(), code) {
+            self.weight.take(weight(name, &before));
+        }
+    }
+
+    /// A macro may have been defined, or redefined (R2.51).
+    pub(in crate::interpreter) fn forget_macro(&mut self, name: &str, cause: &Arc<str>) {
+        if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
+            self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
+        }
+    }
+
+    /// Any of the macros may have been taken away, or redefined, except for those that `stays`
+    /// names with their code.
+    pub(in crate::interpreter) fn forget_macros(
+        &mut self,
+        cause: &Arc<str>,
+        stays: impl Fn(&str, &str) -> bool,
+    ) {
+        let goes = |(name, code): &(&String, &Value)| match code {
+            Value::Text(code) => !stays(name, code),
+            Value::Number(_) | Value::Unknown(_) => false,
+        };
+        let names = self
+            .macros
+            .iter()
+            .filter(goes)
+            .map(|(name, _)| name.clone());
+        for name in names.collect::<Vec<String>>() {
+            self.forget_macro(&name, cause);
+        }
+    }
+
+    /// `#INIT MACRO TAB`
+    pub(in crate::interpreter) fn clear_macros(&mut self) {
+        self.macro_version = self.macro_version.wrapping_add(1);
+        let weights = self.macros.iter().map(|(name, code)| weight(name, code));
+        self.weight.take(weights.sum::<usize>());
+        self.macros.clear();
+    }
+
+    /// The code of a macro, which may be unknown.
+    pub(in crate::interpreter) fn macro_code(&self, name: &str) -> Option<&Value> {
+        self.macros.get(name.trim())
+    }
+
+    /// What a quoted name means: the code of its macro, or itself.
+    pub(in crate::interpreter) fn macro_or_text(&self, name: &str) -> Value {
+        let code = self.macro_code(name).cloned();
+        code.unwrap_or_else(|| Value::Text(name.into()))
+    }
+
+    /// Rises with every change of the macros.
+    pub(in crate::interpreter) fn macro_version(&self) -> u64 {
+        self.macro_version
+    }
+
+    /// What a program start leaves (R9.32).
+    pub(in crate::interpreter) fn carried(&self, parameters: Parameters) -> Carried {
+        let mut carried = Carried::default();
+        for (name, code) in &self.macros {
+            match code {
+                Value::Text(code) => {
+                    carried.macros.insert(name.clone(), code.to_string());
+                }
+                Value::Unknown(cause) => {
+                    carried.lost_macros.insert(name.clone(), cause.clone());
+                }
+                Value::Number(_) => {}
+            }
+        }
+        if parameters == Parameters::Kept {
+            let direct = (0..).zip(&self.direct);
+            let direct = direct.filter_map(|(at, value)| Some((at, value.clone()?)));
+            let rest = self.parameters.iter();
+            let rest = rest.map(|(at, value)| (*at, value.clone()));
+            carried.parameters = direct.chain(rest).collect();
+            carried.lost_parameters.clone_from(&self.lost);
+        }
+        let names = self.variables.names.iter();
+        for (name, variable) in names.filter(|(name, _)| is_kept(name, parameters)) {
+            variable.carry(name, &mut carried);
+        }
+        carried
+    }
+
+    /// Takes over what an earlier session left.
+    pub(in crate::interpreter) fn take_over(&mut self, carried: Carried) {
+        for (name, shape) in carried.arrays {
+            self.declare_array(&name, shape.dimensions, shape.default);
+        }
+        for (name, cause) in &carried.lost {
+            self.variables.forget_elements(name, cause);
+        }
+        for (name, value) in carried.variables {
+            self.set_variable(&name, value);
+        }
+        self.lost = carried.lost_parameters;
+        for (index, value) in carried.parameters {
+            self.set_parameter(index, value);
+        }
+        for (name, code) in carried.macros {
+            self.hold_macro(&name, Value::Text(code.into()));
+        }
+        for (name, cause) in carried.lost_macros {
+            self.hold_macro(&name, Value::Unknown(cause));
+        }
+    }
+
+    /// The `V.S.` variables, which outlive programs.
+    pub(in crate::interpreter) fn shared(&self) -> BTreeMap<String, Value> {
+        let shared = self.variables.names.iter();
+        let shared = shared.filter(|(name, _)| name.starts_with("V.S."));
+        let mut all = BTreeMap::new();
+        for (name, variable) in shared {
+            if let Some(value) = &variable.scalar {
+                all.insert(name.clone(), value.clone());
+            }
+            for (subscripts, value) in &variable.elements {
+                all.insert(format!("{name}{subscripts}"), value.clone());
+            }
+        }
+        all
+    }
+}
+
+/// The code of a macro as it is used.
+pub(in crate::interpreter) fn unescaped(code: &str) -> String {
+    code.replace("\\\"", "\"")
+}
+
+/// Whether a program start leaves a variable or array.
+fn is_kept(name: &str, parameters: Parameters) -> bool {
+    !is_of_run(name) || (parameters == Parameters::Kept && name.starts_with('P'))
+}
+
+/// Whether programs write what a name stands for.
+fn is_written(name: &str) -> bool {
+    is_of_run(name) || name.starts_with("V.S.") || name.starts_with("V.L.")
+}
+
+fn is_of_run(name: &str) -> bool {
+    name.starts_with("V.P.") || name.starts_with("V.CYC.") || name.starts_with('P')
+}

@@ -1,0 +1,13 @@
+//! What programs compute with: values, names, memory, expressions.
+
+pub(super) mod carried;
+pub(super) mod cause;
+pub(super) mod effort;
+pub(super) mod expression;
+pub(super) mod functions;
+pub(super) mod memory;
+pub(super) mod names;
+pub(super) mod reads;
+pub(super) mod target;
+pub(super) mod value;
+pub(super) mod variable;

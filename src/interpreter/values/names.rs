@@ -1,0 +1,319 @@
+//! Variables by name, with their arrays, and what they weigh.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::carried::{ArrayShape, Carried};
+use super::target::Target;
+use super::value::Value;
+
+/// What a value weighs against the budget of values (R2.60): one for itself, one more for so many
+/// bytes of a text or a name.
+pub(in crate::interpreter) const WEIGHT: usize = 32;
+
+/// A sum of weights. A damaged snapshot may hold any, so nothing here overflows.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Weight(pub(in crate::interpreter) usize);
+
+impl Weight {
+    pub(in crate::interpreter) fn add(&mut self, weight: usize) {
+        self.0 = self.0.saturating_add(weight);
+    }
+
+    pub(in crate::interpreter) fn take(&mut self, weight: usize) {
+        self.0 = self.0.saturating_sub(weight);
+    }
+}
+
+/// Variables by name, those of an array under the array's name.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Names {
+    #[serde(serialize_with = "sorted")]
+    pub(in crate::interpreter) names: HashMap<String, Variable>,
+    pub(in crate::interpreter) weight: Weight,
+}
+
+/// Writes a map in the order of its names, so that the same state gives the same bytes.
+pub(in crate::interpreter) fn sorted<V: Serialize, S: Serializer>(
+    names: &HashMap<String, V>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let sorted: BTreeMap<&String, &V> = names.iter().collect();
+    sorted.serialize(serializer)
+}
+
+/// What a name stands for.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Variable {
+    pub(in crate::interpreter) scalar: Option<Value>,
+    pub(in crate::interpreter) array: Option<Array>,
+    /// The elements that were written, by their subscripts: `[1][2]`.
+    pub(in crate::interpreter) elements: BTreeMap<String, Value>,
+    /// Set when some element was written, but it is not known which.
+    pub(in crate::interpreter) lost: Option<Arc<str>>,
+}
+
+/// A declared array.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Array {
+    pub(in crate::interpreter) dimensions: Vec<u32>,
+    /// The value of elements that were never written.
+    pub(in crate::interpreter) default: Value,
+}
+
+impl Array {
+    /// Whether the subscripts are those of an element.
+    pub(in crate::interpreter) fn has(&self, subscripts: &str) -> bool {
+        let mut sizes = self.dimensions.iter();
+        for part in subscripts.split(['[', ']']).filter(|part| !part.is_empty()) {
+            let (Ok(at), Some(size)) = (part.parse::<u32>(), sizes.next()) else {
+                return false;
+            };
+            if at >= *size {
+                return false;
+            }
+        }
+        sizes.next().is_none()
+    }
+}
+
+impl Variable {
+    pub(in crate::interpreter) fn element(&self, subscripts: &str) -> Option<Value> {
+        if let Some(value) = self.elements.get(subscripts) {
+            return Some(value.clone());
+        }
+        let array = self.array.as_ref();
+        if array.is_some_and(|array| !array.has(subscripts)) {
+            return None;
+        }
+        match &self.lost {
+            Some(cause) => Some(Value::Unknown(cause.clone())),
+            None => array.map(|array| array.default.clone()),
+        }
+    }
+
+    /// Appends what the next program finds.
+    pub(in crate::interpreter) fn carry(&self, name: &str, carried: &mut Carried) {
+        if let Some(value) = &self.scalar {
+            carried.variables.insert(name.to_owned(), value.clone());
+        }
+        if let Some(array) = &self.array {
+            let shape = ArrayShape {
+                dimensions: array.dimensions.clone(),
+                default: array.default.clone(),
+            };
+            carried.arrays.insert(name.to_owned(), shape);
+        }
+        if let Some(cause) = &self.lost {
+            carried.lost.insert(name.to_owned(), cause.clone());
+        }
+        for (subscripts, value) in &self.elements {
+            let element = format!("{name}{subscripts}");
+            carried.variables.insert(element, value.clone());
+        }
+    }
+
+    /// Its value is no longer known, nor that of any element.
+    pub(in crate::interpreter) fn forget(&mut self, cause: &Arc<str>) {
+        if let Some(scalar) = &mut self.scalar {
+            *scalar = Value::Unknown(cause.clone());
+        }
+        self.elements.clear();
+        self.lost = self
+            .array
+            .as_ref()
+            .map(|_| cause.clone())
+            .or(self.lost.take());
+    }
+
+    pub(in crate::interpreter) fn elements_weight(&self) -> usize {
+        let weight = |(key, value): (&String, &Value)| weight(key, value);
+        self.elements.iter().map(weight).sum()
+    }
+
+    pub(in crate::interpreter) fn is_empty(&self) -> bool {
+        self.scalar.is_none()
+            && self.array.is_none()
+            && self.lost.is_none()
+            && self.elements.is_empty()
+    }
+}
+
+impl Names {
+    pub(in crate::interpreter) fn value(&self, name: &str) -> Option<Value> {
+        let (base, subscripts) = parts(name);
+        let variable = self.names.get(base)?;
+        match subscripts {
+            "" => variable.scalar.clone(),
+            subscripts => variable.element(subscripts),
+        }
+    }
+
+    pub(in crate::interpreter) fn set(&mut self, name: &str, value: Value) {
+        let (base, subscripts) = parts(name);
+        let variable = match self.names.get_mut(base) {
+            Some(variable) => variable,
+            None => self.names.entry(base.to_owned()).or_default(),
+        };
+        let key = if subscripts.is_empty() {
+            base
+        } else {
+            subscripts
+        };
+        self.weight.add(weight(key, &value));
+        let before = if subscripts.is_empty() {
+            variable.scalar.replace(value)
+        } else if let Some(place) = variable.elements.get_mut(subscripts) {
+            Some(std::mem::replace(place, value))
+        } else {
+            variable.elements.insert(subscripts.to_owned(), value)
+        };
+        self.weight
+            .take(before.map_or(0, |before| weight(key, &before)));
+    }
+
+    pub(in crate::interpreter) fn declare_array(&mut self, name: &str, array: Array) {
+        self.weight.add(weight(name, &array.default));
+        let variable = self.names.entry(name.to_owned()).or_default();
+        let before = variable.array.replace(array);
+        self.weight
+            .take(before.map_or(0, |before| weight(name, &before.default)));
+        variable.lost = None;
+        self.drop_elements(name);
+    }
+
+    pub(in crate::interpreter) fn drop_elements(&mut self, name: &str) {
+        if let Some(variable) = self.names.get_mut(name) {
+            self.weight.take(variable.elements_weight());
+            variable.elements.clear();
+        }
+    }
+
+    pub(in crate::interpreter) fn dimensions(&self, name: &str) -> Option<&[u32]> {
+        let array = self.names.get(name)?.array.as_ref()?;
+        Some(&array.dimensions)
+    }
+
+    pub(in crate::interpreter) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {
+        self.drop_elements(name);
+        let variable = self.names.entry(name.to_owned()).or_default();
+        variable.lost = Some(cause.clone());
+    }
+
+    pub(in crate::interpreter) fn delete(&mut self, name: &str) {
+        let (base, subscripts) = parts(name);
+        if subscripts.is_empty() {
+            self.drop_elements(base);
+            if let Some(variable) = self.names.remove(base) {
+                let scalar = variable.scalar.as_ref();
+                let array = variable.array.as_ref().map(|array| &array.default);
+                let values = scalar.into_iter().chain(array);
+                self.weight
+                    .take(values.map(|value| weight(base, value)).sum::<usize>());
+            }
+            return;
+        }
+        let Some(variable) = self.names.get_mut(base) else {
+            return;
+        };
+        let inner = format!("{subscripts}[");
+        let mut gone: Vec<String> = variable
+            .elements
+            .range(inner.clone()..)
+            .take_while(|(key, _)| key.starts_with(&inner))
+            .map(|(key, _)| key.clone())
+            .collect();
+        gone.push(subscripts.to_owned());
+        for key in gone {
+            if let Some(value) = variable.elements.remove(&key) {
+                self.weight.take(weight(&key, &value));
+            }
+        }
+        if variable.is_empty() {
+            self.names.remove(base);
+        }
+    }
+
+    pub(in crate::interpreter) fn differing(
+        &self,
+        other: &Self,
+        differing: &mut Vec<Target>,
+    ) -> Option<()> {
+        if self.names.len() != other.names.len() {
+            return None;
+        }
+        for (name, mine) in &self.names {
+            let theirs = other.names.get(name)?;
+            let same = mine.array == theirs.array
+                && mine.lost == theirs.lost
+                && mine.elements.len() == theirs.elements.len();
+            if !same {
+                return None;
+            }
+            match (&mine.scalar, &theirs.scalar) {
+                (Some(mine), Some(theirs)) => {
+                    let target = || Target::Variable(name.clone());
+                    compare(mine, theirs, target, differing)?;
+                }
+                (None, None) => {}
+                _ => return None,
+            }
+            for ((key, mine), (at, theirs)) in mine.elements.iter().zip(&theirs.elements) {
+                if key != at {
+                    return None;
+                }
+                let target = || Target::Variable(format!("{name}{key}"));
+                compare(mine, theirs, target, differing)?;
+            }
+        }
+        Some(())
+    }
+
+    pub(in crate::interpreter) fn weigh(&self) -> usize {
+        let weight_of = |(name, variable): (&String, &Variable)| {
+            let scalar = variable.scalar.as_ref();
+            let array = variable.array.as_ref().map(|array| &array.default);
+            let values = scalar.into_iter().chain(array);
+            let own: usize = values.map(|value| weight(name, value)).sum();
+            own + variable.elements_weight()
+        };
+        self.names.iter().map(weight_of).sum()
+    }
+}
+
+/// Different numbers beyond which a comparison is given up.
+const MAX_DIFFERING: usize = 16;
+
+/// Compares two values under one name; `None` where they differ in more than a number.
+pub(in crate::interpreter) fn compare(
+    mine: &Value,
+    theirs: &Value,
+    target: impl Fn() -> Target,
+    differing: &mut Vec<Target>,
+) -> Option<()> {
+    match (mine, theirs) {
+        (mine, theirs) if mine == theirs => Some(()),
+        (Value::Number(_), Value::Number(_)) if differing.len() < MAX_DIFFERING => {
+            differing.push(target());
+            Some(())
+        }
+        _ => None,
+    }
+}
+
+/// What a value under a name weighs.
+pub(in crate::interpreter) fn weight(name: &str, value: &Value) -> usize {
+    let text = match value {
+        Value::Text(text) => text.len(),
+        // The name of what is not known is shared.
+        Value::Number(_) | Value::Unknown(_) => 0,
+    };
+    1 + name.len() / WEIGHT + text / WEIGHT
+}
+
+/// The name of a variable and the subscripts after it.
+pub(in crate::interpreter) fn parts(name: &str) -> (&str, &str) {
+    name.split_at(name.find('[').unwrap_or(name.len()))
+}

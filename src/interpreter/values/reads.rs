@@ -1,0 +1,31 @@
+//! What expressions read, while that matters (R2.84).
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::target::Target;
+
+/// Different values that are kept of what was read; with more, everything counts as read.
+const MAX_READS: usize = 256;
+
+/// What was read since a loop was looked at.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Reads {
+    targets: BTreeSet<Target>,
+    too_many: bool,
+}
+
+impl Reads {
+    pub(in crate::interpreter) fn note(&mut self, target: Target) {
+        if self.targets.len() < MAX_READS {
+            self.targets.insert(target);
+        } else {
+            self.too_many = true;
+        }
+    }
+
+    pub(in crate::interpreter) fn has(&self, target: &Target) -> bool {
+        self.too_many || self.targets.contains(target)
+    }
+}

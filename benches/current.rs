@@ -17,7 +17,7 @@ use frictcomp::current::{AdditiveCurrent, Commanded, Followers, Reading};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::machine::Machine;
 use frictcomp::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
-use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
+use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 use measure::{Bench, median};
@@ -208,7 +208,7 @@ fn cycles_of(program: &str) -> u64 {
         planner: TrajectoryPlanner::new(&machine, &axes, PlannerOptions::default()),
         cycles: Count(0),
     };
-    let options = SessionOptions::default().with_motions(Motions::Taken);
+    let options = SessionOptions::from(Options::default().with_motions(Motions::Taken));
     let mut session = Session::new(machine, options);
     let source = SourceFile::new("bench.nc", program);
     let _ = session.program(

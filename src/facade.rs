@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use crate::current::{CurrentCycle, CurrentOptions, FollowError, ProgramCurrents, axes_to_follow};
 use crate::machine::Machine;
 use crate::session::{
-    Finder, Findings, Motions, NoFiles, Program, Session, SessionOptions, StopPolicy,
+    Finder, Findings, Motions, NoFiles, Options, Program, Session, SessionOptions, StopPolicy,
 };
 use crate::text::SourceFile;
 use crate::timeline::Sink;
@@ -43,7 +43,7 @@ pub fn run(program: SourceFile, machine: Machine, sink: &mut dyn Sink) -> Sessio
 /// let program = SourceFile::new("a.nc", "N10 Y[COMP ON FRICT]\nN20 M30\n");
 /// let (machine, options) = (Machine::enabled(["X"]), SessionOptions::default());
 /// let findings = frictcomp::check(program, machine, options, &mut NoFiles);
-/// let codes: Vec<&str> = findings.diagnostics().map(|said| said.code.text()).collect();
+/// let codes: Vec<&str> = findings.diagnostics().map(|said| said.code.as_str()).collect();
 /// assert_eq!(codes, ["P-ERR-70495"]);
 /// ```
 pub fn check(
@@ -53,10 +53,8 @@ pub fn check(
     finder: &mut dyn Finder,
 ) -> Findings {
     let mut findings = Findings::default();
-    let options = SessionOptions {
-        stop: StopPolicy::CheckAll,
-        ..options
-    };
+    let run = options.run.with_stop(StopPolicy::CheckAll);
+    let options = options.with_run(run);
     let session = Session::new(machine, options);
     run_in(session, program, finder, &mut findings);
     findings
@@ -76,10 +74,7 @@ pub fn currents(
     let followed = axes_to_follow(axes, &mut machine, None)?;
     let options = CurrentOptions::default();
     let mut currents = ProgramCurrents::new(&machine, &followed, options, sink);
-    let options = SessionOptions {
-        motions: Motions::Taken,
-        ..SessionOptions::default()
-    };
+    let options = SessionOptions::from(Options::default().with_motions(Motions::Taken));
     let session = Session::new(machine, options);
     run_in(session, program, &mut NoFiles, &mut currents);
     currents.finish();

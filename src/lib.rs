@@ -17,7 +17,7 @@
 //! let changes = compensation.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
 //! assert_eq!(changes[0].to.as_str(), "inactive");
 //! let refused = compensation.apply(&parse_comp("Y[COMP ON FRICT]")?).unwrap_err();
-//! assert_eq!(refused.code().text(), "P-ERR-70495");
+//! assert_eq!(refused.code().as_str(), "P-ERR-70495");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -35,7 +35,7 @@
 //! let (machine, options) = (Machine::enabled(["X"]), SessionOptions::default());
 //! let findings = frictcomp::check(program.clone(), machine, options, &mut NoFiles);
 //! let said = findings.diagnostics().next().expect("a misspelt kind");
-//! assert_eq!(said.code.text(), "FC202");
+//! assert_eq!(said.code.as_str(), "FC202");
 //! assert_eq!(said.help(), ["did you mean `FRICT`?"]);
 //! let fixed = Fixed::new(&program, &said.fixes);
 //! assert_eq!(fixed.text, "N10 X[COMP OFF FRICT]\nN20 M30\n");

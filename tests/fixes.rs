@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use frictcomp::diagnostic::{Diagnostic, Fix, Fixed, Safety};
 use frictcomp::machine::{Machine, NoLists, check_list};
-use frictcomp::session::{NoFiles, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{NoFiles, Options, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
@@ -51,7 +51,7 @@ impl Sink for Run {
 }
 
 fn run(programs: &[(&str, &str)]) -> Run {
-    let options = SessionOptions::default().with_stop(StopPolicy::CheckAll);
+    let options = SessionOptions::from(Options::default().with_stop(StopPolicy::CheckAll));
     let machine = Machine::from_toml(MACHINE).expect("a machine");
     let mut session = Session::new(machine, options);
     let mut run = Run::default();
@@ -68,7 +68,7 @@ fn run(programs: &[(&str, &str)]) -> Run {
 fn mended(text: &str, code: &str) -> Vec<(String, Safety)> {
     let source = SourceFile::new("a.nc", text);
     let said = run(&[("a.nc", text)]).said;
-    let fixes = said.iter().filter(|said| said.code.text() == code);
+    let fixes = said.iter().filter(|said| said.code.as_str() == code);
     let fixes = fixes.flat_map(|said| &said.fixes);
     fixes
         .map(|fix| (Fixed::new(&source, [fix]).text, fix.safety))
@@ -206,7 +206,7 @@ fn an_axis_is_set_at_program_start() {
     let said = run(&[first, ("b.nc", text)]).said;
     let said: Vec<_> = said
         .iter()
-        .filter(|said| said.code.text() == "FC403")
+        .filter(|said| said.code.as_str() == "FC403")
         .collect();
     let [said] = said[..] else {
         panic!("{said:?}");

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use frictcomp::machine::{Machine, NoLists, check_list};
-use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
@@ -196,9 +196,10 @@ fn cost_within(case: &Case, limits: Limits) -> Cost {
         2 => vec!["X", "Y"],
         _ => names.iter().map(String::as_str).collect(),
     };
-    let options = SessionOptions::default()
+    let run = Options::default()
         .with_stop(StopPolicy::CheckAll)
         .with_limits(limits);
+    let options = SessionOptions::from(run);
     let mut granted = Granted(16 * bytes(&case.text));
     let source = SourceFile::new("a.nc", case.text.as_str());
     let mut finder = |name: &str, _: &str| {

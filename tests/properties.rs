@@ -145,13 +145,15 @@ impl Sink for Said {
 }
 
 fn options(stop: StopPolicy) -> SessionOptions {
-    SessionOptions::default().with_stop(stop).with_limits(
-        Limits::default()
-            .with_blocks(200)
-            .with_calls(5)
-            .with_nesting(5)
-            .with_macros(4),
-    )
+    let limits = Limits::default()
+        .with_blocks(200)
+        .with_calls(5)
+        .with_nesting(5)
+        .with_macros(4);
+    Options::default()
+        .with_stop(stop)
+        .with_limits(limits)
+        .into()
 }
 
 fn run(stop: StopPolicy, program: impl FnOnce(&mut Session, &mut Said)) -> Vec<String> {

@@ -427,7 +427,7 @@ fn a_plant_file_overrides_what_it_names() {
             error.diagnostic.message.contains(message),
             "{text}: {error}"
         );
-        assert_eq!(error.diagnostic.code.text(), "FC110");
+        assert_eq!(error.diagnostic.code.as_str(), "FC110");
     }
 }
 

@@ -76,7 +76,10 @@ fn one_selection_governs_all_kinds() {
     let command = parse_comp("X[COMP OFF LEAD FRICT TEMP]").unwrap();
     let kinds: KindSet = [Kind::Lead, Kind::Frict, Kind::Temp].into_iter().collect();
     assert_eq!(command.selection, Selection::Off(kinds));
-    assert_eq!(parse_comp("X[COMP OFF]").unwrap_err().code.text(), "FC201");
+    assert_eq!(
+        parse_comp("X[COMP OFF]").unwrap_err().code.as_str(),
+        "FC201"
+    );
 }
 
 #[test]
@@ -87,7 +90,10 @@ fn off_all_takes_no_kind() {
         Selection::OffAll
     );
     assert_eq!(
-        parse_comp("X[COMP OFF_ALL FRICT]").unwrap_err().code.text(),
+        parse_comp("X[COMP OFF_ALL FRICT]")
+            .unwrap_err()
+            .code
+            .as_str(),
         "FC203"
     );
     let bench = Bench::on(ALL_KINDS).kinds(&Kind::ALL);

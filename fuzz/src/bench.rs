@@ -1,7 +1,7 @@
 //! A session with small budgets, so that an input costs milliseconds.
 
 use frictcomp::machine::Machine;
-use frictcomp::session::{Limits, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::TextLines;
 use frictcomp::timeline::Sink;
 
@@ -28,7 +28,7 @@ pub struct Bench<'a> {
 
 impl Bench<'_> {
     pub fn options(self) -> SessionOptions {
-        SessionOptions::default().with_stop(self.stop).with_skip(0b10).with_limits(Limits::default().with_blocks(100).with_work(50_000).with_values(1000).with_calls(5).with_nesting(8).with_macros(4))
+        SessionOptions::from(Options::default().with_stop(self.stop).with_skip(0b10).with_limits(Limits::default().with_blocks(100).with_work(50_000).with_values(1000).with_calls(5).with_nesting(8).with_macros(4)))
     }
 
     /// Runs the text as it stands in memory.

@@ -48,7 +48,7 @@ pub fn check_growth(files: Files<'_>, way: usize) {
     check_work(&session, files);
     // Lengths are all that grows in a state; a text counts once more for every 32 bytes.
     let held = serde_json::to_string(&session.save()).expect("a state is JSON");
-    let values = usize::try_from(bench.options().limits.values).expect("a small number");
+    let values = usize::try_from(bench.options().run.limits.values).expect("a small number");
     let most = 200 * (values + files.len()) + 10_000;
     assert!(
         held.len() <= most,
@@ -74,7 +74,7 @@ fn check_work(session: &Session, files: Files<'_>) {
         files,
         stop: POLICIES[0],
     };
-    let limits = bench.options().limits;
+    let limits = bench.options().run.limits;
     let bytes = u64::try_from(files.len()).expect("a small number");
     // Both passes hold both files, each executed block brings its share, and the block that goes
     // over the bound is finished.

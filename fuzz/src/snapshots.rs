@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::interpreter::{Event, Interpreter, Options, RunOutcome, Snapshot};
+use frictcomp::interpreter::{Event, Interpreter, RunOutcome, Snapshot};
 use frictcomp::text::SourceFile;
 
 use crate::damage::damage;
@@ -15,8 +15,7 @@ pub fn check_snapshot(files: Files<'_>, dice: &mut Dice<'_>) {
         files,
         stop: POLICIES[dice.below(3)],
     };
-    let session = bench.options();
-    let options = Options::default().with_stop(session.stop).with_skip(session.skip).with_limits(session.limits);
+    let options = bench.options().run;
     let machine = machine();
     let compensation = machine.compensation();
     let mut run = Interpreter::new(machine.clone(), compensation, options);

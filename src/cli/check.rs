@@ -137,7 +137,7 @@ impl CheckArgs {
     ) -> Result<(), Failure> {
         let loaded = loaded?;
         let mut options = self.execution.options(&loaded, StopPolicy::CheckAll);
-        options.notes = Notes::Taken;
+        options.run.notes = Notes::Taken;
         let alone = Alone {
             options,
             naming: Naming::AsGiven,

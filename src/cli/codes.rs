@@ -39,7 +39,7 @@ pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
                 let _ = writeln!(
                     output,
                     "{:<12}  {severity:<7}  {}",
-                    code.text(),
+                    code.as_str(),
                     code.title()
                 );
             }
@@ -50,7 +50,7 @@ pub(super) fn run(args: &CodesArgs, console: Console) -> Result<u8, Failure> {
                 .iter()
                 .map(|code| {
                     json!({
-                        "code": code.text(),
+                        "code": code.as_str(),
                         "severity": code.severity().as_str(),
                         "title": code.title(),
                     })

@@ -92,7 +92,7 @@ impl Switches {
                 change: format!(
                     "{} {}: {} → {}",
                     row.state.name(change.axis),
-                    change.kind.keyword(),
+                    change.kind.as_str(),
                     change.from.as_str(),
                     change.to.as_str(),
                 ),
@@ -134,7 +134,7 @@ impl Sink for Switches {
                     .find(|change| change.to == State::Unknown && self.kinds.contains(change.kind));
                 if let Some(change) = lost {
                     let (file, line) = (row.file, row.line);
-                    let (name, kind) = (row.state.name(change.axis), change.kind.keyword());
+                    let (name, kind) = (row.state.name(change.axis), change.kind.as_str());
                     self.obstacle.get_or_insert_with(|| {
                         format!("from {file}:{line} on {kind} of {name} is not known offline")
                     });

@@ -5,7 +5,7 @@ use clap::Args;
 use super::settings::{self, SkipLevels};
 use crate::host::LoadedMachine;
 use crate::report::command_line;
-use crate::session::{Limits, Motions, Notes, SessionOptions, StopPolicy};
+use crate::session::{Limits, Options, SessionOptions, StopPolicy};
 
 /// What a dry run skips and where it ends.
 #[derive(Debug, Clone, Args)]
@@ -43,21 +43,22 @@ pub(super) struct ExecutionArgs {
 impl ExecutionArgs {
     /// The options of a session on a machine.
     pub(super) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
+        let limits = Limits {
+            blocks: self.max_blocks,
+            work: self.max_work,
+            values: self.max_values,
+            calls: self.max_calls,
+            nesting: self.max_nesting,
+            macros: self.max_macros,
+        };
+        let run = Options::default()
+            .with_stop(stop)
+            .with_skip(self.skip.unwrap_or_default().0)
+            .with_limits(limits);
         SessionOptions {
-            stop,
-            skip: self.skip.unwrap_or_default().0,
-            limits: Limits {
-                blocks: self.max_blocks,
-                work: self.max_work,
-                values: self.max_values,
-                calls: self.max_calls,
-                nesting: self.max_nesting,
-                macros: self.max_macros,
-            },
+            run,
             levels: loaded.levels.clone(),
             settings: loaded.settings.clone(),
-            notes: Notes::None,
-            motions: Motions::None,
             switched: Vec::new(),
             wording: Some(command_line),
         }

@@ -58,7 +58,7 @@ pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
 
 /// The page of a code, of a parameter's number or of its key.
 fn find(text: &str) -> Option<&'static str> {
-    if let Some(code) = Code::find(text) {
+    if let Ok(code) = text.parse::<Code>() {
         return Some(code.page());
     }
     let key = general_key(text);
@@ -84,7 +84,7 @@ fn general_key(text: &str) -> String {
 }
 
 fn unknown(text: &str) -> Failure {
-    let codes = Code::ALL.iter().map(|code| code.text());
+    let codes = Code::ALL.iter().map(|code| code.as_str());
     let parameters = PARAMETERS
         .iter()
         .flat_map(|parameter| [parameter.number, parameter.key]);

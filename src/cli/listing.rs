@@ -170,7 +170,7 @@ pub(super) fn explain(code: Code) -> String {
 
 fn row((code, severity): (Code, Severity), count: u64) -> String {
     let (word, title) = (severity.as_str(), code.title());
-    format!("{count:>7}  {word:<7}  {:<12}  {title}\n", code.text())
+    format!("{count:>7}  {word:<7}  {:<12}  {title}\n", code.as_str())
 }
 
 fn parameter(report: &AxisReport, row: &Parameter) -> Value {
@@ -198,7 +198,7 @@ fn parameter(report: &AxisReport, row: &Parameter) -> Value {
 fn record((code, severity): (Code, Severity), count: u64) -> Value {
     json!({
         "record": "statistic",
-        "code": code.text(),
+        "code": code.as_str(),
         "severity": severity.as_str(),
         "count": count,
         "title": code.title(),

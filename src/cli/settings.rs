@@ -105,8 +105,8 @@ pub(super) fn parse_kinds(text: &str) -> Result<KindSet, String> {
     text.split(',')
         .map(|word| {
             let word = word.trim();
-            Kind::from_keyword(word).ok_or_else(|| {
-                let near = did_you_mean(word, Kind::ALL.map(Kind::keyword));
+            word.parse().map_err(|_| {
+                let near = did_you_mean(word, Kind::ALL.map(Kind::as_str));
                 match near {
                     Some(near) => format!("`{word}` is not a kind; did you mean `{near}`?"),
                     None => format!("`{word}` is not a kind; write `FRICT,LEAD` or `all`"),

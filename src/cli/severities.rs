@@ -40,8 +40,8 @@ impl SeverityArgs {
 
 fn parse_code(text: &str) -> Result<Code, String> {
     let text = text.trim();
-    Code::find(text).ok_or_else(|| {
-        let known = Code::ALL.iter().map(|code| code.text());
+    text.parse().map_err(|_| {
+        let known = Code::ALL.iter().map(|code| code.as_str());
         match did_you_mean(text, known) {
             Some(near) => format!("there is no code `{text}`; did you mean `{near}`?"),
             None => format!("there is no code `{text}`; `frictcomp codes` lists them"),

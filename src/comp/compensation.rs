@@ -69,7 +69,7 @@ impl AxisState {
 /// assert_eq!(comp.state(comp.resolve("X")?, Kind::Frict), State::Inactive);
 ///
 /// let refused = comp.apply(&parse_comp("Y[COMP ON FRICT]")?);
-/// assert_eq!(refused.unwrap_err().code().text(), "P-ERR-21947");
+/// assert_eq!(refused.unwrap_err().code().as_str(), "P-ERR-21947");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,5 +1,8 @@
 //! The kinds of axis compensation, and sets of them.
 
+use std::fmt;
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 
 /// A kind of axis compensation that COMP switches.
@@ -36,7 +39,7 @@ impl Kind {
     ];
 
     /// The keyword in an NC program.
-    pub fn keyword(self) -> &'static str {
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::Backlash => "BACKLASH",
             Self::Cross => "CROSS",
@@ -47,12 +50,27 @@ impl Kind {
             Self::Crosstalk => "CROSSTALK",
         }
     }
+}
+
+/// A word that names no kind of compensation.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("there is no compensation `{0}`")]
+pub struct UnknownKind(pub String);
+
+impl FromStr for Kind {
+    type Err = UnknownKind;
 
     /// The kind that a keyword names, in any case.
-    pub fn from_keyword(word: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|kind| kind.keyword().eq_ignore_ascii_case(word))
+    fn from_str(word: &str) -> Result<Self, Self::Err> {
+        let mut kinds = Self::ALL.into_iter();
+        let found = kinds.find(|kind| kind.as_str().eq_ignore_ascii_case(word));
+        found.ok_or_else(|| UnknownKind(word.to_owned()))
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
     }
 }
 

@@ -19,5 +19,5 @@ pub use command::{CompCommand, Selection};
 pub use compensation::{Compensation, Coupling};
 pub use error::CompensationError;
 pub use facts::Facts;
-pub use kind::{Kind, KindSet, Membership};
+pub use kind::{Kind, KindSet, Membership, UnknownKind};
 pub use state::{Change, State};

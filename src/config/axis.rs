@@ -157,8 +157,8 @@ fn values(section: &Section<'_>) -> Result<AxisValues, ConfigError> {
 fn no_manual_activation(kind: Kind, given: &Given<String>) -> ConfigError {
     let has_one = |kind: &Kind| kind.facts().manual_activation.is_some();
     let others = Kind::ALL.into_iter().filter(has_one);
-    let others: Vec<_> = others.map(Kind::keyword).collect();
-    let message = format!("{} has no manual activation", kind.keyword());
+    let others: Vec<_> = others.map(Kind::as_str).collect();
+    let message = format!("{} has no manual activation", kind.as_str());
     ConfigError::at(given, message)
         .with_help(format!("the kinds that have one are {}", others.join(", ")))
 }
@@ -167,9 +167,9 @@ fn no_manual_activation(kind: Kind, given: &Given<String>) -> ConfigError {
 fn kinds(section: &Section<'_>, key: &str) -> Result<Vec<(Kind, Given<String>)>, ConfigError> {
     let mut found = Vec::new();
     for word in section.strings(key)? {
-        let kind = Kind::from_keyword(&word.value).ok_or_else(|| {
+        let kind = word.value.parse::<Kind>().map_err(|_| {
             let message = format!("`{}` is not a kind of compensation", word.value);
-            ConfigError::at(&word, message).with_near(&word.value, Kind::ALL.map(Kind::keyword))
+            ConfigError::at(&word, message).with_near(&word.value, Kind::ALL.map(Kind::as_str))
         })?;
         found.push((kind, word));
     }

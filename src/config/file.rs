@@ -139,9 +139,9 @@ fn levels(root: &Section<'_>) -> Result<Levels, ConfigError> {
         return Ok(levels);
     };
     for name in lint.names() {
-        let Some(code) = Code::find(name.value) else {
+        let Ok(code) = name.value.parse::<Code>() else {
             let message = format!("there is no diagnostic `{}`", name.value);
-            let known = Code::ALL.iter().map(|code| code.text());
+            let known = Code::ALL.iter().map(|code| code.as_str());
             return Err(ConfigError::at(&name, message).with_near(name.value, known));
         };
         let Some(word) = lint.string(name.value)? else {

@@ -5,6 +5,7 @@
 //! meaning, 4xx lints, 5xx drive (FC501 to FC503 are kept for checks to come), 9xx unknown values and budgets. A number is never used again.
 
 use std::fmt;
+use std::str::FromStr;
 
 use serde::{Serialize, Serializer};
 
@@ -24,7 +25,7 @@ macro_rules! codes {
             pub const ALL: &'static [Self] = &[$(Self::$name,)+];
 
             /// The code as it is printed.
-            pub fn text(self) -> &'static str {
+            pub fn as_str(self) -> &'static str {
                 match self { $(Self::$name => $text,)+ }
             }
 
@@ -125,14 +126,6 @@ codes! {
 }
 
 impl Code {
-    /// Finds a code by its text, in any case; the control's numbers also without `P-ERR-`.
-    pub fn find(text: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|code| {
-            code.text().eq_ignore_ascii_case(text)
-                || (code.is_controller() && code.text().strip_prefix("P-ERR-") == Some(text))
-        })
-    }
-
     /// Whether it says that a bound of the dry run was reached (R2.60).
     pub fn is_budget(self) -> bool {
         matches!(
@@ -150,19 +143,38 @@ impl Code {
 
     /// Whether it is a number of the control; those cannot be silenced (R9.24).
     pub fn is_controller(self) -> bool {
-        self.text().starts_with("P-ERR-")
+        self.as_str().starts_with("P-ERR-")
+    }
+}
+
+/// A text that names no code.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("there is no code `{0}`")]
+pub struct UnknownCode(pub String);
+
+impl FromStr for Code {
+    type Err = UnknownCode;
+
+    /// Finds a code by its text, in any case; the control's numbers also without `P-ERR-`.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let mut codes = Self::ALL.iter().copied();
+        let found = codes.find(|code| {
+            code.as_str().eq_ignore_ascii_case(text)
+                || (code.is_controller() && code.as_str().strip_prefix("P-ERR-") == Some(text))
+        });
+        found.ok_or_else(|| UnknownCode(text.to_owned()))
     }
 }
 
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text())
+        f.write_str(self.as_str())
     }
 }
 
 impl Serialize for Code {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.text())
+        serializer.serialize_str(self.as_str())
     }
 }
 
@@ -173,9 +185,9 @@ mod tests {
     #[test]
     fn codes_are_found_by_their_text() {
         // R9.23
-        assert_eq!(Code::find("70495"), Some(Code::PErr70495));
-        assert_eq!(Code::find("p-err-70495"), Some(Code::PErr70495));
-        assert_eq!(Code::find("fc201"), Some(Code::Fc201));
-        assert_eq!(Code::find("201"), None);
+        assert_eq!("70495".parse(), Ok(Code::PErr70495));
+        assert_eq!("p-err-70495".parse(), Ok(Code::PErr70495));
+        assert_eq!("fc201".parse(), Ok(Code::Fc201));
+        assert_eq!("201".parse::<Code>(), Err(UnknownCode("201".to_owned())));
     }
 }

@@ -13,7 +13,7 @@ mod spelling;
 mod unknown_name;
 
 pub use advice::{Advice, Budget, Wording};
-pub use codes::Code;
+pub use codes::{Code, UnknownCode};
 pub use collected::{Collected, MAX_MESSAGES};
 pub use filter::CodeFilter;
 pub use fix::{Fix, Fixed, Safety};

@@ -72,7 +72,7 @@ struct Subject<'a> {
 
 impl Subject<'_> {
     fn left_changed(&self, site: &Site) -> Diagnostic {
-        let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
+        let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let message = format!(
             "`{keyword}` of axis `{name}` is left {} after {}; the control starts with it {}",
             self.end.as_str(),
@@ -86,7 +86,7 @@ impl Subject<'_> {
 
     /// What depends on a value that only the machine knows may be left away as well.
     fn may_be_left(&self, site: &Site) -> Diagnostic {
-        let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
+        let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let home = self.linter.history.home(self.axis, self.kind);
         let away = match home {
             State::Inactive => State::Active,
@@ -105,7 +105,7 @@ impl Subject<'_> {
     }
 
     fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {
-        let (name, keyword) = (self.linter.name(self.axis), self.kind.keyword());
+        let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
         let place = &site.place;
         let message = format!(
             "the second run differs from the first: {} moves axis `{name}` before the program sets \
@@ -132,7 +132,7 @@ impl Subject<'_> {
             _ => "OFF",
         };
         let name = self.linter.name(self.axis);
-        format!("{name}[COMP {way} {}]", self.kind.keyword())
+        format!("{name}[COMP {way} {}]", self.kind.as_str())
     }
 
     /// The diagnostic with the command in a block before the program end.

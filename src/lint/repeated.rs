@@ -60,7 +60,7 @@ fn what(selection: Selection) -> String {
     match selection {
         Selection::OffAll => "every compensation".to_owned(),
         Selection::On(kinds) | Selection::Off(kinds) => {
-            let words: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
+            let words: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
             format!("`{}`", words.join(" "))
         }
     }

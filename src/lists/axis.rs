@@ -125,7 +125,7 @@ impl AxisValues {
             }
         }
         if let Some(required) = &self.required {
-            let words: Vec<_> = required.value.iter().map(Kind::keyword).collect();
+            let words: Vec<_> = required.value.iter().map(Kind::as_str).collect();
             row("P-AXIS-00465", REQUIRED, words.join(" | "), required.into());
         }
         rows
@@ -222,7 +222,7 @@ fn axis_type(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<A
 fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> {
     let mut kinds = KindSet::NONE;
     for word in entry.words() {
-        if let Some(kind) = Kind::from_keyword(word.value) {
+        if let Ok(kind) = word.value.parse::<Kind>() {
             kinds.insert(kind);
         } else if word.value != "0" && !word.value.eq_ignore_ascii_case("NONE") {
             let mut diagnostic = Diagnostic::new(
@@ -233,7 +233,7 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
                     word.value
                 ),
             );
-            if let Some(meant) = did_you_mean(word.value, Kind::ALL.map(Kind::keyword)) {
+            if let Some(meant) = did_you_mean(word.value, Kind::ALL.map(Kind::as_str)) {
                 diagnostic = diagnostic.with_near(word.value, meant);
             }
             diagnostics.push(diagnostic);

@@ -179,7 +179,7 @@ impl AxisDraft {
                 .friction
                 .anchor()
                 .map_or_else(String::new, |anchor| anchor.file().to_owned()),
-            code: code.text().to_owned(),
+            code: code.as_str().to_owned(),
         };
         match (verdict, conflict) {
             (Verdict::Absent, _) => Parameterisation::Missing,

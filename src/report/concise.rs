@@ -16,7 +16,7 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.extend_from_slice(b": ");
     out.extend_from_slice(diagnostic.severity.as_str().as_bytes());
     out.push(b'[');
-    out.extend_from_slice(diagnostic.code.text().as_bytes());
+    out.extend_from_slice(diagnostic.code.as_str().as_bytes());
     out.extend_from_slice(b"] ");
     out.extend_from_slice(visible_line(&diagnostic.message).as_bytes());
     out.push(b'\n');

@@ -1,12 +1,12 @@
 //! One row a block, for spreadsheets (R9.15), quoted as RFC 4180 says.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 
 use crate::comp::{AxisIndex, Change, Kind};
 use crate::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
 
-use super::output::{Output, Report};
+use super::output::{Gathered, Output};
 use super::strings::integer;
 use super::view::View;
 use super::visible::{any_byte, is_command, visible, visible_line};
@@ -116,7 +116,7 @@ impl<W: Write> Csv<W> {
         out.push(b',');
         for diagnostic in row.diagnostics {
             join(&mut self.held.codes, |list| {
-                list.push_str(diagnostic.code.text());
+                list.push_str(diagnostic.code.as_str());
             });
         }
     }
@@ -124,7 +124,7 @@ impl<W: Write> Csv<W> {
     fn end(&mut self, end: &End<'_>) {
         for note in end.notes {
             join(&mut self.held.codes, |list| {
-                list.push_str(note.diagnostic.code.text());
+                list.push_str(note.diagnostic.code.as_str());
             });
             self.held.wanted = true;
         }
@@ -173,18 +173,19 @@ impl<W: Write> Sink for Csv<W> {
     }
 }
 
-impl<W: Write> Report for Csv<W> {
-    fn flush(&mut self) -> ControlFlow<()> {
-        self.output.flush()
+impl<W: Write> Gathered for Csv<W> {
+    type Writer = W;
+
+    fn output(&self) -> &Output<W> {
+        &self.output
     }
 
-    fn finish(&mut self) -> io::Result<()> {
+    fn output_mut(&mut self) -> &mut Output<W> {
+        &mut self.output
+    }
+
+    fn close(&mut self) {
         self.release();
-        self.output.finish()
-    }
-
-    fn is_closed(&self) -> bool {
-        self.output.is_closed()
     }
 }
 
@@ -251,7 +252,7 @@ fn join(list: &mut String, append: impl FnOnce(&mut String)) {
 fn push_change(list: &mut String, change: Change, state: StateView<'_>) {
     list.push_str(state.name(change.axis));
     list.push(':');
-    list.push_str(change.kind.keyword());
+    list.push_str(change.kind.as_str());
     list.push(':');
     list.push_str(change.from.as_str());
     list.push('>');

@@ -56,7 +56,7 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
             look.width,
             title_indent(diagnostic),
         ))
-        .id(diagnostic.code.text());
+        .id(diagnostic.code.as_str());
     let mut group = Group::with_title(title);
     let (inside, outside): (Vec<_>, Vec<_>) = diagnostic
         .labels
@@ -88,7 +88,7 @@ const HELP_INDENT: usize = 13;
 
 /// Columns before the message: `error[P-ERR-70495]: `.
 fn title_indent(diagnostic: &Diagnostic) -> usize {
-    diagnostic.severity.as_str().len() + diagnostic.code.text().len() + 4
+    diagnostic.severity.as_str().len() + diagnostic.code.as_str().len() + 4
 }
 
 /// Breaks a text between words so that it fits after an indent; the renderer aligns the lines.

@@ -29,7 +29,7 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         integer(out, end.line);
     }
     out.extend_from_slice(b",title=");
-    escape(out, diagnostic.code.text(), b"%\r\n:,");
+    escape(out, diagnostic.code.as_str(), b"%\r\n:,");
     out.extend_from_slice(b"::");
     escape(out, &diagnostic.message, b"%\r\n");
     for advice in &diagnostic.advice {

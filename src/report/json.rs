@@ -1,11 +1,11 @@
 //! The records of a session as one JSON document.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 
 use crate::timeline::{Record, Sink};
 
-use super::output::{Output, Report};
+use super::output::{Gathered, Output};
 use super::records::{Encoder, Frame};
 use super::view::View;
 
@@ -55,21 +55,23 @@ impl<W: Write> Sink for Json<W> {
     }
 }
 
-impl<W: Write> Report for Json<W> {
-    fn flush(&mut self) -> ControlFlow<()> {
-        match self.start {
-            // The opening waits for the first record.
-            Some(_) => ControlFlow::Continue(()),
-            None => self.output.flush(),
-        }
+impl<W: Write> Gathered for Json<W> {
+    type Writer = W;
+
+    fn output(&self) -> &Output<W> {
+        &self.output
     }
 
-    fn finish(&mut self) -> io::Result<()> {
+    fn output_mut(&mut self) -> &mut Output<W> {
+        &mut self.output
+    }
+
+    /// The opening waits for the first record.
+    fn may_go_out(&self) -> bool {
+        self.start.is_none()
+    }
+
+    fn close(&mut self) {
         self.output.bytes.extend_from_slice(b"\n]}\n");
-        self.output.finish()
-    }
-
-    fn is_closed(&self) -> bool {
-        self.output.is_closed()
     }
 }

@@ -1,11 +1,11 @@
 //! One JSON object a line.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 
 use crate::timeline::{Record, Sink};
 
-use super::output::{Output, Report};
+use super::output::{Gathered, Output};
 use super::records::{Encoder, Frame};
 use super::view::View;
 
@@ -40,16 +40,14 @@ impl<W: Write> Sink for Ndjson<W> {
     }
 }
 
-impl<W: Write> Report for Ndjson<W> {
-    fn flush(&mut self) -> ControlFlow<()> {
-        self.output.flush()
+impl<W: Write> Gathered for Ndjson<W> {
+    type Writer = W;
+
+    fn output(&self) -> &Output<W> {
+        &self.output
     }
 
-    fn finish(&mut self) -> io::Result<()> {
-        self.output.finish()
-    }
-
-    fn is_closed(&self) -> bool {
-        self.output.is_closed()
+    fn output_mut(&mut self) -> &mut Output<W> {
+        &mut self.output
     }
 }

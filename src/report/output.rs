@@ -24,6 +24,45 @@ pub trait Report: Sink {
     fn is_closed(&self) -> bool;
 }
 
+/// A format that gathers its bytes before it writes them.
+pub(super) trait Gathered: Sink {
+    /// Where they go.
+    type Writer: Write;
+
+    /// The bytes on their way.
+    fn output(&self) -> &Output<Self::Writer>;
+
+    /// The bytes on their way.
+    fn output_mut(&mut self) -> &mut Output<Self::Writer>;
+
+    /// Whether what was gathered may go out before the next record comes.
+    fn may_go_out(&self) -> bool {
+        true
+    }
+
+    /// Gathers what was held back, and the end of the document.
+    fn close(&mut self) {}
+}
+
+impl<F: Gathered> Report for F {
+    fn flush(&mut self) -> ControlFlow<()> {
+        if self.may_go_out() {
+            self.output_mut().flush()
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.close();
+        self.output_mut().finish()
+    }
+
+    fn is_closed(&self) -> bool {
+        self.output().is_closed()
+    }
+}
+
 /// Bytes on their way to a writer, in chunks.
 #[derive(Debug)]
 pub(super) struct Output<W> {

@@ -187,7 +187,7 @@ impl Encoder {
             out.extend_from_slice(b"{\"axis\":");
             string(out, state.name(change.axis));
             out.extend_from_slice(b",\"kind\":");
-            string(out, change.kind.keyword());
+            string(out, change.kind.as_str());
             out.extend_from_slice(b",\"from\":");
             string(out, change.from.as_str());
             out.extend_from_slice(b",\"to\":");
@@ -221,7 +221,7 @@ impl Encoder {
 pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     let (start, end) = (diagnostic.place.start(), diagnostic.place.end());
     out.extend_from_slice(b",\"code\":");
-    string(out, diagnostic.code.text());
+    string(out, diagnostic.code.as_str());
     out.extend_from_slice(b",\"severity\":");
     string(out, diagnostic.severity.as_str());
     out.extend_from_slice(b",\"file\":");
@@ -289,7 +289,7 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
         string(out, name);
         out.extend_from_slice(b":{");
         separated(out, view.kinds.iter(), |out, kind| {
-            string(out, kind.keyword());
+            string(out, kind.as_str());
             out.push(b':');
             string(out, state.state(axis, kind).as_str());
         });
@@ -306,7 +306,7 @@ fn repeats(out: &mut Vec<u8>, repeated: &[Repeat]) {
             out.push(b',');
         }
         out.extend_from_slice(b"{\"code\":");
-        string(out, repeat.code.text());
+        string(out, repeat.code.as_str());
         out.extend_from_slice(b",\"file\":");
         string(out, &repeat.file);
         out.extend_from_slice(b",\"line\":");

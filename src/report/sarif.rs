@@ -53,7 +53,7 @@ impl Sarif {
             .filter(|code| self.used.contains(code))
             .map(|code| {
                 json!({
-                    "id": code.text(),
+                    "id": code.as_str(),
                     "shortDescription": { "text": code.title() },
                     "help": { "text": code.page(), "markdown": code.page() },
                     "defaultConfiguration": { "level": level(code.severity()) },
@@ -96,7 +96,7 @@ fn result(diagnostic: &Diagnostic) -> Value {
         text.push_str(&advice.to_string());
     }
     let mut result = json!({
-        "ruleId": diagnostic.code.text(),
+        "ruleId": diagnostic.code.as_str(),
         "level": level(diagnostic.severity),
         "message": { "text": text },
         "locations": [{ "physicalLocation": location(&diagnostic.place) }],

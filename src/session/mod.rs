@@ -18,9 +18,9 @@ pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
 use crate::diagnostic::{Diagnostic, Levels, Severity, Wording};
-use crate::interpreter::{Event, Interpreter, Options, RunOutcome, Value, set_name};
+use crate::interpreter::{Event, Interpreter, RunOutcome, Value, set_name};
 pub use crate::interpreter::{
-    Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, StopPolicy,
+    Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, Options, StopPolicy,
 };
 pub use crate::lint::Maker;
 use crate::lint::{History, Linter, Told};
@@ -35,20 +35,12 @@ use saved::{fingerprint, storable};
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct SessionOptions {
-    /// What happens at an error.
-    pub stop: StopPolicy,
-    /// The levels of blocks that are skipped, bit 1 for `/` and `/1`, up to bit 10 (R2.3).
-    pub skip: u16,
-    /// Budgets.
-    pub limits: Limits,
+    /// How its programs run.
+    pub run: Options,
     /// The user's severities.
     pub levels: Levels,
     /// Values of variables that only the machine knows.
     pub settings: Vec<(String, Setting)>,
-    /// Whether notes are taken, for [`Session::notes`].
-    pub notes: Notes,
-    /// Whether rows say what their block moves.
-    pub motions: Motions,
     /// The axes that the programs switch, as far as a look ahead found them: what is proposed where
     /// no machine is described (R1.37).
     pub switched: Vec<String>,
@@ -57,21 +49,9 @@ pub struct SessionOptions {
 }
 
 impl SessionOptions {
-    /// The same with another value of [`stop`](Self::stop).
-    pub fn with_stop(mut self, stop: StopPolicy) -> Self {
-        self.stop = stop;
-        self
-    }
-
-    /// The same with another value of [`skip`](Self::skip).
-    pub fn with_skip(mut self, skip: u16) -> Self {
-        self.skip = skip;
-        self
-    }
-
-    /// The same with another value of [`limits`](Self::limits).
-    pub fn with_limits(mut self, limits: Limits) -> Self {
-        self.limits = limits;
+    /// The same with another value of [`run`](Self::run).
+    pub fn with_run(mut self, run: Options) -> Self {
+        self.run = run;
         self
     }
 
@@ -87,18 +67,6 @@ impl SessionOptions {
         self
     }
 
-    /// The same with another value of [`notes`](Self::notes).
-    pub fn with_notes(mut self, notes: Notes) -> Self {
-        self.notes = notes;
-        self
-    }
-
-    /// The same with another value of [`motions`](Self::motions).
-    pub fn with_motions(mut self, motions: Motions) -> Self {
-        self.motions = motions;
-        self
-    }
-
     /// The same with another value of [`switched`](Self::switched).
     pub fn with_switched(mut self, switched: Vec<String>) -> Self {
         self.switched = switched;
@@ -109,6 +77,13 @@ impl SessionOptions {
     pub fn with_wording(mut self, wording: Option<Wording>) -> Self {
         self.wording = wording;
         self
+    }
+}
+
+impl From<Options> for SessionOptions {
+    /// The options of a session whose programs run in this way.
+    fn from(run: Options) -> Self {
+        Self::default().with_run(run)
     }
 }
 
@@ -170,15 +145,8 @@ impl Session {
     pub fn new(machine: Machine, options: SessionOptions) -> Self {
         let machine = Arc::new(machine);
         let compensation = machine.compensation();
-        let run = Options {
-            stop: options.stop,
-            skip: options.skip,
-            limits: options.limits,
-            notes: options.notes,
-            motions: options.motions,
-            ..Options::default()
-        };
-        let mut interpreter = Interpreter::new(Arc::clone(&machine), compensation.clone(), run);
+        let mut interpreter =
+            Interpreter::new(Arc::clone(&machine), compensation.clone(), options.run);
         let mut given = BTreeMap::new();
         for (name, setting) in &options.settings {
             interpreter.set(name, setting);

@@ -146,7 +146,7 @@ impl SavedState {
             let kinds = entry.selected.iter().chain(entry.unknown.iter());
             let mut surplus = kinds.filter(|kind| !axis.configured.contains(*kind));
             if let Some(kind) = surplus.next() {
-                let keyword = kind.keyword();
+                let keyword = kind.as_str();
                 return damaged(format!("`{keyword}` of axis `{name}` is not configured"));
             }
         }
@@ -202,7 +202,7 @@ pub(super) fn fingerprint(machine: &Machine) -> Vec<String> {
 
 fn fingerprint_of(axis: &Axis, configured: KindSet) -> String {
     let words = |kinds: KindSet| {
-        let words: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
+        let words: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
         if words.is_empty() {
             "none".to_owned()
         } else {

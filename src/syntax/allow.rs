@@ -81,12 +81,12 @@ pub(crate) fn allowed(text: &str) -> Allowance {
     for word in words {
         let first = allowance.codes.is_empty() && allowance.fault.is_none();
         let code_like = looks_like_code(word.text);
-        match Code::find(word.text) {
-            Some(code) => allowance.codes.push(code),
-            None if first || code_like => {
+        match word.text.parse() {
+            Ok(code) => allowance.codes.push(code),
+            Err(_) if first || code_like => {
                 allowance.fault.get_or_insert_with(|| unknown(&word));
             }
-            None => break,
+            Err(_) => break,
         }
     }
     if allowance.codes.is_empty() && allowance.fault.is_none() {
@@ -152,7 +152,7 @@ fn looks_like_code(word: &str) -> bool {
 
 fn unknown(word: &Word<'_>) -> AllowFault {
     let message = format!("`{}` is not a code, so it allows nothing", word.text);
-    let codes = Code::ALL.iter().map(|code| code.text());
+    let codes = Code::ALL.iter().map(|code| code.as_str());
     let near = did_you_mean(word.text, codes);
     word.fault(message, near.map_or(Help::How(HOW), Help::Near))
 }

@@ -55,19 +55,19 @@ impl CompWords<'_> {
                     selection = Some((span, word));
                 }
                 "NO_MOVE" => no_move = true,
-                _ => match (Kind::from_keyword(word), selection) {
-                    (Some(kind), Some((_, by))) if by.eq_ignore_ascii_case("OFF_ALL") => {
+                _ => match (word.parse::<Kind>(), selection) {
+                    (Ok(kind), Some((_, by))) if by.eq_ignore_ascii_case("OFF_ALL") => {
                         faults.push(kind_after_off_all(span, kind));
                         return None;
                     }
-                    (Some(kind), _) => {
+                    (Ok(kind), _) => {
                         if kinds.contains(kind) && !repeated {
                             repeated = true;
                             faults.push(named_twice(span, kind));
                         }
                         kinds.insert(kind);
                     }
-                    (None, _) => {
+                    (Err(_), _) => {
                         faults.push(unknown_word(span, word));
                         return None;
                     }
@@ -175,7 +175,7 @@ fn second_selection(span: Span, word: &str, first: &str) -> Fault {
 }
 
 fn kind_after_off_all(span: Span, kind: Kind) -> Fault {
-    let keyword = kind.keyword();
+    let keyword = kind.as_str();
     Fault::new(
         Code::Fc203,
         span,
@@ -187,7 +187,7 @@ fn kind_after_off_all(span: Span, kind: Kind) -> Fault {
 }
 
 fn named_twice(span: Span, kind: Kind) -> Fault {
-    let keyword = kind.keyword();
+    let keyword = kind.as_str();
     Fault::new(
         Code::Fc406,
         span,
@@ -196,7 +196,7 @@ fn named_twice(span: Span, kind: Kind) -> Fault {
 }
 
 fn unknown_word(span: Span, word: &str) -> Fault {
-    let kinds = Kind::ALL.map(Kind::keyword).join(", ");
+    let kinds = Kind::ALL.map(Kind::as_str).join(", ");
     let fault = Fault::new(
         Code::Fc202,
         span,

@@ -18,7 +18,7 @@ use crate::text::{Span, TextLines};
 /// let command = parse_comp("X[COMP ON FRICT]").unwrap();
 /// assert_eq!(command.axis, "X");
 /// assert_eq!(command.selection, Selection::On(KindSet::of(Kind::Frict)));
-/// assert_eq!(parse_comp("X[COMP ON FRIKT]").unwrap_err().code.text(), "FC202");
+/// assert_eq!(parse_comp("X[COMP ON FRIKT]").unwrap_err().code.as_str(), "FC202");
 /// ```
 ///
 /// # Errors

@@ -23,7 +23,7 @@ pub use file::SourceFile;
 pub(crate) use hidden::is_hidden;
 #[cfg(any(feature = "report", feature = "host"))]
 pub(crate) use hidden::shown_json;
-pub use index::LineIndex;
+pub use index::{LineIndex, Utf16Position};
 #[cfg(feature = "host")]
 pub(crate) use lines::line_end;
 pub use lines::{LineSource, PhysicalLine, TextLines};

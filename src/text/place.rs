@@ -83,6 +83,18 @@ mod tests {
     use crate::text::Span;
 
     #[test]
+    fn a_place_at_the_end_of_all_numbers_shows_itself() {
+        let place = Place {
+            file: "a.nc".into(),
+            text: "a\nb\nc".into(),
+            first_line: u32::MAX - 1,
+            span: Span::new(4, 5),
+        };
+        assert_eq!(place.start().line, u32::MAX);
+        assert_eq!(place.end().to_string(), format!("{}:2", u32::MAX));
+    }
+
+    #[test]
     fn starts_in_any_order_are_those_of_the_places() {
         let place = |text: &Arc<str>, start: usize| Place {
             file: "a.nc".into(),

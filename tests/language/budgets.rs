@@ -54,7 +54,7 @@ fn ran(text: &str, options: Options) -> Ran {
             };
             let new = diagnostics
                 .iter()
-                .map(|said| (said.code.text().to_owned(), said.message.clone()));
+                .map(|said| (said.code.as_str().to_owned(), said.message.clone()));
             said.extend(new);
             ControlFlow::Continue(())
         },
@@ -461,7 +461,7 @@ impl Sink for Heard {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let hear = |said: &Diagnostic| {
             let held = said.place.text.len();
-            (said.code.text().to_owned(), said.message.clone(), held)
+            (said.code.as_str().to_owned(), said.message.clone(), held)
         };
         match record {
             Record::Block(row) => self.said.extend(row.diagnostics.iter().map(hear)),
@@ -470,7 +470,7 @@ impl Sink for Heard {
                     .extend(end.notes.iter().map(|note| hear(&note.diagnostic)));
                 let repeated = end.repeated.iter();
                 self.repeated
-                    .extend(repeated.map(|it| (it.code.text().to_owned(), it.line, it.times)));
+                    .extend(repeated.map(|it| (it.code.as_str().to_owned(), it.line, it.times)));
             }
             Record::Summary(summary) => {
                 self.errors = summary.count(Severity::Error);
@@ -495,7 +495,7 @@ impl Heard {
 
 fn heard(text: &str, stop: StopPolicy) -> Heard {
     let machine = Machine::from_toml(MACHINE).expect("the test's machine");
-    let options = SessionOptions::default().with_stop(stop);
+    let options = SessionOptions::from(Options::default().with_stop(stop));
     let mut session = Session::new(machine, options);
     let mut heard = Heard::default();
     let program = Program::Whole(SourceFile::new("a.nc", text));

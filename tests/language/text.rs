@@ -117,7 +117,7 @@ fn words_need_no_blanks() {
         let faults = block
             .faults
             .iter()
-            .map(|fault| fault.code.text().to_owned());
+            .map(|fault| fault.code.as_str().to_owned());
         shown.chain(faults).collect::<Vec<_>>().join(", ")
     };
     assert_snapshot!(words("N10G1X100F200"), @"G1 = 1, X100 = 100, F200 = 200");

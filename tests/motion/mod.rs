@@ -12,7 +12,7 @@ use std::sync::Arc;
 use frictcomp::comp::AxisIndex;
 use frictcomp::machine::Machine;
 use frictcomp::motion::{AxisLimits, Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
-use frictcomp::session::{Motions, NoFiles, Program, Session, SessionOptions};
+use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
@@ -123,7 +123,7 @@ pub(crate) fn trace_of(
     };
     let mut session = Session::new(
         machine,
-        SessionOptions::default().with_motions(Motions::Taken),
+        SessionOptions::from(Options::default().with_motions(Motions::Taken)),
     );
     let source = SourceFile::new("a.nc", program);
     let flow = session.program("a.nc", Program::Whole(source), &mut NoFiles, &mut planned);

@@ -8,7 +8,7 @@ use frictcomp::comp::KindSet;
 use frictcomp::machine::Machine;
 use frictcomp::report::{Ndjson, Report, View};
 use frictcomp::session::{
-    NoFiles, Program as Text, SavedState, Session, SessionOptions, StopPolicy,
+    NoFiles, Options, Program as Text, SavedState, Session, SessionOptions, StopPolicy,
 };
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
@@ -19,7 +19,7 @@ use super::program::{AXES, Program, machine};
 const LINTS: [&str; 4] = ["FC401", "FC402", "FC403", "FC407"];
 
 pub(crate) fn options() -> SessionOptions {
-    SessionOptions::default().with_stop(StopPolicy::KeepGoing)
+    SessionOptions::from(Options::default().with_stop(StopPolicy::KeepGoing))
 }
 
 /// Keeps the lints.
@@ -31,7 +31,7 @@ struct Lints {
 
 impl Lints {
     fn add(&mut self, seq: u64, diagnostic: &frictcomp::diagnostic::Diagnostic) {
-        let code = diagnostic.code.text();
+        let code = diagnostic.code.as_str();
         if let Some(code) = LINTS.into_iter().find(|lint| *lint == code) {
             let axis = diagnostic.axis.as_deref().expect("an axis");
             let axis = AXES.into_iter().find(|name| *name == axis);

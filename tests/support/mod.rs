@@ -68,22 +68,22 @@ impl Bench {
     }
 
     pub(crate) fn keep_going(mut self) -> Self {
-        self.options.stop = StopPolicy::KeepGoing;
+        self.options.run.stop = StopPolicy::KeepGoing;
         self
     }
 
     pub(crate) fn check_all(mut self) -> Self {
-        self.options.stop = StopPolicy::CheckAll;
+        self.options.run.stop = StopPolicy::CheckAll;
         self
     }
 
     pub(crate) fn skip(mut self, levels: u16) -> Self {
-        self.options.skip = levels;
+        self.options.run.skip = levels;
         self
     }
 
     pub(crate) fn limits(mut self, limits: Limits) -> Self {
-        self.options.limits = limits;
+        self.options.run.limits = limits;
         self
     }
 
@@ -235,7 +235,7 @@ impl Bench {
         };
         let _ = session.begin(&[], &mut transcript);
         for (at, text) in programs.iter().enumerate() {
-            if session.is_stopped() && self.options.stop == StopPolicy::FirstError {
+            if session.is_stopped() && self.options.run.stop == StopPolicy::FirstError {
                 break;
             }
             let name = format!(
@@ -273,7 +273,7 @@ impl Transcript {
                 if self.kinds.len() == 1 {
                     words.push(format!("{name}:{word}"));
                 } else {
-                    words.push(format!("{name}.{}:{word}", kind.keyword()));
+                    words.push(format!("{name}.{}:{word}", kind.as_str()));
                 }
             }
         }
@@ -320,7 +320,7 @@ impl Sink for Transcript {
                     if self.kinds.contains(&change.kind) {
                         let axis = row.state.name(change.axis);
                         let kind = if self.kinds.len() > 1 {
-                            change.kind.keyword()
+                            change.kind.as_str()
                         } else {
                             ""
                         };

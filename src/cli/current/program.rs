@@ -18,7 +18,7 @@ use crate::host::{Alone, Axes, Input, Ledger, LoadedMachine, Naming, run_alone};
 use crate::machine::AxisType;
 use crate::motion::{AxisLimits, PlannerOptions, check_cycle};
 use crate::report::pictures::AxisPlot;
-use crate::session::{Motions, SessionOptions, StopPolicy};
+use crate::session::{Motions, StopPolicy};
 
 /// Runs a program and writes the currents of its axes.
 pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
@@ -55,11 +55,10 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     };
     let table = Table::new(result.writer, table, plot);
     let mut currents = ProgramCurrents::new(&loaded.machine, &followed, options, table);
+    let mut session = args.execution.options(&loaded, StopPolicy::FirstError);
+    session.run.motions = Motions::Taken;
     let alone = Alone {
-        options: SessionOptions {
-            motions: Motions::Taken,
-            ..args.execution.options(&loaded, StopPolicy::FirstError)
-        },
+        options: session,
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,
     };

@@ -83,7 +83,7 @@ impl Interpreter {
             .then_some((earlier.command.span, kinds))
         });
         if let Some((first, kinds)) = opposite {
-            let keywords: Vec<&str> = kinds.iter().map(Kind::keyword).collect();
+            let keywords: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
             let name = &command.axis;
             let fault = Fault::new(
                 Code::Fc301,
@@ -113,7 +113,7 @@ impl Interpreter {
         for kind in named.iter() {
             let since: CncBuild = kind.facts().since;
             if build < since {
-                let keyword = kind.keyword();
+                let keyword = kind.as_str();
                 let fault = Fault::new(
                     Code::Fc305,
                     command.span,
@@ -149,7 +149,8 @@ impl Interpreter {
             ),
             Parameterisation::Rejected { file, code } => (
                 format!("the value list `{file}` was rejected with {code}"),
-                Code::find(code)
+                code.parse()
+                    .ok()
                     .map_or_else(|| format!("{code} says why").into(), Advice::ReadPage),
             ),
             Parameterisation::Assumed | Parameterisation::Accepted(_) => return,

@@ -211,7 +211,7 @@ impl Interpreter {
             let name = &machine.axis(axis).name;
             let Some(kind) = missing else {
                 if let Some(kind) = required.iter().find(|kind| state(*kind) == State::Unknown) {
-                    let keyword = kind.keyword();
+                    let keyword = kind.as_str();
                     let message = format!(
                         "whether axis `{name}` moves with `{keyword}`, which P-AXIS-00465 requires, \
                          is not known offline; the rest assumes that it does"
@@ -223,7 +223,7 @@ impl Interpreter {
                 }
                 continue;
             };
-            let keyword = kind.keyword();
+            let keyword = kind.as_str();
             let fault = Fault::new(
                 Code::PErr70435,
                 span,

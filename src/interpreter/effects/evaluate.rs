@@ -246,7 +246,7 @@ fn given_parameter(name: &str) -> Option<u32> {
 }
 
 fn compensation_kind(name: &str) -> Option<Kind> {
-    Kind::from_keyword(name).filter(|kind| *kind != Kind::Backlash)
+    name.parse().ok().filter(|kind| *kind != Kind::Backlash)
 }
 
 /// Whether an assignment counts: `P1 = P1 + 1`.

@@ -195,7 +195,7 @@ impl Interpreter {
                 .map(|it| format!("`{it}`"))
                 .collect();
             let more = if axes.len() > MAX_NAMED { " …" } else { "" };
-            format!("`{}` of {}{more}", kind.keyword(), shown.join(" "))
+            format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
         });
         let named: Vec<String> = named.collect();
         let said = self.work.diagnostics.iter_mut();

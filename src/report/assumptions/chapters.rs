@@ -104,8 +104,8 @@ mod tests {
         for assumption in CHAPTERS.iter().flat_map(|chapter| chapter.assumptions) {
             for case in assumption.when {
                 if let When::Reported(code) = case {
-                    let number = code.text().trim_start_matches("FC");
-                    let named = assumption.shows.contains(code.text());
+                    let number = code.as_str().trim_start_matches("FC");
+                    let named = assumption.shows.contains(code.as_str());
                     // `FC910 to FC914`
                     let in_range =
                         assumption

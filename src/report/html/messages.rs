@@ -48,7 +48,7 @@ fn row(message: &Message) -> Row {
             (times(message.times))
         },
     ];
-    Row::new(diagnostic.code.text(), cells)
+    Row::new(diagnostic.code.as_str(), cells)
 }
 
 /// A message as an item of the list below its line.
@@ -57,7 +57,7 @@ pub(super) fn item(message: &Message) -> Markup {
     let severity = diagnostic.severity.as_str();
     html! {
         li.(severity) {
-            span.sev { (severity) "[" (diagnostic.code.text()) "]" }
+            span.sev { (severity) "[" (diagnostic.code.as_str()) "]" }
             " column " (diagnostic.place.start().column) ": "
             (with_code(&diagnostic.message)) (times(message.times)) (help(message))
         }

@@ -250,7 +250,7 @@ impl Listing<'_, '_> {
         html! {
             strong {
                 (self.digest.axis_name(change.axis))
-                @if change.kind != Kind::Frict { " " (change.kind.keyword()) }
+                @if change.kind != Kind::Frict { " " (change.kind.as_str()) }
             }
             " " (word(change.from)) " \u{2192} " (word(change.to))
         }

@@ -86,7 +86,7 @@ fn row(digest: &RunDigest, program: &ProgramDigest, track: &Track) -> BandRow {
     let axis = digest.axis_name(track.axis);
     let label = match track.kind {
         Kind::Frict => axis.to_owned(),
-        kind => format!("{axis} {}", kind.keyword()),
+        kind => format!("{axis} {}", kind.as_str()),
     };
     // Block n has the room about n, the start that about 0.
     let ends = track.stretches.iter().skip(1).map(|next| next.from);

@@ -5,7 +5,7 @@ mod columns;
 mod line;
 mod summary;
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 
 use crate::comp::{Change, Kind};
@@ -13,7 +13,7 @@ use crate::diagnostic::Diagnostic;
 use crate::timeline::{End, EndedBy, Record, Row, Sink, StateView};
 
 use super::diagnostics::{Look, render, wrap};
-use super::output::{Output, Report};
+use super::output::{Gathered, Output};
 use super::view::{Blocks, View};
 use super::visible::leading;
 use columns::Columns;
@@ -252,7 +252,7 @@ impl<W: Write> Text<W> {
                 &format!(
                     "{MARK} {} {}: {} → {}",
                     state.name(change.axis),
-                    change.kind.keyword(),
+                    change.kind.as_str(),
                     change.from.as_str(),
                     change.to.as_str(),
                 ),
@@ -344,17 +344,18 @@ impl<W: Write> Sink for Text<W> {
     }
 }
 
-impl<W: Write> Report for Text<W> {
-    fn flush(&mut self) -> ControlFlow<()> {
-        self.output.flush()
+impl<W: Write> Gathered for Text<W> {
+    type Writer = W;
+
+    fn output(&self) -> &Output<W> {
+        &self.output
     }
 
-    fn finish(&mut self) -> io::Result<()> {
+    fn output_mut(&mut self) -> &mut Output<W> {
+        &mut self.output
+    }
+
+    fn close(&mut self) {
         self.release();
-        self.output.finish()
-    }
-
-    fn is_closed(&self) -> bool {
-        self.output.is_closed()
     }
 }

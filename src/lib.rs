@@ -88,6 +88,7 @@ pub mod comp;
 mod config;
 pub mod current;
 pub mod diagnostic;
+pub mod drive_interface;
 mod facade;
 #[cfg(feature = "host")]
 pub mod host;

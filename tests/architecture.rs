@@ -8,16 +8,25 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 19] = [
+const ROOMS: [(&str, &[&str]); 20] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
     ("syntax", &["text", "diagnostic", "comp"]),
     ("lists", &["text", "diagnostic", "comp", "syntax"]),
+    ("drive_interface", &["text", "diagnostic", "lists"]),
     ("config", &["text", "diagnostic", "comp", "lists"]),
     (
         "machine",
-        &["text", "diagnostic", "comp", "syntax", "lists", "config"],
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "syntax",
+            "lists",
+            "drive_interface",
+            "config",
+        ],
     ),
     (
         "interpreter",
@@ -97,6 +106,7 @@ const ROOMS: [(&str, &[&str]); 19] = [
             "comp",
             "syntax",
             "lists",
+            "drive_interface",
             "machine",
             "interpreter",
             "timeline",
@@ -130,6 +140,7 @@ const ROOMS: [(&str, &[&str]); 19] = [
             "comp",
             "syntax",
             "lists",
+            "drive_interface",
             "machine",
             "timeline",
             "session",

@@ -270,9 +270,11 @@ fn twice_the_program_needs_twice_the_time_and_memory() {
     assert!(too_fast.is_empty(), "{}", too_fast.join("\n"));
 }
 
+type HostileProgram = (&'static str, fn() -> String);
+
 /// Programs that do far more than is written in them, until a budget ends them.
 #[rustfmt::skip]
-const HOSTILE: &[(&str, fn() -> String)] = &[
+const HOSTILE: &[HostileProgram] = &[
     ("macros of macros", || format!("\"A0\"=\"1+1\"\n{}$FOR P1=1,99999,1\nP2=\"A7\"+P1\n$ENDFOR", each(7, |n| format!("\"A{}\"=\"\\\"A{n}\\\"+\\\"A{n}\\\"+\\\"A{n}\\\"\"", n + 1)))),
     ("macros in an unknown region", || format!("\"A0\"=\"X1 \"\n{}$FOR P1=1,99999,1\n$IF V.E.X\n\"A8\"\n$ENDIF\n$ENDFOR", each(8, |n| format!("\"A{}\"=\"\\\"A{n}\\\" \\\"A{n}\\\" \\\"A{n}\\\"\"", n + 1)))),
     ("strings that are searched", || format!("P1=\"{}\"\nP2=\"{}b\"\n$FOR P3=1,99999,1\nP4=FIND[P1,P2]\n$ENDFOR", "a".repeat(3900), "a".repeat(1900))),

@@ -432,6 +432,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "golden",
         "diff",
         "lists",
+        "drive",
         "current",
         "circle",
         "tune",
@@ -494,6 +495,10 @@ fn example_folder() -> Bench {
         ),
         ("mill-old.nc", "N10 G90\nN20 M30\n"),
         ("next.nc", "N10 X[COMP ON FRICT]\nN20 M30\n"),
+        (
+            "network.xml",
+            "<EtherCATConfig><Config><Slave><Info><Name>Drive1</Name></Info></Slave></Config></EtherCATConfig>",
+        ),
         ("trace.csv", "t,x,v\n0,0,0\n0.001,1,100\n"),
     ]);
     let machine = std::path::Path::new("programs/machines/mill3");

@@ -5,6 +5,7 @@
 mod lists {
     mod axes;
     mod config;
+    mod drive;
     mod found;
     mod friction;
     mod host;

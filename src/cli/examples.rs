@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 15] = [
+static EXAMPLES: [Examples; 16] = [
     examples(
         &["run"],
         [
@@ -46,6 +46,13 @@ static EXAMPLES: [Examples; 15] = [
         [
             "frictcomp lists hochlauf.lis",
             "frictcomp lists --show --svg curves.svg hochlauf.lis",
+        ],
+    ),
+    examples(
+        &["drive"],
+        [
+            "frictcomp drive hochlauf.lis",
+            "frictcomp drive hochlauf.lis --eni network.xml --slave X=Drive1",
         ],
     ),
     examples(

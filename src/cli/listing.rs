@@ -13,8 +13,10 @@ use super::fail_on::FailOn;
 use super::failure::Failure;
 use super::severities::SeverityArgs;
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::drive_interface::DriveReport;
 use crate::lists::{Origin, Parameter};
 use crate::machine::AxisReport;
+use crate::report::drives::drive_record;
 use crate::report::{Listing, ListingFormat, Tally};
 
 /// How diagnostics are listed.
@@ -122,6 +124,13 @@ impl Lister<'_> {
             for row in &report.parameters {
                 self.listing.record(&parameter(report, row));
             }
+        }
+    }
+
+    /// Lists what is known about drives, where the format has records.
+    pub(super) fn drives(&mut self, reports: &[DriveReport]) {
+        for report in reports {
+            self.listing.record(&drive_record(report));
         }
     }
 

@@ -9,14 +9,11 @@ use super::exit;
 use super::failure::Failure;
 use super::failures::Failures;
 use super::listing::{ListingArgs, total};
-use super::machine::elsewhere;
+use super::named_lists::NamedLists;
 use super::outputs::{Outputs, write_text};
 use super::painted::parts;
-use crate::comp::CncBuild;
 use crate::diagnostic::{Code, Severity};
-use crate::host::{
-    CONFIG_NAME, Grounds, Ledger, check_list_file, is_configuration, nearest_config,
-};
+use crate::host::Ledger;
 use crate::machine::{AcceptedList, ListsReport};
 use crate::report::lists::render_parameters;
 use crate::report::pictures::value_curves;
@@ -29,25 +26,17 @@ use crate::report::{ListingFormat, command_line};
 /// other list by itself.
 #[derive(Debug, Args)]
 pub(super) struct ListsArgs {
-    /// The lists, or the `frictcomp.toml` that names them; by default the nearest `frictcomp.toml`
-    /// in the current folder or above
-    #[arg(value_name = "FILE")]
-    files: Vec<PathBuf>,
+    #[command(flatten)]
+    lists: NamedLists,
     /// Print the effective parameters of every axis and where each comes from
     #[arg(long)]
     show: bool,
     /// Draw the value lists that the control would accept to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// The CNC build that the lists are for, such as `3.1.3132.0`
-    #[arg(long, value_name = "BUILD")]
-    cnc_build: Option<CncBuild>,
     /// Treat values outside the documented range (FC132) as errors
     #[arg(long)]
     strict: bool,
-    /// Also show the text of lists outside the current folder and the folders of the files named
-    #[arg(long)]
-    allow_outside: bool,
     #[command(flatten)]
     listing: ListingArgs,
 }
@@ -67,41 +56,6 @@ impl ListsArgs {
         }
         Ok(())
     }
-
-    /// The folders whose lists are shown: the current one and those of the files.
-    fn grounds(&self, files: &[PathBuf]) -> Grounds {
-        let named = files.iter().filter_map(|path| path.parent());
-        let real: Vec<PathBuf> = files.iter().flat_map(|path| path.canonicalize()).collect();
-        let real = real.iter().filter_map(|path| path.parent());
-        let grounds = Grounds::new(elsewhere(self.allow_outside)).with(Path::new(""));
-        named.chain(real).fold(grounds, Grounds::with)
-    }
-
-    /// The files that are checked (R9.72).
-    fn files(&self) -> Result<Vec<PathBuf>, Failure> {
-        if !self.files.is_empty() {
-            return Ok(self.files.clone());
-        }
-        let nearest = nearest_config(Path::new(""));
-        let failure = || {
-            Failure::new(format!("there is no {CONFIG_NAME} in this folder or above"))
-                .with_help("name the lists, `frictcomp lists hochlauf.lis`")
-        };
-        nearest.map(|path| vec![path]).ok_or_else(failure)
-    }
-}
-
-/// Checks a list, or every list that a configuration names.
-fn check(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, Failure> {
-    let report = check_list_file(path, build)?;
-    if build.is_some() && is_configuration(path) {
-        let message = format!(
-            "the build of `{}` is given in the file itself",
-            path.display()
-        );
-        return Err(Failure::new(message).with_help("leave `--cnc-build` out"));
-    }
-    Ok(report)
 }
 
 /// The curves of all accepted value lists.
@@ -131,15 +85,15 @@ pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
     let console = args.listing.console(console);
     args.check_options()?;
     let codes = args.listing.severities.filter()?;
-    let files = args.files()?;
-    let grounds = args.grounds(&files);
+    let files = args.lists.files()?;
+    let grounds = args.lists.grounds(&files);
     let mut outputs = Outputs::new(&ledger, console);
     let target = outputs.result(args.listing.output.as_deref())?;
     let mut reports = Vec::new();
     let mut failures = Failures::default();
     for path in &files {
         ledger.reads("list", path);
-        let mut report = match check(path, args.cnc_build) {
+        let mut report = match args.lists.check(path) {
             Ok(report) => report,
             Err(failure) => {
                 failures.push(failure);

@@ -9,6 +9,7 @@ mod console;
 mod current;
 mod cycle;
 mod diff;
+mod drive;
 mod examples;
 mod execution;
 mod exit;
@@ -23,6 +24,7 @@ mod listing;
 mod lists;
 mod machine;
 mod man;
+mod named_lists;
 mod notes;
 mod outputs;
 mod painted;
@@ -68,6 +70,7 @@ enum Command {
     Golden(golden::GoldenArgs),
     Diff(diff::DiffArgs),
     Lists(lists::ListsArgs),
+    Drive(drive::DriveArgs),
     Current(current::CurrentArgs),
     Circle(circle::CircleArgs),
     Tune(tune::TuneArgs),
@@ -138,6 +141,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Golden(args) => golden::run(args, console),
         Command::Diff(args) => diff::run(args, console),
         Command::Lists(args) => lists::run(args, console),
+        Command::Drive(args) => drive::run(args, console),
         Command::Current(args) => current::run(args, console),
         Command::Circle(args) => circle::run(args, console),
         Command::Tune(args) => tune::run(args, console),

@@ -67,6 +67,8 @@ pub struct AdditiveCurrent {
     line: VecDeque<f64>,
     /// The last positions, where the build-up is postponed.
     positions: VecDeque<f64>,
+    /// By what the output is multiplied on its way to the drive.
+    torque_scale: f64,
     saturated: u64,
 }
 
@@ -98,8 +100,16 @@ impl AdditiveCurrent {
             build_up: None,
             line: VecDeque::with_capacity(delay_cycles + 1),
             positions: VecDeque::with_capacity(delay_cycles + 1),
+            torque_scale: 1.0,
             saturated: 0,
         }
+    }
+
+    /// The same for an axis whose torque is scaled on its way to the drive, by P-AXIS-00325 over
+    /// P-AXIS-00326 (R7.8). Only the output for the drive is scaled.
+    pub fn scaled(mut self, torque_scale: f64) -> Self {
+        self.torque_scale = torque_scale;
+        self
     }
 
     /// How many later velocities [`step`](Self::step) looks at, P-COMP-00044.
@@ -196,7 +206,7 @@ impl AdditiveCurrent {
             w_before,
             w_after,
             current_units: current,
-            output: self.rounded(current),
+            output: self.rounded(current * self.torque_scale),
         }
     }
 

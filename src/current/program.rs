@@ -139,8 +139,9 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         sink: S,
     ) -> Self {
         let current = |axis: &AxisIndex| {
-            let list = values(&machine.axis(*axis).friction);
-            AdditiveCurrent::new(&list, options.reading)
+            let axis = machine.axis(*axis);
+            let list = values(&axis.friction);
+            AdditiveCurrent::new(&list, options.reading).scaled(axis.torque_scale.factor())
         };
         Self {
             planner: TrajectoryPlanner::new(machine, followed, options.planner),

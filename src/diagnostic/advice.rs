@@ -59,6 +59,10 @@ pub enum Advice {
     AllowOutside,
     /// Let the text of lists outside the folders of the machine and the programs be shown.
     ShowOutside,
+    /// Give the description of the network, which says what the drives exchange.
+    GiveNetwork,
+    /// Say which device of the network drives this axis.
+    AssignSlave(String),
     /// Begin with a new configuration.
     WriteConfiguration,
     /// Read the page of this code.
@@ -141,6 +145,12 @@ impl fmt::Display for Advice {
                 "add its folder to `program_dirs`, or allow calls from anywhere",
             ),
             Self::ShowOutside => f.write_str("allow files outside the project to be shown"),
+            Self::GiveNetwork => f.write_str(
+                "give the network information of the master (ENI file), which says what the drives exchange",
+            ),
+            Self::AssignSlave(axis) => {
+                write!(f, "say which device of the network drives axis `{axis}`")
+            }
             Self::WriteConfiguration => f.write_str("begin with a new configuration"),
             Self::ReadPage(code) => write!(f, "the page of {code} says more"),
         }

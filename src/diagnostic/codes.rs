@@ -2,7 +2,7 @@
 //!
 //! The control's own numbers (`P-ERR-…`) stand here only where a document ties the number to the
 //! cause; all others begin with `FC` (R9.23): 1xx files, configuration and lists, 2xx syntax, 3xx
-//! meaning, 4xx lints, 5xx drive (FC501 to FC503 are kept for checks to come), 9xx unknown values and budgets. A number is never used again.
+//! meaning, 4xx lints, 5xx drive, 9xx unknown values and budgets. A number is never used again.
 
 use std::fmt;
 use std::str::FromStr;
@@ -55,6 +55,8 @@ codes! {
     PErr70435 "P-ERR-70435" Error "motion without a compensation that the axis requires";
     PErr70495 "P-ERR-70495" Error "friction compensation is not configured";
     PErr110229 "P-ERR-110229" Error "axis number differs between the lists";
+    PErr110464 "P-ERR-110464" Error "torque offset on a drive that takes none";
+    PErr110465 "P-ERR-110465" Error "denominator of the torque scaling is 0";
     PErr110591 "P-ERR-110591" Error "velocities negative or not ascending";
     PErr110592 "P-ERR-110592" Error "unknown mode or no table values";
     PErr110641 "P-ERR-110641" Error "max_points changed after the first load";
@@ -110,6 +112,10 @@ codes! {
     Fc408 "FC408" Warning "effect depends on a machine that is not described";
     Fc490 "FC490" Warning "unused `allow` comment";
     Fc491 "FC491" Warning "`allow` comment not understood";
+    Fc501 "FC501" Error "no additive torque command in the cyclic data";
+    Fc502 "FC502" Warning "no actual torque in the cyclic data";
+    Fc503 "FC503" Error "drive type without friction compensation";
+    Fc504 "FC504" Warning "torque interface not known";
     Fc901 "FC901" Warning "condition not known offline";
     Fc902 "FC902" Warning "jump or call not known offline";
     Fc903 "FC903" Warning "motion not known offline";

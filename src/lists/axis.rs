@@ -27,7 +27,7 @@ pub struct AxisValues {
     pub manual: BTreeMap<Kind, Given<bool>>,
     /// The kinds that must be active while the axis moves, P-AXIS-00465.
     pub required: Option<Given<KindSet>>,
-    /// The entries of the drive, `antr.*`, by their keys.
+    /// The entries of the drive by their keys: `antr.*`, its type and its torque offset.
     pub drive: BTreeMap<String, Entry>,
 }
 
@@ -47,6 +47,15 @@ pub(crate) const AXIS_NAME_HELP: &str =
 /// More drive entries than any axis list has; what lies beyond is not kept.
 const MAX_DRIVE_ENTRIES: usize = 4096;
 
+/// Whether a key belongs to the drive (chapter 7).
+fn is_drive_key(pattern: &str) -> bool {
+    pattern.starts_with("antr.")
+        || matches!(
+            pattern,
+            "kenngr.antr_typ" | "kenngr.drive_simulation" | "getriebe[].torque_offset"
+        )
+}
+
 impl AxisValues {
     /// Gathers the values; all keys that are not named in R3.10 and R3.11 are passed over.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
@@ -57,7 +66,7 @@ impl AxisValues {
                 "kopf.log_achs_name" => values.name = text(entry),
                 "kenngr.achs_typ" => values.axis_type = axis_type(entry, diagnostics),
                 REQUIRED => values.required = Some(required(entry, diagnostics)),
-                pattern if pattern.starts_with("antr.") => {
+                pattern if is_drive_key(pattern) => {
                     if values.drive.len() < MAX_DRIVE_ENTRIES {
                         values.drive.insert(entry.key(), entry.clone());
                     }

@@ -9,8 +9,9 @@ use super::axis::{Axis, Parameterisation};
 use super::value_list::ValueList;
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::drive_interface::{Evidence, ListedDrive, TorqueScale, check_drive};
 use crate::lists::{
-    AxisType, AxisValues, Conditions, Entry, Field, Given, Origin, Parameter, Verdict,
+    AxisType, AxisValues, Conditions, Entry, Field, FrictionList, Given, Origin, Parameter, Verdict,
 };
 
 /// The effective parameters of one axis.
@@ -22,9 +23,24 @@ pub struct AxisReport {
     pub axis_type: AxisType,
     /// The parameters in the order of the lists.
     pub parameters: Vec<Parameter>,
-    /// The entries of the drive, `antr.*`, by their keys.
+    /// The entries of the drive by their keys: `antr.*`, its type and its torque offset.
     #[serde(skip)]
     pub drive: BTreeMap<String, Entry>,
+    /// P-AXIS-00522, where a list gives it.
+    #[serde(skip)]
+    pub selector: Option<Given<bool>>,
+}
+
+impl AxisReport {
+    /// What the lists say about the drive of the axis, with the value list that the control accepts.
+    pub fn listed_drive<'a>(&'a self, friction: Option<&'a FrictionList>) -> ListedDrive<'a> {
+        ListedDrive {
+            axis: &self.axis,
+            entries: &self.drive,
+            selector: self.selector.as_ref(),
+            friction,
+        }
+    }
 }
 
 /// What `frictcomp.toml` says about the dynamics of an axis, in its units.
@@ -141,6 +157,7 @@ impl AxisDraft {
             max_velocity_per_min: self.dynamics.velocity,
             max_acceleration_per_s2: self.dynamics.acceleration,
             max_jerk_per_s3: self.dynamics.jerk,
+            torque_scale: TorqueScale::default(),
         };
         if self.enabled {
             axis.enable();
@@ -167,8 +184,16 @@ impl AxisDraft {
             axis: self.name,
             axis_type,
             parameters,
+            selector: values.frict_comp().cloned(),
             drive: values.drive,
         };
+        let list = match &axis.friction {
+            Parameterisation::Accepted(list) => Some(list),
+            _ => None,
+        };
+        let drive = check_drive(&report.listed_drive(list), &Evidence::default());
+        diagnostics.extend(drive.diagnostics);
+        axis.torque_scale = drive.scale;
         (axis, report)
     }
 

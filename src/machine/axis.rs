@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::drive_interface::TorqueScale;
 use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, Origin};
 use crate::text::Place;
 
@@ -58,6 +59,8 @@ pub struct Axis {
     pub max_acceleration_per_s2: Option<f64>,
     /// The maximum jerk in m/s³ or °/s³, where known.
     pub max_jerk_per_s3: Option<f64>,
+    /// By what the torque to the drive is multiplied, P-AXIS-00325 and P-AXIS-00326.
+    pub torque_scale: TorqueScale,
 }
 
 impl Axis {
@@ -77,6 +80,7 @@ impl Axis {
             max_velocity_per_min: None,
             max_acceleration_per_s2: None,
             max_jerk_per_s3: None,
+            torque_scale: TorqueScale::default(),
         }
     }
 

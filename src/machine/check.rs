@@ -12,6 +12,7 @@ use super::files::ListFiles;
 use super::value_list::ValueList;
 use crate::comp::CncBuild;
 use crate::diagnostic::{Advice, Code, Diagnostic};
+use crate::drive_interface::{Evidence, check_drive};
 use crate::lists::{
     AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
     Verdict,
@@ -102,7 +103,10 @@ pub fn check_list(
             let values = AxisValues::from_entries(&entries, &mut diagnostics);
             let mut report = head(&values);
             report.parameters = values.parameters();
+            report.selector = values.frict_comp().cloned();
             report.drive = values.drive;
+            let drive = check_drive(&report.listed_drive(None), &Evidence::default());
+            diagnostics.extend(drive.diagnostics);
             reports.push(report);
         }
         Some(ListKind::Value) => {
@@ -191,5 +195,6 @@ fn head(values: &AxisValues) -> AxisReport {
             .map_or(AxisType::Linear, |given| given.value),
         parameters: Vec::new(),
         drive: BTreeMap::new(),
+        selector: None,
     }
 }

@@ -9,6 +9,7 @@ pub mod circle;
 mod concise;
 mod csv;
 mod diagnostics;
+pub mod drives;
 mod github;
 pub mod html;
 mod json;

@@ -41,6 +41,12 @@ pub fn command_line(advice: &Advice) -> Option<String> {
                 .to_owned()
         }
         Advice::ShowOutside => "`--allow-outside` shows it".to_owned(),
+        Advice::GiveNetwork => {
+            "export the network information of the master and give it with `--eni FILE`".to_owned()
+        }
+        Advice::AssignSlave(axis) => {
+            format!("say which device drives the axis, with `--slave {axis}=NAME` or `{axis}=NAME:2`")
+        }
         Advice::WriteConfiguration => {
             "`frictcomp init` writes a configuration to start from".to_owned()
         }

@@ -188,3 +188,42 @@ fn what_cannot_be_done_is_said() {
         assert!(text.contains(said), "{arguments:?}: {text}");
     }
 }
+
+#[test]
+fn a_torque_that_is_scaled_is_said() {
+    // R7.8
+    let folder = tempfile::tempdir().expect("a folder");
+    let lists = [
+        (
+            "hochlauf.lis",
+            "achs_mds[0] x.lis\nachs_kw[0] c.lis\nachs_kw_log_ax_nr[0] 1\nEnde\n",
+        ),
+        (
+            "x.lis",
+            "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nkenngr.antr_typ 2\n\
+             antr.torque_scale_num 3\nantr.torque_scale_denom 2\nEnde\n",
+        ),
+        (
+            "c.lis",
+            "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
+             frict_comp.table[0].out 40\nEnde\n",
+        ),
+        ("b.nc", "X[COMP ON FRICT]\nG01 X0 F600\nX1\nM30\n"),
+    ];
+    for (name, text) in lists {
+        std::fs::write(folder.path().join(name), text).expect("a file");
+    }
+    let arguments = [
+        "b.nc",
+        "--axis",
+        "X",
+        "--startup",
+        "hochlauf.lis",
+        "--isolated",
+    ];
+    let output = current(folder.path(), &arguments);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("X: `output` is scaled by 3/2"), "{said}");
+    let scaled = |row: &Vec<String>| (number(&row[5]), number(&row[6])) == (40.0, 60.0);
+    assert!(rows(&output)[1..].iter().any(scaled), "{said}");
+}

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use frictcomp::current::CurrentCycle;
 use frictcomp::{
-    circle, comp, current, diagnostic, host, interpreter, lists, machine, motion, report, session,
-    simulation, syntax, text, timeline,
+    circle, comp, current, diagnostic, drive_interface, host, interpreter, lists, machine, motion,
+    report, session, simulation, syntax, text, timeline,
 };
 
 /// A sink of currents, for the types that are made over one.
@@ -113,6 +113,21 @@ sent! {
     diagnostic::UnknownCode,
     diagnostic::UnknownName,
     diagnostic::Wording,
+    drive_interface::Device,
+    drive_interface::DriveReport,
+    drive_interface::DriveSettings,
+    drive_interface::DriveType,
+    drive_interface::Evidence,
+    drive_interface::ListedDrive<'static>,
+    drive_interface::Network,
+    drive_interface::NetworkObject,
+    drive_interface::Presence,
+    drive_interface::Protocol,
+    drive_interface::Signal,
+    drive_interface::Slave,
+    drive_interface::SlaveOfAxis,
+    drive_interface::TorqueScale,
+    drive_interface::XmlError,
     host::Alone,
     host::Axes,
     host::AxesAhead,

@@ -14,6 +14,7 @@ use super::table::{Table, TableOptions};
 use crate::comp::{AxisIndex, State};
 use crate::current::{CurrentOptions, ProgramCurrents, axes_to_follow};
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::drive_interface::TorqueScale;
 use crate::host::{Alone, Axes, Input, Ledger, LoadedMachine, Naming, run_alone};
 use crate::machine::AxisType;
 use crate::motion::{AxisLimits, PlannerOptions, check_cycle};
@@ -38,6 +39,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let followed = axes_to_follow(&args.axes, &mut loaded.machine, list.as_ref())?;
     let options = options(args, &loaded)?;
     say_limits(&loaded);
+    say_scaling(&loaded);
     let result = outputs.result(args.output.as_deref())?;
     let plot = Plot::create(
         args.plot.as_deref(),
@@ -144,6 +146,17 @@ fn say_limits(loaded: &LoadedMachine) {
     for (limits, names) in assumed {
         let names = names.join(" ");
         Console::talk(&format!("limits assumed for {names}: {limits}"));
+    }
+}
+
+/// By what the outputs are multiplied on their way to the drives, where it is not 1 (R7.8).
+fn say_scaling(loaded: &LoadedMachine) {
+    for axis in &loaded.machine.axes {
+        let scale = axis.torque_scale;
+        if scale != TorqueScale::default() {
+            let (name, above, below) = (&axis.name, scale.numerator, scale.denominator);
+            Console::talk(&format!("{name}: `output` is scaled by {above}/{below}"));
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The table.
 
 use super::assumption::Assumption;
-use super::{circle, command, current, language, lists, motion, runs};
+use super::{circle, command, current, drives, language, lists, motion, runs};
 
 /// A part of the table.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +13,7 @@ pub struct Chapter {
 }
 
 /// All assumptions that can change a result.
-pub const CHAPTERS: [Chapter; 7] = [
+pub const CHAPTERS: [Chapter; 8] = [
     Chapter {
         title: "The COMP command",
         assumptions: command::ASSUMED,
@@ -25,6 +25,10 @@ pub const CHAPTERS: [Chapter; 7] = [
     Chapter {
         title: "Lists",
         assumptions: lists::ASSUMED,
+    },
+    Chapter {
+        title: "Drives",
+        assumptions: drives::ASSUMED,
     },
     Chapter {
         title: "The additive current",

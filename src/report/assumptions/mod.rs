@@ -7,6 +7,7 @@ mod chapters;
 mod circle;
 mod command;
 mod current;
+mod drives;
 mod language;
 mod lists;
 mod motion;

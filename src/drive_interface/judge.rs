@@ -1,0 +1,444 @@
+//! Whether the torque values of an axis reach its drive and come back, from all that is known
+//! (R7.5 to R7.8).
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::drive_type::DriveType;
+use super::network::{Device, Network, NetworkObject, Protocol, Slave};
+use super::settings::{DriveSettings, Telegram, TorqueScale};
+use super::signal::Signal;
+use crate::diagnostic::{Advice, Code, Diagnostic};
+use crate::lists::{Entry, FrictionList, Given};
+use crate::text::Place;
+
+/// The largest torque that S-0-0081 of an AX5000 takes, in 0.1 % (R7.7).
+const MOST_SERCOS: f64 = 1000.0;
+
+/// The largest torque that 16 bits hold, in 0.1 %.
+const MOST_16_BITS: f64 = 32767.0;
+
+/// Which device of the network drives an axis.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SlaveOfAxis {
+    /// The name of the axis.
+    pub axis: String,
+    /// The name of the device.
+    pub slave: String,
+    /// Which axis of the device it is, from 1; needed where it drives several.
+    pub channel: Option<u8>,
+}
+
+/// What is known besides the axis list.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct Evidence {
+    /// The network as it is configured, from an ENI file.
+    pub network: Option<Network>,
+    /// The devices that an ESI file describes.
+    pub devices: Vec<Device>,
+    /// Which device drives which axis, where the user said so.
+    pub slaves: Vec<SlaveOfAxis>,
+}
+
+/// What is known about a torque value of an axis.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "state", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Presence {
+    /// The cyclic data hold it; what says so.
+    Present {
+        /// The file and the line or the path in it.
+        evidence: String,
+    },
+    /// The cyclic data do not hold it; what says so.
+    Missing {
+        /// The file and the line or the path in it.
+        evidence: String,
+    },
+    /// Nothing says anything, or what is said contradicts itself.
+    Unknown {
+        /// Why.
+        reason: String,
+    },
+    /// There is no drive, or none that could take it.
+    NotApplicable,
+}
+
+/// What is known about the torque interface of an axis.
+#[derive(Debug, Clone, Serialize)]
+pub struct DriveReport {
+    /// The name of the axis; empty where its list gives none.
+    pub axis: String,
+    /// Whether friction compensation is configured, P-AXIS-00522.
+    pub configured: bool,
+    /// P-AXIS-00020; absent where no list gives it.
+    pub drive_type: Option<DriveType>,
+    /// Whether P-AXIS-00790 switches the drive to simulation.
+    pub simulated: bool,
+    /// The additive torque command.
+    pub additive_torque: Presence,
+    /// The actual torque.
+    pub actual_torque: Presence,
+    /// P-AXIS-00325 and P-AXIS-00326.
+    pub scale: TorqueScale,
+    /// The largest torque that the value list sends, scaled, in 0.1 % of the rated one; absent
+    /// without a value list.
+    pub largest_torque: Option<f64>,
+    /// What is wrong for sure.
+    #[serde(skip)]
+    pub diagnostics: Vec<Diagnostic>,
+    /// What is not known and must be, FC504.
+    #[serde(skip)]
+    pub open: Vec<Diagnostic>,
+}
+
+/// What one source says about a value.
+enum Says {
+    Nothing,
+    Present(Place),
+    Missing(Place),
+    /// Why it does not decide.
+    Undecided(String, Place),
+}
+
+/// What the lists say about an axis and its drive.
+#[derive(Debug, Clone, Copy)]
+pub struct ListedDrive<'a> {
+    /// The name of the axis; empty where its list gives none.
+    pub axis: &'a str,
+    /// The entries of the drive by their keys.
+    pub entries: &'a BTreeMap<String, Entry>,
+    /// P-AXIS-00522, where a list gives it.
+    pub selector: Option<&'a Given<bool>>,
+    /// The value list that the control accepts.
+    pub friction: Option<&'a FrictionList>,
+}
+
+/// Judges the drive of an axis by its lists and whatever else is known.
+///
+/// The codes are P-ERR-110464, P-ERR-110465 and FC130; where friction compensation is configured
+/// FC132, FC137 and FC501 to FC503 as well, and FC504 in [`DriveReport::open`].
+pub fn check_drive(listed: &ListedDrive<'_>, evidence: &Evidence) -> DriveReport {
+    let mut diagnostics = Vec::new();
+    let settings = DriveSettings::from_entries(listed.entries, &mut diagnostics);
+    settings.check(&mut diagnostics);
+    let configured = listed.selector.is_some_and(|given| given.value);
+    let mut judge = Judge {
+        axis: listed.axis,
+        settings: &settings,
+        evidence,
+        selector: listed.selector,
+        diagnostics: Vec::new(),
+        open: Vec::new(),
+    };
+    let [additive_torque, actual_torque] = judge.presences();
+    let largest_torque = listed.friction.map(|list| judge.largest(list));
+    let (of_interface, mut open) = (judge.diagnostics, judge.open);
+    if configured {
+        diagnostics.extend(of_interface);
+    } else {
+        open.clear();
+    }
+    let axis = listed.axis;
+    let mut report = DriveReport {
+        axis: axis.to_owned(),
+        configured,
+        drive_type: settings.drive_type.as_ref().map(|given| given.value),
+        simulated: settings.simulated.is_some(),
+        additive_torque,
+        actual_torque,
+        scale: settings.scale,
+        largest_torque,
+        diagnostics,
+        open,
+    };
+    for said in report.diagnostics.iter_mut().chain(&mut report.open) {
+        said.axis = (!axis.is_empty()).then(|| axis.to_owned());
+    }
+    report
+}
+
+struct Judge<'a> {
+    axis: &'a str,
+    settings: &'a DriveSettings,
+    evidence: &'a Evidence,
+    selector: Option<&'a Given<bool>>,
+    diagnostics: Vec<Diagnostic>,
+    open: Vec<Diagnostic>,
+}
+
+impl Judge<'_> {
+    fn presences(&mut self) -> [Presence; 2] {
+        let none = [Presence::NotApplicable, Presence::NotApplicable];
+        if self.settings.simulated.is_some() {
+            return none;
+        }
+        if let Some(given) = &self.settings.drive_type {
+            if given.value.is_without_drive() {
+                return none;
+            }
+            if !given.value.compensates_friction() {
+                let message = format!(
+                    "friction compensation is not available with the drive type {}",
+                    given.value.as_str()
+                );
+                self.diagnostics.push(
+                    Diagnostic::new(Code::Fc503, given.place(), message)
+                        .with_help("it needs a SERCOS (`2`) or CANopen (`8`) drive"),
+                );
+                return none;
+            }
+        }
+        Signal::ALL.map(|signal| self.presence(signal))
+    }
+
+    fn presence(&mut self, signal: Signal) -> Presence {
+        let list = self.list_says(signal);
+        let network = self.network_says(signal);
+        match (list, network) {
+            (Says::Present(listed), Says::Missing(place)) => {
+                let reason = format!(
+                    "`{}` has the {signal}, but `{}` does not map it",
+                    listed.file, place.file
+                );
+                self.ask(signal, &reason, Some(listed));
+                Presence::Unknown { reason }
+            }
+            (Says::Present(place), _) | (Says::Nothing, Says::Present(place)) => {
+                Presence::Present {
+                    evidence: shown(&place),
+                }
+            }
+            (Says::Missing(place), _) | (Says::Nothing, Says::Missing(place)) => {
+                let evidence = shown(&place);
+                self.miss(signal, place);
+                Presence::Missing { evidence }
+            }
+            (_, Says::Undecided(reason, place)) => {
+                self.ask(signal, &reason, Some(place));
+                Presence::Unknown { reason }
+            }
+            _ => {
+                let reason = "the axis list has no telegram entry".to_owned();
+                self.ask(signal, &reason, None);
+                Presence::Unknown { reason }
+            }
+        }
+    }
+
+    fn list_says(&self, signal: Signal) -> Says {
+        match self.settings.telegram(signal) {
+            Telegram::Silent => Says::Nothing,
+            Telegram::Holds(place) => Says::Present(place),
+            Telegram::Lacks(place) | Telegram::HoldsCommand(place) => Says::Missing(place),
+        }
+    }
+
+    fn network_says(&self, signal: Signal) -> Says {
+        let Some(network) = &self.evidence.network else {
+            return Says::Nothing;
+        };
+        let given = |slave: &&SlaveOfAxis| slave.axis == self.axis;
+        if let Some(given) = self.evidence.slaves.iter().find(given) {
+            return match network
+                .slaves
+                .iter()
+                .find(|slave| slave.name == given.slave)
+            {
+                Some(slave) => assigned(network, slave, given.channel, signal),
+                None => Says::Undecided(
+                    format!("there is no device `{}` in the network", given.slave),
+                    network.place("EtherCATConfig", 1),
+                ),
+            };
+        }
+        let given = self.settings.drive_type.as_ref().map(|given| given.value);
+        let protocol = given.and_then(|drive_type| match drive_type {
+            DriveType::Sercos => Some(Protocol::Sercos),
+            DriveType::CanOpen => Some(Protocol::CanOpen),
+            _ => None,
+        });
+        agreed(network, protocol, signal)
+    }
+
+    /// The device of the network that drives the axis, where the user named it.
+    fn slave(&self) -> Option<&Slave> {
+        let network = self.evidence.network.as_ref()?;
+        let mut slaves = self.evidence.slaves.iter();
+        let given = slaves.find(|given| given.axis == self.axis)?;
+        network
+            .slaves
+            .iter()
+            .find(|slave| slave.name == given.slave)
+    }
+
+    /// FC501 or FC502.
+    fn miss(&mut self, signal: Signal, place: Place) {
+        let is_command = signal == Signal::AdditiveTorque
+            && matches!(self.settings.telegram(signal), Telegram::HoldsCommand(_));
+        let code = match signal {
+            Signal::AdditiveTorque => Code::Fc501,
+            Signal::ActualTorque => Code::Fc502,
+        };
+        let message = match signal {
+            _ if is_command => "this is the torque command itself; friction compensation needs \
+                                the additive torque command"
+                .to_owned(),
+            Signal::AdditiveTorque => "the cyclic data hold no additive torque command; friction \
+                                       compensation does not reach the drive"
+                .to_owned(),
+            Signal::ActualTorque => "the cyclic data hold no actual torque; friction cannot be \
+                                     measured or verified"
+                .to_owned(),
+        };
+        let drive_type = self.settings.drive_type.as_ref().map(|given| given.value);
+        let (idn, object) = (signal.idn(), signal.object());
+        let name = match drive_type {
+            Some(DriveType::Sercos) => format!("S-0-{idn:04}"),
+            Some(DriveType::CanOpen) => format!("object {object:04X}h"),
+            _ => format!("S-0-{idn:04} (SERCOS) or object {object:04X}h (CANopen)"),
+        };
+        let mut said = Diagnostic::new(code, place, message)
+            .with_help(format!("add {name} to the cyclic data of the drive"));
+        if let Some(help) = self.selectable(signal) {
+            said = said.with_help(help);
+        }
+        self.diagnostics.push(said);
+    }
+
+    /// Which process data object could be selected (R7.4).
+    fn selectable(&self, signal: Signal) -> Option<String> {
+        let slave = self.slave();
+        let may_be = |device: &&Device| {
+            slave.is_none_or(|slave| {
+                slave.product == device.product && slave.vendor == device.vendor
+            })
+        };
+        let devices = self.evidence.devices.iter().filter(may_be);
+        let (device, object) = devices.into_iter().find_map(|device| {
+            let object = device.mappable.iter().find(|it| it.signal == signal)?;
+            Some((device, object))
+        })?;
+        Some(format!(
+            "the device description offers it: select {} of {}",
+            pdo(object),
+            device.name
+        ))
+    }
+
+    /// FC504.
+    fn ask(&mut self, signal: Signal, reason: &str, place: Option<Place>) {
+        let Some(place) = place.or_else(|| self.selector.map(Given::place)) else {
+            return;
+        };
+        let message = format!("whether the cyclic data hold the {signal} is not known: {reason}");
+        let advice = match &self.evidence.network {
+            None => Advice::GiveNetwork,
+            Some(_) => Advice::AssignSlave(self.axis.to_owned()),
+        };
+        let mut said = Diagnostic::new(Code::Fc504, place, message).with_help(advice);
+        if let Some(help) = self.selectable(signal) {
+            said = said.with_help(help);
+        }
+        self.open.push(said);
+    }
+
+    /// The largest torque of a value list, scaled, in 0.1 %; too large a one is said (R7.7).
+    fn largest(&mut self, list: &FrictionList) -> f64 {
+        let outputs = list.table.iter().map(|point| point.output.abs());
+        let plain = outputs.fold(0.0, f64::max) * f64::from(list.scaling_factor).abs() / 1000.0;
+        let largest = plain * self.settings.scale.factor();
+        let Some(given) = &self.settings.drive_type else {
+            return largest;
+        };
+        let percent = largest / 10.0;
+        if largest > MOST_16_BITS && plain <= MOST_16_BITS {
+            let message = format!(
+                "scaled, the value list sends up to {percent:.1} % of the rated torque; 16 bits hold 3276.7 %"
+            );
+            self.diagnostics
+                .push(Diagnostic::new(Code::Fc137, given.place(), message));
+        } else if given.value == DriveType::Sercos && largest > MOST_SERCOS {
+            let message = format!(
+                "the value list sends up to {percent:.1} % of the rated torque; S-0-0081 of an AX5000 ends at 100 %"
+            );
+            self.diagnostics.push(
+                Diagnostic::new(Code::Fc132, given.place(), message)
+                    .with_help("check the outputs, `scaling_factor` and the torque scaling"),
+            );
+        }
+        largest
+    }
+}
+
+/// What the device says that the user named.
+fn assigned(network: &Network, slave: &Slave, channel: Option<u8>, signal: Signal) -> Says {
+    let place = network.place(&slave.path, slave.line);
+    let channels: Vec<u8> = match channel {
+        Some(channel) => vec![channel],
+        None => (1..=slave.axes).collect(),
+    };
+    let maps: Vec<Option<&NetworkObject>> = channels
+        .iter()
+        .map(|&channel| slave.maps(signal, channel))
+        .collect();
+    if slave.axes == 0 {
+        return Says::Undecided(format!("`{}` is no drive", slave.name), place);
+    }
+    if !slave.assigns {
+        let reason = format!(
+            "the network does not say which process data objects `{}` exchanges",
+            slave.name
+        );
+        return Says::Undecided(reason, place);
+    }
+    if channel.is_some_and(|channel| !(1..=slave.axes).contains(&channel)) {
+        let reason = format!("`{}` drives {} axes", slave.name, slave.axes);
+        return Says::Undecided(reason, place);
+    }
+    match maps.as_slice() {
+        [Some(first), rest @ ..] if rest.iter().all(Option::is_some) => {
+            Says::Present(network.place(&first.path, first.line))
+        }
+        maps if maps.iter().all(Option::is_none) => Says::Missing(place),
+        _ => Says::Undecided(format!("only some axes of `{}` have it", slave.name), place),
+    }
+}
+
+/// What all drives of the network say that the axis may have, whichever it is.
+fn agreed(network: &Network, protocol: Option<Protocol>, signal: Signal) -> Says {
+    let may_be = |slave: &&Slave| protocol.is_none_or(|protocol| slave.protocol == protocol);
+    let mut drives = network.drives().filter(may_be);
+    let whole = network.place("EtherCATConfig", 1);
+    let Some(first) = drives.next() else {
+        let reason = "the network has no drive of the type that the axis list gives";
+        return Says::Undecided(reason.to_owned(), whole);
+    };
+    let says = assigned(network, first, None, signal);
+    let same = |other: Says| match says {
+        Says::Present(_) => matches!(other, Says::Present(_)),
+        Says::Missing(_) => matches!(other, Says::Missing(_)),
+        _ => false,
+    };
+    if drives.all(|slave| same(assigned(network, slave, None, signal))) {
+        return says;
+    }
+    Says::Undecided("only some drives of the network have it".to_owned(), whole)
+}
+
+/// A place as `file:line`, with the path of an element.
+fn shown(place: &Place) -> String {
+    let line = place.start().line;
+    if place.text.starts_with("EtherCAT") {
+        format!("{}:{line}, {}", place.file, place.text)
+    } else {
+        format!("{}:{line}", place.file)
+    }
+}
+
+/// A process data object, as the engineering tools name it.
+fn pdo(object: &NetworkObject) -> String {
+    format!("PDO {:04X}h (`{}`)", object.pdo, object.pdo_name)
+}

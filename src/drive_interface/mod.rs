@@ -1,0 +1,21 @@
+//! The drive's torque interface: whether the additive torque of friction compensation reaches the
+//! drive, and whether the actual torque comes back (chapter 7).
+//!
+//! The evidence is asked in this order: the axis list, what the network maps (ENI), what the
+//! device could map (ESI). What none of them says is unknown, never fine.
+
+mod drive_type;
+mod judge;
+mod network;
+mod settings;
+mod signal;
+#[cfg(feature = "host")]
+mod xml;
+
+pub use drive_type::DriveType;
+pub use judge::{DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, check_drive};
+pub use network::{Device, Network, NetworkObject, Protocol, Slave};
+pub use settings::{DriveSettings, TorqueScale};
+pub use signal::Signal;
+#[cfg(feature = "host")]
+pub use xml::{XmlError, read_devices, read_network};

@@ -1,0 +1,104 @@
+//! What network and device descriptions say about the torque values of their drives (R7.3, R7.4).
+
+use std::sync::Arc;
+
+use super::signal::Signal;
+use crate::text::{Place, Span};
+
+/// An element of an XML file that maps a torque value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NetworkObject {
+    /// The value.
+    pub signal: Signal,
+    /// The axis of the device, from 1.
+    pub channel: u8,
+    /// The index of the process data object that holds it.
+    pub pdo: u16,
+    /// What that object is called.
+    pub pdo_name: String,
+    /// The path of the element in the file.
+    pub path: String,
+    /// Its line, from 1.
+    pub line: u32,
+}
+
+/// How a device exchanges parameters, and so which numbers its process data go by.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Protocol {
+    /// `CANopen` over `EtherCAT`: objects.
+    #[default]
+    CanOpen,
+    /// SERCOS over `EtherCAT`: IDNs.
+    Sercos,
+}
+
+/// A device of the network.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Slave {
+    /// What the engineer calls it.
+    pub name: String,
+    /// The number of the vendor.
+    pub vendor: Option<u32>,
+    /// The number of the product.
+    pub product: Option<u32>,
+    /// How it exchanges parameters.
+    pub protocol: Protocol,
+    /// How many axes it drives; 0 where it is no drive.
+    pub axes: u8,
+    /// Whether the file says which process data objects it exchanges.
+    pub assigns: bool,
+    /// The torque values that it exchanges in every cycle.
+    pub mapped: Vec<NetworkObject>,
+    /// The path of its element in the file.
+    pub path: String,
+    /// The line of that element, from 1.
+    pub line: u32,
+}
+
+/// The network as it is configured, from an ENI file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Network {
+    /// The file as the user named it.
+    pub file: Arc<str>,
+    /// Its devices in the order of the file.
+    pub slaves: Vec<Slave>,
+}
+
+/// A device that an ESI file describes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Device {
+    /// Its type, such as `AX5103-0000`.
+    pub name: String,
+    /// The number of the vendor.
+    pub vendor: Option<u32>,
+    /// The number of the product, or of the module.
+    pub product: Option<u32>,
+    /// The torque values that it could exchange.
+    pub mappable: Vec<NetworkObject>,
+}
+
+impl Network {
+    /// The devices that drive axes.
+    pub fn drives(&self) -> impl Iterator<Item = &Slave> {
+        self.slaves.iter().filter(|slave| slave.axes > 0)
+    }
+
+    /// A place in the file, shown as the path of an element.
+    pub(super) fn place(&self, path: &str, line: u32) -> Place {
+        Place {
+            file: Arc::clone(&self.file),
+            text: path.into(),
+            first_line: line,
+            span: Span::new(0, path.len()),
+        }
+    }
+}
+
+impl Slave {
+    /// The element that maps a value for one of its axes.
+    pub(super) fn maps(&self, signal: Signal, channel: u8) -> Option<&NetworkObject> {
+        let is_it = |object: &&NetworkObject| object.signal == signal && object.channel == channel;
+        self.mapped.iter().find(is_it)
+    }
+}

@@ -1,0 +1,236 @@
+//! What an axis list says about its drive (R7.1, R7.2, R7.6, R7.8).
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::drive_type::DriveType;
+use super::signal::{Signal, is_torque_command};
+use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::lists::{Entry, Given, Number};
+use crate::text::Place;
+
+/// By what the control multiplies a torque before it sends it, P-AXIS-00325 and P-AXIS-00326.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct TorqueScale {
+    /// P-AXIS-00325, `antr.torque_scale_num`.
+    pub numerator: u32,
+    /// P-AXIS-00326, `antr.torque_scale_denom`; with 0 the control sends no additive torque.
+    pub denominator: u32,
+}
+
+impl Default for TorqueScale {
+    fn default() -> Self {
+        Self {
+            numerator: 1,
+            denominator: 1,
+        }
+    }
+}
+
+impl TorqueScale {
+    /// The factor; 0 where the denominator is 0.
+    pub fn factor(self) -> f64 {
+        match self.denominator {
+            0 => 0.0,
+            denominator => f64::from(self.numerator) / f64::from(denominator),
+        }
+    }
+}
+
+/// What a telegram of the axis list says about a value.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Telegram {
+    /// It has no entry in this direction; TwinCAT fills it by itself (R7.5).
+    Silent,
+    /// It holds the value.
+    Holds(Place),
+    /// It holds other values; the first of them.
+    Lacks(Place),
+    /// It holds the torque command itself in its place.
+    HoldsCommand(Place),
+}
+
+/// What an axis list says about its drive.
+#[derive(Debug, Clone, Default)]
+pub struct DriveSettings {
+    /// P-AXIS-00020; `None` where no list gives it, or none that is known.
+    pub drive_type: Option<Given<DriveType>>,
+    /// Where P-AXIS-00790 switches the drive to simulation.
+    pub simulated: Option<Place>,
+    /// P-AXIS-00325 and P-AXIS-00326.
+    pub scale: TorqueScale,
+    denominator: Option<Place>,
+    /// P-AXIS-00324 of every gear.
+    offsets: Vec<Given<i64>>,
+    telegram: Vec<TelegramEntry>,
+}
+
+/// An entry of a telegram, `nc_ref` or `ident_nr`.
+#[derive(Debug, Clone)]
+struct TelegramEntry {
+    signal: Signal,
+    holds: bool,
+    is_command: bool,
+    place: Place,
+}
+
+/// The patterns of telegram entries and the value for whose direction they stand.
+const TELEGRAMS: [(&str, Signal); 6] = [
+    ("antr.sercos.mdt[].nc_ref", Signal::AdditiveTorque),
+    ("antr.sercos.mdt[].ident_nr", Signal::AdditiveTorque),
+    ("antr.canopen.out[].nc_ref", Signal::AdditiveTorque),
+    ("antr.sercos.at[].nc_ref", Signal::ActualTorque),
+    ("antr.sercos.at[].ident_nr", Signal::ActualTorque),
+    ("antr.canopen.in[].nc_ref", Signal::ActualTorque),
+];
+
+impl DriveSettings {
+    /// Gathers the values from the entries of the drive; a value that cannot be used is FC130.
+    pub fn from_entries(
+        entries: &BTreeMap<String, Entry>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let mut settings = Self::default();
+        for entry in entries.values() {
+            match entry.pattern.as_str() {
+                "kenngr.antr_typ" => settings.drive_type = drive_type(entry, diagnostics),
+                "kenngr.drive_simulation" => {
+                    let on = entry.truth();
+                    settings.simulated = (on.value == Some(true)).then(|| on.place());
+                }
+                "antr.torque_scale_num" => {
+                    if let Some(value) = unsigned(entry, diagnostics) {
+                        settings.scale.numerator = value;
+                    }
+                }
+                "antr.torque_scale_denom" => {
+                    if let Some(value) = unsigned(entry, diagnostics) {
+                        settings.scale.denominator = value;
+                        settings.denominator = Some(entry.word().place());
+                    }
+                }
+                "getriebe[].torque_offset" => settings.offsets.extend(offset(entry, diagnostics)),
+                pattern => settings.telegram.extend(telegram(pattern, entry)),
+            }
+        }
+        settings.telegram.sort_by_key(|entry| entry.place.start());
+        settings
+    }
+
+    /// What the telegrams of the list say about a value.
+    pub(super) fn telegram(&self, signal: Signal) -> Telegram {
+        let entries = || self.telegram.iter().filter(|entry| entry.signal == signal);
+        if let Some(entry) = entries().find(|entry| entry.holds) {
+            return Telegram::Holds(entry.place.clone());
+        }
+        if let Some(entry) = entries().find(|entry| entry.is_command) {
+            return Telegram::HoldsCommand(entry.place.clone());
+        }
+        match entries().next() {
+            Some(entry) => Telegram::Lacks(entry.place.clone()),
+            None => Telegram::Silent,
+        }
+    }
+
+    /// What the control says about the torque parameters when it takes the list (R7.8).
+    pub(super) fn check(&self, diagnostics: &mut Vec<Diagnostic>) {
+        if let (0, Some(place)) = (self.scale.denominator, &self.denominator) {
+            let message = "the denominator of the torque scaling is 0: the control warns and sends \
+                           no additive torque";
+            diagnostics.push(
+                Diagnostic::new(Code::PErr110465, place.clone(), message)
+                    .with_help("set `antr.torque_scale_denom` to 1 or more"),
+            );
+        }
+        let drive_type = self.drive_type.as_ref().map(|given| given.value);
+        for offset in &self.offsets {
+            if offset.value < 0 {
+                let message = format!(
+                    "a torque offset of {} is outside the documented range, which begins at 0",
+                    offset.value
+                );
+                diagnostics.push(Diagnostic::new(Code::Fc132, offset.place(), message));
+            } else if let Some(drive_type) = drive_type
+                && offset.value > 0
+                && !drive_type.takes_torque_offset()
+            {
+                let message = format!(
+                    "the drive type {} takes no torque offset",
+                    drive_type.as_str()
+                );
+                diagnostics.push(
+                    Diagnostic::new(Code::PErr110464, offset.place(), message)
+                        .with_help("set `torque_offset` to 0"),
+                );
+            }
+        }
+    }
+}
+
+/// FC130 for a value that cannot be used.
+fn unusable(entry: &Entry, expected: &'static str) -> Diagnostic {
+    let word = entry.word();
+    let message = format!(
+        "`{}` is `{}`; the value is not used",
+        entry.key(),
+        word.value
+    );
+    Diagnostic::new(Code::Fc130, word.place(), message).with_help(expected)
+}
+
+fn drive_type(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<DriveType>> {
+    let written = entry.number();
+    let found = match written.value.number {
+        Some(Number::Integer(number)) => DriveType::from_number(number),
+        _ => DriveType::from_word(&written.value.text),
+    };
+    if found.is_none() {
+        let expected = "write `2` for SERCOS, `8` for CANopen, `4` for simulation, `16` for a \
+                        virtual axis";
+        let mut said = unusable(entry, expected);
+        if let Some(near) = did_you_mean(&written.value.text, DriveType::words()) {
+            said = said.with_near(&written.value.text, near);
+        }
+        diagnostics.push(said);
+    }
+    found.map(|drive_type| written.with(drive_type))
+}
+
+fn unsigned(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<u32> {
+    let value = match entry.number().value.number {
+        Some(Number::Integer(value)) => u32::try_from(value).ok(),
+        _ => None,
+    };
+    if value.is_none() {
+        diagnostics.push(unusable(entry, "write a whole number from 0 to 4294967295"));
+    }
+    value
+}
+
+fn offset(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<i64>> {
+    let written = entry.number();
+    match written.value.number {
+        Some(Number::Integer(value)) if i16::try_from(value).is_ok() => Some(written.with(value)),
+        _ => {
+            diagnostics.push(unusable(entry, "write a whole number from 0 to 32767"));
+            None
+        }
+    }
+}
+
+fn telegram(pattern: &str, entry: &Entry) -> Option<TelegramEntry> {
+    let (key, signal) = *TELEGRAMS.iter().find(|(key, _)| *key == pattern)?;
+    let word = entry.text();
+    let reference = word.value.split_whitespace().next()?;
+    let idn = match Number::parse(reference) {
+        Some(Number::Integer(idn)) if key.ends_with("ident_nr") => u16::try_from(idn).ok(),
+        _ => None,
+    };
+    Some(TelegramEntry {
+        signal,
+        holds: signal.is_reference(reference) || idn.is_some_and(|idn| signal.is_idn(idn)),
+        is_command: is_torque_command(reference) || idn == Some(80),
+        place: word.place(),
+    })
+}

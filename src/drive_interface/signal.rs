@@ -1,0 +1,170 @@
+//! The two torque values of the drive's cyclic data, and the names that they go by (R7.1 to R7.3).
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// `CANopen` objects of a further axis of one device are this much higher.
+const PER_CHANNEL: u16 = 0x800;
+
+/// The objects of drives begin here; eight axes have room.
+const DRIVE_OBJECTS: std::ops::RangeInclusive<u16> = 0x6000..=0x9FFF;
+
+/// Bits of an IDN that give the number of its data block, and the one that says that the
+/// manufacturer defines it. Those between choose a parameter set.
+const IDN_NUMBER: u16 = 0x0FFF;
+const IDN_OF_MANUFACTURER: u16 = 0x8000;
+
+/// A torque value of the cyclic data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Signal {
+    /// The additive torque command, which friction compensation needs: S-0-0081, 60B2h.
+    AdditiveTorque,
+    /// The actual torque, by which friction is measured and verified: S-0-0084, 6077h.
+    ActualTorque,
+}
+
+impl Signal {
+    /// Both values.
+    pub const ALL: [Self; 2] = [Self::AdditiveTorque, Self::ActualTorque];
+
+    /// What it is called in messages.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::AdditiveTorque => "additive torque command",
+            Self::ActualTorque => "actual torque",
+        }
+    }
+
+    /// Its number in SERCOS.
+    pub fn idn(self) -> u16 {
+        match self {
+            Self::AdditiveTorque => 81,
+            Self::ActualTorque => 84,
+        }
+    }
+
+    /// Its object in `CANopen`, for the first axis of a device.
+    pub fn object(self) -> u16 {
+        match self {
+            Self::AdditiveTorque => 0x60B2,
+            Self::ActualTorque => 0x6077,
+        }
+    }
+
+    /// The axis of a device whose object this is, from 1.
+    pub(super) fn channel(self, index: u16) -> Option<u8> {
+        channel(self.object(), index)
+    }
+
+    /// Whether this is its IDN, in any parameter set.
+    pub(super) fn is_idn(self, idn: u16) -> bool {
+        idn & IDN_OF_MANUFACTURER == 0 && idn & IDN_NUMBER == self.idn()
+    }
+
+    /// What `nc_ref` calls it besides its number (P-AXIS-00131, R7.2).
+    fn words(self) -> &'static [&'static str] {
+        match self {
+            Self::AdditiveTorque => &[],
+            Self::ActualTorque => &[
+                "TORQUE_FEEDBACK",
+                "TORQUE_FEEDBACK_VALUE",
+                "MOMENT_IST_WERT",
+                "STROMIST_WERT",
+                "TORQUE_ACT",
+            ],
+        }
+    }
+
+    /// Whether an `nc_ref` names it.
+    pub(super) fn is_reference(self, reference: &str) -> bool {
+        self.words().contains(&reference)
+            || idn(reference).is_some_and(|idn| self.is_idn(idn))
+            || object(reference).is_some_and(|index| self.channel(index).is_some())
+    }
+}
+
+impl fmt::Display for Signal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// Whether an `nc_ref` names the torque command itself, which is not the additive one (R7.1).
+pub(super) fn is_torque_command(reference: &str) -> bool {
+    matches!(reference, "TORQUE_COMMAND_VALUE" | "MOMENT_SOLL_WERT")
+        || idn(reference).is_some_and(|idn| idn == 80)
+        || object(reference).is_some_and(|index| channel(0x6071, index).is_some())
+}
+
+/// The axis of a device, from 1, whose object `index` is where `first` is that of its first axis.
+pub(super) fn channel(first: u16, index: u16) -> Option<u8> {
+    let above = index.checked_sub(first)?;
+    let is_one = above % PER_CHANNEL == 0 && DRIVE_OBJECTS.contains(&index);
+    is_one.then(|| u8::try_from(above / PER_CHANNEL + 1).ok())?
+}
+
+/// The number of an IDN written as `S-0-0081` or `S_0_0081`.
+fn idn(reference: &str) -> Option<u16> {
+    let rest = reference.strip_prefix(['S', 's'])?;
+    let mut parts = rest.strip_prefix(['-', '_'])?.split(['-', '_']);
+    let (set, number) = (parts.next()?, parts.next()?);
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if parts.next().is_some() || !is_number(set) || !is_number(number) {
+        return None;
+    }
+    let (set, number): (u16, u16) = (set.parse().ok()?, number.parse().ok()?);
+    (set < 8 && number <= IDN_NUMBER).then_some(set << 12 | number)
+}
+
+/// The object written as `60B2_00`.
+fn object(reference: &str) -> Option<u16> {
+    let (index, sub) = reference.split_once('_')?;
+    let is_whole = index.len() == 4 && matches!(sub, "00" | "0");
+    is_whole.then(|| u16::from_str_radix(index, 16).ok())?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_go_by_the_documented_names() {
+        // R7.1, R7.2
+        let (additive, actual) = (Signal::AdditiveTorque, Signal::ActualTorque);
+        for name in [
+            "S-0-0081", "S_0_0081", "60B2_00", "68B2_00", "98b2_00", "S-1-0081",
+        ] {
+            assert!(additive.is_reference(name), "{name}");
+            assert!(!actual.is_reference(name), "{name}");
+        }
+        for name in [
+            "S-0-0084",
+            "S_0_0084",
+            "6077_00",
+            "6877_00",
+            "TORQUE_ACT",
+            "STROMIST_WERT",
+        ] {
+            assert!(actual.is_reference(name), "{name}");
+            assert!(!additive.is_reference(name), "{name}");
+        }
+        for name in [
+            "S-0-0080",
+            "6071_00",
+            "TORQUE_COMMAND_VALUE",
+            "MOMENT_SOLL_WERT",
+        ] {
+            assert!(is_torque_command(name), "{name}");
+            assert!(!additive.is_reference(name), "{name}");
+        }
+        for name in [
+            "", "S", "S-0", "S-8-0081", "S-0-81-1", "60B2", "60B2_01", "A0B2_00", "P-0-0081",
+        ] {
+            assert!(!additive.is_reference(name), "{name}");
+        }
+        assert!(!additive.is_idn(0x8051) && additive.is_idn(0x7051));
+    }
+}

@@ -101,6 +101,7 @@ pub mod motion;
 pub mod report;
 pub mod session;
 pub mod simulation;
+pub mod stiction;
 pub mod syntax;
 pub mod text;
 pub mod timeline;

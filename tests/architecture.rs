@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 20] = [
+const ROOMS: [(&str, &[&str]); 21] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -93,6 +93,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
         ],
     ),
     ("simulation", &["text", "diagnostic", "lists", "config"]),
+    ("stiction", &[]),
     ("circle", &["diagnostic", "lists", "current", "simulation"]),
     (
         "facade",
@@ -112,6 +113,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
             "timeline",
             "current",
             "simulation",
+            "stiction",
             "circle",
         ],
     ),
@@ -147,6 +149,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
             "current",
             "motion",
             "simulation",
+            "stiction",
             "circle",
             "report",
             "host",

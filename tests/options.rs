@@ -436,6 +436,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "current",
         "circle",
         "tune",
+        "stiction",
         "explain",
         "codes",
         "config",
@@ -643,4 +644,48 @@ fn statistics_hold_counts_only_and_lists_show_the_folder_of_their_configuration(
     let text = output.expect("a run").stdout;
     let text = String::from_utf8_lossy(&text);
     assert!(text.contains("1 | kanal_anzahl foo"), "{text}");
+}
+
+#[test]
+fn stiction_is_computed_from_what_is_given() {
+    // R8.5
+    let bench = bare(&[]);
+    let document = bench.stdout(&[
+        "stiction",
+        "--kv",
+        "25 1/s",
+        "--tc",
+        "3ms",
+        "--mp1511",
+        "8000",
+        "--delta-sa",
+        "-2um",
+        "--mp1050",
+        "9",
+        "--mp1010",
+        "10000mm/min",
+        "--format",
+        "json",
+    ]);
+    let document: serde_json::Value = serde_json::from_str(&document).expect("JSON");
+    let value = |name: &str| document["values"][name]["value"].as_f64().expect("a value");
+    assert!((value("f_add") + 0.008).abs() < 1e-12);
+    assert!((value("v_add") + 0.0072).abs() < 1e-12);
+    assert_eq!(document["schema"], 1);
+    for (arguments, words) in [
+        (&["stiction"][..], "no quantity is given"),
+        (&["stiction", "--tc", "3000mm"], "`mm` is no unit of t_C"),
+        (
+            &["stiction", "--gp", "0", "--mp1512", "5"],
+            "GP must be more than 0",
+        ),
+    ] {
+        let output = bench.call(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(
+            stderr(&output).contains(words),
+            "{arguments:?}: {}",
+            stderr(&output)
+        );
+    }
 }

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 16] = [
+static EXAMPLES: [Examples; 17] = [
     examples(
         &["run"],
         [
@@ -74,6 +74,13 @@ static EXAMPLES: [Examples; 16] = [
         [
             "frictcomp tune --plant mid --feeds 5000 -o comp_x.lis",
             "frictcomp tune --plant stiff --feeds 5000 --svg glitch.svg",
+        ],
+    ),
+    examples(
+        &["stiction"],
+        [
+            "frictcomp stiction --kv 1.5 --tc 3000us --mp1511 8000 --delta-sa 2um",
+            "frictcomp stiction --gp 20um --delta-sa-limit 3um",
         ],
     ),
     examples(

@@ -33,6 +33,7 @@ mod quiet;
 mod run;
 mod settings;
 mod severities;
+mod stiction;
 mod tune;
 mod values;
 
@@ -74,6 +75,7 @@ enum Command {
     Current(current::CurrentArgs),
     Circle(circle::CircleArgs),
     Tune(tune::TuneArgs),
+    Stiction(stiction::StictionArgs),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     Init(init::InitArgs),
@@ -145,6 +147,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Current(args) => current::run(args, console),
         Command::Circle(args) => circle::run(args, console),
         Command::Tune(args) => tune::run(args, console),
+        Command::Stiction(args) => stiction::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Init(args) => init::run(args),

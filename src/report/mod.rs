@@ -20,6 +20,7 @@ mod output;
 pub mod pictures;
 mod records;
 mod sarif;
+pub mod stiction;
 mod strings;
 pub mod svg;
 mod text;

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use frictcomp::current::CurrentCycle;
 use frictcomp::{
     circle, comp, current, diagnostic, drive_interface, host, interpreter, lists, machine, motion,
-    report, session, simulation, syntax, text, timeline,
+    report, session, simulation, stiction, syntax, text, timeline,
 };
 
 /// A sink of currents, for the types that are made over one.
@@ -310,6 +310,14 @@ sent! {
     simulation::Setpoint,
     simulation::UnknownFrictionModel,
     simulation::UnknownPreset,
+    stiction::Effect,
+    stiction::Formula,
+    stiction::Guideline,
+    stiction::Quantity,
+    stiction::Solution,
+    stiction::Solved,
+    stiction::StictionError,
+    stiction::UnitError,
     syntax::AxisUse,
     syntax::BlockReader<text::TextLines<'_>>,
     syntax::Comments,

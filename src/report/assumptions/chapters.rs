@@ -1,7 +1,7 @@
 //! The table.
 
 use super::assumption::Assumption;
-use super::{circle, command, current, drives, language, lists, motion, runs};
+use super::{circle, command, current, drives, language, lists, motion, runs, stiction};
 
 /// A part of the table.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +13,7 @@ pub struct Chapter {
 }
 
 /// All assumptions that can change a result.
-pub const CHAPTERS: [Chapter; 8] = [
+pub const CHAPTERS: [Chapter; 9] = [
     Chapter {
         title: "The COMP command",
         assumptions: command::ASSUMED,
@@ -41,6 +41,10 @@ pub const CHAPTERS: [Chapter; 8] = [
     Chapter {
         title: "The circular test",
         assumptions: circle::ASSUMED,
+    },
+    Chapter {
+        title: "Stiction compensation",
+        assumptions: stiction::ASSUMED,
     },
     Chapter {
         title: "Runs",

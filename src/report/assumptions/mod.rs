@@ -12,6 +12,7 @@ mod language;
 mod lists;
 mod motion;
 mod runs;
+mod stiction;
 
 pub(in crate::report) use assumption::Met;
 pub use assumption::{Assumption, When};

@@ -201,7 +201,16 @@ fn a_tuned_list_is_one_that_the_control_takes() {
     let list = folder.path().join("v.lis");
     let name = list.to_str().expect("text");
     let arguments = [
-        "tune", "--feeds", "4000", "--radius", "40", "--format", "json", "--output", name,
+        "tune",
+        "--feeds",
+        "4000",
+        "--radius",
+        "40",
+        "--no-shaping",
+        "--format",
+        "json",
+        "--output",
+        name,
     ];
     let document = json(&arguments);
     assert_eq!(document["schema"], 1);
@@ -247,4 +256,93 @@ fn a_tuned_list_is_one_that_the_control_takes() {
     let left = circle["on"]["glitch_max"].as_f64().expect("a number");
     let said = row["glitch_on"].as_f64().expect("a number");
     assert!((left / said - 1.0).abs() < 0.01, "{left} is not {said}");
+}
+
+#[test]
+fn each_axis_gets_a_list_with_the_name_of_the_machine() {
+    // R5.25: what `circle` finds with the written lists is what `tune` says.
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        path.to_str().expect("text").to_owned()
+    };
+    let plant = write("p.toml", "[y]\nFc = 800\nFs = 900\n");
+    let machine = write(
+        "frictcomp.toml",
+        "[[axis]]\nname = \"X1\"\n[[axis]]\nname = \"Y\"\n",
+    );
+    let lists = folder.path().join("lists");
+    let document = json(&[
+        "tune",
+        "--plant",
+        &plant,
+        "--accelerations",
+        "180",
+        "--radii",
+        "60",
+        "--no-shaping",
+        "--config",
+        &machine,
+        "--output-dir",
+        lists.to_str().expect("text"),
+        "--format",
+        "json",
+    ]);
+    let [x, y] = ["X1.lis", "Y.lis"].map(|name| lists.join(name));
+    let [x, y] = [("X", x), ("Y", y)].map(|(axis, path)| format!("{axis}={}", path.display()));
+    let row = &document["feeds"][0];
+    let number = |value: &Value| value.as_f64().expect("a number");
+    assert!((number(&row["acceleration"]) - 180.0).abs() < 1e-3);
+    let feed = number(&row["feed"]).to_string();
+    let circle = json(&[
+        "circle",
+        "--feed",
+        &feed,
+        "--radius",
+        "60",
+        "--plant",
+        &plant,
+        "--value-list",
+        &x,
+        "--value-list",
+        &y,
+        "--format",
+        "json",
+    ]);
+    let left = number(&circle["on"]["glitch_max"]);
+    let said = number(&row["glitch_on"]);
+    assert!((left / said - 1.0).abs() < 1e-3, "{left} is not {said}");
+    assert_ne!(
+        document["axes"]["X"]["table"],
+        document["axes"]["Y"]["table"]
+    );
+}
+
+#[test]
+fn compensation_that_makes_it_worse_is_said() {
+    // R5.25: a soft contact at low and at high accelerations.
+    let output = tool(&[
+        "tune",
+        "--plant",
+        "soft",
+        "--feeds",
+        "500,16000",
+        "--radius",
+        "130",
+        "--no-shaping",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    let said = String::from_utf8(output.stderr).expect("text");
+    let is_worse = |line: &&str| {
+        let numbers: Vec<f64> = line
+            .split_whitespace()
+            .filter_map(|it| it.parse().ok())
+            .collect();
+        matches!(numbers[..], [_, _, _, off, on, ..] if on > off)
+    };
+    let worse = text.lines().filter(is_worse).count();
+    assert_eq!(said.matches("FC506").count() > 0, worse > 0, "{text}{said}");
+    assert!(worse > 0, "{text}");
 }

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 use roxmltree::Document;
 
-use frictcomp::circle::{Candidate, FeedResult, Tuned};
+use frictcomp::circle::{Candidate, FeedResult, Tuned, TunedAxis};
 use frictcomp::comp::State;
 use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
@@ -17,7 +17,7 @@ use frictcomp::machine::AcceptedList;
 use frictcomp::report::pictures::{AxisPlot, CurrentPlot, tuning, value_curve, value_curves};
 use frictcomp::report::svg::{
     Band, BandChart, BandRow, BandState, ChartAxis, Drawn, Frame, LineChart, Panel, PolarChart,
-    PolarSeries, Series, Standing,
+    PolarPanel, PolarSeries, Series, Standing,
 };
 use frictcomp::report::tune::TuneReport;
 
@@ -107,16 +107,15 @@ fn circle() -> PolarChart {
             .to_owned(),
         axes: ["X".to_owned(), "Y".to_owned()],
         radius: 100.0,
-        series: vec![
-            PolarSeries {
-                name: "compensation off".to_owned(),
-                points: turn(-0.6, 19.2),
-            },
-            PolarSeries {
-                name: "compensation on".to_owned(),
-                points: turn(-0.6, 0.8),
-            },
-        ],
+        panels: [("compensation off", 19.2), ("compensation on", 0.8)]
+            .map(|(label, peak)| PolarPanel {
+                label: label.to_owned(),
+                series: vec![PolarSeries {
+                    name: "counter-clockwise".to_owned(),
+                    points: turn(-0.6, peak),
+                }],
+            })
+            .to_vec(),
     }
 }
 
@@ -129,24 +128,29 @@ fn glitches() -> LineChart {
     ];
     let feeds = feeds.map(|[feed, off, on, minus20, plus20]| FeedResult {
         feed_mm_per_min: feed,
+        radius_mm: 100.0,
+        acceleration_mm_per_s2: (feed / 60.0).powi(2) / 100.0,
         glitch_off_um: off,
         glitch_on_um: on,
         glitch_friction_minus20_um: minus20,
         glitch_friction_plus20_um: plus20,
     });
+    let axis = TunedAxis {
+        candidate: Candidate {
+            position_delay: 9,
+            reversal_lookahead: 2,
+            delay_cycles: 1,
+            scaling_factor: 1000,
+        },
+        list: list(),
+        is_shaped: false,
+    };
     tuning(&[TuneReport {
         plant: "stiff".to_owned(),
         model: "lugre",
-        diameter_mm: 200.0,
         reading: Reading::default().to_string(),
         tuned: Tuned {
-            candidate: Candidate {
-                position_delay: 9,
-                reversal_lookahead: 2,
-                delay_cycles: 1,
-                scaling_factor: 1000,
-            },
-            list: list(),
+            axes: [axis.clone(), axis],
             feeds: feeds.to_vec(),
             trials: 1,
         },
@@ -253,6 +257,8 @@ fn a_circle_shows_off_and_on_magnified() {
         "X\u{2212}",
         "Y\u{2212}",
         "10 \u{b5}m",
+        "+20 \u{b5}m",
+        "+0.6 \u{b5}m",
         "compensation off",
         "compensation on",
     ] {
@@ -261,26 +267,26 @@ fn a_circle_shows_off_and_on_magnified() {
     let magnified = texts
         .iter()
         .find(|text| text.starts_with("deviation magnified"));
-    // 10 µm are 55 units where 100 mm are 190.
+    // 10 µm are 31 units where 100 mm are 105.
     assert_eq!(
         magnified.copied(),
-        Some("deviation magnified 2900\u{d7} against the circle of 100 mm")
+        Some("deviation magnified 3000\u{d7} against the circle of 100 mm")
     );
     let paths: Vec<_> = document
         .descendants()
         .filter(|node| node.has_tag_name((SVG, "path")))
         .collect();
-    assert_eq!(paths.len(), 2, "off and on in one picture");
-    for path in paths {
+    assert_eq!(paths.len(), 2, "off and on beside each other");
+    for (path, centre) in paths.into_iter().zip([215.0, 645.0]) {
         let data = path.attribute("d").expect("data").replace(['M', 'L'], " ");
         let numbers: Vec<f64> = data
             .split_whitespace()
             .map(|number| number.parse().expect("a number"))
             .collect();
         for place in numbers.chunks(2) {
-            let radius = (place[0] - 430.0).hypot(place[1] - 384.0);
+            let radius = (place[0] - centre).hypot(place[1] - 313.0);
             assert!(
-                (80.0..=301.0).contains(&radius),
+                (42.0..=168.0).contains(&radius),
                 "{place:?} is outside of the rings"
             );
         }
@@ -400,9 +406,12 @@ fn odd_values_make_no_odd_picture() {
             assert_sound(&chart.render(Frame::Alone));
         }
         let polar = PolarChart {
-            series: vec![PolarSeries {
-                name: "&".to_owned(),
-                points: points.clone(),
+            panels: vec![PolarPanel {
+                label: "&".to_owned(),
+                series: vec![PolarSeries {
+                    name: "&".to_owned(),
+                    points: points.clone(),
+                }],
             }],
             ..circle()
         };
@@ -495,12 +504,7 @@ fn commands_draw_what_they_compute() {
     ]);
     let document = parse(&svg);
     let shown = texts(&document);
-    for wanted in [
-        "compensation off, ccw",
-        "compensation on, cw",
-        "X+",
-        "Y\u{2212}",
-    ] {
+    for wanted in ["counter-clockwise", "clockwise", "X+", "Y\u{2212}"] {
         assert!(shown.contains(&wanted), "no `{wanted}` in {shown:?}");
     }
 }

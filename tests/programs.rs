@@ -15,8 +15,9 @@ use frictcomp::diagnostic::Code;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 7] = [
+const ELSEWHERE: [(&str, &str); 8] = [
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
+    ("FC506", "said by `tune`; tests/circle_cli.rs has it"),
     ("FC903", "said by `current`; tests/spec_motion.rs has it"),
     ("FC904", "said by `current`; tests/spec_motion.rs has it"),
     (

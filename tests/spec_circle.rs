@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 
 use frictcomp::circle::{
     Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt, Job, Lap,
-    PathFigures, PathShape, Ranges, Task, Tuned, diagnose, diagnose_comparison, tune,
+    PathFigures, PathShape, Ranges, Shaping, Task, Tuned, diagnose, diagnose_comparison, tune,
 };
 use frictcomp::current::{Reading, Switched};
-use frictcomp::lists::Field;
+use frictcomp::lists::{Field, Points};
 use frictcomp::simulation::{
     Drive, DriveParameters, FrictionModel, POSITION_LOOP_S, Plant, Preset, Setpoint, plant_list,
 };
@@ -443,9 +443,13 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
         }],
         ranges: Ranges::default(),
         reading: Reading::default(),
+        points: Points::Whole,
+        shaping: Shaping::None,
     };
     let tuned: Tuned = tune(&task).expect("a circle");
-    let best = tuned.candidate;
+    let [x, y] = &tuned.axes;
+    assert_eq!(x, y, "equal drives have one list");
+    let best = x.candidate;
     assert!((0..=10).contains(&best.position_delay), "{best:?}");
     assert!(
         best.reversal_lookahead <= 4 && best.delay_cycles >= 0,
@@ -459,9 +463,12 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
     assert_eq!(tune(&task).expect("a circle"), tuned, "the same again");
     let free = Ranges::default().free(Field::PositionDelay);
     assert_eq!(free.position_delay, 0..=2000);
-    // A reversal by itself says what the whole circle says.
-    let alone = task.worst_um(best, f64::INFINITY).expect("a circle");
-    within(alone, row.glitch_on_um, 0.2);
+    // What is written leaves what is said.
+    let mut test = circular_test(4000.0);
+    test.lists = [x.list.clone(), y.list.clone()];
+    let left = glitch(&figures(&test, Switched::On));
+    within(left, row.glitch_on_um, 1e-9);
+    assert!(x.list.table.iter().all(|it| it.output.fract() == 0.0));
 }
 
 fn any_plant() -> impl Strategy<Value = Plant> {

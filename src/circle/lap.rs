@@ -2,10 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::profile::{Gatherer, RadialProfile};
 use super::reference::{CircleError, Stretch, TURNS};
-use super::simulate::simulate;
+use super::simulate::{AxisRun, Run};
 use super::test::CircularTest;
 use crate::current::Switched;
 
@@ -68,7 +69,25 @@ impl CircularTest {
         };
         let run_in = self.circle.cycles(PI) - 1;
         let mut turn = Gatherer::new(self.circle.radius_m(), WIDEST_GAP);
-        let remarks = simulate(self, job.compensation, stretch, |cycle, x, y| {
+        let axis = |axis, drive, list| AxisRun {
+            axis,
+            drive,
+            list: match job.compensation {
+                Switched::On => Some(list),
+                Switched::Off => None,
+            },
+        };
+        let [of_x, of_y] = &self.lists;
+        let run = Run {
+            circle: self.circle,
+            model: self.model,
+            reading: self.reading,
+            axes: [
+                axis(PlaneAxis::X, &self.plant.x, of_x),
+                axis(PlaneAxis::Y, &self.plant.y, of_y),
+            ],
+        };
+        let remarks = run.simulate(stretch, |cycle, [x, y]| {
             if cycle >= run_in {
                 turn.take(x, y);
             }

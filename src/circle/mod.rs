@@ -40,4 +40,7 @@ pub use recorded::{
 };
 pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
 pub use test::CircularTest;
-pub use tune::{Candidate, FeedResult, Ranges, Search, Task, Tuned, Variant, tune};
+pub use tune::{
+    Candidate, FeedResult, Heights, Ranges, Shaping, Simulations, Task, Tuned, TunedAxis, tune,
+    tune_with,
+};

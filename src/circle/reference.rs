@@ -86,6 +86,17 @@ pub enum CircleError {
         /// Cycles in a turn.
         cycles: f64,
     },
+    /// `tune --radius 5 --feeds 1000`: the windows reach the next crossings.
+    #[error(
+        "a circle of {radius_mm} mm at {feed_mm_per_min} mm/min has no glitch: 0.3 s after a \
+         crossing the path is half-way to the next one"
+    )]
+    NoGlitch {
+        /// Radius.
+        radius_mm: f64,
+        /// Feed.
+        feed_mm_per_min: f64,
+    },
     /// A plant whose loops do not settle.
     #[error(
         "the drive of {axis} is unstable: it left the circle {angle_deg:.0}\u{b0} after the start"
@@ -106,6 +117,7 @@ impl CircleError {
             Self::Feed(_) => "write feeds in mm/min, 1000 for instance",
             Self::CycleTime(_) => "give the time of a cycle in ms, 1 for instance",
             Self::TooLong { .. } => "choose a smaller radius or a higher feed",
+            Self::NoGlitch { .. } => "choose a larger radius or a lower feed",
             Self::TooFast { .. } => "choose a larger radius, a lower feed or a shorter cycle",
             Self::Unstable { .. } => {
                 "lower `Kv` or `Kp` of the plant, or check the units of its values: they are SI"
@@ -172,6 +184,18 @@ impl Circle {
         fastest_feed(radius_mm)
     }
 
+    /// Checks that the circle is slow enough for glitches.
+    pub(super) fn check_glitches(&self) -> Result<(), CircleError> {
+        let (radius_mm, feed_mm_per_min) = (self.radius_mm, self.feed_mm_per_min);
+        if feed_mm_per_min <= Self::fastest_feed_for_glitches(radius_mm) {
+            return Ok(());
+        }
+        Err(CircleError::NoGlitch {
+            radius_mm,
+            feed_mm_per_min,
+        })
+    }
+
     /// Radius in m.
     pub(super) fn radius_m(&self) -> f64 {
         self.radius_mm / 1000.0
@@ -189,6 +213,16 @@ impl Circle {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // bounded just here
         let cycles = cycles.clamp(0.0, most) as usize;
         cycles + 1
+    }
+
+    /// A simulation step as a part of a CNC cycle.
+    pub(super) fn step_in_cycle(&self) -> f64 {
+        STEP_S / self.cycle_time_s
+    }
+
+    /// The centripetal acceleration v²/R in mm/s²: at a crossing that of the axis that reverses.
+    pub fn acceleration_mm_per_s2(&self) -> f64 {
+        (self.feed_mm_per_min / 60.0).powi(2) / self.radius_mm
     }
 
     /// Position in m and velocity in m/s of both axes at CNC cycle `k` of a stretch.

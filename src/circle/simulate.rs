@@ -1,12 +1,12 @@
 //! The drives on the circle.
 
+use super::crossing::PlaneAxis;
 use super::reference::{Circle, CircleError, Stretch};
-use super::test::CircularTest;
 use crate::current::{
-    AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, Switched, VELOCITY_UNITS_PER_MM_PER_S,
+    AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
 };
 use crate::lists::FrictionList;
-use crate::simulation::{Drive, DrivePair, Setpoint};
+use crate::simulation::{Drive, DriveParameters, Drives, FrictionModel, Setpoint};
 
 /// What a simulation has to say besides its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,6 +17,25 @@ pub(super) struct Remarks {
 
 /// Millimetres in a metre.
 const MM_PER_M: f64 = 1000.0;
+
+/// One axis of a simulation: another way of compensation than that of a value list has its place
+/// beside `list`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AxisRun<'a> {
+    pub(super) axis: PlaneAxis,
+    pub(super) drive: &'a DriveParameters,
+    /// The value list, where friction compensation is on.
+    pub(super) list: Option<&'a FrictionList>,
+}
+
+/// What is simulated, of `N` axes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run<'a, const N: usize> {
+    pub(super) circle: Circle,
+    pub(super) model: FrictionModel,
+    pub(super) reading: Reading,
+    pub(super) axes: [AxisRun<'a>; N],
+}
 
 /// The additive current of one axis, with the velocities that it looks ahead to.
 struct Additive {
@@ -48,83 +67,92 @@ impl Additive {
     }
 }
 
-/// Follows a stretch with both drives and hands out the number of the CNC cycle and the actual
-/// positions of X and Y in m after every simulation step.
-///
-/// # Errors
-/// A drive that leaves the circle by more than its radius.
-pub(super) fn simulate(
-    test: &CircularTest,
-    compensation: Switched,
-    stretch: Stretch,
-    mut take: impl FnMut(usize, f64, f64),
-) -> Result<Remarks, CircleError> {
-    let circle = &test.circle;
-    let cycles = circle.cycles(stretch.length);
-    let velocity = |axis: usize| {
-        (0..=cycles)
-            .map(|k| circle.at(stretch, k)[axis].1 * (MM_PER_M * VELOCITY_UNITS_PER_MM_PER_S))
-            .collect()
-    };
-    let mut added = [0, 1].map(|axis| {
-        let list = match compensation {
-            Switched::On => Some(&test.lists[axis]),
-            Switched::Off => None,
+impl<const N: usize> Run<'_, N> {
+    /// Follows a stretch with the drives and hands out the number of the CNC cycle and the actual
+    /// positions in m after every simulation step.
+    ///
+    /// # Errors
+    /// A drive that leaves the circle by more than its radius.
+    pub(super) fn simulate(
+        &self,
+        stretch: Stretch,
+        mut take: impl FnMut(usize, [f64; N]),
+    ) -> Result<Remarks, CircleError> {
+        let circle = &self.circle;
+        let cycles = circle.cycles(stretch.length);
+        let at = |k: usize| {
+            let places = circle.at(stretch, k);
+            self.axes.map(|run| match run.axis {
+                PlaneAxis::X => places[0],
+                PlaneAxis::Y => places[1],
+            })
         };
-        Additive::new(list, test.reading, velocity(axis))
-    });
-    // Before the drives begin the additive current has already seen the motion of the lead.
-    let mut already = [0.0; 2];
-    for k in 0..stretch.lead {
-        for (axis, added) in added.iter_mut().enumerate() {
-            already[axis] = added.at(k, circle.at(stretch, k)[axis].0);
-        }
-    }
-    let begin = stretch.lead;
-    let mut from = circle.at(stretch, begin);
-    let mut to = circle.at(stretch, begin + 1);
-    let slope = |to: f64, from: f64| (to - from) / circle.cycle_time_s;
-    let mut slopes = [0, 1].map(|axis| slope(to[axis].0, from[axis].0));
-    let settled = [0, 1].map(|axis| Setpoint {
-        position_m: from[axis].0,
-        velocity_m_per_s: slopes[axis],
-        added_units: already[axis],
-        ..Setpoint::default()
-    });
-    let mut drives = DrivePair::settled(&test.plant, test.model, settled, circle.cycle_time_s);
-    for k in begin..cycles {
-        to = circle.at(stretch, k + 1);
-        let cycle = [0, 1].map(|axis| {
-            let velocity = slope(to[axis].0, from[axis].0);
-            let setpoint = Setpoint {
-                position_m: from[axis].0,
-                velocity_m_per_s: velocity,
-                acceleration_m_per_s2: (velocity - slopes[axis]) / circle.cycle_time_s,
-                added_units: added[axis].at(k, from[axis].0),
-            };
-            slopes[axis] = velocity;
-            setpoint
+        let velocity = |axis: usize| {
+            (0..=cycles)
+                .map(|k| at(k)[axis].1 * (MM_PER_M * VELOCITY_UNITS_PER_MM_PER_S))
+                .collect()
+        };
+        let mut added: [Additive; N] = std::array::from_fn(|axis| {
+            Additive::new(self.axes[axis].list, self.reading, velocity(axis))
         });
-        drives.follow(cycle, |x, y| take(k, x, y));
-        check(circle, drives.drives(), k)?;
-        from = to;
-    }
-    Ok(Remarks {
-        saturated_cycles: drives.saturated_cycles(),
-    })
-}
-
-fn check(circle: &Circle, drives: &[Drive; 2], k: usize) -> Result<(), CircleError> {
-    let limit = 2.0 * circle.radius_m();
-    for (drive, axis) in drives.iter().zip(["X", "Y"]) {
-        // What is not a number is outside, too.
-        let is_inside = drive.position_m().abs() <= limit;
-        if !is_inside {
-            #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
-            let time = k as f64 * circle.cycle_time_s;
-            let angle_deg = (time * circle.angular_velocity()).to_degrees();
-            return Err(CircleError::Unstable { axis, angle_deg });
+        // Before the drives begin the additive current has already seen the motion of the lead.
+        let mut already = [0.0; N];
+        for k in 0..stretch.lead {
+            let places = at(k);
+            for (axis, added) in added.iter_mut().enumerate() {
+                already[axis] = added.at(k, places[axis].0);
+            }
         }
+        let begin = stretch.lead;
+        let mut from = at(begin);
+        let mut to = at(begin + 1);
+        let slope = |to: f64, from: f64| (to - from) / circle.cycle_time_s;
+        let mut slopes: [f64; N] = std::array::from_fn(|axis| slope(to[axis].0, from[axis].0));
+        let settled = std::array::from_fn(|axis| Setpoint {
+            position_m: from[axis].0,
+            velocity_m_per_s: slopes[axis],
+            added_units: already[axis],
+            ..Setpoint::default()
+        });
+        let parameters = self.axes.map(|run| run.drive);
+        let mut drives = Drives::settled(parameters, self.model, settled, circle.cycle_time_s);
+        for k in begin..cycles {
+            to = at(k + 1);
+            let cycle = std::array::from_fn(|axis| {
+                let velocity = slope(to[axis].0, from[axis].0);
+                let setpoint = Setpoint {
+                    position_m: from[axis].0,
+                    velocity_m_per_s: velocity,
+                    acceleration_m_per_s2: (velocity - slopes[axis]) / circle.cycle_time_s,
+                    added_units: added[axis].at(k, from[axis].0),
+                };
+                slopes[axis] = velocity;
+                setpoint
+            });
+            drives.follow(cycle, |places| take(k, places));
+            self.check(drives.drives(), k)?;
+            from = to;
+        }
+        Ok(Remarks {
+            saturated_cycles: drives.saturated_cycles(),
+        })
     }
-    Ok(())
+
+    fn check(&self, drives: &[Drive; N], k: usize) -> Result<(), CircleError> {
+        let limit = 2.0 * self.circle.radius_m();
+        for (drive, run) in drives.iter().zip(self.axes) {
+            // What is not a number is outside, too.
+            let is_inside = drive.position_m().abs() <= limit;
+            if !is_inside {
+                #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
+                let time = k as f64 * self.circle.cycle_time_s;
+                let angle_deg = (time * self.circle.angular_velocity()).to_degrees();
+                return Err(CircleError::Unstable {
+                    axis: run.axis.as_str(),
+                    angle_deg,
+                });
+            }
+        }
+        Ok(())
+    }
 }

@@ -72,8 +72,8 @@ static EXAMPLES: [Examples; 17] = [
     examples(
         &["tune"],
         [
-            "frictcomp tune --plant mid --feeds 5000 -o comp_x.lis",
-            "frictcomp tune --plant stiff --feeds 5000 --svg glitch.svg",
+            "frictcomp tune --plant mid --feeds 5000 --no-shaping -o comp_x.lis",
+            "frictcomp tune --accelerations 70 --no-shaping --svg glitch.svg",
         ],
     ),
     examples(

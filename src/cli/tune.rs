@@ -1,6 +1,6 @@
 //! `frictcomp tune`: the parameters of a value list that leave the smallest glitch.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -8,30 +8,33 @@ use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
+use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::progress;
-use crate::circle::{Circle, Ranges, Task};
+use crate::circle::{Circle, FeedResult, PlaneAxis, Ranges, Shaping, Task, TunedAxis};
 use crate::comp::CncBuild;
 use crate::current::Reading;
-use crate::host::{Ledger, find_plant, memory_for_simulation, tune};
-use crate::lists::{Field, Points, write_value_list};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::host::{Ledger, OutputFile, find_plant, memory_for_simulation, tune};
+use crate::lists::{AxisType, Field, Points, write_value_list};
 use crate::report::pictures::tuning;
 use crate::report::svg::Frame;
-use crate::report::tune::{TuneReport, render_json, render_text};
+use crate::report::tune::{TuneReport, render_json, render_text, round, tuned_range};
 use crate::report::visible_line;
 use crate::simulation::{FrictionModel, Plant};
+use crate::text::{Place, Span};
 
-/// Feeds that are tuned at once, at most.
-const MAX_FEEDS: usize = 16;
+/// Circles that are tuned at once, at most.
+const MAX_CIRCLES: usize = 32;
 
 /// Plants at most.
 const MAX_PLANTS: usize = 16;
 
-/// Find the value list parameters with the smallest glitch on a simulated machine
+/// Find the value lists with the smallest glitch on a simulated machine
 ///
 /// Searches `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` within
-/// their documented ranges for the smallest worst glitch over all feeds. The table is the friction
-/// curve of the plant.
+/// their documented ranges for the smallest worst glitch over all circles, then shapes the points
+/// of the friction curve below 1 mm/s where that is worth it.
 #[derive(Debug, Args)]
 pub(super) struct TuneArgs {
     /// The machine: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one after the other
@@ -51,17 +54,31 @@ pub(super) struct TuneArgs {
         allow_negative_numbers = true
     )]
     feeds: Vec<f64>,
+    /// The accelerations v²/R in mm/s² instead of the feeds; the radius gives the feed of each
+    #[arg(
+        long,
+        value_name = "MM/S2",
+        value_delimiter = ',',
+        conflicts_with = "feeds",
+        allow_negative_numbers = true
+    )]
+    accelerations: Vec<f64>,
     /// Search this parameter beyond its documented range
     #[arg(long, value_name = "PARAMETER", value_delimiter = ',')]
     free: Vec<Free>,
-    /// Radius in mm
+    /// The radii in mm, each with every feed
     #[arg(
         long,
+        alias = "radius",
         value_name = "MM",
-        default_value_t = 100.0,
+        value_delimiter = ',',
+        default_value = "100",
         allow_negative_numbers = true
     )]
-    radius: f64,
+    radii: Vec<f64>,
+    /// Keep the friction curve as it is, without a shape below 1 mm/s
+    #[arg(long)]
+    no_shaping: bool,
     /// The friction model
     #[arg(long, default_value = "lugre")]
     model: FrictionModel,
@@ -80,9 +97,15 @@ pub(super) struct TuneArgs {
     /// unless the build accepts fractions
     #[arg(long, value_name = "BUILD")]
     cnc_build: Option<CncBuild>,
-    /// Write the value list of the first plant to this file
+    /// Write the value list of the first plant to this file; that of X where Y has another one
     #[arg(long, short, value_name = "LIST")]
     output: Option<PathBuf>,
+    /// Write a value list for each axis of the first plant to this folder, named after the axes of
+    /// the machine: `X.lis`, `Y.lis`
+    #[arg(long, value_name = "FOLDER")]
+    output_dir: Option<PathBuf>,
+    #[command(flatten)]
+    machine: MachineArgs,
 }
 
 /// A parameter that may leave its documented range.
@@ -118,6 +141,10 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     let mut outputs = Outputs::new(&ledger, console);
     outputs.print("the result")?;
     let list = outputs.optional("--output", args.output.as_deref())?;
+    let axis_lists = match &args.output_dir {
+        Some(folder) => axis_lists(folder, args, &mut outputs, &ledger)?,
+        None => Vec::new(),
+    };
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let plants: Vec<Plant> = args
         .plant
@@ -136,17 +163,34 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
             circles: circles.clone(),
             ranges: ranges(&args.free),
             reading: args.reading,
+            points: Points::of_build(args.cnc_build),
+            shaping: if args.no_shaping {
+                Shaping::None
+            } else {
+                Shaping::Allowed
+            },
         };
         reports.push(TuneReport {
             plant: name,
             model: model.as_str(),
-            diameter_mm: 2.0 * args.radius,
             reading: args.reading.to_string(),
             tuned: tune(&task, &watch)?,
         });
     }
-    if let (Some(mut list), Some(first)) = (list, reports.first()) {
-        write_text(&mut list, &value_list(first, args.cnc_build))?;
+    if let Some(first) = reports.first() {
+        let [x, y] = &first.tuned.axes;
+        if let Some(mut list) = list {
+            write_text(&mut list, &value_list(first, x, args.cnc_build))?;
+            if x != y {
+                console.remark("Y has a list of its own: `--output-dir` writes both");
+            }
+        }
+        for (mut list, axis) in axis_lists.into_iter().zip([x, y]) {
+            write_text(&mut list, &value_list(first, axis, args.cnc_build))?;
+        }
+    }
+    for report in &reports {
+        console.show(&worse_than_off(report));
     }
     if let Some(mut svg) = svg {
         write_text(&mut svg, &tuning(&reports).render(Frame::Alone))?;
@@ -159,39 +203,119 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// The tuned value list of a plant, written for a build.
-fn value_list(report: &TuneReport, build: Option<CncBuild>) -> String {
+/// A tuned value list of a plant, written for a build.
+fn value_list(report: &TuneReport, axis: &TunedAxis, build: Option<CncBuild>) -> String {
     let points = Points::of_build(build);
     let made = format!(
         "Friction compensation for the plant {}, tuned with the model {}",
         visible_line(&report.plant),
         report.model
     );
-    let mut remarks = vec![
-        made.as_str(),
-        "The table is the friction curve of its X axis",
-    ];
+    let range = tuned_range(&report.tuned);
+    let [x, y] = &report.tuned.axes;
+    let whose = match axis {
+        both if x == y && both == x => "both axes",
+        one if one == x => "its X axis",
+        _ => "its Y axis",
+    };
+    let table = format!("The table is the friction curve of {whose}");
+    let mut remarks = vec![made.as_str(), range.as_str(), table.as_str()];
+    if axis.is_shaped {
+        remarks.push("Below 1 mm/s it is shaped for the reversals");
+    }
     if points == Points::Real {
         remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
     }
-    write_value_list(&report.tuned.list, points, &remarks)
+    write_value_list(&axis.list, points, &remarks)
+}
+
+/// The files of the lists of X and Y, named after the first two linear axes of the machine, if they
+/// have no better names: `X.lis`.
+fn axis_lists(
+    folder: &Path,
+    args: &TuneArgs,
+    outputs: &mut Outputs,
+    ledger: &Ledger,
+) -> Result<Vec<OutputFile>, Failure> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure::new(format!(
+            "the folder `{}` cannot be made: {error}",
+            folder.display()
+        ))
+    })?;
+    let loaded = args.machine.machines(ledger).for_folder(Path::new("."))?;
+    let linear = loaded.machine.axes.iter();
+    let linear = linear.filter(|axis| axis.axis_type == AxisType::Linear);
+    let names: Vec<&str> = linear.map(|axis| axis.name.as_str()).collect();
+    let of = |axis: PlaneAxis, at: usize| {
+        let same = names
+            .iter()
+            .find(|name| name.eq_ignore_ascii_case(axis.as_str()));
+        let name = same.or(names.get(at)).copied().unwrap_or(axis.as_str());
+        format!("{name}.lis")
+    };
+    let files = [of(PlaneAxis::X, 0), of(PlaneAxis::Y, 1)];
+    let files = files
+        .iter()
+        .map(|file| outputs.file("--output-dir", &folder.join(file)));
+    files.collect()
+}
+
+/// FC506 for each circle on which compensation is worse than none (R5.25).
+fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
+    let worse = report.tuned.feeds.iter().filter(|it| it.is_worse());
+    let tell = |it: &FeedResult| {
+        let message = format!(
+            "at {} mm/min on a radius of {} mm compensation leaves {:.1} µm, more than the {:.1} µm \
+             without it",
+            round(it.feed_mm_per_min),
+            round(it.radius_mm),
+            it.glitch_on_um,
+            it.glitch_off_um
+        );
+        let place = Place {
+            file: report.plant.as_str().into(),
+            text: "".into(),
+            first_line: 1,
+            span: Span::new(0, 0),
+        };
+        Diagnostic::new(Code::Fc506, place, message)
+            .with_help("tune for fewer feeds, or search further with `--free position_delay`")
+    };
+    worse.map(tell).collect()
 }
 
 fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {
-    if args.feeds.len() > MAX_FEEDS {
-        let message = format!("{} feeds were given", args.feeds.len());
-        return Err(Failure::new(message).with_help(format!("give at most {MAX_FEEDS}")));
-    }
     let cycle = args.cycle.seconds()?;
-    let circle = |&feed: &f64| {
-        let circle = Circle {
-            radius_mm: args.radius,
-            feed_mm_per_min: feed,
-            cycle_time_s: cycle.unwrap_or(Circle::default().cycle_time_s),
+    let cycle_time_s = cycle.unwrap_or(Circle::default().cycle_time_s);
+    let of_radius = |&radius_mm: &f64| {
+        let circle = move |feed_mm_per_min| Circle {
+            radius_mm,
+            feed_mm_per_min,
+            cycle_time_s,
         };
-        circle.check().map(|()| circle).map_err(Failure::from)
+        let feeds: Vec<f64> = match &args.accelerations[..] {
+            [] => args.feeds.clone(),
+            given => given
+                .iter()
+                .map(|it| 60.0 * (it * radius_mm).sqrt())
+                .collect(),
+        };
+        feeds.into_iter().map(circle)
     };
-    args.feeds.iter().map(circle).collect()
+    let possible = f64::MIN_POSITIVE..f64::INFINITY;
+    let mut accelerations = args.accelerations.iter();
+    if let Some(acceleration) = accelerations.find(|it| !possible.contains(*it)) {
+        let message = format!("an acceleration of {acceleration} mm/s² is not possible");
+        return Err(Failure::new(message).with_help("give v²/R in mm/s², 2.8 for instance"));
+    }
+    let circles: Vec<Circle> = args.radii.iter().flat_map(of_radius).collect();
+    if circles.len() > MAX_CIRCLES {
+        let message = format!("{} circles were given", circles.len());
+        let help = format!("give at most {MAX_CIRCLES} pairs of feed and radius");
+        return Err(Failure::new(message).with_help(help));
+    }
+    Ok(circles)
 }
 
 fn ranges(free: &[Free]) -> Ranges {

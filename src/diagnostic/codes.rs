@@ -116,6 +116,7 @@ codes! {
     Fc502 "FC502" Warning "no actual torque in the cyclic data";
     Fc503 "FC503" Error "drive type without friction compensation";
     Fc504 "FC504" Warning "torque interface not known";
+    Fc506 "FC506" Warning "compensation makes it worse";
     Fc901 "FC901" Warning "condition not known offline";
     Fc902 "FC902" Warning "jump or call not known offline";
     Fc903 "FC903" Warning "motion not known offline";

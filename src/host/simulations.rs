@@ -2,7 +2,9 @@
 
 use super::watch::{Done, Watch};
 use super::workers;
-use crate::circle::{CircleError, CircularTest, Comparison, Job, Search, Task, Tuned};
+use crate::circle::{
+    CircleError, CircularTest, Comparison, Heights, Job, Simulations, Task, Tuned, tune_with,
+};
 
 /// Drives the circle of a test with friction compensation off and on, in both directions.
 ///
@@ -19,27 +21,12 @@ pub fn compare(test: &CircularTest, watch: &Watch) -> Result<Comparison, CircleE
     ))
 }
 
-/// Searches the parameters of a value list that leave the smallest glitch.
+/// Searches the value lists that leave the smallest glitch.
 ///
 /// # Errors
-/// A circle that cannot be simulated, or a plant that is unstable on it.
+/// A circle that cannot be simulated or has no glitch, or a plant that is unstable on it.
 pub fn tune(task: &Task, watch: &Watch) -> Result<Tuned, CircleError> {
-    let runs = Runs { of: "tune", watch };
-    let mut search = Search::new(&task.ranges);
-    while let Some(trials) = search.next_trials() {
-        let bound = search.bound();
-        let heights = runs.of_each(&trials, |&candidate| task.worst_um(candidate, bound));
-        search.take(
-            &trials,
-            &heights.into_iter().collect::<Result<Vec<_>, _>>()?,
-        );
-    }
-    let best = search.best();
-    let glitches = runs.of_each(&task.wholes(), |&(circle, variant)| {
-        task.whole_um(circle, best, variant)
-    });
-    let glitches = glitches.into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(Tuned::new(task, &search, &glitches))
+    tune_with(task, &Runs { of: "tune", watch })
 }
 
 /// Runs of a simulation, and who watches them.
@@ -57,5 +44,18 @@ impl Runs<'_> {
                 all: pieces.len(),
             });
         })
+    }
+}
+
+impl Simulations for Runs<'_> {
+    fn make(
+        &self,
+        count: usize,
+        simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
+    ) -> Result<Vec<Heights>, CircleError> {
+        let pieces: Vec<usize> = (0..count).collect();
+        self.of_each(&pieces, |&at| simulation(at))
+            .into_iter()
+            .collect()
     }
 }

@@ -16,6 +16,9 @@ pub enum Points {
     Real,
 }
 
+/// Real outputs have three decimals.
+const DECIMALS: f64 = 1000.0;
+
 impl Points {
     /// What a build reads (P-COMP-00046, P-COMP-00047): whole numbers unless it is known to read
     /// real ones.
@@ -27,9 +30,13 @@ impl Points {
     }
 
     /// The points as they are written. Velocities that fall together are one point (R3.20).
-    fn rounded(self, table: &[TablePoint]) -> Vec<TablePoint> {
+    pub(crate) fn rounded(self, table: &[TablePoint]) -> Vec<TablePoint> {
         if self == Self::Real {
-            return table.to_vec();
+            let written = |point: &TablePoint| TablePoint {
+                output: (point.output * DECIMALS).round() / DECIMALS,
+                ..*point
+            };
+            return table.iter().map(written).collect();
         }
         let mut whole: Vec<TablePoint> = Vec::with_capacity(table.len());
         for point in table {

@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::circle::{Candidate, FeedResult, Tuned};
+use crate::circle::{Candidate, FeedResult, Tuned, TunedAxis};
+use crate::lists::TablePoint;
 
 /// A tuned plant.
 #[derive(Debug, Clone)]
@@ -15,12 +16,21 @@ pub struct TuneReport {
     pub plant: String,
     /// The name of the friction model.
     pub model: &'static str,
-    /// The diameter of the circles.
-    pub diameter_mm: f64,
     /// The reading of the documents, in words.
     pub reading: String,
     /// What was found.
     pub tuned: Tuned,
+}
+
+/// A number as it is written in reports: no more digits than mean anything.
+pub(crate) fn round(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}
+
+/// For which accelerations lists were tuned.
+pub(crate) fn tuned_range(tuned: &Tuned) -> String {
+    let [least, most] = tuned.accelerations();
+    format!("Tuned for reversals with v\u{b2}/R from {least:.2} to {most:.2} mm/s\u{b2}")
 }
 
 /// The parameters and the glitches before and after, for people.
@@ -30,35 +40,43 @@ pub fn render_text(reports: &[TuneReport]) -> String {
         if at > 0 {
             out.push('\n');
         }
-        let Candidate {
-            position_delay,
-            reversal_lookahead,
-            delay_cycles,
-            scaling_factor,
-        } = report.tuned.candidate;
         let _ = writeln!(
             out,
-            "plant {}, friction {}, diameter {} mm, {} sets of parameters tried\nreading: {}",
+            "plant {}, friction {}, {} lists tried\nreading: {}",
             visible_line(&report.plant),
             report.model,
-            report.diameter_mm,
             report.tuned.trials,
             report.reading
         );
+        let [x, y] = &report.tuned.axes;
+        if x == y {
+            parameters(&mut out, "", x);
+        } else {
+            parameters(&mut out, "X: ", x);
+            parameters(&mut out, "Y: ", y);
+        }
         let _ = writeln!(
             out,
-            "position_delay {position_delay}, reversal_lookahead {reversal_lookahead}, \
-             delay_cycles {delay_cycles}, scaling_factor {scaling_factor}\n"
+            "{}; beyond that the glitch is not known\n",
+            tuned_range(&report.tuned)
         );
         let _ = writeln!(
             out,
-            "feed mm/min   glitch \u{b5}m  off      on   friction -20 %   friction +20 %"
+            "v\u{b2}/R mm/s\u{b2}  feed mm/min  radius mm   glitch \u{b5}m  off      on   friction \
+             -20 %   friction +20 %"
         );
-        for row in &report.tuned.feeds {
+        let mut rows: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
+        rows.sort_by(|one, other| {
+            let by = |it: &FeedResult| it.acceleration_mm_per_s2;
+            by(one).total_cmp(&by(other))
+        });
+        for row in rows {
             let _ = writeln!(
                 out,
-                "{:>11}{:>16.3}{:>8.3}{:>17.3}{:>17.3}",
-                row.feed_mm_per_min,
+                "{:>10.3}{:>13}{:>11}{:>16.3}{:>8.3}{:>17.3}{:>17.3}",
+                row.acceleration_mm_per_s2,
+                short(row.feed_mm_per_min),
+                short(row.radius_mm),
                 row.glitch_off_um,
                 row.glitch_on_um,
                 row.glitch_friction_minus20_um,
@@ -67,6 +85,30 @@ pub fn render_text(reports: &[TuneReport]) -> String {
         }
     }
     out
+}
+
+/// A feed or a radius with a decimal, if it has one.
+fn short(value: f64) -> f64 {
+    (value * 10.0).round() / 10.0
+}
+
+fn parameters(out: &mut String, axis: &str, tuned: &TunedAxis) {
+    let Candidate {
+        position_delay,
+        reversal_lookahead,
+        delay_cycles,
+        scaling_factor,
+    } = tuned.candidate;
+    let table = if tuned.is_shaped {
+        "shaped below 1 mm/s"
+    } else {
+        "the friction curve"
+    };
+    let _ = writeln!(
+        out,
+        "{axis}position_delay {position_delay}, reversal_lookahead {reversal_lookahead}, \
+         delay_cycles {delay_cycles}, scaling_factor {scaling_factor}, table: {table}"
+    );
 }
 
 #[derive(Serialize)]
@@ -82,40 +124,86 @@ struct Document<'a> {
 struct PlantRecord<'a> {
     plant: &'a str,
     model: &'static str,
-    diameter_mm: f64,
     reading: &'a str,
     trials: usize,
+    /// Those of X.
     parameters: Candidate,
+    axes: AxisRecords,
+    tuned_for: Accelerations,
     feeds: Vec<FeedResult>,
     glitch_max: f64,
 }
 
+/// What was found for each axis.
+#[derive(Serialize)]
+struct AxisRecords {
+    #[serde(rename = "X")]
+    x: AxisRecord,
+    #[serde(rename = "Y")]
+    y: AxisRecord,
+}
+
+#[derive(Serialize)]
+struct AxisRecord {
+    parameters: Candidate,
+    is_shaped: bool,
+    /// Pairs of velocity and output.
+    table: Vec<[f64; 2]>,
+}
+
+/// The range of v²/R in mm/s².
+#[derive(Serialize)]
+struct Accelerations {
+    acceleration_min: f64,
+    acceleration_max: f64,
+}
+
+impl AxisRecord {
+    fn of(axis: &TunedAxis) -> Self {
+        let pair = |point: &TablePoint| [point.input, point.output];
+        Self {
+            parameters: axis.candidate,
+            is_shaped: axis.is_shaped,
+            table: axis.list.table.iter().map(pair).collect(),
+        }
+    }
+}
+
 impl<'a> PlantRecord<'a> {
     fn of(report: &'a TuneReport) -> Self {
-        let round = |value: f64| (value * 1e6).round() / 1e6;
         let feeds = report.tuned.feeds.iter().map(|row| FeedResult {
-            feed_mm_per_min: row.feed_mm_per_min,
+            feed_mm_per_min: round(row.feed_mm_per_min),
+            radius_mm: round(row.radius_mm),
+            acceleration_mm_per_s2: round(row.acceleration_mm_per_s2),
             glitch_off_um: round(row.glitch_off_um),
             glitch_on_um: round(row.glitch_on_um),
             glitch_friction_minus20_um: round(row.glitch_friction_minus20_um),
             glitch_friction_plus20_um: round(row.glitch_friction_plus20_um),
         });
-        let feeds: Vec<_> = feeds.collect();
+        let [acceleration_min, acceleration_max] = report.tuned.accelerations().map(round);
+        let [x, y] = &report.tuned.axes;
         Self {
             plant: &report.plant,
             model: report.model,
-            diameter_mm: report.diameter_mm,
             reading: &report.reading,
             trials: report.tuned.trials,
-            parameters: report.tuned.candidate,
-            glitch_max: feeds.iter().map(|row| row.glitch_on_um).fold(0.0, f64::max),
-            feeds,
+            parameters: x.candidate,
+            axes: AxisRecords {
+                x: AxisRecord::of(x),
+                y: AxisRecord::of(y),
+            },
+            tuned_for: Accelerations {
+                acceleration_min,
+                acceleration_max,
+            },
+            glitch_max: round(report.tuned.worst_um()),
+            feeds: feeds.collect(),
         }
     }
 }
 
-/// The same for machines; glitches in µm, feeds in mm/min. The first plant stands at the top, the
-/// others under `compared`.
+/// The same for machines; glitches in µm, feeds in mm/min, radii in mm. The first plant stands at
+/// the top, the others under `compared`.
 pub fn render_json(reports: &[TuneReport]) -> String {
     let Some((first, others)) = reports.split_first() else {
         return String::new();

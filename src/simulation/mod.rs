@@ -1,7 +1,7 @@
 //! Simulated feed drives with friction (chapter 5.2 of the rules).
 //!
 //! A [`Plant`] has two [`DriveParameters`]. A [`Drive`] is one of them in motion: position loop,
-//! speed loop, current loop, moved mass and a contact with [`Friction`]; a [`DrivePair`] takes both
+//! speed loop, current loop, moved mass and a contact with [`Friction`]; [`Drives`] take several
 //! through a CNC cycle. Nothing here knows which path is driven or what it is judged by.
 //!
 //! All quantities are in SI units, and the names of public numbers end in theirs.
@@ -9,7 +9,7 @@
 mod clock;
 mod coupling;
 mod drive;
-mod drive_pair;
+mod drives;
 mod friction;
 #[cfg(feature = "toml")]
 mod from_file;
@@ -19,8 +19,9 @@ mod plant_list;
 
 pub use clock::{POSITION_LOOP_S, SPEED_LOOP_S, STEP_S};
 pub use drive::{Drive, Setpoint};
-pub use drive_pair::DrivePair;
+pub use drives::Drives;
 pub use friction::{Friction, FrictionModel, GmsElement, UnknownFrictionModel};
 pub use parameters::{DriveParameters, PEAK_FORCE, RATED_FORCE_N};
 pub use plant::{Plant, Preset, UnknownPreset};
 pub use plant_list::plant_list;
+pub(crate) use plant_list::plant_list_at;

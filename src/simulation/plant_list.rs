@@ -20,7 +20,13 @@ pub fn plant_list(drive: &DriveParameters) -> FrictionList {
         let exponent = i32::try_from(step).expect("fewer than 20");
         (SLOWEST_UM_PER_S * factor.powi(exponent)).round()
     });
-    let table = std::iter::once(0.0).chain(moving).map(|input| {
+    let inputs: Vec<f64> = std::iter::once(0.0).chain(moving).collect();
+    plant_list_at(drive, &inputs)
+}
+
+/// The same with points at these velocities in µm/s.
+pub(crate) fn plant_list_at(drive: &DriveParameters, inputs: &[f64]) -> FrictionList {
+    let table = inputs.iter().map(|&input| {
         let speed = input * 1e-6;
         let friction = &drive.friction;
         let force = friction.level_n(speed) + friction.viscous_n_s_per_m * speed;

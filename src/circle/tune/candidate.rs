@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
-use crate::lists::{Field, FrictionList};
+use crate::lists::{Field, FrictionList, Points};
 use crate::simulation::{DriveParameters, plant_list};
 
 /// The four parameters that are searched.
@@ -60,14 +60,21 @@ impl Ranges {
 }
 
 impl Candidate {
-    /// The value list with the friction curve of a drive and these parameters.
-    pub fn list(self, drive: &DriveParameters) -> FrictionList {
+    /// The value list with the friction curve of a drive and these parameters, its points as they
+    /// are written.
+    pub fn list(self, drive: &DriveParameters, points: Points) -> FrictionList {
+        self.with_table(&plant_list(drive), points)
+    }
+
+    /// A list with these parameters, its points as they are written.
+    pub(super) fn with_table(self, list: &FrictionList, points: Points) -> FrictionList {
         FrictionList {
             position_delay: self.position_delay,
             reversal_lookahead: self.reversal_lookahead,
             delay_cycles: self.delay_cycles,
             scaling_factor: self.scaling_factor,
-            ..plant_list(drive)
+            table: points.rounded(&list.table),
+            max_points: list.max_points,
         }
     }
 }

@@ -1,15 +1,20 @@
-//! Tuning: the parameters of a value list that leave the smallest glitch (R5.25).
+//! Tuning: the value lists that leave the smallest glitch (R5.25).
 //!
-//! The friction curve of the plant is the table of the list; four parameters are searched. Nothing
-//! here knows of threads: the [`Search`] asks for trials and its host makes them, in any order.
+//! The friction curve of the plant is the table of a list. First four parameters are searched, then
+//! the shape of the table below 1 mm/s. The axes do not know of each other: each is tuned at a
+//! reversal by itself, and what counts in the end are whole circles. Nothing here knows of threads:
+//! who makes the [`Simulations`] makes them in any order.
 
 mod candidate;
-mod crossing;
+mod evolution;
+mod heights;
+mod reversal;
 mod search;
+mod shape;
 mod task;
 mod tuned;
 
 pub use candidate::{Candidate, Ranges};
-pub use search::Search;
-pub use task::{Task, Variant};
-pub use tuned::{FeedResult, Tuned, tune};
+pub use heights::Heights;
+pub use task::{Shaping, Task};
+pub use tuned::{FeedResult, Simulations, Tuned, TunedAxis, tune, tune_with};

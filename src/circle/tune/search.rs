@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::candidate::{Candidate, Ranges};
+use super::heights::Heights;
 
 /// Steps of the neighbours, the largest first: `position_delay` as a part of its value, at
 /// least one unit, and the scaling factor.
@@ -40,13 +41,19 @@ struct Step {
     scaling: i16,
 }
 
-/// A search for the candidate with the smallest value. It hands out trials and takes their
-/// results; with the same results it hands out the same trials.
+/// Sets whose largest glitch is at most this part above the smallest are as good: of them the one
+/// with the smallest mean is taken (R5.25).
+const AS_GOOD: f64 = 1.1;
+
+/// A search for the candidate that leaves least. It hands out trials and takes their results;
+/// with the same results it hands out the same trials.
 #[derive(Debug, Clone)]
-pub struct Search {
+pub(super) struct Search {
     ranges: Ranges,
     tried: BTreeSet<Candidate>,
     best: Option<(f64, Candidate)>,
+    /// All that may be as good as the best.
+    good: Vec<(Heights, Candidate)>,
     stage: Stage,
     rounds: usize,
 }
@@ -60,18 +67,19 @@ enum Stage {
 
 impl Search {
     /// A search within ranges.
-    pub fn new(ranges: &Ranges) -> Self {
+    pub(super) fn new(ranges: &Ranges) -> Self {
         Self {
             ranges: ranges.clone(),
             tried: BTreeSet::new(),
             best: None,
+            good: Vec::new(),
             stage: Stage::Grid,
             rounds: 0,
         }
     }
 
     /// The candidates to try next, none of them before; `None` when the search is over.
-    pub fn next_trials(&mut self) -> Option<Vec<Candidate>> {
+    pub(super) fn next_trials(&mut self) -> Option<Vec<Candidate>> {
         loop {
             let wanted = match self.stage {
                 Stage::Done => return None,
@@ -90,34 +98,54 @@ impl Search {
         }
     }
 
-    /// A value that a trial need not exceed to have lost.
-    pub fn bound(&self) -> f64 {
+    /// A trial that reaches this has lost.
+    pub(super) fn bound(&self) -> f64 {
+        AS_GOOD * self.least()
+    }
+
+    /// The smallest of the largest glitches so far.
+    fn least(&self) -> f64 {
         self.best.map_or(f64::INFINITY, |(value, _)| value)
     }
 
-    /// Takes the values of trials, in their order.
-    pub fn take(&mut self, trials: &[Candidate], values: &[f64]) {
-        let before = self.bound();
-        for (&candidate, &value) in trials.iter().zip(values) {
-            if value < self.bound() {
-                self.best = Some((value, candidate));
+    /// Takes what trials leave, in their order.
+    pub(super) fn take(&mut self, trials: &[Candidate], heights: &[Heights]) {
+        let before = self.least();
+        for (&candidate, heights) in trials.iter().zip(heights) {
+            let worst = heights.worst_um();
+            if worst < self.least() {
+                self.best = Some((worst, candidate));
+            }
+            if worst < self.bound() {
+                self.good.push((heights.clone(), candidate));
             }
         }
         self.rounds += 1;
-        let is_better = self.bound() < before * (1.0 - GAIN);
+        let is_better = self.least() < before * (1.0 - GAIN);
         if self.stage == Stage::Grid || !is_better || self.rounds > MAX_ROUNDS {
             self.advance();
         }
     }
 
-    /// The best candidate so far.
-    pub fn best(&self) -> Candidate {
+    /// Of all sets that are as good as the best the one with the smallest mean.
+    pub(super) fn result(&self) -> Candidate {
+        let bound = self.bound();
+        let good = self
+            .good
+            .iter()
+            .filter(|(heights, _)| heights.worst_um() < bound);
+        let chosen = good.min_by(|(one, _), (other, _)| one.mean_um().total_cmp(&other.mean_um()));
+        chosen.map_or_else(|| self.start(), |&(_, candidate)| candidate)
+    }
+
+    /// The candidate with the smallest of the largest glitches so far.
+    fn best(&self) -> Candidate {
         self.best
             .map_or_else(|| self.start(), |(_, candidate)| candidate)
     }
 
     /// How many candidates were tried.
-    pub fn trials(&self) -> usize {
+    pub(super) fn trials(&self) -> usize {
         self.tried.len()
     }
 

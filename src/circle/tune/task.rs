@@ -1,14 +1,17 @@
-//! What is tuned, and the trials that a search asks for.
+//! What is tuned.
 
 use super::super::compare::Comparison;
+use super::super::crossing::PlaneAxis;
 use super::super::direction::Direction;
 use super::super::lap::Job;
 use super::super::reference::{Circle, CircleError};
 use super::super::test::CircularTest;
-use super::candidate::{Candidate, Ranges};
-use super::crossing;
+use super::candidate::Ranges;
+use super::heights::Heights;
+use super::reversal::AxisAlone;
 use crate::current::{Reading, Switched};
-use crate::simulation::{FrictionModel, Plant};
+use crate::lists::{FrictionList, Points};
+use crate::simulation::{DriveParameters, FrictionModel, Plant};
 
 /// What is tuned.
 #[derive(Debug, Clone)]
@@ -17,18 +20,32 @@ pub struct Task {
     pub plant: Plant,
     /// How its friction is computed.
     pub model: FrictionModel,
-    /// The circles, which differ in their feeds.
+    /// The circles, which differ in their feeds and radii.
     pub circles: Vec<Circle>,
     /// Between which values the parameters are searched.
     pub ranges: Ranges,
     /// How the documents are read.
     pub reading: Reading,
+    /// How the points of the lists are written.
+    pub points: Points,
+    /// Whether the points below 1 mm/s get a shape of their own.
+    pub shaping: Shaping,
+}
+
+/// Whether the points below 1 mm/s get a shape of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Shaping {
+    /// Where it is worth it.
+    #[default]
+    Allowed,
+    /// The table is the friction curve.
+    None,
 }
 
 /// With how much friction, and whether with compensation, a circle is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Variant {
+pub(super) enum Variant {
     /// Without compensation.
     Off,
     /// With it.
@@ -40,8 +57,7 @@ pub enum Variant {
 }
 
 impl Variant {
-    /// Every variant, in the order of [`Tuned::new`](super::tuned::Tuned::new).
-    pub const ALL: [Self; 4] = [Self::Off, Self::On, Self::Minus20, Self::Plus20];
+    pub(super) const ALL: [Self; 4] = [Self::Off, Self::On, Self::Minus20, Self::Plus20];
 
     /// The factor on the friction of the machine.
     fn friction(self) -> f64 {
@@ -53,75 +69,138 @@ impl Variant {
     }
 }
 
+/// A change of the velocity in a CNC cycle at a reversal above which it matters where in the cycle
+/// the reversal is, in mm/s.
+const ABRUPT_MM_PER_S: f64 = 0.05;
+
+/// How much faster than the fastest circle a list is looked at beyond its range.
+const BEYOND: f64 = 2.4;
+
 impl Task {
-    /// The circular test of a circle with parameters and friction.
-    fn test(&self, circle: Circle, candidate: Candidate, factor: f64) -> CircularTest {
-        CircularTest {
-            circle,
-            plant: self.plant.with_friction(factor),
-            model: self.model,
-            lists: [&self.plant.x, &self.plant.y].map(|drive| candidate.list(drive)),
-            reading: self.reading,
+    /// Checks that every circle can be simulated and has glitches.
+    ///
+    /// # Errors
+    /// What is out of range.
+    pub fn check(&self) -> Result<(), CircleError> {
+        self.circles.iter().try_for_each(|circle| {
+            circle.check()?;
+            circle.check_glitches()
+        })
+    }
+
+    /// The axes that are tuned one by one: both at once where their drives are equal.
+    pub(super) fn groups(&self) -> Vec<Vec<PlaneAxis>> {
+        if self.plant.x == self.plant.y {
+            return vec![PlaneAxis::ALL.to_vec()];
+        }
+        PlaneAxis::ALL.map(|axis| vec![axis]).to_vec()
+    }
+
+    /// The drive of an axis.
+    pub(super) fn drive(&self, axis: PlaneAxis) -> &DriveParameters {
+        match axis {
+            PlaneAxis::X => &self.plant.x,
+            PlaneAxis::Y => &self.plant.y,
         }
     }
 
-    /// The largest glitch over the crossings and feeds, as the search sees it: of both axes
-    /// one reversal, simulated by itself. A value that reaches `bound_um` ends the trial, since the
-    /// candidate has lost.
-    ///
-    /// # Errors
-    /// A circle that cannot be simulated.
-    pub fn worst_um(&self, candidate: Candidate, bound_um: f64) -> Result<f64, CircleError> {
-        let mut worst: f64 = 0.0;
-        let mut circles = self.circles.clone();
+    /// What a list leaves at reversals of axes by themselves, on each circle. As soon as one reaches
+    /// `bound_um` the list has lost.
+    pub(super) fn heights(
+        &self,
+        axes: &[PlaneAxis],
+        list: &FrictionList,
+        bound_um: f64,
+    ) -> Result<Heights, CircleError> {
+        let mut heights = vec![0.0; self.circles.len()];
+        let mut order: Vec<usize> = (0..self.circles.len()).collect();
         // The fastest circle is the shortest simulation.
-        circles.sort_by(|a, b| b.feed_mm_per_min.total_cmp(&a.feed_mm_per_min));
-        for circle in circles {
-            let test = self.test(circle, candidate, 1.0);
-            for axis in crossing::Axis::ALL {
-                worst = worst.max(crossing::height(&test, axis)?);
-                if worst >= bound_um {
-                    return Ok(worst);
-                }
+        let feed = |at: &usize| self.circles[*at].feed_mm_per_min;
+        order.sort_by(|one, other| feed(other).total_cmp(&feed(one)));
+        for at in order {
+            heights[at] = self.glitch_um(axes, self.circles[at], Some(list))?;
+            if heights[at] >= bound_um {
+                return Ok(Heights::lost());
             }
         }
-        Ok(worst)
+        Ok(Heights(heights))
     }
 
-    /// The largest glitch of a whole circle. The way round makes no difference: a clockwise
-    /// circle is the mirror image of a counter-clockwise one.
+    /// The largest glitch at a reversal of axes by themselves, with a list or without compensation.
     ///
-    /// # Errors
-    /// A circle that cannot be simulated.
-    pub fn whole_um(
+    /// Equal axes differ only in where within a CNC cycle they reverse, which is looked at where it
+    /// matters.
+    pub(super) fn glitch_um(
+        &self,
+        axes: &[PlaneAxis],
+        circle: Circle,
+        list: Option<&FrictionList>,
+    ) -> Result<f64, CircleError> {
+        let change = circle.acceleration_mm_per_s2() * circle.cycle_time_s;
+        let count = if change > ABRUPT_MM_PER_S {
+            axes.len()
+        } else {
+            1
+        };
+        let glitches = axes.iter().take(count).map(|&axis| {
+            let alone = AxisAlone {
+                axis,
+                drive: self.drive(axis),
+                model: self.model,
+                reading: self.reading,
+            };
+            alone.glitch_um(circle, list)
+        });
+        glitches
+            .into_iter()
+            .try_fold(0.0, |most: f64, glitch| Ok(most.max(glitch?)))
+    }
+
+    /// A circle beyond the range that is tuned for, as far as it can be driven: the one with the largest
+    /// acceleration, 2.4 times as fast.
+    pub(super) fn beyond(&self) -> Option<Circle> {
+        let by = |circle: &&Circle| circle.acceleration_mm_per_s2();
+        let fastest = self
+            .circles
+            .iter()
+            .max_by(|one, other| by(one).total_cmp(&by(other)))?;
+        let circle = Circle {
+            feed_mm_per_min: BEYOND * fastest.feed_mm_per_min,
+            ..*fastest
+        };
+        let is_possible = circle.check().is_ok() && circle.check_glitches().is_ok();
+        is_possible.then_some(circle)
+    }
+
+    /// The largest glitch of a whole circle with the lists of X and Y. The way round makes no
+    /// difference: a clockwise circle is the mirror image of a counter-clockwise one.
+    pub(super) fn whole_um(
         &self,
         circle: Circle,
-        candidate: Candidate,
+        lists: &[FrictionList; 2],
         variant: Variant,
     ) -> Result<f64, CircleError> {
         let compensation = match variant {
             Variant::Off => Switched::Off,
             Variant::On | Variant::Minus20 | Variant::Plus20 => Switched::On,
         };
+        let test = CircularTest {
+            circle,
+            plant: self.plant.with_friction(variant.friction()),
+            model: self.model,
+            lists: lists.clone(),
+            reading: self.reading,
+        };
         let job = Job {
             compensation,
             direction: Direction::Ccw,
         };
-        let lap = self.test(circle, candidate, variant.friction()).run(job)?;
-        let comparison = Comparison::of([lap]);
+        let comparison = Comparison::of([test.run(job)?]);
         let figures = match compensation {
             Switched::Off => comparison.off.figures,
             Switched::On => comparison.on.figures,
         };
-        Ok(figures.glitch_max_um().unwrap_or(f64::NAN))
-    }
-
-    /// Every circle with every variant, the circles in their order.
-    pub fn wholes(&self) -> Vec<(Circle, Variant)> {
-        let pairs = self
-            .circles
-            .iter()
-            .flat_map(|&circle| Variant::ALL.map(|variant| (circle, variant)));
-        pairs.collect()
+        circle.check_glitches()?;
+        Ok(figures.glitch_max_um().unwrap_or_default())
     }
 }

@@ -82,6 +82,14 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R5.25",
+        sentence: "with the slow points delay_cycles, position_delay and reversal_lookahead are \
+            searched again; scaling_factor is 1000 then",
+        changes: "how good a shaped list can be",
+        shows: "the parameters in the report of `frictcomp tune`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R5.25",
         sentence: "±20 % friction changes Fc, Fs and fv but not the stiffness",
         changes: "the sensitivity",
         shows: "the columns of `frictcomp tune`",

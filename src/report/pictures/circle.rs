@@ -2,35 +2,47 @@
 
 use std::f64::consts::TAU;
 
-use crate::circle::{RadialProfile, UM_PER_M};
+use crate::circle::{Direction, RadialProfile, UM_PER_M};
 use crate::report::circle::{CircleReport, Subject};
-use crate::report::svg::{PolarChart, PolarSeries};
+use crate::report::svg::{PolarChart, PolarPanel, PolarSeries};
+use crate::report::visible::visible_line;
 
 /// Points of a path in the picture.
 const POINTS: usize = 7200;
 
-/// The paths of a circular test, compensation off and on in one picture.
+/// The paths of a circular test, compensation off and on beside each other, each with its own
+/// magnification: what is left with compensation is small against what is there without.
 pub fn circle(report: &CircleReport) -> PolarChart {
-    let mut series = Vec::new();
+    let mut panels = Vec::new();
     let mut told = Vec::new();
     for side in &report.sides {
-        for (direction, profile) in side.side.paths.iter() {
-            series.push(PolarSeries {
-                name: match side.name {
-                    "off" | "on" => format!("compensation {}, {}", side.name, direction),
-                    name => format!("{name}, {direction}"),
-                },
-                points: outline(profile),
-            });
-        }
-        if let Some(glitch) = side.side.figures.glitch_max_um() {
-            told.push(format!("{}: largest glitch {glitch:.1} µm", side.name));
-        }
+        let paths = side.side.paths.iter();
+        let series = paths.map(|(direction, profile)| PolarSeries {
+            name: match direction {
+                Direction::Cw => "clockwise".to_owned(),
+                _ => "counter-clockwise".to_owned(),
+            },
+            points: outline(profile),
+        });
+        let name = match side.name {
+            "off" | "on" => format!("compensation {}", side.name),
+            name => name.to_owned(),
+        };
+        let glitch = match side.side.figures.glitch_max_um() {
+            Some(glitch) => format!("largest glitch {glitch:.1} \u{b5}m"),
+            None => "too fast for glitches".to_owned(),
+        };
+        told.push(format!("{name}: {glitch}"));
+        panels.push(PolarPanel {
+            label: format!("{name}, {glitch}"),
+            series: series.collect(),
+        });
     }
     let (title, radius) = match &report.subject {
         Subject::Simulated { test, .. } => (
             format!(
-                "Circular test, diameter {} mm, {} mm/min",
+                "Circular test, plant {}, diameter {} mm, {} mm/min",
+                visible_line(&test.plant.name),
                 2.0 * test.circle.radius_mm,
                 test.circle.feed_mm_per_min
             ),
@@ -38,7 +50,8 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         ),
         Subject::Recorded(recording) => {
             let fitted = recording.circles.first().map(|circle| circle.radius_mm);
-            let radius = recording.commanded.radius_mm.or(fitted).unwrap_or_default();
+            let radius = recording.commanded.radius_mm.or(fitted);
+            let radius = radius.unwrap_or_default();
             (
                 format!("Recorded circle, diameter {:.3} mm", 2.0 * radius),
                 radius,
@@ -53,7 +66,7 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         title,
         axes: ["X".to_owned(), "Y".to_owned()],
         radius,
-        series,
+        panels,
     }
 }
 

@@ -1,11 +1,11 @@
-//! What tuning is worth, over the feed.
+//! What tuning is worth, over the acceleration at a reversal.
 
 use crate::circle::FeedResult;
 use crate::report::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use crate::report::tune::TuneReport;
 
-/// The glitch over the feed before and after tuning, with its sensitivity to the friction (R5.25);
-/// one panel a plant.
+/// The glitch before and after tuning over v²/R, on which it depends, and what less and more friction
+/// make of it (R5.25); two panels a plant, since what is left is small against what was there.
 pub fn tuning(reports: &[TuneReport]) -> LineChart {
     let told: Vec<String> = reports.iter().map(describe).collect();
     LineChart {
@@ -14,14 +14,17 @@ pub fn tuning(reports: &[TuneReport]) -> LineChart {
             _ => "Glitch before and after tuning".to_owned(),
         },
         description: format!(
-            "The largest glitch without and with compensation, in µm at feeds in mm/min. {}",
+            "The largest glitch without and with compensation, in \u{b5}m at accelerations v\u{b2}/R \
+             in mm/s\u{b2}. {}",
             told.join(" ")
         ),
-        x: ChartAxis::logarithmic("feed in mm/min"),
+        x: ChartAxis::logarithmic(
+            "acceleration v\u{b2}/R at the reversal in mm/s\u{b2}, logarithmic",
+        ),
         bands: Vec::new(),
         panels: reports
             .iter()
-            .map(|report| panel(report, reports.len()))
+            .flat_map(|report| panels(report, reports.len()))
             .collect(),
     }
 }
@@ -31,38 +34,63 @@ fn describe(report: &TuneReport) -> String {
     let feeds: Vec<String> = feeds
         .map(|it| {
             format!(
-                "{:.1} and {:.1} at {}",
-                it.glitch_off_um, it.glitch_on_um, it.feed_mm_per_min
+                "{:.1} and {:.1} at {:.2}",
+                it.glitch_off_um, it.glitch_on_um, it.acceleration_mm_per_s2
             )
         })
         .collect();
     format!("Plant {}: {}.", report.plant, feeds.join("; "))
 }
 
-fn panel(report: &TuneReport, panels: usize) -> Panel {
+fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
     let mut feeds: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
-    feeds.sort_by(|one, other| one.feed_mm_per_min.total_cmp(&other.feed_mm_per_min));
+    let by = |it: &FeedResult| it.acceleration_mm_per_s2;
+    feeds.sort_by(|one, other| by(one).total_cmp(&by(other)));
     let series = |name: &str, value: fn(&FeedResult) -> f64| Series {
         name: name.to_owned(),
-        points: feeds
-            .iter()
-            .map(|it| [it.feed_mm_per_min, value(it)])
-            .collect(),
+        points: feeds.iter().map(|it| [by(it), value(it)]).collect(),
         drawn: Drawn::Marked,
     };
-    let quantity = "largest glitch in µm, peak to peak";
-    Panel {
-        y: ChartAxis::linear(match panels {
+    let off = series("without compensation", |it| it.glitch_off_um);
+    let pairs = Series {
+        name: "before and after".to_owned(),
+        points: feeds.iter().flat_map(|it| pair(it)).collect(),
+        drawn: Drawn::Held,
+    };
+    let on = || series("tuned", |it| it.glitch_on_um);
+    let panel = |quantity: &str, series: Vec<Series>| Panel {
+        y: ChartAxis::linear(match plants {
             1 => quantity.to_owned(),
             _ => format!("plant {}: {quantity}", report.plant),
         }),
-        series: vec![
-            series("without compensation", |it| it.glitch_off_um),
-            series("tuned", |it| it.glitch_on_um),
-            series("tuned, friction \u{2212}20 %", |it| {
-                it.glitch_friction_minus20_um
-            }),
-            series("tuned, friction +20 %", |it| it.glitch_friction_plus20_um),
-        ],
-    }
+        series,
+    };
+    // Without points, so that the others look as they do above.
+    let unseen = Series {
+        points: Vec::new(),
+        ..off.clone()
+    };
+    [
+        panel(
+            "largest glitch in \u{b5}m, peak to peak: before and after",
+            vec![off, pairs, on()],
+        ),
+        panel(
+            "the same after tuning, with other friction than the list says",
+            vec![
+                unseen,
+                on(),
+                series("tuned, friction \u{2212}20 %", |it| {
+                    it.glitch_friction_minus20_um
+                }),
+                series("tuned, friction +20 %", |it| it.glitch_friction_plus20_um),
+            ],
+        ),
+    ]
+}
+
+/// From the glitch without compensation to that with it.
+fn pair(it: &FeedResult) -> [[f64; 2]; 3] {
+    let at = it.acceleration_mm_per_s2;
+    [[at, it.glitch_off_um], [at, it.glitch_on_um], [f64::NAN; 2]]
 }

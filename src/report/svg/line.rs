@@ -133,17 +133,23 @@ impl LineChart {
         if self.panels.len() > 1 { 4 } else { 7 }
     }
 
-    /// The names of the curves of panels with several; the one curve of a panel is named by its
-    /// axis.
+    /// The names of the curves of panels with several, each once; the one curve of a panel is named
+    /// by its axis.
     fn legend(&self) -> Legend<'_> {
         let named = |panel: &&Panel| panel.numbered().any(|(number, _)| number > 0);
-        let items = self.panels.iter().filter(named).flat_map(Panel::numbered);
-        Legend {
-            items: items
-                .filter(|(_, series)| series.drawn != Drawn::Held)
-                .map(|(number, series)| (number, series.name.as_str(), series.drawn.marks()))
-                .collect(),
+        let all = self.panels.iter().filter(named).flat_map(Panel::numbered);
+        let drawn = all.filter(|(_, series)| series.drawn != Drawn::Held);
+        let mut items: Vec<(usize, &str, Marks)> = Vec::new();
+        for (number, series) in drawn {
+            let name = series.name.as_str();
+            if !items
+                .iter()
+                .any(|&(same, other, _)| (same, other) == (number, name))
+            {
+                items.push((number, name, series.drawn.marks()));
+            }
         }
+        Legend { items }
     }
 }
 

@@ -22,6 +22,6 @@ mod scale;
 pub use bands::{Band, BandChart, BandRow, BandState, Standing};
 pub use frame::{Frame, STYLE};
 pub use line::{Drawn, LineChart, Panel, Series};
-pub use polar::{PolarChart, PolarSeries};
+pub use polar::{PolarChart, PolarPanel, PolarSeries};
 pub use reduce::Curve;
 pub use scale::{ChartAxis, Spacing};

@@ -17,7 +17,16 @@ pub struct PolarSeries {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Radial deviations from a commanded circle.
+/// A circle with its own magnification.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PolarPanel {
+    /// What it shows, above it.
+    pub label: String,
+    /// The curves.
+    pub series: Vec<PolarSeries>,
+}
+
+/// Radial deviations from a commanded circle, one panel beside the other.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PolarChart {
     /// The heading.
@@ -28,52 +37,81 @@ pub struct PolarChart {
     pub axes: [String; 2],
     /// The commanded radius in mm.
     pub radius: f64,
-    /// The curves.
-    pub series: Vec<PolarSeries>,
+    /// One or two circles.
+    pub panels: Vec<PolarPanel>,
 }
 
-/// The commanded circle in the picture.
-const CIRCLE: f64 = 190.0;
+/// Where a panel is, and how large.
+#[derive(Debug, Clone, Copy)]
+struct Layout {
+    centre: (f64, f64),
+    /// The commanded circle.
+    circle: f64,
+    /// The greatest deviation, inward and outward.
+    reach: f64,
+}
 
-/// The greatest deviation in the picture, inward and outward.
-const REACH: f64 = 110.0;
+/// The heading and what stands above the circle.
+const TOP: f64 = 112.0;
 
-const CENTRE: (f64, f64) = (WIDTH / 2.0, 384.0);
+/// The names of the quadrants around the rings.
+const NAMES: f64 = 34.0;
 
-/// The room that the circle takes, with the names of the quadrants.
-const BOTTOM: f64 = 384.0 + CIRCLE + REACH + 34.0;
+impl Layout {
+    /// The panel with a number out of so many.
+    fn of(number: usize, count: usize) -> Self {
+        let (circle, reach) = if count > 1 {
+            (105.0, 62.0)
+        } else {
+            (190.0, 110.0)
+        };
+        #[allow(clippy::cast_precision_loss)] // two
+        let [number, count] = [number, count.max(1)].map(|it| it as f64);
+        Self {
+            centre: (WIDTH * (number + 0.5) / count, TOP + NAMES + reach + circle),
+            circle,
+            reach,
+        }
+    }
+
+    fn bottom(self) -> f64 {
+        self.centre.1 + self.circle + self.reach + NAMES
+    }
+
+    fn left(self) -> f64 {
+        (self.centre.0 - self.circle - self.reach - NAMES).max(16.0)
+    }
+}
 
 impl PolarChart {
-    /// The picture, with a scale bar that says how far the deviation is magnified.
+    /// The picture; in each panel a scale bar says how far the deviation is magnified.
     pub fn render(&self, frame: Frame<'_>) -> String {
         let mut canvas = Canvas::default();
         canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
-        let values = self.series.iter().flat_map(|series| &series.points);
-        let largest = values
-            .map(|point| point[1].abs())
-            .filter(|deviation| deviation.is_finite())
-            .fold(0.0, f64::max)
-            .clamp(1e-6, 1e12);
-        let step = round_step(largest / 3.0);
-        let magnified = Magnified {
-            factor: REACH / (step * (largest / step).ceil()),
-            step,
-        };
-        magnified.draw_rings(&mut canvas, largest);
-        self.draw_directions(&mut canvas);
-        for (number, series) in self.series.iter().enumerate() {
-            let number = number % SERIES;
-            let kept = reduce(&series.points, |[angle, _]| angle / TAU * 1440.0);
-            let class = format!("fc-curve fc-s{number}");
-            canvas.path(&class, kept.iter().map(|&point| magnified.place(point)));
+        let count = self.panels.len();
+        for (number, panel) in self.panels.iter().enumerate() {
+            let layout = Layout::of(number, count);
+            let magnified = Magnified::of(panel, layout);
+            canvas.text("", (layout.left(), 54.0), Anchor::Start, &panel.label);
+            magnified.draw_rings(&mut canvas);
+            self.draw_directions(&mut canvas, layout);
+            for (number, series) in panel.series.iter().enumerate() {
+                let number = number % SERIES;
+                let kept = reduce(&series.points, |[angle, _]| angle / TAU * 1440.0);
+                let class = format!("fc-curve fc-s{number}");
+                canvas.path(&class, kept.iter().map(|&point| magnified.place(point)));
+            }
+            magnified.draw_bar(&mut canvas, self.radius);
         }
-        magnified.draw_bar(&mut canvas, self.radius);
+        let bottom = Layout::of(0, count).bottom();
+        let longest = self.panels.iter().max_by_key(|panel| panel.series.len());
+        let named = longest.map_or(&[][..], |panel| &panel.series);
         let legend = Legend {
-            items: (self.series.iter().enumerate())
+            items: (named.iter().enumerate())
                 .map(|(number, series)| (number, series.name.as_str(), Marks::Without))
                 .collect(),
         };
-        let height = legend.draw(&mut canvas, (16.0, BOTTOM)) + BOTTOM + 10.0;
+        let height = legend.draw(&mut canvas, (16.0, bottom)) + bottom + 10.0;
         canvas.finish(
             frame,
             &Head {
@@ -85,75 +123,88 @@ impl PolarChart {
         )
     }
 
-    fn draw_directions(&self, canvas: &mut Canvas) {
-        let (x, y) = CENTRE;
-        let reach = CIRCLE + REACH + 8.0;
+    fn draw_directions(&self, canvas: &mut Canvas, layout: Layout) {
+        let (x, y) = layout.centre;
+        let reach = layout.circle + layout.reach + 8.0;
         canvas.line("fc-axis", (x - reach, y), (x + reach, y));
         canvas.line("fc-axis", (x, y - reach), (x, y + reach));
         let [first, second] = &self.axes;
-        let name = |axis: &str, sign: &str| format!("{axis}{sign}");
-        let plus = |axis: &str| name(axis, "+");
-        let minus = |axis: &str| name(axis, "\u{2212}");
+        let plus = |axis: &str| format!("{axis}+");
+        let minus = |axis: &str| format!("{axis}\u{2212}");
         let beside = reach + 8.0;
-        canvas.text(
-            "fc-title",
-            (x + beside, y + 5.0),
-            Anchor::Start,
-            &plus(first),
-        );
-        canvas.text(
-            "fc-title",
-            (x - beside, y + 5.0),
-            Anchor::End,
-            &minus(first),
-        );
-        canvas.text("fc-title", (x, y - beside), Anchor::Middle, &plus(second));
-        canvas.text(
-            "fc-title",
-            (x, y + beside + 10.0),
-            Anchor::Middle,
-            &minus(second),
-        );
+        let names = [
+            ((x + beside, y + 5.0), Anchor::Start, plus(first)),
+            ((x - beside, y + 5.0), Anchor::End, minus(first)),
+            ((x, y - beside), Anchor::Middle, plus(second)),
+            ((x, y + beside + 10.0), Anchor::Middle, minus(second)),
+        ];
+        for (place, anchor, name) in names {
+            canvas.text("fc-title", place, anchor, &name);
+        }
     }
 }
 
 /// How deviations become lengths.
 struct Magnified {
+    layout: Layout,
     /// Units of the picture for a µm.
     factor: f64,
     /// The deviation between two rings in µm.
     step: f64,
+    /// Rings on either side of the commanded circle.
+    rings: f64,
 }
 
 impl Magnified {
+    fn of(panel: &PolarPanel, layout: Layout) -> Self {
+        let values = panel.series.iter().flat_map(|series| &series.points);
+        let largest = values
+            .map(|point| point[1].abs())
+            .filter(|deviation| deviation.is_finite())
+            .fold(0.0, f64::max)
+            .clamp(1e-6, 1e12);
+        let step = round_step(largest / 3.0);
+        let rings = (largest / step).ceil();
+        Self {
+            layout,
+            factor: layout.reach / (step * rings),
+            step,
+            rings,
+        }
+    }
+
     fn place(&self, [angle, deviation]: [f64; 2]) -> (f64, f64) {
-        let radius = CIRCLE + deviation * self.factor;
+        let Layout { centre, circle, .. } = self.layout;
+        let radius = circle + deviation * self.factor;
         (
-            CENTRE.0 + radius * angle.cos(),
-            CENTRE.1 - radius * angle.sin(),
+            centre.0 + radius * angle.cos(),
+            centre.1 - radius * angle.sin(),
         )
     }
 
-    fn draw_rings(&self, canvas: &mut Canvas, largest: f64) {
-        let count = (largest / self.step).ceil();
-        let rings = (-8..=8).map(f64::from).filter(|ring| ring.abs() <= count);
-        for ring in rings {
+    fn draw_rings(&self, canvas: &mut Canvas) {
+        let Layout { centre, circle, .. } = self.layout;
+        let rings = (-8..=8).map(f64::from);
+        for ring in rings.filter(|ring| ring.abs() <= self.rings) {
             let class = if ring == 0.0 { "fc-axis" } else { "fc-grid" };
-            let radius = CIRCLE + ring * self.step * self.factor;
-            canvas.circle(class, CENTRE, radius);
+            let radius = circle + ring * self.step * self.factor;
+            canvas.circle(class, centre, radius);
             let mut text = label(ring * self.step, self.step);
             if ring > 0.0 {
                 text.insert(0, '+');
             }
+            if ring.abs() > self.rings - 0.5 {
+                text.push_str(" \u{b5}m");
+            }
             // Along a direction in which no quadrant changes.
-            let (x, y) = (CENTRE.0 + radius * 0.5, CENTRE.1 - radius * 0.75_f64.sqrt());
+            let (x, y) = (centre.0 + radius * 0.5, centre.1 - radius * 0.75_f64.sqrt());
             canvas.text("fc-quiet", (x + 3.0, y + 4.0), Anchor::Start, &text);
         }
     }
 
     /// A length of the picture that is a round deviation, and the magnification in words.
     fn draw_bar(&self, canvas: &mut Canvas, radius: f64) {
-        let (left, y) = (16.0, 62.0);
+        let (left, y) = (self.layout.left(), 74.0);
         let right = left + self.step * self.factor;
         canvas.line("fc-axis", (left, y), (right, y));
         canvas.line("fc-axis", (left, y - 5.0), (left, y + 5.0));
@@ -161,15 +212,14 @@ impl Magnified {
         let text = format!("{} \u{b5}m", label(self.step, self.step));
         canvas.text("", (right + 8.0, y + 4.0), Anchor::Start, &text);
         if radius > 0.0 && radius.is_finite() {
-            // The commanded circle is drawn `CIRCLE` long for `radius` millimetres.
-            let times = self.factor * 1000.0 * radius / CIRCLE;
-            let rounded = round_to_two_digits(times);
+            // The commanded circle is drawn `circle` long for `radius` millimetres.
+            let times = self.factor * 1000.0 * radius / self.layout.circle;
             let text = format!(
                 "deviation magnified {}\u{d7} against the circle of {} mm",
-                label(rounded, 1.0),
+                label(round_to_two_digits(times), 1.0),
                 label(radius, decimal_of(radius)),
             );
-            canvas.text("fc-quiet", (left, y + 24.0), Anchor::Start, &text);
+            canvas.text("fc-quiet", (left, y + 22.0), Anchor::Start, &text);
             debug_assert!(text_width(&text) < WIDTH, "it fits into a picture");
         }
     }

@@ -1,0 +1,162 @@
+//! Chapter 5.3: tuned value lists (R5.25).
+
+#![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
+
+use frictcomp::circle::{
+    Circle, CircleError, CircularTest, Comparison, Direction, FeedResult, Job, Ranges, Shaping,
+    Task, Tuned, tune,
+};
+use frictcomp::current::{Reading, Switched};
+use frictcomp::host::{Watch, tune as tune_on_all_processors};
+use frictcomp::lists::{FrictionList, Points};
+use frictcomp::simulation::{FrictionModel, Plant, Preset, plant_list};
+use frictcomp::text::SourceFile;
+
+fn task(plant: Plant, feeds: &[f64]) -> Task {
+    let circle = |&feed_mm_per_min: &f64| Circle {
+        feed_mm_per_min,
+        ..Circle::default()
+    };
+    Task {
+        plant,
+        model: FrictionModel::Lugre,
+        circles: feeds.iter().map(circle).collect(),
+        ranges: Ranges::default(),
+        reading: Reading::default(),
+        points: Points::Whole,
+        shaping: Shaping::None,
+    }
+}
+
+/// The largest glitch of a whole circle with lists.
+fn left(task: &Task, feed: f64, lists: &[FrictionList; 2]) -> f64 {
+    let test = CircularTest {
+        circle: Circle {
+            feed_mm_per_min: feed,
+            ..Circle::default()
+        },
+        plant: task.plant.clone(),
+        model: task.model,
+        lists: lists.clone(),
+        reading: task.reading,
+    };
+    let job = Job {
+        compensation: Switched::On,
+        direction: Direction::Ccw,
+    };
+    let comparison = Comparison::of([test.run(job).expect("a circle")]);
+    let glitch = comparison.on.figures.glitch_max_um();
+    glitch.expect("a glitch")
+}
+
+fn lists(tuned: &Tuned) -> [FrictionList; 2] {
+    tuned.axes.each_ref().map(|axis| axis.list.clone())
+}
+
+#[test]
+fn axes_with_other_friction_get_lists_of_their_own() {
+    // R5.25: X and Y know nothing of each other.
+    let text = "[y]\nFc = 900\nFs = 1100\nsigma0 = 4e8\n";
+    let plant = Plant::from_toml(SourceFile::new("p.toml", text)).expect("a plant");
+    let task = task(plant, &[9000.0]);
+    let tuned = tune(&task).expect("a circle");
+    let [x, y] = &tuned.axes;
+    assert!(y.list.table[0].output > 1.5 * x.list.table[0].output);
+    let row = tuned.feeds[0];
+    assert!(row.glitch_on_um < 0.2 * row.glitch_off_um, "{row:?}");
+    assert_eq!(left(&task, 9000.0, &lists(&tuned)), row.glitch_on_um);
+    // The list of X on both axes leaves more.
+    let both = [x.list.clone(), x.list.clone()];
+    assert!(left(&task, 9000.0, &both) > 2.0 * row.glitch_on_um);
+}
+
+#[test]
+fn the_result_does_not_depend_on_who_makes_the_simulations() {
+    // R5.25 R9.16
+    let mut task = task(Preset::Mid.plant(), &[14_000.0]);
+    task.circles[0].cycle_time_s = 0.002;
+    let alone = tune(&task).expect("a circle");
+    let on_all = tune_on_all_processors(&task, &Watch::default()).expect("a circle");
+    assert_eq!(alone, on_all);
+}
+
+#[test]
+fn circles_without_glitches_are_not_tuned() {
+    // R5.22 R5.25
+    let mut task = task(Preset::Stiff.plant(), &[1000.0]);
+    task.circles[0].radius_mm = 5.0;
+    let refused = tune(&task).expect_err("too fast");
+    assert!(matches!(refused, CircleError::NoGlitch { .. }), "{refused}");
+}
+
+#[test]
+fn what_counts_is_the_acceleration() {
+    // R5.25: a = v²/R, and the range of the tuning.
+    let circle = Circle {
+        radius_mm: 25.0,
+        feed_mm_per_min: 3000.0,
+        ..Circle::default()
+    };
+    assert_eq!(circle.acceleration_mm_per_s2(), 100.0);
+    let row = |acceleration_mm_per_s2: f64, glitch_on_um: f64| FeedResult {
+        feed_mm_per_min: 1000.0,
+        radius_mm: 100.0,
+        acceleration_mm_per_s2,
+        glitch_off_um: 5.0,
+        glitch_on_um,
+        glitch_friction_minus20_um: 0.0,
+        glitch_friction_plus20_um: 0.0,
+    };
+    let drive = Preset::Stiff.plant().x;
+    let axis = frictcomp::circle::TunedAxis {
+        candidate: frictcomp::circle::Candidate {
+            position_delay: 9,
+            reversal_lookahead: 2,
+            delay_cycles: 1,
+            scaling_factor: 1000,
+        },
+        list: plant_list(&drive),
+        is_shaped: false,
+    };
+    let tuned = Tuned {
+        axes: [axis.clone(), axis],
+        feeds: vec![row(70.0, 2.0), row(0.7, 6.0)],
+        trials: 0,
+    };
+    assert_eq!(tuned.accelerations(), [0.7, 70.0]);
+    assert_eq!(tuned.worst_um(), 6.0);
+    let worse: Vec<bool> = tuned.feeds.iter().map(FeedResult::is_worse).collect();
+    assert_eq!(worse, [false, true]);
+}
+
+#[test]
+#[ignore = "minutes without optimization"]
+fn lists_are_as_good_as_those_that_were_found_elsewhere() {
+    // R5.25: at 0.5, 1, 2 and 5 m/min, within the documented ranges.
+    let feeds = [500.0, 1000.0, 2000.0, 5000.0];
+    for (preset, most) in [
+        (Preset::Stiff, 1.4),
+        (Preset::Mid, 2.5),
+        (Preset::Soft, 5.3),
+    ] {
+        let mut task = task(preset.plant(), &feeds);
+        task.shaping = Shaping::Allowed;
+        let tuned = tune_on_all_processors(&task, &Watch::default()).expect("circles");
+        let worst = tuned.worst_um();
+        assert!(worst <= most, "{preset}: {worst} {:?}", tuned.feeds);
+        assert!(
+            tuned.feeds.iter().all(|it| !it.is_worse()),
+            "{:?}",
+            tuned.feeds
+        );
+        let [x, _] = &tuned.axes;
+        assert!((0..=10).contains(&x.candidate.position_delay));
+        assert!(x.candidate.reversal_lookahead <= 4);
+        assert!((0..=248).contains(&x.candidate.delay_cycles));
+        assert!(x.list.table.len() <= 20);
+        if preset == Preset::Stiff {
+            let fast = left(&task, 12_000.0, &lists(&tuned));
+            assert!(fast <= 2.3, "{fast}");
+        }
+    }
+}

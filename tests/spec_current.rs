@@ -2,7 +2,7 @@
 
 use frictcomp::comp::State;
 use frictcomp::current::{
-    AdditiveCurrent, Below, Commanded, Delay, Followers, Reading, Standstill, Switched,
+    AdditiveCurrent, Below, Commanded, Delay, Followers, Reading, Standstill, Start, Switched,
 };
 use frictcomp::lists::{FrictionList, TablePoint};
 
@@ -371,4 +371,26 @@ fn a_trace_cycle_by_cycle_is_the_trace_as_a_whole() {
         followed.push(samples[0].added);
     }
     assert_eq!(followed, whole);
+}
+
+#[test]
+fn every_start_builds_up_where_the_documents_are_read_so() {
+    // R4.3
+    let list = FrictionList {
+        position_delay: 20,
+        ..list()
+    };
+    // 10 units a cycle: half of the build-up, all of it; a stop, and on in the same direction.
+    let v = [1000.0, 1000.0, 1000.0, 0.0, 0.0, 1000.0, 1000.0, -1000.0];
+    let every: Reading = "start=every".parse().expect("a reading");
+    assert_eq!(every.start, Start::Every);
+    let standing = 12.0;
+    let first = [0.0, 5.0, 10.0, standing, standing, 10.0, 10.0, -5.0];
+    let again = [0.0, 5.0, 10.0, standing, standing, 5.0, 10.0, -5.0];
+    close(&currents(&list, Reading::default(), &v), &first);
+    close(&currents(&list, every, &v), &again);
+    // A change of the speed is no start.
+    let slower = [1000.0, 1000.0, 1000.0, 1.0, 1000.0];
+    let held = currents(&list, every, &slower);
+    close(&held, &[0.0, 5.0, 10.0, 12.0, 10.0]);
 }

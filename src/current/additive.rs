@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::reading::{Below, Delay, Reading, Standstill};
+use super::reading::{Below, Delay, Reading, Standstill, Start};
 use crate::lists::{FrictionList, TablePoint};
 
 /// Whether friction compensation is on.
@@ -62,6 +62,8 @@ pub struct AdditiveCurrent {
     /// Direction of the last motion: -1, 0 before the first, 1.
     direction: f64,
     last_position: Option<f64>,
+    /// Whether the axis stood still in the last cycle.
+    is_standing: bool,
     build_up: Option<BuildUp>,
     /// Raw values on their way through the dead time, the oldest first.
     line: VecDeque<f64>,
@@ -97,6 +99,7 @@ impl AdditiveCurrent {
             active: true,
             direction: 0.0,
             last_position: None,
+            is_standing: true,
             build_up: None,
             line: VecDeque::with_capacity(delay_cycles + 1),
             positions: VecDeque::with_capacity(delay_cycles + 1),
@@ -178,7 +181,8 @@ impl AdditiveCurrent {
         self.last_position = Some(position);
         if velocity != 0.0 {
             let direction = velocity.signum();
-            if direction * self.direction <= 0.0 {
+            let starts = self.is_standing && self.reading.start == Start::Every;
+            if direction * self.direction <= 0.0 || starts {
                 let waits = match self.reading.delay {
                     Delay::All => 0,
                     Delay::Reversal => self.delay_cycles,
@@ -191,6 +195,7 @@ impl AdditiveCurrent {
             }
             self.direction = direction;
         }
+        self.is_standing = velocity == 0.0;
         let w_after = self.weight_after(position);
         let w_before = self.weight_before(reversal);
         let held = velocity != 0.0 || self.reading.standstill == Standstill::Hold;

@@ -17,6 +17,6 @@ pub use followers::{Commanded, CurrentSample, Followers};
 pub use program::{
     CurrentCycle, CurrentOptions, CurrentSink, FollowError, ProgramCurrents, axes_to_follow,
 };
-pub use reading::{Below, Delay, Reading, Standstill, UnknownReading};
+pub use reading::{Below, Delay, Reading, Standstill, Start, UnknownReading};
 pub use recorded::{CommandedRow, CommandedTrace, TraceColumns};
 pub use units::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::diagnostic::did_you_mean;
 
-/// How the documents are read where they are silent (R4.5 to R4.7). The default is what is assumed
+/// How the documents are read where they are silent (R4.3, R4.5 to R4.7). The default is what is assumed
 /// unless the user says otherwise.
 ///
 /// Its text is that of the option `--reading`, and of reports:
@@ -17,7 +17,7 @@ use crate::diagnostic::did_you_mean;
 ///
 /// let reading: Reading = "delay=reversal".parse()?;
 /// assert_eq!(reading.delay, Delay::Reversal);
-/// assert_eq!(reading.to_string(), "standstill=hold,below=hold,delay=reversal");
+/// assert_eq!(reading.to_string(), "standstill=hold,below=hold,delay=reversal,start=first");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -28,6 +28,8 @@ pub struct Reading {
     pub below: Below,
     /// What `delay_cycles` postpones.
     pub delay: Delay,
+    /// After which starts the current builds up.
+    pub start: Start,
 }
 
 /// The value while the axis stands still (R4.6).
@@ -63,17 +65,30 @@ pub enum Delay {
     Reversal,
 }
 
+/// After which starts the current builds up, besides reversals (R4.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Start {
+    /// After the first one.
+    #[default]
+    First,
+    /// After every standstill, also in the same direction.
+    Every,
+}
+
 /// Makes a choice.
 type Choose = fn(&mut Reading);
 
 /// What can be chosen; of options that exclude each other one is always in force.
-const OPTIONS: [(&str, Choose); 6] = [
+const OPTIONS: [(&str, Choose); 8] = [
     ("standstill=hold", |it| it.standstill = Standstill::Hold),
     ("standstill=zero", |it| it.standstill = Standstill::Zero),
     ("below=hold", |it| it.below = Below::Hold),
     ("below=origin", |it| it.below = Below::Origin),
     ("delay=all", |it| it.delay = Delay::All),
     ("delay=reversal", |it| it.delay = Delay::Reversal),
+    ("start=first", |it| it.start = Start::First),
+    ("start=every", |it| it.start = Start::Every),
 ];
 
 /// A word that is no option of a reading.
@@ -99,7 +114,7 @@ impl UnknownReading {
 }
 
 impl fmt::Display for Reading {
-    /// Every option that is in force: `standstill=hold,below=hold,delay=all`.
+    /// Every option that is in force: `standstill=hold,below=hold,delay=all,start=first`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let in_force = OPTIONS.iter().filter(|(_, choose)| {
             let mut chosen = *self;

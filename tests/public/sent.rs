@@ -96,6 +96,7 @@ sent! {
     current::ProgramCurrents<Ignored>,
     current::Reading,
     current::Standstill,
+    current::Start,
     current::Switched,
     current::TraceColumns,
     current::UnknownReading,

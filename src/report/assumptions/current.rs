@@ -18,7 +18,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
         sentence: "the current builds up after a reversal and at the first start, not at every start in \
             the same direction; between two points of the list it is linear",
         changes: "the current after a stop without a reversal; the curve",
-        shows: "the column `w_after`",
+        shows: "`--reading start=every`; the column `w_after`",
         when: &[],
     },
     Assumption {

@@ -1,26 +1,21 @@
 //! Fixes: what they change, that they stand where their text is, and that safe ones change nothing
 //! else.
 
+mod support;
+
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use frictcomp::diagnostic::{Diagnostic, Fix, Fixed, Safety};
 use frictcomp::machine::{Machine, NoLists, check_list};
-use frictcomp::session::{NoFiles, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::session::{
+    NoFiles, Options, Program, Session, SessionOptions, StopPolicy, allow_here,
+};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
 
-const MACHINE: &str = r#"
-[[axis]]
-name = "X"
-frict_comp = true
-value = { mode = 3, table = [[0, 12], [1800, 10]] }
-[[axis]]
-name = "Y"
-frict_comp = true
-value = { mode = 3, table = [[0, 12], [1800, 10]] }
-"#;
+use support::MACHINE;
 
 /// What a run says, and the state of friction compensation after each block.
 #[derive(Default)]
@@ -180,6 +175,64 @@ fn a_kind_comes_home_in_a_block_before_the_program_end() {
 }
 
 #[test]
+fn a_misspelt_local_subprogram_becomes_the_near_one() {
+    // R2.13 R12.5
+    use Safety::Unsafe;
+    let subprogram = "%L BORE\nX[COMP ON FRICT]\nM17\n%MAIN\n";
+    for (call, fixed) in [
+        ("N10 LL BOER", "N10 LL BORE"),
+        ("N10 LL \"BOER\" [@P1=2] X1", "N10 LL \"BORE\" [@P1=2] X1"),
+    ] {
+        let (text, expected) = (
+            format!("{subprogram}{call}\nM30"),
+            format!("{subprogram}{fixed}\nM30"),
+        );
+        becomes(&text, "FC320", &[(&expected, Unsafe)]);
+    }
+    // The code of a macro is not the text of the program.
+    let text = format!("{subprogram}\"CALL\" = \"LL BOER\"\n\"CALL\"\nM30");
+    becomes(&text, "FC320", &[]);
+}
+
+#[test]
+fn a_comment_allows_a_message_where_it_is_said() {
+    // R9.24 R12.5
+    let of = |text: &str, code: &str| {
+        let source = SourceFile::new("a.nc", text);
+        let said = run(&[("a.nc", text)]).said;
+        let said = said.iter().find(|said| said.code.as_str() == code);
+        let said = said.unwrap_or_else(|| panic!("{text}: no {code}"));
+        allow_here(said, &source).map(|fix| Fixed::new(&source, [&fix]).text)
+    };
+    for (text, code, expected) in [
+        (
+            "X[COMP OFF FRICT]\r\nN20 M30\r\n",
+            "FC401",
+            "X[COMP OFF FRICT] ; frictcomp: allow FC401\r\nN20 M30\r\n",
+        ),
+        (
+            "X[COMP on FRICT] (home)  \nM30",
+            "FC404",
+            "X[COMP on FRICT] (home) ; frictcomp: allow FC404  \nM30",
+        ),
+        (
+            "X[COMP on FRICT] ; frictcomp: allow FC402 known\nM30",
+            "FC404",
+            "X[COMP on FRICT] ; frictcomp: allow FC404 FC402 known\nM30",
+        ),
+        (
+            "N1 X[COMP \\\n on \\\n FRICT]\nM30",
+            "FC404",
+            "; frictcomp: allow FC404\nN1 X[COMP \\\n on \\\n FRICT]\nM30",
+        ),
+    ] {
+        assert_eq!(of(text, code).as_deref(), Some(expected), "{text}");
+    }
+    assert_eq!(of("Z[COMP ON FRICT]\nM30", "P-ERR-70495"), None);
+    assert_eq!(of("G0 X1 ; frictcomp: allow FC402\nM30", "FC490"), None);
+}
+
+#[test]
 fn what_is_fixed_is_not_said_again() {
     let texts = [
         "N1 X[COMP ON FRIKT]\nM30",
@@ -299,7 +352,7 @@ fn every_fix_of_every_program_stands_in_its_file_and_safe_ones_change_no_state()
         &Path::new(env!("CARGO_MANIFEST_DIR")).join("programs"),
         &mut paths,
     );
-    let mut fixes = 0;
+    let (mut fixes, mut allowed) = (0, 0);
     for path in paths {
         let Ok(text) = fs::read_to_string(&path) else {
             continue;
@@ -313,6 +366,27 @@ fn every_fix_of_every_program_stands_in_its_file_and_safe_ones_change_no_state()
             assert!(span.is_some(), "{}: {fix:?}", path.display());
         }
         fixes += own.len();
+        for said in before
+            .said
+            .iter()
+            .filter(|said| &*said.place.file == "a.nc")
+        {
+            let Some(fix) = allow_here(said, &source) else {
+                continue;
+            };
+            let mended = Fixed::new(&source, [&fix]);
+            assert_eq!(mended.applied, 1, "{}: {fix:?}", path.display());
+            let after = run(&[("a.nc", &mended.text)]);
+            assert_eq!(after.states, before.states, "{}", path.display());
+            let times = |run: &Run| run.said.iter().filter(|it| it.code == said.code).count();
+            assert!(
+                times(&after) < times(&before),
+                "{}: {said:?}\n{}",
+                path.display(),
+                mended.text
+            );
+            allowed += 1;
+        }
         let safe = own.into_iter().filter(|fix| fix.safety == Safety::Safe);
         let mended = Fixed::new(&source, safe);
         assert_eq!(
@@ -323,4 +397,5 @@ fn every_fix_of_every_program_stands_in_its_file_and_safe_ones_change_no_state()
         );
     }
     assert!(fixes > 20, "{fixes} fixes");
+    assert!(allowed > 40, "{allowed} messages");
 }

@@ -45,6 +45,17 @@ pub enum Advice {
     Enable(Vec<String>),
     /// Set P-AXIS-00522 of this axis in its list, or assume that it is set.
     Configure(String),
+    /// Set P-AXIS-00522 of this axis to 1 where its list sets it to 0.
+    ConfigureInList {
+        /// The axis.
+        axis: String,
+        /// The list.
+        file: String,
+        /// The line that sets it.
+        line: u32,
+    },
+    /// Add this axis to `frictcomp.toml`.
+    AddAxis(String),
     /// Describe the machine, or assume friction compensation of the axes that the programs switch.
     DescribeMachine(Vec<String>),
     /// Give this parameter or variable its value.
@@ -119,6 +130,14 @@ impl fmt::Display for Advice {
             Self::Configure(axis) => write!(
                 f,
                 "P-AXIS-00522 (lr_param.frict_comp) of axis `{axis}` is not set; set it to 1 in its axis list, or assume that it is"
+            ),
+            Self::ConfigureInList { file, line, .. } => write!(
+                f,
+                "{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control"
+            ),
+            Self::AddAxis(axis) => write!(
+                f,
+                "if the machine has axis `{axis}`, add it: `[[axis]]` with `name = \"{axis}\"` in `frictcomp.toml`"
             ),
             Self::DescribeMachine(switched) => {
                 f.write_str(

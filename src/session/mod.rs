@@ -2,6 +2,7 @@
 //!
 //! The state that one program leaves is the state that the next one starts with.
 
+mod allow;
 mod findings;
 mod recorder;
 mod said;
@@ -12,6 +13,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+pub use allow::allow_here;
 pub use findings::Findings;
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 pub use undescribed::undescribed;

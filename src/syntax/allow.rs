@@ -114,6 +114,23 @@ pub(crate) fn lone_comment(text: &str) -> Option<Span> {
     Some(Span::new(before, start + length))
 }
 
+/// What makes a line allow a code, and where in the line that belongs.
+pub(crate) fn insertion(line: &str, code: Code) -> (usize, String) {
+    let known = line.find(MARK).and_then(|mark| {
+        let first = words(line, mark + MARK.len()).next()?;
+        (first.text == ALLOW).then_some(first.start + first.text.len())
+    });
+    match known {
+        Some(after) => (after, format!(" {code}")),
+        None => (line.trim_end().len(), format!(" ; {MARK} {ALLOW} {code}")),
+    }
+}
+
+/// The comment line above a block that allows a code.
+pub(crate) fn line_above(code: Code) -> String {
+    format!("; {MARK} {ALLOW} {code}\n")
+}
+
 /// What there is to say about a comment line that stands directly above no block: FC490, or FC491
 /// where it is not understood anyway.
 pub(crate) fn lost(text: &str) -> Option<Fault> {

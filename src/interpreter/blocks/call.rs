@@ -12,6 +12,7 @@ use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::{Call, CallName, Operand};
+use crate::text::Span;
 
 impl Interpreter {
     /// What a call statement asks for; `None` when its name is not known offline (R2.52).
@@ -34,6 +35,7 @@ impl Interpreter {
                 name: name.trim().to_owned(),
                 own,
                 span: at.in_block(call.span),
+                named: named(call.name, at),
                 form: call.form,
                 repeat: after_motion_only(call),
                 part: None,
@@ -75,4 +77,17 @@ impl Interpreter {
             CallName::Variable(place) => self.value(Operand::Expression(place), at)?,
         })
     }
+}
+
+/// Where the name of a program stands in its block, without its quotes.
+fn named(name: CallName, at: &At<'_>) -> Option<Span> {
+    let span = match name {
+        CallName::Literal(span) | CallName::Quoted(span) => span,
+        CallName::Variable(_) => return None,
+    };
+    let name = unquoted(span.of(at.text)).trim();
+    let start = span.start as usize + span.of(at.text).find(name)?;
+    at.used
+        .is_none()
+        .then(|| Span::new(start, start + name.len()))
 }

@@ -183,9 +183,11 @@ impl Interpreter {
                 let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
                 let described = self.machine.is_described();
                 diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
-                    Some(Origin::File { file, line }) => {
-                        format!("{file}:{line} sets P-AXIS-00522 (lr_param.frict_comp) to 0; set it to 1 and restart the control").into()
-                    }
+                    Some(Origin::File { file, line }) => Advice::ConfigureInList {
+                        axis: name.clone(),
+                        file: file.to_string(),
+                        line: *line,
+                    },
                     _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),
                     // One list with all axes stands above (R1.37).
                     _ => Advice::Configure(name.clone()),
@@ -233,7 +235,6 @@ impl Interpreter {
                 "no machine is described, and `{name}` is not one of the axes assumed without one"
             );
         }
-        let entry = format!("`[[axis]]` with `name = \"{name}\"` in `frictcomp.toml`");
-        diagnostic.with_help(format!("if the machine has axis `{name}`, add it: {entry}"))
+        diagnostic.with_help(Advice::AddAxis(name.to_owned()))
     }
 }

@@ -252,9 +252,10 @@ impl Programs {
             let known = unit.index.local_names().take(left);
             did_you_mean(name, known.inspect(|_| compared += 1))
         });
-        let fault = match near {
-            Some(near) => fault.with_help(Advice::DidYouMean(near.to_owned())),
-            None => fault.with_help(format!(
+        let fault = match (near, wanted.named) {
+            (Some(near), Some(named)) => fault.with_near(named, near),
+            (Some(near), None) => fault.with_help(Advice::DidYouMean(near.to_owned())),
+            (None, _) => fault.with_help(format!(
                 "a local subprogram begins with `%L {name}` in the same file"
             )),
         };

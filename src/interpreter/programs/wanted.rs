@@ -39,6 +39,8 @@ pub(in crate::interpreter) struct Wanted {
     pub(in crate::interpreter) name: String,
     pub(in crate::interpreter) own: BTreeMap<u32, Value>,
     pub(in crate::interpreter) span: Span,
+    /// Where its name stands, if the block itself has it.
+    pub(in crate::interpreter) named: Option<Span>,
     /// Whether it is a cycle.
     pub(in crate::interpreter) form: CallForm,
     /// Set for a modal cycle: whether it waits for motion.
@@ -55,6 +57,7 @@ impl Wanted {
             name,
             own: BTreeMap::new(),
             span,
+            named: None,
             form: CallForm::Plain,
             repeat: None,
             part: None,

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use proptest::prelude::*;
+use serde_json::Value;
 
 use super::*;
-use crate::comp::{AxisIndex, Change, State};
+use crate::comp::{AxisIndex, Change, Kind, KindSet, State};
 use crate::diagnostic::{Diagnostic, Fix, Severity};
 use crate::text::is_hidden;
 use crate::text::{Place, Span};
@@ -255,5 +256,95 @@ proptest! {
             });
         });
         prop_assert_eq!(String::from_utf8(bytes).expect("text"), expected);
+    }
+
+    #[test]
+    fn the_document_holds_what_serde_writes(parts in parts()) {
+        // R9.10, R9.12
+        let mut bytes = Vec::new();
+        let mut expected = Vec::new();
+        written(&mut bytes, |bytes| Json::new(bytes, View::default()), |sink| {
+            play(&parts, |record| {
+                let _ = sink.record(record);
+                expected.extend(lines(record).lines().map(value));
+            });
+        });
+        let document: Value = serde_json::from_slice(&bytes).expect("a document");
+        prop_assert_eq!(&document["records"], &Value::Array(expected));
+    }
+
+    #[test]
+    fn other_kinds_add_their_states_and_changes(parts in parts(), kinds in kinds()) {
+        // R9.12
+        let mut bytes = Vec::new();
+        let mut expected = Vec::new();
+        written(&mut bytes, |bytes| Ndjson::new(bytes, View::default().with_kinds(kinds)), |sink| {
+            play(&parts, |record| {
+                let _ = sink.record(record);
+                let of_record = |value: &Value| value["record"] != "diagnostic";
+                expected.extend(lines(record).lines().map(|line| {
+                    let mut value = value(line);
+                    if of_record(&value) {
+                        show_kinds(&mut value, record, kinds);
+                    }
+                    value
+                }));
+            });
+        });
+        let text = String::from_utf8(bytes).expect("text");
+        let found: Vec<Value> = text.lines().map(value).collect();
+        prop_assert_eq!(found, expected);
+    }
+}
+
+fn value(line: &str) -> Value {
+    serde_json::from_str(line).expect("an object")
+}
+
+/// Sets of kinds that are not friction compensation alone, whose records are the plain ones.
+fn kinds() -> impl Strategy<Value = KindSet> {
+    let some = prop::collection::vec(prop::sample::select(Kind::ALL.to_vec()), 0..8);
+    some.prop_map(|kinds| kinds.into_iter().collect())
+        .prop_filter("not friction alone", |kinds| {
+            *kinds != KindSet::of(Kind::Frict)
+        })
+}
+
+/// What a record shows where other kinds are asked for.
+fn show_kinds(value: &mut Value, record: &Record<'_>, kinds: KindSet) {
+    let (changes, state) = match record {
+        Record::Session { state, .. } | Record::Program { state, .. } => (None, *state),
+        Record::Block(row) => (Some(row.changes), row.state),
+        Record::End(end) => (Some(end.changes), end.state),
+        Record::Summary(summary) => (None, summary.state),
+        _ => return,
+    };
+    let of_axis = |axis| -> serde_json::Map<String, Value> {
+        let states = kinds.iter();
+        let states = states.map(|kind| (kind.to_string(), state.state(axis, kind).as_str().into()));
+        states.collect()
+    };
+    let axes = state.axes();
+    let axes: serde_json::Map<String, Value> = axes
+        .map(|(axis, name)| (name.to_owned(), of_axis(axis).into()))
+        .collect();
+    value["compensation"] = axes.into();
+    let Some(changes) = changes else { return };
+    let shown = changes.iter().filter(|change| kinds.contains(change.kind));
+    let shown: Vec<Value> = shown
+        .map(|change| {
+            serde_json::json!({
+                "axis": state.name(change.axis),
+                "kind": change.kind.as_str(),
+                "from": change.from.as_str(),
+                "to": change.to.as_str(),
+            })
+        })
+        .collect();
+    let object = value.as_object_mut().expect("a record");
+    if shown.is_empty() && matches!(record, Record::End(_)) {
+        object.remove("changes");
+    } else {
+        object.insert("changes".to_owned(), shown.into());
     }
 }

@@ -1,0 +1,37 @@
+//! The comment that allows a message where it is said (R9.24, R12.5).
+
+use crate::diagnostic::{Code, Diagnostic, Fix};
+use crate::syntax::allow;
+use crate::text::{SourceFile, Span};
+
+/// The change of a program that silences a message of it: a comment in its block, or above a block
+/// of several lines. `None` for what cannot be silenced, the numbers of the control, budgets, and
+/// messages about such comments, and for a message whose lines are not those of the file.
+pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
+    let is_comment = matches!(said.code, Code::Fc490 | Code::Fc491);
+    if said.code.is_controller() || said.code.is_budget() || is_comment {
+        return None;
+    }
+    let (text, lines) = (program.text(), program.lines());
+    let meant = program.find(&said.place)?;
+    let of = |line: u32| lines.line_span(text, line);
+    let goes_on = |line: u32| of(line).of(text).trim_end().ends_with('\\');
+    let last = lines
+        .first()
+        .saturating_add(u32::try_from(lines.lines()).ok()?)
+        - 1;
+    let (mut first, mut end) = (lines.line(meant.start), lines.line(meant.end));
+    while first > lines.first() && goes_on(first - 1) {
+        first -= 1;
+    }
+    while end < last && goes_on(end) {
+        end += 1;
+    }
+    let (offset, comment) = if first == end {
+        allow::insertion(of(first).of(text), said.code)
+    } else {
+        (0, allow::line_above(said.code))
+    };
+    let at = of(first).start as usize + offset;
+    Some(Fix::safe(program.place(Span::new(at, at)), comment))
+}

@@ -140,7 +140,7 @@ fn config_show_prints_the_machine() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     assert!(
-        text.contains("X         T     active        1 --enable    assumed"),
+        text.contains("X         T     active        1 assumed     assumed"),
         "{text}"
     );
     assert!(
@@ -148,6 +148,17 @@ fn config_show_prints_the_machine() {
         "{text}"
     );
     assert!(text.contains("Q         T     active"), "{text}");
+    // `enable` of the configuration assumes the same, without an option.
+    let folder = tempfile::tempdir().expect("a folder");
+    let config = folder.path().join("frictcomp.toml");
+    std::fs::write(&config, "[[axis]]\nname = \"X\"\nenable = true\n").expect("written");
+    let shown = config.display().to_string();
+    let output = frictcomp(&["config", "show", "--config", &shown]);
+    let text = stdout(&output);
+    assert!(
+        text.contains("1 assumed     assumed") && !text.contains("--enable"),
+        "{text}"
+    );
 }
 
 #[test]

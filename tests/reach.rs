@@ -186,6 +186,33 @@ fn a_sibling_folder_of_one_project_is_possible() {
 }
 
 #[test]
+fn a_program_that_is_there_with_an_extension_may_be_meant() {
+    // R2.16
+    let bench = Bench::new(&[("main.nc", "N10 L4712\nN20 M30\n"), ("4712.nc", "M17\n")]);
+    fs::create_dir(bench.folder().join("4712.bak")).expect("a folder");
+    let said = bench.stdout(&["check", "--format", "json", "main.nc"]);
+    let document = folder::json(&said);
+    let said = &document["records"][0];
+    assert_eq!(said["code"], "FC320", "{said}");
+    assert_eq!(said["help"][0], "did you mean `4712.nc`?", "{said}");
+    let fix = &said["fixes"][0];
+    let place = [&fix["column"], &fix["end_column"]].map(serde_json::Value::as_u64);
+    assert_eq!(
+        (place, &fix["text"]),
+        ([Some(6), Some(10)], &"4712.nc".into())
+    );
+    // A folder is no program, and neither is a link that leads outside.
+    let bench = Bench::new(&[("main.nc", "L4712\nM30\n")]);
+    fs::create_dir(bench.folder().join("4712.d")).expect("a folder");
+    symlink("/etc/hostname", bench.folder().join("4712.nc")).expect("a link");
+    let said = all(&bench.call(&["check", "--format", "concise", "main.nc"]));
+    assert!(
+        said.contains("FC320") && !said.contains("did you mean"),
+        "{said}"
+    );
+}
+
+#[test]
 fn what_is_no_file_to_call_is_said_as_what_it_is() {
     // R2.16
     let bench = Bench::new(&[]);

@@ -101,7 +101,7 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
         let value = u8::from(axis.configured.contains(Kind::Frict));
         let origin = match &axis.frict_comp_origin {
             Origin::Default => "default".to_owned(),
-            Origin::Assumed => "--enable".to_owned(),
+            Origin::Assumed => "assumed".to_owned(),
             Origin::File { file, line } => visible_line(&format!("{file}:{line}")).into_owned(),
         };
         let list = match &axis.friction {

@@ -102,6 +102,7 @@ codes! {
     Fc318 "FC318" Warning "the program stops itself";
     Fc320 "FC320" Error "called program not found or not readable";
     Fc321 "FC321" Error "called program outside the project folders";
+    Fc322 "FC322" Warning "variable of the control's state written";
     Fc401 "FC401" Warning "state not restored before program end";
     Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Info "depends on the program before";

@@ -91,16 +91,35 @@ impl ProgramFinder {
             .chain(self.folders.clone())
             .collect();
         let mut refused = None;
-        for folder in folders {
+        for folder in &folders {
             for name in [slashed.as_str(), last] {
-                match self.usable(&folder, name) {
+                match self.usable(folder, name) {
                     Ok(path) => return Ok(path),
                     Err(NoProgram::Absent) => {}
                     Err(why) => refused = refused.or(Some(why)),
                 }
             }
         }
-        Err(refused.unwrap_or(NoProgram::Absent))
+        let near = || self.with_extension(&folders, last);
+        Err(refused.or_else(near).unwrap_or(NoProgram::Absent))
+    }
+
+    /// A file that is called so but for its extension, which the control wants to be written.
+    fn with_extension(&mut self, folders: &[PathBuf], name: &str) -> Option<NoProgram> {
+        let stem = format!("{}.", name.to_lowercase());
+        for folder in folders {
+            let listed = self.listing(folder).range(stem.clone()..);
+            let begins = |(name, _): &(&String, &Vec<OsString>)| name.starts_with(&stem);
+            let alike: Vec<OsString> = listed
+                .take_while(begins)
+                .filter_map(|(_, names)| names.first().cloned())
+                .collect();
+            let mut names = alike.iter().filter_map(|name| name.to_str());
+            if let Some(near) = names.find(|name| self.usable(folder, name).is_ok()) {
+                return Some(NoProgram::Near(near.to_owned()));
+            }
+        }
+        None
     }
 
     /// A file of that name in a folder, when it may be called.

@@ -92,7 +92,7 @@ pub(super) fn cells(row: &Parameter) -> [String; 4] {
     };
     let origin = match &row.origin {
         Origin::Default => "default".to_owned(),
-        Origin::Assumed => "--enable".to_owned(),
+        Origin::Assumed => "assumed".to_owned(),
         Origin::File { file, line } => visible_line(&format!("{file}:{line}")).into_owned(),
     };
     [

@@ -44,6 +44,10 @@ fn text_with_the_form_of_the_language_may_change_everything() {
         "M3 [LATER]",
         "L CYCLE [NAME=a.cyc @P1=3 SLOWLY]",
         "M3.5",
+        "M-3",
+        "T-1",
+        "D-2",
+        "G-3",
     ] {
         let found = block(&format!("{text}\nM30"), 1);
         assert!(found.contains("FC210"), "{text}: {found}");
@@ -484,4 +488,67 @@ fn an_error_of_the_program_stops_it() {
     let program = "X[COMP OFF FRICT]\n#ERROR [RC=2]\nX[COMP ON FRICT]\nM30";
     let said = Bench::new().keep_going().said(program);
     assert!(said.contains("FC318") && !said.contains("FC401"), "{said}");
+}
+
+#[test]
+fn an_assignment_to_what_shows_a_state_is_said_and_makes_it_unknown() {
+    // R1.35 R2.36
+    let off = "X[COMP OFF FRICT]\n";
+    for text in [
+        "V.A.FRICT_COMP_ACTIVE.X = 1",
+        "V.A.FRICT_COMP_ACTIVE[0] = 1",
+        "V.A.FRICT_COMP_INIT.X = 0",
+        "$FOR V.A.FRICT_COMP_ACTIVE.X = 1, 1, 1\n$ENDFOR",
+    ] {
+        let program = format!("{off}{text}\nM30");
+        let found = block(&program, 2);
+        assert!(found.contains("X:inactive>unknown"), "{found}");
+        assert!(found.contains("FC322"), "{found}");
+        assert!(run(&program).contains("X:unknown Y:active"), "{text}");
+    }
+    // What is read afterwards is not what was written.
+    let values = Bench::new().values(
+        &format!("{off}V.A.FRICT_COMP_ACTIVE.X = 1"),
+        &["V.A.FRICT_COMP_ACTIVE.X"],
+    );
+    assert!(values.contains("unknown"), "{values}");
+    // Where it may have been executed, it is unknown as well.
+    let region = format!("{off}$IF V.E.A\nV.A.FRICT_COMP_ACTIVE.X = 1\n$ENDIF\nM30");
+    assert!(run(&region).contains("X:unknown"), "{}", run(&region));
+    let position = Bench::new().positions("X1\nV.A.ABS.X = 3\nM30");
+    assert!(position.contains("X:?"), "{position}");
+    // Others are the program's to write.
+    assert_eq!(codes("V.A.MERF.X = 1\nM30"), [] as [&str; 0]);
+}
+
+#[test]
+fn a_block_number_that_cannot_be_computed_is_said() {
+    // R2.51 R9.20
+    assert_eq!(codes("N[1/0] Z1\nM30"), ["FC312"]);
+    assert_eq!(codes("N[P9] Z1\nM30"), ["FC311"]);
+    // As on the control, nothing of the block is executed.
+    let program = "N[1/0] X[COMP OFF FRICT]\nM30";
+    let stopped = Bench::new().run(&[program]);
+    assert!(
+        stopped.contains("FC312") && !stopped.contains('>'),
+        "{stopped}"
+    );
+    assert!(
+        run(program).contains("X:active>inactive"),
+        "{}",
+        run(program)
+    );
+}
+
+#[test]
+fn an_error_of_the_program_is_passed_over_only_where_the_program_goes_on() {
+    // R2.70
+    let opaque = |class: &str| {
+        let program = format!("#ERROR [ID=455 RC={class}]\nM30");
+        let bench = Bench::new().keep_going();
+        let mut session = bench.session();
+        bench.run_in(&mut session, &[&program]);
+        session.interpreter().opaque().len()
+    };
+    assert_eq!((opaque("0"), opaque("2")), (1, 0));
 }

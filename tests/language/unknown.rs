@@ -458,3 +458,28 @@ fn commands_that_may_have_been_executed_make_unknown_what_they_change() {
         assert_eq!(said.contains("Y:unknown Z"), both, "{program}\n{said}");
     }
 }
+
+#[test]
+fn an_m_function_that_nobody_knows_may_end_the_program() {
+    // R2.52 R2.82
+    let states = |program: &str| {
+        let text = run(program);
+        let end = text.lines().rfind(|line| line.trim().starts_with("end "));
+        end.unwrap_or_default().trim().to_owned()
+    };
+    // What comes after the word may not be executed at all.
+    let whole = states("MV.E.A\nX[COMP ON FRICT] Y[COMP ON FRICT]\nM30");
+    assert!(
+        whole.ends_with("X:unknown Y:unknown Z:unconfigured B:unknown"),
+        "{whole}"
+    );
+    let subprogram =
+        states("%L S\nMV.E.A\nX[COMP ON FRICT]\nM17\n%MAIN\nLL S\nY[COMP ON FRICT]\nM30");
+    assert!(subprogram.contains("X:unknown Y:unknown"), "{subprogram}");
+    // The same where it may have been executed.
+    let region = states("$IF V.E.B\nMV.E.A\n$ENDIF\nX[COMP ON FRICT]\nM30");
+    assert!(region.contains("X:unknown"), "{region}");
+    // A T or D word ends nothing.
+    let tool = states("TV.E.A DV.E.A\nX[COMP OFF FRICT]\nM30");
+    assert!(tool.contains("X:inactive Y:active"), "{tool}");
+}

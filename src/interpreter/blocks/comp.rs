@@ -185,7 +185,7 @@ impl Interpreter {
                 diagnostic = diagnostic.with_help(match axis.map(|axis| &axis.frict_comp_origin) {
                     Some(Origin::File { file, line }) => Advice::ConfigureInList {
                         axis: name.clone(),
-                        file: file.to_string(),
+                        file: file.clone(),
                         line: *line,
                     },
                     _ if described => format!("P-AXIS-00522 (lr_param.frict_comp) of axis `{name}` is not set; set it to 1 in its axis list and restart the control").into(),

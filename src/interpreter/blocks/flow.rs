@@ -85,6 +85,7 @@ impl Interpreter {
                 let value = self.value(*operand, at)?;
                 if let Some(target) = target {
                     let place = self.target_place(target.place, at)?;
+                    self.warn_own(&place, target.span, at);
                     self.write(place, value.clone());
                 }
                 if let Value::Unknown(cause) = &value {
@@ -117,6 +118,7 @@ impl Interpreter {
             } => {
                 let start = self.value(*start, at)?;
                 let place = self.target_place(counter.place, at)?;
+                self.warn_own(&place, counter.span, at);
                 self.write(place, start.clone());
                 let count = Count {
                     counter: start,

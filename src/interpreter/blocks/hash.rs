@@ -106,10 +106,10 @@ impl Interpreter {
     /// FC318: the program reports an error of its own, with a remedy class that stops it. Without a
     /// class that is known it is taken for a warning (tf5200, 207457163).
     fn report_error(&mut self, hash: &Hash, at: &At<'_>, intent: &mut Intent) {
-        self.pass_over("#ERROR", hash.span, at);
         let class = remedy_class(hash.rest.of(at.text));
         let class = class.and_then(|class| self.number_in(class, at));
         let Some(class) = class.filter(|class| *class >= 1.0) else {
+            self.pass_over("#ERROR", hash.span, at);
             return;
         };
         let message =

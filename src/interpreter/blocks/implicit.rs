@@ -26,7 +26,6 @@ impl Interpreter {
         let FunctionWord { letter, number } = word;
         if letter == b'M' {
             match number {
-                None => return self.unknown_word("M", span, at),
                 Some(number) if !chain::is_named_m(number) => {
                     let called = self.call_word(word, span, at, intent);
                     if !called && !self.machine.harmless.has_function(number) {
@@ -34,7 +33,7 @@ impl Interpreter {
                     }
                     return;
                 }
-                Some(_) => {}
+                Some(_) | None => {}
             }
         }
         if !self.calls_by_words() {

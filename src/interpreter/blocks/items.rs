@@ -103,13 +103,17 @@ impl Interpreter {
         if let Err(fault) = done {
             self.complain(*fault, at);
         }
-        let refused =
-            self.options.stop == StopPolicy::FirstError && self.work.diagnostics.iter().any(stops);
-        if refused {
+        if self.is_halted() {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
         }
+    }
+
+    /// Whether the control stops at what was said about the block.
+    #[inline]
+    pub(in crate::interpreter) fn is_halted(&self) -> bool {
+        self.options.stop == StopPolicy::FirstError && self.work.diagnostics.iter().any(stops)
     }
 
     #[cold]
@@ -291,11 +295,13 @@ impl Interpreter {
             Operand::Number(number) => return rounded(*number),
             operand @ Operand::Expression(_) => self.value(*operand, at),
         };
-        value
-            .ok()
-            .as_ref()
-            .and_then(Value::number)
-            .and_then(rounded)
+        match value {
+            Ok(value) => value.number().and_then(rounded),
+            Err(fault) => {
+                self.complain(*fault, at);
+                None
+            }
+        }
     }
 }
 

@@ -15,6 +15,7 @@ use crate::interpreter::run::at::At;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::intent::{Feed, Intent};
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, not_known};
@@ -255,8 +256,8 @@ impl Interpreter {
         #[allow(clippy::float_cmp)] // whole numbers are exact
         let is_other =
             |whole: i64| i32::try_from(whole).is_ok_and(|whole| Some(f64::from(whole)) != number);
-        if whole.is_some_and(is_other) {
-            // `G54.1` is a function of its own, not G54.
+        if whole.is_some_and(|whole| whole < 0 || is_other(whole)) {
+            // `G54.1` is a function of its own, not G54; no function has a number below 0.
             self.unread_word(span, at);
             return Ok(());
         }
@@ -270,6 +271,13 @@ impl Interpreter {
             (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
             (b'M', Some(17 | 29)) => intent.returns = true,
             (b'F', _) => intent.feed = Feed::Given(number),
+            (b'M', None) => {
+                self.unknown_word("M", span, at);
+                // It may be M30 or M17.
+                for exit in [Exit::End, Exit::Return] {
+                    self.note_jump(&exit, &"M".into());
+                }
+            }
             (b'M' | b'T' | b'D', number) => {
                 self.function_word(FunctionWord { letter, number }, span, at, intent);
             }

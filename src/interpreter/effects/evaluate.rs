@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Kind, State};
+use crate::comp::{AxisIndex, Kind, KindSet, State};
+use crate::diagnostic::Code;
 use crate::interpreter::coordinates::modal::Frame as PositionFrame;
 use crate::interpreter::run::at::{At, Shown};
 use crate::interpreter::run::event::{Note, NoteKind, Notes};
@@ -24,6 +25,19 @@ const OTHER_WORDS: &str = "other words";
 /// The widest step of something that only counts. It would take longer than any run to leave the
 /// range of numbers.
 const WIDEST_STEP: f64 = 1e9;
+
+/// A variable of an axis whose value follows from the state of the run (R1.35, R2.36).
+#[derive(Debug, Clone, Copy)]
+enum OwnVariable {
+    /// `V.A.FRICT_COMP_ACTIVE.X`
+    Active(AxisIndex, Kind),
+    /// `V.A.FRICT_COMP_INIT.X`
+    Ready(AxisIndex, Kind),
+    /// `V.A.ABS.X`
+    Absolute(AxisIndex),
+    /// `V.A.PROG.X`
+    Programmed(AxisIndex),
+}
 
 impl Interpreter {
     /// The value of an operand.
@@ -109,44 +123,94 @@ impl Interpreter {
         if let Some(index) = given_parameter(name) {
             return self.is_given(index);
         }
+        match self.own_variable(name)? {
+            OwnVariable::Active(axis, kind) => match self.state.compensation.state(axis, kind) {
+                State::Unknown => None,
+                state => Some((state == State::Active).into()),
+            },
+            OwnVariable::Ready(axis, kind) => {
+                let machine = self.machine.axis(axis);
+                let ready =
+                    machine.configured.contains(kind) && machine.parameterised().contains(kind);
+                Some(ready.into())
+            }
+            OwnVariable::Absolute(axis) => {
+                let position = self.state.modal.position(axis);
+                let is_of_machine = position.frame == PositionFrame::Machine;
+                let value = position.value.filter(|_| is_of_machine);
+                value.map(Value::Number)
+            }
+            OwnVariable::Programmed(axis) => self.state.modal.programmed(axis).map(Value::Number),
+        }
+    }
+
+    /// The variable of an axis whose value follows from the state of the run.
+    fn own_variable(&self, name: &str) -> Option<OwnVariable> {
         let rest = name.strip_prefix("V.A.")?;
         let (variable, axis) = if let Some((variable, index)) = rest.split_once('[') {
             let position = index.trim_end_matches(']').parse().ok()?;
-            (
-                variable,
-                (position < self.machine.axes.len()).then(|| AxisIndex::new(position))?,
-            )
+            let is_there = position < self.machine.axes.len();
+            (variable, is_there.then(|| AxisIndex::new(position))?)
         } else {
             let (variable, axis) = rest.rsplit_once('.')?;
             (variable, self.machine.find(axis)?)
         };
-        if let Some(kind) = variable
-            .strip_suffix("_COMP_ACTIVE")
-            .and_then(compensation_kind)
-        {
-            return match self.state.compensation.state(axis, kind) {
-                State::Unknown => None,
-                state => Some((state == State::Active).into()),
-            };
+        let kind = |end: &str| variable.strip_suffix(end).and_then(compensation_kind);
+        if let Some(kind) = kind("_COMP_ACTIVE") {
+            return Some(OwnVariable::Active(axis, kind));
         }
-        if let Some(kind) = variable
-            .strip_suffix("_COMP_INIT")
-            .and_then(compensation_kind)
-        {
-            let machine = self.machine.axis(axis);
-            let ready = machine.configured.contains(kind) && machine.parameterised().contains(kind);
-            return Some(ready.into());
+        if let Some(kind) = kind("_COMP_INIT") {
+            return Some(OwnVariable::Ready(axis, kind));
         }
         match variable {
-            "ABS" => {
-                let position = self.state.modal.position(axis);
-                let value = position
-                    .value
-                    .filter(|_| position.frame == PositionFrame::Machine);
-                value.map(Value::Number)
-            }
-            "PROG" => self.state.modal.programmed(axis).map(Value::Number),
+            "ABS" => Some(OwnVariable::Absolute(axis)),
+            "PROG" => Some(OwnVariable::Programmed(axis)),
             _ => None,
+        }
+    }
+
+    /// FC322: what an assignment to such a variable does is not known.
+    pub(in crate::interpreter) fn warn_own(&mut self, place: &Place, span: Span, at: &At<'_>) {
+        let Place::Variable(name) = place else {
+            return;
+        };
+        let Some(own) = self.own_variable(name) else {
+            return;
+        };
+        let machine = &self.machine;
+        let what = match own {
+            OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
+                format!("`{kind}` of `{}`", machine.axis(axis).name)
+            }
+            OwnVariable::Absolute(axis) | OwnVariable::Programmed(axis) => {
+                format!("the position of `{}`", machine.axis(axis).name)
+            }
+        };
+        let message = format!(
+            "`{name}` shows a state of the control and is not meant to be written; {what} is unknown after this assignment"
+        );
+        let fault = Fault::new(Code::Fc322, span, message);
+        let fault = match own {
+            OwnVariable::Active(axis, kind) => {
+                let axis = &machine.axis(axis).name;
+                fault.with_help(format!(
+                    "switch it with `{axis}[COMP ON {kind}]` or `{axis}[COMP OFF {kind}]`"
+                ))
+            }
+            _ => fault,
+        };
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// Something may have written such a variable: what it shows is not known any more.
+    fn doubt_own(&mut self, own: OwnVariable) {
+        match own {
+            OwnVariable::Active(axis, kind) | OwnVariable::Ready(axis, kind) => {
+                self.doubt(axis, KindSet::of(kind));
+            }
+            OwnVariable::Absolute(axis) | OwnVariable::Programmed(axis) => {
+                self.state.modal.forget_position(axis);
+            }
         }
     }
 
@@ -173,6 +237,7 @@ impl Interpreter {
         self.state.watching = watching;
         let value = value?;
         let place = self.target_place(assignment.target.place, at)?;
+        self.warn_own(&place, assignment.target.span, at);
         self.write(place, value);
         Ok(())
     }
@@ -189,6 +254,11 @@ impl Interpreter {
     }
 
     pub(in crate::interpreter) fn write(&mut self, place: Place, value: Value) {
+        if let Place::Variable(name) = &place
+            && let Some(own) = self.own_variable(name)
+        {
+            return self.doubt_own(own);
+        }
         self.work.wrote = true;
         self.journal.write(&place, &value);
         if self.state.ways.is_open() {

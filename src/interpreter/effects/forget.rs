@@ -63,16 +63,6 @@ impl Interpreter {
         self.state.memory.forget_macros(cause, stays);
     }
 
-    /// Kinds of an axis become unknown.
-    pub(in crate::interpreter) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
-        let compensation = &mut self.state.compensation;
-        compensation.forget(axis, kinds, &mut self.work.changes);
-        let doubted = compensation.unknown(axis).intersection(kinds);
-        if !doubted.is_empty() {
-            self.work.doubted.push((axis, doubted));
-        }
-    }
-
     /// A COMP command switched kinds of an axis, but it is not known of which.
     pub(in crate::interpreter) fn doubt_any_axis(&mut self, kinds: KindSet) {
         for axis in (0..self.machine.axes.len()).map(AxisIndex::new) {

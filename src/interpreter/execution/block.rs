@@ -32,7 +32,10 @@ impl Interpreter {
         }
         let mut intent = Intent::default();
         let limit = self.first_refusal(at.block);
-        self.items(at, &mut intent, limit);
+        let number = self.block_number(at);
+        if !self.is_halted() {
+            self.items(at, &mut intent, limit);
+        }
         if self.work.again != 0 {
             self.refuse_repeated_axes(intent.axis_words, at);
         }
@@ -65,7 +68,6 @@ impl Interpreter {
         if !stopped {
             self.move_axes(&intent, at);
         }
-        let number = self.block_number(at);
         self.state.effort.grant(at.text);
         let is_plain = !self.work.wrote
             && self.work.unsaid.is_none()

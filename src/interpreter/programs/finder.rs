@@ -8,6 +8,8 @@ use crate::text::SourceFile;
 pub enum NoProgram {
     /// There is none (FC320).
     Absent,
+    /// There is none, but one of nearly that name, which may be meant (FC320).
+    Near(String),
     /// It lies where programs are not called from (FC321).
     Outside,
     /// It exists but cannot be used (FC320); what to say after its name: `is a folder`.

@@ -278,6 +278,14 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
         NoProgram::Absent if name.is_empty() => {
             Fault::new(Code::Fc320, wanted.span, "the name of the called program is empty")
         }
+        NoProgram::Near(near) => {
+            let fault = fault(Code::Fc320, "was not found");
+            let fault = match wanted.named {
+                Some(named) => fault.with_near(named, near),
+                None => fault.with_help(Advice::DidYouMean(near.clone())),
+            };
+            fault.with_help(on_machine_only(name))
+        }
         NoProgram::Absent => fault(Code::Fc320, "was not found")
             .with_help("it was looked for beside the calling file, then in the `program_dirs` of the configuration")
             .with_help(on_machine_only(name)),

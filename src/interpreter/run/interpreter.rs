@@ -15,7 +15,7 @@ use super::state::State;
 use super::step::Sought;
 use super::ways::{Departing, Ways};
 use super::work::Work;
-use crate::comp::{AxisIndex, Compensation};
+use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::Collected;
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
@@ -265,5 +265,15 @@ impl Interpreter {
             let entry = frame.next - 1;
             entry..self.programs.index(frame.unit).links(entry).end
         })
+    }
+
+    /// Kinds of an axis become unknown.
+    pub(in crate::interpreter) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
+        let compensation = &mut self.state.compensation;
+        compensation.forget(axis, kinds, &mut self.work.changes);
+        let doubted = compensation.unknown(axis).intersection(kinds);
+        if !doubted.is_empty() {
+            self.work.doubted.push((axis, doubted));
+        }
     }
 }

@@ -352,6 +352,10 @@ impl Gathering<'_> {
         match (word.address, number) {
             (Address::Letter(b'M'), Some(2 | 30)) => self.exit(Exit::End),
             (Address::Letter(b'M'), Some(17 | 29)) => self.exit(Exit::Return),
+            (Address::Letter(b'M'), None) => {
+                self.exit(Exit::End);
+                self.exit(Exit::Return);
+            }
             _ => {}
         }
         match word.address {

@@ -110,7 +110,7 @@ fn axis_type(axis_type: AxisType) -> &'static str {
 fn origin(origin: &Origin) -> String {
     match origin {
         Origin::Default => "default".to_owned(),
-        Origin::Assumed => "--enable".to_owned(),
+        Origin::Assumed => "assumed".to_owned(),
         Origin::File { file, line } => format!("{file}:{line}"),
     }
 }

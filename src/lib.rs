@@ -92,6 +92,7 @@ pub mod drive_interface;
 mod facade;
 #[cfg(feature = "host")]
 pub mod host;
+pub mod identify;
 pub mod interpreter;
 mod lint;
 pub mod lists;
@@ -105,6 +106,7 @@ pub mod stiction;
 pub mod syntax;
 pub mod text;
 pub mod timeline;
+pub mod trace;
 
 pub use comp::{CompCommand, Compensation, CompensationError};
 pub use diagnostic::{Code, Diagnostic, Severity};

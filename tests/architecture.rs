@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 21] = [
+const ROOMS: [(&str, &[&str]); 23] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -95,6 +95,8 @@ const ROOMS: [(&str, &[&str]); 21] = [
     ("simulation", &["text", "diagnostic", "lists", "config"]),
     ("stiction", &[]),
     ("circle", &["diagnostic", "lists", "current", "simulation"]),
+    ("trace", &["diagnostic"]),
+    ("identify", &["diagnostic", "lists", "current", "trace"]),
     (
         "facade",
         &["text", "machine", "timeline", "session", "current"],
@@ -115,6 +117,8 @@ const ROOMS: [(&str, &[&str]); 21] = [
             "simulation",
             "stiction",
             "circle",
+            "trace",
+            "identify",
         ],
     ),
     (
@@ -132,6 +136,8 @@ const ROOMS: [(&str, &[&str]); 21] = [
             "current",
             "simulation",
             "circle",
+            "trace",
+            "identify",
         ],
     ),
     (
@@ -151,6 +157,8 @@ const ROOMS: [(&str, &[&str]); 21] = [
             "simulation",
             "stiction",
             "circle",
+            "trace",
+            "identify",
             "report",
             "host",
         ],

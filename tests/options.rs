@@ -437,6 +437,9 @@ fn every_help_ends_with_two_examples_that_work() {
         "circle",
         "tune",
         "stiction",
+        "trace",
+        "identify",
+        "verify",
         "explain",
         "codes",
         "config",
@@ -502,6 +505,9 @@ fn example_folder() -> Bench {
         ),
         ("trace.csv", "t,x,v\n0,0,0\n0.001,1,100\n"),
     ]);
+    let friction = fs::read_to_string("programs/demo/recordings/friction_x.csv");
+    let friction = friction.expect("a recording").replace("SetVelo", "v");
+    bench.write("friction.csv", &friction.replace("ActTorque", "torque"));
     let machine = std::path::Path::new("programs/machines/mill3");
     for list in fs::read_dir(machine).expect("a machine") {
         let list = list.expect("a list").path();

@@ -15,9 +15,18 @@ use frictcomp::diagnostic::Code;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 8] = [
+const ELSEWHERE: [(&str, &str); 17] = [
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
     ("FC506", "said by `tune`; tests/circle_cli.rs has it"),
+    ("FC511", "said by `identify`; tests/identify.rs has it"),
+    ("FC512", "said by `identify`; tests/identify.rs has it"),
+    ("FC513", "said by `identify`; tests/identify.rs has it"),
+    ("FC514", "said by `identify`; tests/identify.rs has it"),
+    ("FC515", "said by `identify`; tests/identify.rs has it"),
+    ("FC516", "said by `identify`; tests/identify.rs has it"),
+    ("FC517", "said by `identify`; tests/identify.rs has it"),
+    ("FC518", "said by `identify`; tests/identify.rs has it"),
+    ("FC519", "said by `identify`; tests/recordings.rs has it"),
     ("FC903", "said by `current`; tests/spec_motion.rs has it"),
     ("FC904", "said by `current`; tests/spec_motion.rs has it"),
     (

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 
+use super::channels::parse_unit;
 use super::console::Console;
 use super::cycle::CycleArgs;
 use super::exit;
@@ -15,7 +16,9 @@ use super::outputs::{Outputs, write_text};
 use super::progress;
 use crate::circle::{Circle, CircularTest, CommandedCircle, PathCentre, PlaneAxis};
 use crate::current::Reading;
-use crate::host::{Ledger, compare, find_plant, memory_for_simulation, read_circles};
+use crate::host::{
+    CircleChannels, Ledger, compare, find_plant, memory_for_simulation, read_circles,
+};
 use crate::lists::FrictionList;
 use crate::report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
 use crate::report::fitted;
@@ -23,12 +26,14 @@ use crate::report::html::render_circle;
 use crate::report::pictures::circle;
 use crate::report::svg::Frame;
 use crate::simulation::{FrictionModel, plant_list};
+use crate::trace::{ChannelSelection, Unit};
 
 /// Drive a circle with two simulated axes, with friction compensation off and on
 ///
 /// Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--trace`
-/// evaluates a recorded circle instead: a CSV file with the columns `x` and `y` in mm (or `x_um`
-/// and `y_um` in µm). Give two files for both directions.
+/// evaluates a recorded circle instead: an export of TwinCAT Scope, a SINUMERIK trace or a CSV file,
+/// with the columns `x` and `y` in mm (or `x_um` and `y_um` in µm) or the channels that `--x` and
+/// `--y` name. Give two files for both directions.
 #[derive(Debug, Args)]
 pub(super) struct CircleArgs {
     /// Radius in mm; for recorded circles the commanded radius
@@ -60,6 +65,15 @@ pub(super) struct CircleArgs {
     /// least-squares centres, or `own`
     #[arg(long, value_name = "CENTRE", default_value_t)]
     centre: PathCentre,
+    /// The channel of the first axis in a recorded circle: its name, comment or CNC object
+    #[arg(long = "x", value_name = "CHANNEL", requires = "trace")]
+    x_channel: Option<String>,
+    /// The channel of the second axis
+    #[arg(long = "y", value_name = "CHANNEL", requires = "trace")]
+    y_channel: Option<String>,
+    /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
+    #[arg(long, value_name = "CHANNEL=UNIT", requires = "trace", value_parser = parse_unit)]
+    unit: Vec<(String, Unit)>,
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
@@ -108,7 +122,8 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
             radius_mm: args.radius,
             feed_mm_per_min: args.feed,
         };
-        CircleReport::recorded(read_circles(&args.trace, commanded, args.centre)?)
+        let recording = read_circles(&args.trace, &channels(args), commanded, args.centre)?;
+        CircleReport::recorded(recording)
     };
     let text = match args.format {
         Format::Text => fitted(&render_text(&report), result.look.width),
@@ -124,6 +139,17 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     result.text(&text)?;
     outputs.finish()?;
     Ok(exit::CLEAN)
+}
+
+/// Which channels of a recorded circle are its positions.
+fn channels(args: &CircleArgs) -> CircleChannels {
+    CircleChannels {
+        names: [args.x_channel.clone(), args.y_channel.clone()],
+        selection: ChannelSelection {
+            units: args.unit.clone(),
+            ..ChannelSelection::default()
+        },
+    }
 }
 
 /// What is simulated, and where the value lists come from.

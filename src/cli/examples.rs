@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 17] = [
+static EXAMPLES: [Examples; 20] = [
     examples(
         &["run"],
         [
@@ -81,6 +81,27 @@ static EXAMPLES: [Examples; 17] = [
         [
             "frictcomp stiction --kv 1.5 --tc 3000us --mp1511 8000 --delta-sa 2um",
             "frictcomp stiction --gp 20um --delta-sa-limit 3um",
+        ],
+    ),
+    examples(
+        &["trace"],
+        [
+            "frictcomp trace friction.csv",
+            "frictcomp trace friction.csv --format json --svg friction.svg",
+        ],
+    ),
+    examples(
+        &["identify"],
+        [
+            "frictcomp identify friction.csv --axis X -o new_x.lis",
+            "frictcomp identify friction.csv --points 5 --svg friction.svg",
+        ],
+    ),
+    examples(
+        &["verify"],
+        [
+            "frictcomp verify friction.csv --value-list comp_x.lis",
+            "frictcomp verify friction.csv --value-list comp_x.lis --format json",
         ],
     ),
     examples(

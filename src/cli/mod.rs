@@ -1,5 +1,6 @@
 //! The command line: files, arguments, exit status. One file a command.
 
+mod channels;
 mod check;
 mod circle;
 mod codes;
@@ -19,6 +20,7 @@ mod failure;
 mod failures;
 mod golden;
 mod html;
+mod identify;
 mod init;
 mod listing;
 mod lists;
@@ -34,8 +36,10 @@ mod run;
 mod settings;
 mod severities;
 mod stiction;
+mod trace;
 mod tune;
 mod values;
+mod verify;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -76,6 +80,9 @@ enum Command {
     Circle(circle::CircleArgs),
     Tune(tune::TuneArgs),
     Stiction(stiction::StictionArgs),
+    Trace(trace::TraceArgs),
+    Identify(identify::IdentifyArgs),
+    Verify(verify::VerifyArgs),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     Init(init::InitArgs),
@@ -148,6 +155,9 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Circle(args) => circle::run(args, console),
         Command::Tune(args) => tune::run(args, console),
         Command::Stiction(args) => stiction::run(args, console),
+        Command::Trace(args) => trace::run(args, console),
+        Command::Identify(args) => identify::run(args, console),
+        Command::Verify(args) => verify::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Init(args) => init::run(args),

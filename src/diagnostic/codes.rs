@@ -118,6 +118,15 @@ codes! {
     Fc503 "FC503" Error "drive type without friction compensation";
     Fc504 "FC504" Warning "torque interface not known";
     Fc506 "FC506" Warning "compensation makes it worse";
+    Fc511 "FC511" Warning "slow speeds were not recorded";
+    Fc512 "FC512" Warning "fast speeds were not recorded";
+    Fc513 "FC513" Warning "torque repeats along the way";
+    Fc514 "FC514" Warning "too few speeds for a friction curve";
+    Fc515 "FC515" Warning "too much noise for the accuracy";
+    Fc516 "FC516" Warning "friction drifts";
+    Fc517 "FC517" Warning "friction of another form";
+    Fc518 "FC518" Info "speed in one direction only";
+    Fc519 "FC519" Warning "unit of a channel is assumed";
     Fc901 "FC901" Warning "condition not known offline";
     Fc902 "FC902" Warning "jump or call not known offline";
     Fc903 "FC903" Warning "motion not known offline";

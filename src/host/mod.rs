@@ -59,7 +59,7 @@ pub use simulations::{compare, tune};
 pub use state_file::StateFile;
 pub use switched_axes::switched_axes;
 pub use trace_error::TraceError;
-pub use traces::{read_circles, read_commanded};
+pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace};
 pub use unfinished::{UnfinishedFile, take_away_left};
 pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs};

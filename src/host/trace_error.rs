@@ -1,67 +1,35 @@
 //! Why a trace cannot be read.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
 use crate::circle::RecordedError;
 use crate::motion::CycleError;
+use crate::trace::{NotAligned, SelectError, TraceProblem};
 
 /// Why a trace cannot be read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TraceError {
-    /// A row that is too short.
-    #[error("the trace `{}` cannot be read: {reason}", .path.display())]
-    Damaged {
+    /// A file that is no trace, or not the one that is wanted.
+    #[error("{}", said(.path, .problem))]
+    Problem {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        reason: csv::Error,
+        problem: TraceProblem,
     },
-    /// A header without the columns that are needed.
-    #[error("the trace `{}` has {lacks}, only {}", .path.display(), .found.join(", "))]
-    Columns {
+    /// A project of TwinCAT Scope, whose form is not public.
+    #[error("`{}` is a file of TwinCAT Scope that only Scope reads", .0.display())]
+    Closed(PathBuf),
+    /// Channels that cannot be brought to one clock.
+    #[error("the trace `{}`: {reason}", .path.display())]
+    Apart {
         /// The file.
         path: PathBuf,
-        /// What is not there: no columns `x` and `y`.
-        lacks: &'static str,
-        /// The columns that are there.
-        found: Vec<String>,
-        /// How the columns are named.
-        help: &'static str,
-    },
-    /// A trace that was recorded at a very high rate.
-    #[error("`{}` has more than {most} rows", .path.display())]
-    TooLong {
-        /// The file.
-        path: PathBuf,
-        /// What it may have.
-        most: usize,
-    },
-    /// `1,5` in quotes, or an empty cell.
-    #[error("{}:{line}: column `{column}` holds `{text}`, which is not a number", .path.display())]
-    Number {
-        /// The file.
-        path: PathBuf,
-        /// The line of the file.
-        line: u64,
-        /// The column.
-        column: String,
-        /// What stands there.
-        text: String,
-    },
-    /// `yes` in the column of the compensation.
-    #[error("{}:{line}: column `{column}` holds `{text}`", .path.display())]
-    Switch {
-        /// The file.
-        path: PathBuf,
-        /// The line of the file.
-        line: u64,
-        /// The column.
-        column: String,
-        /// What stands there.
-        text: String,
+        /// What is wrong with it.
+        reason: NotAligned,
     },
     /// Times that are an hour apart.
     #[error(transparent)]
@@ -83,14 +51,32 @@ impl TraceError {
     /// What to do about it.
     pub fn help(&self) -> Option<String> {
         let help = match self {
-            Self::Damaged { .. } => "a trace is a CSV file with a header and decimal points",
-            Self::Columns { help, .. } => help,
-            Self::TooLong { .. } => "record with a lower rate",
-            Self::Number { .. } => "write numbers with a decimal point",
-            Self::Switch { .. } => "write `on` or `off`",
+            Self::Problem { problem, .. } => return problem.help(),
+            Self::Closed(_) => {
+                "export it as CSV, in Scope or with Beckhoff's export tool: \
+                 `TC3ScopeExportTool.exe svd=FILE.svdx target=FILE.csv silent`"
+            }
+            Self::Apart { reason, .. } => reason.help(),
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
             Self::Cycle(_) => return None,
         };
         Some(help.to_owned())
+    }
+}
+
+/// A problem with the place that it has.
+fn said(path: &Path, problem: &TraceProblem) -> String {
+    let path = path.display();
+    match (problem, problem.line()) {
+        (TraceProblem::Select(SelectError::Lacks { lacks, .. }), _) => {
+            let text = problem.to_string();
+            let found = text
+                .split_once(lacks.as_str())
+                .map_or("", |(_, found)| found);
+            format!("the trace `{path}` has {lacks}{found}")
+        }
+        (TraceProblem::Select(_), _) => format!("the trace `{path}`: {problem}"),
+        (_, Some(line)) => format!("{path}:{line}: {problem}"),
+        _ => format!("the trace `{path}` cannot be read: {problem}"),
     }
 }

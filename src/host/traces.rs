@@ -1,61 +1,137 @@
-//! Recorded traces: CSV files with a header, read row by row. What columns a trace has is decided
-//! by who reads it; how a file, a header and a number look, only here.
+//! Recorded traces in files: which channels of them are which column of a circle or of a commanded
+//! trace. How a file is laid out is known to `trace`.
 
-use std::borrow::Cow;
-use std::io::{self, Read, Seek};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::error::HostError;
-use super::read::{open_regular, read_whole};
+use super::read::open_regular;
 use super::trace_error::TraceError;
-use crate::circle::{CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording};
+use crate::circle::{
+    CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
+};
 use crate::current::{CommandedTrace, Switched, TraceColumns};
-use crate::text::decode;
+use crate::identify::{AxisChannels, AxisRecording};
+use crate::trace::{
+    Channel, ChannelQuantity, ChannelSelection, Choice, Missing, Pick, SelectError, TimeSource,
+    TraceProblem, TraceReader, TraceRecording,
+};
 
 /// Rows of a recorded circle at most; they are kept in memory until the circle is evaluated.
 const MAX_POINTS: usize = 4_000_000;
 
-/// Rows of a commanded trace at most: eleven hours of cycles of 1 ms.
-const MAX_CYCLES: usize = 40_000_000;
+/// Rows of a trace at most: eleven hours of cycles of 1 ms.
+const MAX_ROWS: usize = 40_000_000;
 
-/// Reads a commanded trace: a column `x` of positions in 0.1 µm or 0.0001°, or `v` of velocities in
-/// µm/s or 0.001°/s, or both; `t` in s and `comp` with `on` and `off` where they are there. Without
-/// `t`, a row is a CNC cycle of so many seconds.
+/// So many bytes are read at a time.
+const PIECE: usize = 1 << 18;
+
+/// Kinds of files that Scope writes and that are not read.
+const CLOSED: [&str; 4] = ["svdx", "svd", "svb", "tdms"];
+
+/// Reads those channels of a trace that `choose` wants.
+///
+/// # Errors
+/// The file cannot be read, is no trace, or not one with the channels that are wanted.
+pub fn read_trace(
+    path: &Path,
+    choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
+) -> Result<TraceRecording, HostError> {
+    read(path, MAX_ROWS, choose)
+}
+
+fn read(
+    path: &Path,
+    most_rows: usize,
+    choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
+) -> Result<TraceRecording, HostError> {
+    let problem = |problem| TraceError::Problem {
+        path: path.to_owned(),
+        problem,
+    };
+    let failed = |error| HostError::read(path, error);
+    let (mut file, _) = open_regular(path).map_err(failed)?;
+    let extension = path
+        .extension()
+        .map(|it| it.to_string_lossy().to_lowercase());
+    if extension.is_some_and(|it| CLOSED.contains(&it.as_str())) {
+        return Err(TraceError::Closed(path.to_owned()).into());
+    }
+    let mut reader = TraceReader::new(most_rows, choose);
+    let mut piece = vec![0; PIECE];
+    loop {
+        let length = file.read(&mut piece).map_err(failed)?;
+        if length == 0 {
+            break;
+        }
+        reader.feed(&piece[..length]).map_err(problem)?;
+    }
+    Ok(reader.finish().map_err(problem)?)
+}
+
+/// Reads a commanded trace: positions in 0.1 µm or 0.0001°, or velocities in µm/s or 0.001°/s, or
+/// both; times in s and a column `comp` with `on` and `off` where they are there. Without times, a
+/// row is a CNC cycle of so many seconds.
 ///
 /// # Errors
 /// The file cannot be read, or holds something else.
-pub fn read_commanded(path: &Path, cycle_s: Option<f64>) -> Result<CommandedTrace, HostError> {
-    let mut table = Table::open(path, MAX_CYCLES)?;
-    let [times, positions, velocities, states] =
-        ["t", "x", "v", "comp"].map(|name| table.column(|header| header == name));
-    if positions.is_none() && velocities.is_none() {
-        return Err(table
-            .lacks(
-                "neither a column `x` nor a column `v`",
-                "name the columns `t` (s), `x` (0.1 µm or 0.0001°), `v` (µm/s or 0.001°/s), `comp`",
-            )
-            .into());
-    }
-    let mut columns = TraceColumns {
-        times_s: times.map(|_| Vec::new()),
-        positions: positions.map(|_| Vec::new()),
-        velocities: velocities.map(|_| Vec::new()),
-        switched: Vec::new(),
-    };
-    while table.next_row()? {
-        let numbers = [
-            (times, &mut columns.times_s),
-            (positions, &mut columns.positions),
-            (velocities, &mut columns.velocities),
+pub fn read_commanded(
+    path: &Path,
+    selection: &ChannelSelection,
+    cycle_s: Option<f64>,
+) -> Result<CommandedTrace, HostError> {
+    let mut found: [Option<Pick>; 3] = [None; 3];
+    let mut switch = None;
+    let recording = read(path, MAX_ROWS, |channels| {
+        let find = |quantity| selection.find(quantity, channels);
+        found = [
+            find(ChannelQuantity::Time)?,
+            find(ChannelQuantity::Position)?,
+            find(ChannelQuantity::Velocity)?,
         ];
-        for (column, numbers) in numbers {
-            if let (Some(column), Some(numbers)) = (column, numbers) {
-                numbers.push(table.number(column)?);
-            }
+        let [time, position, velocity] = found;
+        if position.is_none() && velocity.is_none() {
+            return Err(lacks(
+                channels,
+                "neither a column `x` nor a column `v`",
+                "name the columns `t` (s), `x` (0.1 µm or 0.0001°), `v` (µm/s or 0.001°/s), `comp`, \
+                 or say which channels they are",
+            ));
         }
-        let switched = states.map(|column| table.switch(column)).transpose()?;
-        columns.switched.push(switched.unwrap_or(Switched::On));
-    }
+        let values = [position, velocity].into_iter().flatten();
+        let choice = Choice {
+            values: values.map(|pick| pick.channel).collect(),
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::all(&[], None)
+        };
+        let (choice, comp) = choice.with_switch("comp", channels);
+        switch = comp;
+        Ok(choice)
+    })?;
+    let [_, position, velocity] = found;
+    let column = |pick: Option<Pick>| {
+        pick.map(|pick| numbers(path, &recording, &pick))
+            .transpose()
+    };
+    let [positions, velocities] = [column(position)?, column(velocity)?];
+    let rows = positions
+        .as_ref()
+        .or(velocities.as_ref())
+        .map_or(0, Vec::len);
+    let states = switch.map(|channel| recording.values(channel));
+    let switched = |row: usize| match states.and_then(|states| states.get(row)) {
+        Some(0.0) => Switched::Off,
+        _ => Switched::On,
+    };
+    let times = position
+        .or(velocity)
+        .and_then(|pick| recording.times_s(pick.channel));
+    let columns = TraceColumns {
+        times_s: times.map(<[f64]>::to_vec),
+        positions,
+        velocities,
+        switched: (0..rows).map(switched).collect(),
+    };
     let trace = CommandedTrace::new(columns, cycle_s);
     trace.map_err(|error| TraceError::Cycle(error).into())
 }
@@ -68,203 +144,181 @@ pub fn read_commanded(path: &Path, cycle_s: Option<f64>) -> Result<CommandedTrac
 /// A file cannot be read, or holds no circle.
 pub fn read_circles(
     paths: &[PathBuf],
+    channels: &CircleChannels,
     commanded: CommandedCircle,
     centre: PathCentre,
-) -> Result<Recording, HostError> {
-    Recording::check(paths.len(), commanded).map_err(TraceError::Circles)?;
+) -> Result<Circles, HostError> {
+    Circles::check(paths.len(), commanded).map_err(TraceError::Circles)?;
     let mut circles = Vec::new();
     for path in paths {
-        let trace = read_positions(path)?;
+        let trace = read_positions(path, channels)?;
         let found = RecordedCircle::find(&trace, commanded.radius_mm).map_err(|reason| {
             let path = path.clone();
             HostError::from(TraceError::Circle { path, reason })
         })?;
         circles.extend(found);
     }
-    Ok(Recording::new(circles, commanded, centre).map_err(TraceError::Circles)?)
+    Ok(Circles::new(circles, commanded, centre).map_err(TraceError::Circles)?)
+}
+
+/// Reads motion and torque of one axis.
+///
+/// # Errors
+/// The file cannot be read, has not the channels that are wanted, or none that belong together.
+pub fn read_axis(
+    path: &Path,
+    selection: &ChannelSelection,
+    cycle_s: Option<f64>,
+) -> Result<AxisRecording, HostError> {
+    let mut channels = None;
+    let recording = read_trace(path, |described| {
+        let found = AxisChannels::find(selection, described)?;
+        let choice = found.choice();
+        channels = Some(found);
+        Ok(choice)
+    })?;
+    let channels = channels.unwrap_or_default();
+    let axis = channels
+        .take(&recording, cycle_s)
+        .map_err(|reason| TraceError::Apart {
+            path: path.to_owned(),
+            reason,
+        })?;
+    Ok(axis)
+}
+
+/// Which channels of a trace are the positions of a circle.
+#[derive(Debug, Clone, Default)]
+pub struct CircleChannels {
+    /// The channel of each of the two axes; by default those named `x` and `y`.
+    pub names: [Option<String>; 2],
+    /// Units of channels.
+    pub selection: ChannelSelection,
 }
 
 /// The actual positions of two axes, in the order of the rows. Times that are no seconds are as
 /// good as none.
-fn read_positions(path: &Path) -> Result<RecordedTrace, HostError> {
-    let mut table = Table::open(path, MAX_POINTS)?;
-    let [x, y] = ["x", "y"].map(|axis| table.lengths(axis));
-    let (Some(x), Some(y)) = (x, y) else {
-        return Err(table
-            .lacks(
+fn read_positions(path: &Path, wanted: &CircleChannels) -> Result<RecordedTrace, HostError> {
+    let timed = read_points(path, wanted, Times::Read);
+    match timed {
+        Err(HostError::Trace(TraceError::Problem {
+            problem: TraceProblem::Number { column, .. },
+            ..
+        })) if column == "time" => read_points(path, wanted, Times::Ignored),
+        timed => timed,
+    }
+}
+
+/// Whether a column of times is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Times {
+    Read,
+    Ignored,
+}
+
+fn read_points(
+    path: &Path,
+    wanted: &CircleChannels,
+    times: Times,
+) -> Result<RecordedTrace, HostError> {
+    let mut picks = [None; 2];
+    let recording = read(path, MAX_POINTS, |channels| {
+        for (pick, (axis, name)) in picks.iter_mut().zip(["x", "y"].iter().zip(&wanted.names)) {
+            let found = match name {
+                Some(name) => Some(wanted.selection.pick_named(
+                    name,
+                    ChannelQuantity::Position,
+                    channels,
+                )?),
+                None => wanted.selection.position_of(axis, channels),
+            };
+            *pick = found.map(|pick| millimetres(pick, wanted));
+        }
+        let [Some(x), Some(y)] = picks else {
+            return Err(lacks(
+                channels,
                 "no columns `x` and `y`",
-                "name the columns `x` and `y` for mm, or `x_um` and `y_um` for µm",
-            )
-            .into());
-    };
-    let mut times = table.column(|header| ["t", "t [s]", "t_s"].contains(&header));
-    let mut trace = RecordedTrace::default();
-    while table.next_row()? {
-        let mm = |(column, mm): (Column, f64)| table.number(column).map(|number| number * mm);
-        trace.points_mm.push([mm(x)?, mm(y)?]);
-        match times.map(|column| table.number(column)) {
-            Some(Ok(time)) => trace.times_s.push(time),
-            Some(Err(_)) => {
-                times = None;
-                trace.times_s.clear();
-            }
-            None => {}
-        }
-    }
-    Ok(trace)
-}
-
-/// A column of a table.
-#[derive(Debug, Clone, Copy)]
-struct Column(usize);
-
-/// A CSV file on its way in, one row at a time.
-struct Table {
-    path: PathBuf,
-    reader: csv::Reader<Box<dyn Read>>,
-    headers: Vec<String>,
-    row: csv::ByteRecord,
-    rows: usize,
-    most: usize,
-}
-
-impl Table {
-    fn open(path: &Path, most: usize) -> Result<Self, HostError> {
-        let bytes = open_bytes(path).map_err(|error| HostError::read(path, error))?;
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_reader(bytes);
-        let damaged = |reason| TraceError::Damaged {
-            path: path.to_owned(),
-            reason,
+                "name the columns `x` and `y` for mm, or `x_um` and `y_um` for µm, or say which \
+                 channels they are",
+            ));
         };
-        let headers = reader.byte_headers().map_err(damaged)?.iter();
-        Ok(Self {
-            headers: headers.map(|name| decode(name.to_vec())).collect(),
-            path: path.to_owned(),
-            reader,
-            row: csv::ByteRecord::new(),
-            rows: 0,
-            most,
+        let time = match times {
+            Times::Read => wanted.selection.find(ChannelQuantity::Time, channels)?,
+            Times::Ignored => None,
+        };
+        Ok(Choice {
+            values: vec![x.channel, y.channel],
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::default()
         })
+    })?;
+    let [Some(x), Some(y)] = picks else {
+        return Ok(RecordedTrace::default());
+    };
+    let points = |xs: Vec<f64>, ys: Vec<f64>| xs.into_iter().zip(ys).map(|(x, y)| [x, y]).collect();
+    if recording.clock(x.channel) == recording.clock(y.channel) {
+        let points_mm: Vec<[f64; 2]> = points(
+            numbers(path, &recording, &x)?,
+            numbers(path, &recording, &y)?,
+        );
+        let times_s = recording.times_s(x.channel).map(<[f64]>::to_vec);
+        let times_s = times_s.filter(|it| it.len() == points_mm.len());
+        return Ok(RecordedTrace {
+            points_mm,
+            times_s: times_s.unwrap_or_default(),
+        });
     }
-
-    /// The first column whose header fits.
-    fn column(&self, fits: impl Fn(&str) -> bool) -> Option<Column> {
-        self.headers.iter().position(|name| fits(name)).map(Column)
-    }
-
-    /// The column of an axis, and what makes millimetres of its numbers: its name alone for mm, or
-    /// with a unit.
-    fn lengths(&self, axis: &str) -> Option<(Column, f64)> {
-        let column = self.column(|name| millimetres(name, axis).is_some())?;
-        Some((column, millimetres(&self.headers[column.0], axis)?))
-    }
-
-    fn lacks(self, lacks: &'static str, help: &'static str) -> TraceError {
-        TraceError::Columns {
-            path: self.path,
-            lacks,
-            found: self.headers,
-            help,
-        }
-    }
-
-    /// Reads the next row. `false` at the end.
-    fn next_row(&mut self) -> Result<bool, TraceError> {
-        let read = self.reader.read_byte_record(&mut self.row);
-        let is_row = read.map_err(|reason| TraceError::Damaged {
-            path: self.path.clone(),
+    let aligned = recording
+        .align(&[x, y], None)
+        .map_err(|reason| TraceError::Apart {
+            path: path.to_owned(),
             reason,
         })?;
-        if is_row && self.rows == self.most {
-            return Err(TraceError::TooLong {
-                path: self.path.clone(),
-                most: self.most,
-            });
-        }
-        self.rows += 1;
-        Ok(is_row)
-    }
-
-    /// The number that stands in a column of this row.
-    fn number(&self, column: Column) -> Result<f64, TraceError> {
-        let number = std::str::from_utf8(self.bytes(column)).ok();
-        let number = number.and_then(|text| text.parse::<f64>().ok());
-        let number = number.filter(|number| number.is_finite());
-        number.ok_or_else(|| TraceError::Number {
-            path: self.path.clone(),
-            line: self.line(),
-            column: self.headers[column.0].clone(),
-            text: self.text(column).into_owned(),
-        })
-    }
-
-    /// The `on` or `off` that stands in a column of this row.
-    fn switch(&self, column: Column) -> Result<Switched, TraceError> {
-        let text = self.text(column);
-        if text.eq_ignore_ascii_case("on") {
-            return Ok(Switched::On);
-        }
-        if text.eq_ignore_ascii_case("off") {
-            return Ok(Switched::Off);
-        }
-        Err(TraceError::Switch {
-            path: self.path.clone(),
-            line: self.line(),
-            column: self.headers[column.0].clone(),
-            text: text.into_owned(),
-        })
-    }
-
-    fn bytes(&self, column: Column) -> &[u8] {
-        self.row.get(column.0).unwrap_or_default()
-    }
-
-    fn text(&self, column: Column) -> Cow<'_, str> {
-        let bytes = self.bytes(column);
-        match std::str::from_utf8(bytes) {
-            Ok(text) => Cow::Borrowed(text),
-            Err(_) => Cow::Owned(decode(bytes.to_vec())),
-        }
-    }
-
-    fn line(&self) -> u64 {
-        self.row.position().map_or(0, csv::Position::line)
-    }
+    let mut columns = aligned.columns.into_iter();
+    let mut column = || columns.next().unwrap_or_default();
+    Ok(RecordedTrace {
+        points_mm: points(column(), column()),
+        times_s: aligned.times_s,
+    })
 }
 
-/// The bytes of a trace: as they are, but UTF-16 as UTF-8.
-fn open_bytes(path: &Path) -> io::Result<Box<dyn Read>> {
-    let (mut file, metadata) = open_regular(path)?;
-    let mut mark = Vec::new();
-    (&mut file).take(2).read_to_end(&mut mark)?;
-    file.rewind()?;
-    if matches!(mark[..], [0xff, 0xfe] | [0xfe, 0xff]) {
-        let text = decode(read_whole(file, metadata.len())?);
-        return Ok(Box::new(io::Cursor::new(text)));
-    }
-    Ok(Box::new(file))
+/// Positions of a circle in mm; without a unit they are in mm already.
+fn millimetres(mut pick: Pick, wanted: &CircleChannels) -> Pick {
+    const UNITS_PER_MM: f64 = crate::current::POSITION_UNITS_PER_MM;
+    let is_named = wanted.names.iter().any(Option::is_some);
+    pick.unit.factor = if pick.is_unit_assumed && !is_named {
+        1.0
+    } else {
+        pick.unit.factor / UNITS_PER_MM
+    };
+    pick
 }
 
-/// What makes millimetres of the numbers under a header, where it is that of an axis.
-fn millimetres(header: &str, axis: &str) -> Option<f64> {
-    let words: Vec<String> = header
-        .split(|letter: char| !letter.is_alphanumeric())
-        .filter(|word| !word.is_empty())
-        .map(str::to_lowercase)
-        .collect();
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let (first, unit) = words.split_first()?;
-    if *first != axis {
-        return None;
+/// The samples of a channel in the unit that is wanted, each of them a number.
+fn numbers(path: &Path, recording: &TraceRecording, pick: &Pick) -> Result<Vec<f64>, TraceError> {
+    let Missing { count, line, text } = recording.missing(pick.channel);
+    if count > 0 {
+        return Err(TraceError::Problem {
+            path: path.to_owned(),
+            problem: TraceProblem::Number {
+                line,
+                column: recording.channels()[pick.channel.get()].name.clone(),
+                text,
+            },
+        });
     }
-    match unit {
-        [] | ["mm"] => Some(1.0),
-        // The Greek letter; the micro sign becomes it in lower case or stays.
-        ["um" | "\u{b5}m" | "\u{3bc}m"] => Some(0.001),
-        ["m"] => Some(1000.0),
-        _ => None,
+    let values = recording.values(pick.channel).iter();
+    Ok(values.map(|value| value * pick.unit.factor).collect())
+}
+
+fn lacks(channels: &[Channel], lacks: &str, help: &str) -> SelectError {
+    SelectError::Lacks {
+        lacks: lacks.to_owned(),
+        found: channels
+            .iter()
+            .map(|channel| channel.name.clone())
+            .collect(),
+        help: help.to_owned(),
     }
 }
 
@@ -281,17 +335,23 @@ mod tests {
     #[test]
     fn a_header_says_the_unit() {
         // R5.20
-        for (header, factor) in [
-            ("x", Some(1.0)),
-            ("X [mm]", Some(1.0)),
-            ("x_um", Some(0.001)),
-            ("X (µm)", Some(0.001)),
-            ("x m", Some(1000.0)),
-            ("y", None),
-            ("x inch", None),
-            ("", None),
+        for (header, millimetres) in [
+            ("x", Some(3.0)),
+            ("X [mm]", Some(3.0)),
+            ("x_um", Some(0.003)),
+            ("X (µm)", Some(0.003)),
+            ("x m", Some(3000.0)),
+            ("z", None),
         ] {
-            assert_eq!(millimetres(header, "x"), factor, "{header}");
+            let text = format!("{header};y\n3;1\n4;1\n");
+            let points = read_positions(file(text.as_bytes()).path(), &CircleChannels::default());
+            let x = points.ok().map(|trace| trace.points_mm[0][0]);
+            match (x, millimetres) {
+                (Some(x), Some(wanted)) => {
+                    assert!((x - wanted).abs() < 1e-9 * wanted, "{header}: {x}");
+                }
+                (x, wanted) => assert_eq!(x, wanted, "{header}"),
+            }
         }
     }
 
@@ -308,28 +368,41 @@ mod tests {
             &wide,
         ];
         for text in texts {
-            let trace = read_positions(file(text).path()).unwrap();
-            assert_eq!(trace.points_mm, [[0.001, 0.002]]);
+            let trace = read_positions(file(text).path(), &CircleChannels::default());
+            let points = trace.unwrap().points_mm;
+            assert_eq!(points, [[0.001, 0.002]]);
         }
     }
 
     #[test]
     fn what_is_no_trace_is_said_with_its_line() {
         let said = |text: &str| {
-            let error = read_commanded(file(text.as_bytes()).path(), None).unwrap_err();
+            let error = read_commanded(
+                file(text.as_bytes()).path(),
+                &ChannelSelection::default(),
+                None,
+            )
+            .unwrap_err();
             error.to_string()
         };
         assert!(said("x\n1\none\n").ends_with(":3: column `x` holds `one`, which is not a number"));
         assert!(said("v,comp\n1,ja\n").ends_with(":2: column `comp` holds `ja`"));
         assert!(said("a,b\n1,2\n").contains("neither a column `x` nor a column `v`, only a, b"));
         assert!(said("x,v\n1\n").contains("cannot be read"));
+        // The number of the line counts blank lines too.
+        assert!(said("x\n1\n\n\none\n").contains(":5: column `x`"));
         assert!(said("t,x\n0,1\n5000,2\n").starts_with("a CNC cycle of 5000000 ms"));
     }
 
     #[test]
     fn missing_columns_are_computed() {
         let columns = |text: &str| {
-            let trace = read_commanded(file(text.as_bytes()).path(), Some(0.002)).unwrap();
+            let trace = read_commanded(
+                file(text.as_bytes()).path(),
+                &ChannelSelection::default(),
+                Some(0.002),
+            )
+            .unwrap();
             let rows = trace.rows();
             rows.map(|row| [row.time_s, row.position, row.velocity])
                 .collect::<Vec<_>>()

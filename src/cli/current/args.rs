@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::super::channels::MotionChannels;
 use super::super::cycle::CycleArgs;
 use super::super::execution::ExecutionArgs;
 use super::super::machine::MachineArgs;
@@ -13,15 +14,16 @@ use crate::motion::PlannerOptions;
 /// Compute the additive current of a program or a recorded trace, cycle by cycle
 ///
 /// A program runs as in `run`, and its path is followed in CNC cycles; the current of each axis
-/// depends on its compensation state. A trace is a CSV file with a header: `t` in s, `x` in 0.1 µm
-/// or 0.0001°, `v` in µm/s or 0.001°/s, one row per CNC cycle. Either `x` or `v` may be missing. A
+/// depends on its compensation state. A trace is an export of TwinCAT Scope, a SINUMERIK trace or a
+/// CSV file with a header: `t` in s, `x` in 0.1 µm or 0.0001°, `v` in µm/s or 0.001°/s, or the
+/// channels that are named; one row per CNC cycle. Either `x` or `v` may be missing. A
 /// column `comp` with `on` and `off` switches compensation as COMP would.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct CurrentArgs {
     /// The program, `-` for standard input
     #[arg(
         required_unless_present = "trace",
-        conflicts_with = "trace",
+        conflicts_with_all = ["trace", "time", "position", "velocity", "unit"],
         requires = "axes"
     )]
     pub(super) program: Option<PathBuf>,
@@ -40,6 +42,8 @@ pub(in crate::cli) struct CurrentArgs {
     /// The compensation value list; for a program, replaces the one in the configuration
     #[arg(long, value_name = "LIST")]
     pub(super) value_list: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) channels: MotionChannels,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
     /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`

@@ -29,7 +29,7 @@ pub(super) fn run(
     let axes = vec![AxisPlot::new("", None)];
     let mut plot = Plot::create(args.plot.as_deref(), &mut outputs, axes)?;
     outputs.check()?;
-    let trace = read_commanded(trace, args.cycle.seconds()?)?;
+    let trace = read_commanded(trace, &args.channels.selection(), args.cycle.seconds()?)?;
     let mut current = AdditiveCurrent::new(&list, args.reading);
     let written = write_csv(&mut writer, &trace, (&mut current, plot.as_mut()));
     if let Some(plot) = plot {

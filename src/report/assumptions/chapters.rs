@@ -1,7 +1,9 @@
 //! The table.
 
 use super::assumption::Assumption;
-use super::{circle, command, current, drives, language, lists, motion, runs, stiction};
+use super::{
+    circle, command, current, drives, identification, language, lists, motion, runs, stiction,
+};
 
 /// A part of the table.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +15,7 @@ pub struct Chapter {
 }
 
 /// All assumptions that can change a result.
-pub const CHAPTERS: [Chapter; 9] = [
+pub const CHAPTERS: [Chapter; 10] = [
     Chapter {
         title: "The COMP command",
         assumptions: command::ASSUMED,
@@ -45,6 +47,10 @@ pub const CHAPTERS: [Chapter; 9] = [
     Chapter {
         title: "Stiction compensation",
         assumptions: stiction::ASSUMED,
+    },
+    Chapter {
+        title: "Identification",
+        assumptions: identification::ASSUMED,
     },
     Chapter {
         title: "Runs",

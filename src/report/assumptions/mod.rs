@@ -8,6 +8,7 @@ mod circle;
 mod command;
 mod current;
 mod drives;
+mod identification;
 mod language;
 mod lists;
 mod motion;

@@ -2,11 +2,15 @@
 
 mod circle;
 mod current;
+mod identification;
 mod lists;
+mod trace;
 mod tuning;
 mod units;
 
 pub use circle::circle;
 pub use current::{AxisPlot, CurrentPlot};
+pub use identification::{friction_curve, residuals_over_position, segments_on_trace};
 pub use lists::{value_curve, value_curves};
+pub use trace::channels;
 pub use tuning::tuning;

@@ -1,0 +1,250 @@
+//! `frictcomp identify`: from a recorded trace to a value list.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::channels::AxisChannels;
+use super::console::Console;
+use super::cycle::CycleArgs;
+use super::exit;
+use super::failure::Failure;
+use super::outputs::{Outputs, write_text};
+use crate::comp::CncBuild;
+use crate::host::{Ledger, OutputFile, read_axis};
+use crate::identify::{
+    AxisRecording, IdentifyError, IdentifyOptions, Track, Wanted, identify, identify_circles,
+};
+use crate::lists::{FrictionList, Points, write_value_list};
+use crate::report::html::render_identification;
+use crate::report::identify::{IdentifyReport, render_json, render_text};
+use crate::report::on_circles::{self, OnCirclesReport};
+use crate::report::pictures::friction_curve;
+use crate::report::svg::Frame;
+use crate::report::{fitted, visible_line};
+
+/// Find the friction of an axis in a recorded trace and make a value list of it
+///
+/// Record torque and commanded velocity while the axis moves at constant speeds, each forth and back:
+/// docs/identification.md says how. Without options the columns `t` (s), `v` (µm/s or 0.001°/s), `x`
+/// (0.1 µm or 0.0001°) and `torque` (drive units) are taken; `frictcomp trace` lists the channels of a
+/// file.
+#[derive(Debug, Args)]
+pub(super) struct IdentifyArgs {
+    /// The recorded trace; with `--circles` one or more
+    #[arg(required = true)]
+    traces: Vec<PathBuf>,
+    /// The traces are recorded circles, at two or more feeds, instead of constant speeds
+    #[arg(long, conflicts_with_all = ["points", "max_error", "svg", "html"])]
+    circles: bool,
+    #[command(flatten)]
+    channels: AxisChannels,
+    #[command(flatten)]
+    cycle: CycleArgs,
+    /// How many points the value list has at most; by default 8
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=200))]
+    points: Option<u32>,
+    /// Take as few points as keep the list within this part of the friction, in per cent
+    #[arg(long, value_name = "PCT", allow_negative_numbers = true)]
+    max_error: Option<f64>,
+    /// The feed in mm/min at which the machine works
+    #[arg(
+        long,
+        value_name = "MM/MIN",
+        default_value_t = 1000.0,
+        allow_negative_numbers = true
+    )]
+    feed: f64,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
+    /// unless the build accepts fractions
+    #[arg(long, value_name = "BUILD")]
+    cnc_build: Option<CncBuild>,
+    /// Draw speeds, curve and residuals to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write an HTML report to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write the value list to this file
+    #[arg(long, short, value_name = "LIST")]
+    output: Option<PathBuf>,
+}
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// Tables for people.
+    #[default]
+    Text,
+    /// One JSON document.
+    Json,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> {
+    let options = options(args)?;
+    let ledger = Ledger::default();
+    args.traces
+        .iter()
+        .for_each(|path| ledger.reads("trace", path));
+    let mut outputs = Outputs::new(&ledger, console);
+    let list = outputs.optional("--output", args.output.as_deref())?;
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
+    outputs.print("the result")?;
+    outputs.check()?;
+    let read = |path: &PathBuf| {
+        let cycle = args.cycle.seconds()?;
+        Ok::<_, Failure>(read_axis(path, &args.channels.selection(), cycle)?)
+    };
+    if args.circles {
+        let recordings = args
+            .traces
+            .iter()
+            .map(read)
+            .collect::<Result<Vec<_>, _>>()?;
+        return circles(args, recordings, (list, outputs, console));
+    }
+    let [trace] = &args.traces[..] else {
+        let message = format!("{} traces were given", args.traces.len());
+        return Err(Failure::new(message)
+            .with_help("give one trace of constant speeds, or `--circles` for several circles"));
+    };
+    let recording = read(trace)?;
+    let identified = identify(&recording.track, &options)?;
+    let report = IdentifyReport {
+        name: trace.display().to_string(),
+        axis: args.channels.axis.clone(),
+        recording,
+        identified,
+    };
+    if let Some(mut list) = list {
+        let made = Made {
+            axis: report.axis.as_deref(),
+            from: &report.name,
+            unit: report.unit(),
+        };
+        write_text(
+            &mut list,
+            &made.list(&report.identified.list(), args.cnc_build),
+        )?;
+    }
+    if let Some(mut svg) = svg {
+        write_text(&mut svg, &friction_curve(&report).render(Frame::Alone))?;
+    }
+    if let Some(mut html) = html {
+        render_identification(&report, &mut html).map_err(Failure::output)?;
+    }
+    let mut target = console.stdout();
+    target.text(&match args.format {
+        Format::Text => fitted(&render_text(&report), target.look.width),
+        Format::Json => render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}
+
+/// The same for recorded circles.
+fn circles(
+    args: &IdentifyArgs,
+    recordings: Vec<AxisRecording>,
+    (list, outputs, console): (Option<OutputFile>, Outputs, Console),
+) -> Result<u8, Failure> {
+    let tracks: Vec<Track> = recordings.iter().map(|it| it.track.clone()).collect();
+    let report = OnCirclesReport {
+        names: args
+            .traces
+            .iter()
+            .map(|path| path.display().to_string())
+            .collect(),
+        axis: args.channels.axis.clone(),
+        found: identify_circles(&tracks)?,
+        recordings,
+    };
+    if let Some(mut list) = list {
+        let made = Made {
+            axis: report.axis.as_deref(),
+            from: &report.names.join(", "),
+            unit: report.unit(),
+        };
+        write_text(&mut list, &made.list(&report.found.list(), args.cnc_build))?;
+    }
+    let mut target = console.stdout();
+    target.text(&match args.format {
+        Format::Text => fitted(&on_circles::render_text(&report), target.look.width),
+        Format::Json => on_circles::render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}
+
+/// What is wanted, by the options.
+fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
+    const MOST: usize = 20;
+    const LARGEST: f64 = 50.0;
+    let mut options = IdentifyOptions::default();
+    if !(args.feed > 0.0 && args.feed.is_finite()) {
+        return Err(Failure::new(format!(
+            "a feed of {} mm/min is none",
+            args.feed
+        )));
+    }
+    options.working_speed = args.feed / 60.0;
+    let points = args
+        .points
+        .map(|points| usize::try_from(points).unwrap_or(MOST));
+    if let Some(points) = points {
+        options.wanted = Wanted::Points(points);
+    }
+    if let Some(percent) = args.max_error {
+        if !(percent > 0.0 && percent <= LARGEST) {
+            let message = format!("an error of {percent} % cannot be wanted");
+            return Err(
+                Failure::new(message).with_help("write per cent of the friction, `--max-error 1`")
+            );
+        }
+        options.accuracy = percent / 100.0;
+        options.wanted = Wanted::Error {
+            part: options.accuracy,
+            most: points.unwrap_or(MOST),
+        };
+    }
+    Ok(options)
+}
+
+/// What a value list was made of.
+struct Made<'a> {
+    axis: Option<&'a str>,
+    from: &'a str,
+    unit: &'a str,
+}
+
+impl Made<'_> {
+    /// The value list, written for a build.
+    fn list(&self, list: &FrictionList, build: Option<CncBuild>) -> String {
+        let axis = self
+            .axis
+            .map(|axis| format!(" of axis {}", visible_line(axis)));
+        let made = format!(
+            "Friction{} identified from {}",
+            axis.unwrap_or_default(),
+            visible_line(self.from)
+        );
+        let unit = format!("Outputs are in {}", visible_line(self.unit));
+        let points = Points::of_build(build);
+        let mut remarks = vec![made.as_str(), unit.as_str()];
+        if points == Points::Real {
+            remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
+        }
+        write_value_list(list, points, &remarks)
+    }
+}
+
+impl From<IdentifyError> for Failure {
+    fn from(error: IdentifyError) -> Self {
+        Self::new(error.to_string()).with_help(error.help())
+    }
+}

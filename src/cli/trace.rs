@@ -1,0 +1,87 @@
+//! `frictcomp trace`: what a recorded trace holds.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::console::Console;
+use super::exit;
+use super::failure::Failure;
+use super::outputs::{Outputs, write_text};
+use crate::host::{Ledger, read_trace};
+use crate::report::html::render_trace;
+use crate::report::pictures::channels;
+use crate::report::svg::Frame;
+use crate::report::trace::{TraceReport, render_json, render_text};
+use crate::trace::{ChannelQuantity, ChannelSelection, Choice};
+
+/// List the channels of a recorded trace: rates, lengths, ranges, gaps
+///
+/// Reads exports of TwinCAT Scope (CSV), traces of SINUMERIK (XML) and CSV files with a header. The
+/// names, comments and CNC objects that it lists are what `identify`, `current` and `circle` take
+/// after `--velocity`, `--position`, `--torque`, `--time`, `--x` and `--y`.
+#[derive(Debug, Args)]
+pub(super) struct TraceArgs {
+    /// The recorded trace
+    file: PathBuf,
+    /// The channel of the times, where the file has one that is not called `t` or `time`
+    #[arg(long, value_name = "CHANNEL")]
+    time: Option<String>,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Draw the channels over time to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write an HTML report with the channels over time to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write the result to this file
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// A line for each channel.
+    #[default]
+    Text,
+    /// One JSON document.
+    Json,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    ledger.reads("trace", &args.file);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.output.as_deref())?;
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
+    outputs.check()?;
+    let selection = ChannelSelection {
+        time: args.time.clone(),
+        ..ChannelSelection::default()
+    };
+    let recording = read_trace(&args.file, |channels| {
+        let time = selection.find(ChannelQuantity::Time, channels)?;
+        Ok(Choice::all(channels, time))
+    })?;
+    let report = TraceReport {
+        name: args.file.display().to_string(),
+        recording: &recording,
+    };
+    if let Some(mut svg) = svg {
+        write_text(&mut svg, &channels(&report).render(Frame::Alone))?;
+    }
+    if let Some(mut html) = html {
+        render_trace(&report, &mut html).map_err(Failure::output)?;
+    }
+    result.text(&match args.format {
+        Format::Text => render_text(&report),
+        Format::Json => render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}

@@ -1,0 +1,79 @@
+//! `frictcomp verify`: a recorded torque against a value list.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::channels::AxisChannels;
+use super::console::Console;
+use super::cycle::CycleArgs;
+use super::exit;
+use super::failure::Failure;
+use super::machine::value_list;
+use super::outputs::Outputs;
+use crate::host::{Ledger, read_axis};
+use crate::identify::verify;
+use crate::report::fitted;
+use crate::report::verify::{VerifyReport, render_json, render_text};
+
+/// Compare a recorded torque with what a value list predicts
+///
+/// Says whether the list is too low or too high, by speed, whether its sign is inverted, and by how many
+/// cycles it is late at reversals. The channels are named as for `identify`; record without the
+/// compensation, or the torque that the drive measures.
+#[derive(Debug, Args)]
+pub(super) struct VerifyArgs {
+    /// The recorded trace
+    trace: PathBuf,
+    /// The compensation value list
+    #[arg(long, value_name = "LIST")]
+    value_list: PathBuf,
+    #[command(flatten)]
+    channels: AxisChannels,
+    #[command(flatten)]
+    cycle: CycleArgs,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Write the result to this file
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// Tables for people.
+    #[default]
+    Text,
+    /// One JSON document.
+    Json,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    ledger.reads("trace", &args.trace);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.output.as_deref())?;
+    let list = value_list(&args.value_list, &ledger)?;
+    outputs.check()?;
+    let recording = read_axis(
+        &args.trace,
+        &args.channels.selection(),
+        args.cycle.seconds()?,
+    )?;
+    let verified = verify(&recording.track, &list)?;
+    let report = VerifyReport {
+        trace: args.trace.display().to_string(),
+        list: args.value_list.display().to_string(),
+        recording,
+        verified,
+    };
+    result.text(&match args.format {
+        Format::Text => fitted(&render_text(&report), result.look.width),
+        Format::Json => render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}

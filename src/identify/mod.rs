@@ -1,0 +1,33 @@
+//! From recorded torque to a value list (chapter 6 of the rules).
+//!
+//! [`identify`] looks for constant speeds in a [`Track`], takes friction and offset from what both
+//! directions have in torque, draws a curve through them and chooses the points of a value list.
+//! Speeds are in mm/s or °/s, torque and friction in drive units.
+
+mod circles;
+mod curve;
+mod finding;
+mod identified;
+mod pair;
+mod recorded;
+mod ripple;
+mod segment;
+mod speeds;
+mod statistics;
+mod support;
+mod track;
+mod verify;
+mod warnings;
+
+pub use circles::{OnCircles, identify_circles};
+pub use curve::{Fit, FrictionCurve};
+pub use finding::TraceFinding;
+pub use identified::{Identified, IdentifyError, IdentifyOptions};
+pub use pair::{Drift, Pair, Visit};
+pub use recorded::{AxisChannels, AxisRecording};
+pub use ripple::Ripple;
+pub use segment::Segment;
+pub use speeds::identify;
+pub use support::Wanted;
+pub use track::{Track, TrackError};
+pub use verify::{Reversal, ScaleRange, Verified, verify};

@@ -1,0 +1,94 @@
+//! What repeats along the way: the pitch of a screw, the poles of a motor (R6.16).
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::segment::Segment;
+use super::statistics::{count, trimmed_mean};
+use super::track::Samples;
+
+/// A torque that repeats with the position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ripple {
+    /// The period in mm or degrees.
+    pub period: f64,
+    /// Half of what it goes up and down, in drive units.
+    pub amplitude: f64,
+}
+
+/// Residuals are averaged over so many mm at least, and there are not more of them.
+const MOST: usize = 20_000;
+
+/// More frequencies are not tried.
+const FREQUENCIES: usize = 1500;
+
+/// The shortest period in mm.
+const SHORTEST: f64 = 0.4;
+
+/// The largest ripple of the segments, if it stands out of the noise.
+pub(super) fn ripple(samples: &Samples, segments: &[Segment]) -> Option<Ripple> {
+    let residuals = residuals(samples, segments);
+    let positions = residuals.iter().map(|it| it[0]);
+    let (low, high) = positions.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), it| {
+        (low.min(it), high.max(it))
+    });
+    let way = high - low;
+    if residuals.len() < 200 || way < 4.0 * SHORTEST {
+        return None;
+    }
+    let squares: f64 = residuals.iter().map(|it| it[1] * it[1]).sum();
+    let spread = (squares / count(residuals.len())).sqrt();
+    let step = (0.5 / way).max((1.0 / SHORTEST - 2.0 / way) / count(FREQUENCIES));
+    let (frequency, amplitude) = (0..FREQUENCIES)
+        .map(|at| 2.0 / way + count(at) * step)
+        .take_while(|&frequency| frequency <= 1.0 / SHORTEST)
+        .map(|frequency| (frequency, amplitude(&residuals, frequency)))
+        .max_by(|one, other| one.1.total_cmp(&other.1))?;
+    let frequency = sharpened(&residuals, frequency, step);
+    // The greatest of many amplitudes of noise.
+    let by_chance = spread * (4.0 * count(FREQUENCIES).ln() / count(residuals.len())).sqrt();
+    (amplitude > 2.0 * by_chance).then_some(Ripple {
+        period: 1.0 / frequency,
+        amplitude,
+    })
+}
+
+/// The frequency between its neighbours at which the amplitude is greatest.
+fn sharpened(residuals: &[[f64; 2]], frequency: f64, step: f64) -> f64 {
+    let near = (-10..=10).map(|at| frequency + f64::from(at) * step / 10.0);
+    let greatest = near
+        .filter(|&it| it > 0.0)
+        .map(|it| (it, amplitude(residuals, it)))
+        .max_by(|one, other| one.1.total_cmp(&other.1));
+    greatest.map_or(frequency, |(frequency, _)| frequency)
+}
+
+fn amplitude(residuals: &[[f64; 2]], frequency: f64) -> f64 {
+    let (mut cosine, mut sine) = (0.0, 0.0);
+    for [position, residual] in residuals {
+        let (s, c) = (TAU * frequency * position).sin_cos();
+        cosine += residual * c;
+        sine += residual * s;
+    }
+    2.0 * cosine.hypot(sine) / count(residuals.len())
+}
+
+/// Pairs of position and of what the torque differs from the mean of its segment.
+pub(super) fn residuals(samples: &Samples, segments: &[Segment]) -> Vec<[f64; 2]> {
+    let all: usize = segments.iter().map(|segment| segment.samples.len()).sum();
+    let block = (all / MOST).max(1);
+    let of_segment = |range: &Range<usize>| -> Vec<[f64; 2]> {
+        let torques = &samples.torques[range.clone()];
+        let mean = trimmed_mean(torques);
+        let places = samples.positions[range.clone()].chunks_exact(block);
+        let blocks = places.zip(torques.chunks_exact(block));
+        let middle = |values: &[f64]| values.iter().sum::<f64>() / count(values.len());
+        blocks
+            .map(|(x, torque)| [middle(x), middle(torque) - mean])
+            .collect()
+    };
+    segments
+        .iter()
+        .flat_map(|segment| of_segment(&segment.samples))
+        .collect()
+}

@@ -1,0 +1,79 @@
+//! The way from a recording at constant speeds to the points of a value list.
+
+use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
+use super::identified::{Identified, IdentifyError, IdentifyOptions};
+use super::pair::{Pair, drift, pairs};
+use super::ripple::{residuals, ripple};
+use super::segment::segments;
+use super::statistics::count;
+use super::support::{Speeds, support};
+use super::track::{Samples, Track};
+use super::warnings;
+use crate::lists::TablePoint;
+
+/// Identifies the friction of an axis that moves at constant speeds.
+///
+/// # Errors
+/// The recording cannot be used for that.
+pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, IdentifyError> {
+    let samples = Samples::new(track)?;
+    let segments = segments(&samples);
+    if segments.is_empty() {
+        return Err(IdentifyError::NoSegments);
+    }
+    let directions = |sign: f64| segments.iter().any(|it| it.velocity * sign > 0.0);
+    if !(directions(1.0) && directions(-1.0)) {
+        return Err(IdentifyError::OneDirection);
+    }
+    let (pairs, offset) = pairs(&samples, &segments);
+    if pairs.iter().all(|pair| pair.offset.is_none()) {
+        return Err(IdentifyError::OneDirection);
+    }
+    check_friction(&pairs)?;
+    let duration_s = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);
+    let fit = fit(&pairs);
+    let curve = match fit {
+        Some(fit) if fit.chi_square <= WORST_CHI_SQUARE => FrictionCurve::Fit(fit),
+        _ => FrictionCurve::Lines(
+            pairs
+                .iter()
+                .map(|pair| [pair.speed, pair.friction])
+                .collect(),
+        ),
+    };
+    let speeds = Speeds {
+        slowest: pairs[0].speed,
+        fastest: pairs[pairs.len() - 1].speed,
+    };
+    let support = support(&curve, speeds, options.wanted);
+    let points = support.points.iter().map(|&[speed, friction]| TablePoint {
+        input: (speed * 1000.0).round(),
+        output: friction,
+    });
+    let mut identified = Identified {
+        points: points.collect(),
+        point_error: support.error,
+        ripple: ripple(&samples, &segments),
+        drift: drift(&pairs, duration_s),
+        residuals: residuals(&samples, &segments),
+        findings: Vec::new(),
+        segments,
+        pairs,
+        offset,
+        fit,
+        curve,
+    };
+    identified.findings = warnings::findings(&identified, options);
+    Ok(identified)
+}
+
+/// Whether the torque has anything to do with the direction.
+fn check_friction(pairs: &[Pair]) -> Result<(), IdentifyError> {
+    let weighted =
+        |value: fn(&Pair) -> f64| pairs.iter().map(value).sum::<f64>() / count(pairs.len());
+    let (friction, spread) = (weighted(|it| it.friction), weighted(|it| it.error));
+    if friction.abs() > 2.0 * spread && friction != 0.0 {
+        return Ok(());
+    }
+    Err(IdentifyError::NoFriction { friction, spread })
+}

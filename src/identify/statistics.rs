@@ -1,0 +1,94 @@
+//! Means, middles and spreads of samples.
+
+/// What makes a standard deviation of the median of deviations.
+const NORMAL: f64 = 1.4826;
+
+/// The middle value; the mean of the two middle ones of an even number.
+pub(super) fn median(values: &[f64]) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    let middle = sorted.len() / 2;
+    if sorted.is_empty() {
+        return None;
+    }
+    let (below, upper, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
+    let upper = *upper;
+    if values.len() % 2 == 1 {
+        return Some(upper);
+    }
+    let lower = below.iter().copied().max_by(f64::total_cmp)?;
+    Some(f64::midpoint(lower, upper))
+}
+
+/// The standard deviation of the noise on a signal, from its second differences: a signal that rises
+/// evenly has none.
+pub(super) fn noise_of(values: &[f64]) -> f64 {
+    let second = values
+        .windows(3)
+        .map(|it| (it[0] - 2.0 * it[1] + it[2]).abs());
+    let second: Vec<f64> = second.collect();
+    // The variances of three samples with the weights 1, -2, 1 add up to 6.
+    median(&second).unwrap_or(0.0) * NORMAL / 6.0_f64.sqrt()
+}
+
+/// The mean of what lies between the 5th and the 95th of a hundred.
+pub(super) fn trimmed_mean(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let cut = sorted.len() / 20;
+    let kept = &sorted[cut..sorted.len() - cut];
+    kept.iter().sum::<f64>() / count(kept.len())
+}
+
+/// The standard error of a mean, from the means of blocks: neighbours may be alike.
+pub(super) fn standard_error(values: &[f64], block: usize) -> f64 {
+    let block = block.min(values.len() / 4).max(1);
+    let means: Vec<f64> = values
+        .chunks_exact(block)
+        .map(|it| it.iter().sum::<f64>() / count(block))
+        .collect();
+    if means.len() < 2 {
+        return 0.0;
+    }
+    let mean = means.iter().sum::<f64>() / count(means.len());
+    let squares: f64 = means.iter().map(|it| (it - mean) * (it - mean)).sum();
+    (squares / count(means.len() - 1) / count(means.len())).sqrt()
+}
+
+/// The smallest step between two values: what the drive resolves.
+pub(super) fn resolution(values: &[f64]) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let least = steps
+        .filter(|&step| step > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
+}
+
+/// How many samples a time has, at least one.
+pub(super) fn samples_in(seconds: f64, step_s: f64) -> usize {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1 to some thousands
+    let samples = (seconds / step_s).round().max(1.0) as usize;
+    samples
+}
+
+#[allow(clippy::cast_precision_loss)] // samples of a recording
+pub(super) fn count(samples: usize) -> f64 {
+    samples as f64
+}
+
+/// The mean of the samples around each one.
+pub(super) fn moving_average(values: &[f64], width: usize) -> Vec<f64> {
+    let mut sums = Vec::with_capacity(values.len() + 1);
+    let mut sum = 0.0;
+    sums.push(0.0);
+    for value in values {
+        sum += value;
+        sums.push(sum);
+    }
+    (0..values.len())
+        .map(|at| {
+            let from = at.saturating_sub(width / 2);
+            let to = (from + width).min(values.len());
+            (sums[to] - sums[from]) / count(to - from)
+        })
+        .collect()
+}

@@ -1,0 +1,157 @@
+//! Support points of a value list: few points whose straight lines stay close to the curve (R6.17).
+
+use super::curve::FrictionCurve;
+
+/// How many points are wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Wanted {
+    /// So many at most.
+    Points(usize),
+    /// As few as keep the error below this part of the friction, but not more than so many.
+    Error {
+        /// The part of the Coulomb friction.
+        part: f64,
+        /// So many at most.
+        most: usize,
+    },
+}
+
+/// The range of speeds that a list is made for, in mm/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Speeds {
+    /// The slowest measured one; below it the curve is held.
+    pub(super) slowest: f64,
+    pub(super) fastest: f64,
+}
+
+/// Points, and the largest error of the lines between them.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Support {
+    pub(super) points: Vec<[f64; 2]>,
+    pub(super) error: f64,
+}
+
+/// Places for points.
+const PLACES: u32 = 200;
+
+/// The points, ascending, the first at standstill and the last at the fastest speed. The largest error
+/// of the lines is the smallest that so many points can have (dynamic programming).
+pub(super) fn support(curve: &FrictionCurve, speeds: Speeds, wanted: Wanted) -> Support {
+    let table = Table::new(curve, speeds);
+    let most = match wanted {
+        Wanted::Points(most) | Wanted::Error { most, .. } => most.clamp(2, table.speeds.len()),
+    };
+    let best = table.best(most);
+    let level = curve
+        .at(speeds.fastest)
+        .abs()
+        .min(curve.at(speeds.slowest).abs());
+    let enough = |points: usize| match wanted {
+        Wanted::Error { part, .. } => best[points].0 <= part * level,
+        Wanted::Points(_) => false,
+    };
+    let chosen = (1..most).find(|&lines| enough(lines)).unwrap_or(most - 1);
+    let (error, places) = &best[chosen];
+    Support {
+        points: places
+            .iter()
+            .map(|&at| [table.speeds[at], table.values[at]])
+            .collect(),
+        error: *error,
+    }
+}
+
+struct Table {
+    /// Where points may be, in mm/s, whole µm/s.
+    speeds: Vec<f64>,
+    values: Vec<f64>,
+    /// Where errors are looked at: speeds with the values of the curve, ascending.
+    looked: Vec<[f64; 2]>,
+}
+
+impl Table {
+    fn new(curve: &FrictionCurve, Speeds { slowest, fastest }: Speeds) -> Self {
+        let held = |speed: f64| curve.at(speed.max(slowest));
+        let whole = |speed: f64| (speed * 1000.0).round() / 1000.0;
+        let between = |steps: u32| {
+            let factor = (fastest / slowest).ln() / f64::from(steps);
+            (0..=steps).map(move |at| slowest * (f64::from(at) * factor).exp())
+        };
+        let mut speeds: Vec<f64> = vec![0.0];
+        speeds.extend(between(PLACES).map(whole));
+        if let FrictionCurve::Lines(points) = curve {
+            speeds.extend(points.iter().map(|point| whole(point[0])));
+        }
+        speeds.retain(|&speed| speed <= fastest);
+        speeds.push(fastest);
+        speeds.sort_by(f64::total_cmp);
+        // Two places within a µm/s are one; the last one stays.
+        speeds.dedup_by(|after, before| {
+            let is_near = *after - *before < 0.0005;
+            if is_near && *before > 0.0 {
+                *before = *after;
+            }
+            is_near
+        });
+        let mut looked: Vec<[f64; 2]> = vec![[0.0, held(0.0)], [slowest / 2.0, held(0.0)]];
+        looked.extend(between(3 * PLACES).map(|speed| [speed, held(speed)]));
+        Self {
+            values: speeds.iter().map(|&speed| held(speed)).collect(),
+            speeds,
+            looked,
+        }
+    }
+
+    /// The largest error of a line between two places.
+    fn error(&self, from: usize, to: usize) -> f64 {
+        let [x0, x1] = [self.speeds[from], self.speeds[to]];
+        let [y0, y1] = [self.values[from], self.values[to]];
+        let slope = (y1 - y0) / (x1 - x0);
+        let first = self.looked.partition_point(|it| it[0] < x0);
+        let within = self.looked[first..].iter().take_while(|it| it[0] <= x1);
+        within
+            .map(|[x, y]| (y0 + slope * (x - x0) - y).abs())
+            .fold(0.0, f64::max)
+    }
+
+    /// For every number of lines up to one less than `most` points, the smallest largest error and
+    /// its places. The first one, of no line, is not used.
+    fn best(&self, most: usize) -> Vec<(f64, Vec<usize>)> {
+        let places = self.speeds.len();
+        let mut errors = vec![0.0; places * places];
+        for from in 0..places {
+            for to in from + 1..places {
+                errors[from * places + to] = self.error(from, to);
+            }
+        }
+        let mut reached = vec![f64::INFINITY; places];
+        reached[0] = 0.0;
+        let mut before: Vec<Vec<usize>> = Vec::new();
+        let mut best = vec![(f64::INFINITY, Vec::new())];
+        for _ in 1..most {
+            let mut next = vec![f64::INFINITY; places];
+            let mut origin = vec![0; places];
+            for to in 1..places {
+                for from in 0..to {
+                    let error = reached[from].max(errors[from * places + to]);
+                    if error < next[to] {
+                        next[to] = error;
+                        origin[to] = from;
+                    }
+                }
+            }
+            before.push(origin);
+            reached = next;
+            let mut at = places - 1;
+            let mut path = vec![at];
+            for origin in before.iter().rev() {
+                at = origin[at];
+                path.push(at);
+            }
+            path.reverse();
+            path.dedup();
+            best.push((reached[places - 1], path));
+        }
+        best
+    }
+}

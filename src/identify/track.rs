@@ -1,0 +1,211 @@
+//! What was recorded of one axis, cycle by cycle.
+
+use thiserror::Error;
+
+/// Samples of one axis at common, rising times.
+#[derive(Debug, Clone, Default)]
+pub struct Track {
+    /// Times in s.
+    pub times_s: Vec<f64>,
+    /// Velocities in µm/s or 0.001°/s, where they were recorded.
+    pub velocities: Option<Vec<f64>>,
+    /// Positions in 0.1 µm or 0.0001°, where they were recorded.
+    pub positions: Option<Vec<f64>>,
+    /// Torque or current in drive units.
+    pub torques: Vec<f64>,
+    /// The usual time between two samples.
+    pub step_s: f64,
+}
+
+/// Why a track cannot be used.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TrackError {
+    /// Neither velocities nor positions.
+    #[error("there is neither a velocity nor a position")]
+    NoMotion,
+    /// Values that nothing measures.
+    #[error("at {time_s} s the {what} is {value:e}, which nothing measures")]
+    Absurd {
+        /// When.
+        time_s: f64,
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Fewer samples than a segment has.
+    #[error("{samples} samples are too few")]
+    Short {
+        /// How many there are.
+        samples: usize,
+    },
+    /// Samples that are too far apart for motions to be seen.
+    #[error("{step_s} s between two samples are too long")]
+    Slow {
+        /// The time between two samples.
+        step_s: f64,
+    },
+    /// A velocity that moves the axis elsewhere.
+    #[error(
+        "velocity and position do not belong together: the position moves {ratio} times as far as the velocity says"
+    )]
+    Apart {
+        /// The ratio, as a text of few digits.
+        ratio: String,
+    },
+}
+
+impl TrackError {
+    /// What to do about it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::NoMotion => {
+                "record the commanded velocity or the commanded position with the torque"
+            }
+            Self::Absurd { .. } => "name the channel that holds it, or give its unit",
+            Self::Short { .. } => "record for a longer time",
+            Self::Slow { .. } => "record in the CNC cycle, or at least every 20 ms",
+            Self::Apart { .. } => "check the units of both, and that both are of one axis",
+        }
+    }
+}
+
+/// Motion and torque of one axis, complete and checked.
+#[derive(Debug, Clone)]
+pub(super) struct Samples {
+    pub(super) times_s: Vec<f64>,
+    /// In mm/s or °/s.
+    pub(super) velocities: Vec<f64>,
+    /// In mm or degrees.
+    pub(super) positions: Vec<f64>,
+    /// Whether the positions were recorded, and not made of the velocities.
+    pub(super) has_positions: bool,
+    pub(super) torques: Vec<f64>,
+    pub(super) step_s: f64,
+}
+
+/// Beyond that, squares and sums are not to be trusted.
+const ABSURD: f64 = 1e12;
+
+/// Fewer samples than a segment of the least length has.
+const FEWEST: usize = 20;
+
+/// Samples that are further apart show no segments.
+const SLOWEST_S: f64 = 0.02;
+
+impl Samples {
+    pub(super) fn new(track: &Track) -> Result<Self, TrackError> {
+        let samples = track.times_s.len();
+        let step_s = track.step_s;
+        if samples < FEWEST {
+            return Err(TrackError::Short { samples });
+        }
+        if !(step_s > 0.0 && step_s <= SLOWEST_S) {
+            return Err(TrackError::Slow { step_s });
+        }
+        let columns = [
+            ("velocity", track.velocities.as_deref()),
+            ("position", track.positions.as_deref()),
+            ("torque", Some(&track.torques[..])),
+        ];
+        for (what, column) in columns {
+            let pairs = track.times_s.iter().zip(column.unwrap_or_default());
+            for (&time_s, &value) in pairs {
+                if !value.is_finite() || value.abs() > ABSURD {
+                    return Err(TrackError::Absurd {
+                        time_s,
+                        what,
+                        value,
+                    });
+                }
+            }
+        }
+        let (velocities, positions) = match (&track.velocities, &track.positions) {
+            (None, None) => return Err(TrackError::NoMotion),
+            (Some(velocities), None) => {
+                let velocities = scaled(velocities, 1e-3);
+                let positions = integrated(&velocities, &track.times_s);
+                (velocities, positions)
+            }
+            (None, Some(positions)) => {
+                let positions = scaled(positions, 1e-4);
+                (differentiated(&positions, &track.times_s), positions)
+            }
+            (Some(velocities), Some(positions)) => {
+                (scaled(velocities, 1e-3), scaled(positions, 1e-4))
+            }
+        };
+        let samples = Self {
+            times_s: track.times_s.clone(),
+            velocities,
+            positions,
+            has_positions: track.positions.is_some(),
+            torques: track.torques.clone(),
+            step_s,
+        };
+        samples.check_motion()?;
+        Ok(samples)
+    }
+
+    /// Whether the position goes where the velocity says.
+    fn check_motion(&self) -> Result<(), TrackError> {
+        /// Distances in mm below which nothing is said.
+        const LEAST: f64 = 0.5;
+        let reached = integrated(&self.velocities, &self.times_s);
+        let travel = |positions: &[f64]| -> f64 {
+            // Every tenth of a second, so that noise of single samples makes no way.
+            let every = (0.1 / self.step_s).ceil().max(1.0);
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 5 to some hundreds
+            let coarse: Vec<f64> = positions.iter().step_by(every as usize).copied().collect();
+            coarse
+                .windows(2)
+                .map(|pair| (pair[1] - pair[0]).abs())
+                .sum()
+        };
+        let (one, other) = (travel(&self.positions), travel(&reached));
+        if one.max(other) < LEAST {
+            return Ok(());
+        }
+        let ratio = one / other.max(1e-12);
+        if (0.5..=2.0).contains(&ratio) {
+            return Ok(());
+        }
+        Err(TrackError::Apart {
+            ratio: if ratio >= 1.0 {
+                format!("{ratio:.0}")
+            } else {
+                format!("{ratio:.4}")
+            },
+        })
+    }
+}
+
+fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
+    values.iter().map(|value| value * factor).collect()
+}
+
+/// Where velocities lead, from 0.
+fn integrated(velocities: &[f64], times_s: &[f64]) -> Vec<f64> {
+    let mut position = 0.0;
+    let mut before = times_s.first().copied().unwrap_or_default();
+    let pairs = velocities.iter().zip(times_s);
+    pairs
+        .map(|(velocity, &time)| {
+            position += velocity * (time - before);
+            before = time;
+            position
+        })
+        .collect()
+}
+
+/// Velocities of positions, each over the samples before and after.
+fn differentiated(positions: &[f64], times_s: &[f64]) -> Vec<f64> {
+    let last = positions.len() - 1;
+    (0..=last)
+        .map(|at| {
+            let (from, to) = (at.saturating_sub(1), (at + 1).min(last));
+            (positions[to] - positions[from]) / (times_s[to] - times_s[from])
+        })
+        .collect()
+}

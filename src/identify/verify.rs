@@ -1,0 +1,337 @@
+//! A recorded torque against what a value list predicts (R6.20).
+
+use super::curve::{along, solve_linear};
+use super::identified::IdentifyError;
+use super::statistics::{count, moving_average, samples_in};
+use super::track::{Samples, Track};
+use crate::lists::FrictionList;
+
+/// How a value list fits a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verified {
+    /// Recorded friction as a part of the predicted one, over all speeds.
+    pub scale: f64,
+    /// The same by ranges of speeds.
+    pub ranges: Vec<ScaleRange>,
+    /// What is the same in both directions, in drive units.
+    pub offset: f64,
+    /// Torque of an acceleration of 1 mm/s², in drive units.
+    pub inertia: f64,
+    /// By how many samples the recorded torque comes after the predicted one; `None` where no reversal
+    /// shows it.
+    pub lag: Option<i32>,
+    /// The time between two samples.
+    pub step_s: f64,
+    /// The standard deviation of what is left over, in drive units.
+    pub residual: f64,
+    /// The reversals of the recording.
+    pub reversals: Vec<Reversal>,
+}
+
+/// A range of speeds with its scale.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScaleRange {
+    /// The slowest speed of the range, in mm/s or °/s.
+    pub from: f64,
+    /// The fastest one.
+    pub to: f64,
+    /// Recorded friction as a part of the predicted one.
+    pub scale: f64,
+}
+
+/// A change of direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reversal {
+    /// When, in s.
+    pub time_s: f64,
+    /// The recorded step of the torque, in drive units, without inertia.
+    pub recorded: f64,
+    /// The step that the list predicts.
+    pub predicted: f64,
+}
+
+/// Ranges of speeds end here, in mm/s.
+const BOUNDS: [f64; 5] = [1.0, 5.0, 20.0, 80.0, f64::INFINITY];
+
+/// Slower than that in mm/s is rest.
+const REST: f64 = 0.05;
+
+/// The velocity is averaged over so many s.
+const AVERAGED_S: f64 = 0.01;
+
+/// Samples around reversals say nothing of the scale, so many s after them.
+const AFTER_S: f64 = 0.05;
+
+/// The lag is looked for within so many samples.
+const MOST_LAG: i32 = 30;
+
+/// A range with fewer samples has no scale.
+const FEWEST: f64 = 100.0;
+
+/// Compares a recording with a value list.
+///
+/// # Errors
+/// The recording cannot be used, or the axis moves in one direction only.
+pub fn verify(track: &Track, list: &FrictionList) -> Result<Verified, IdentifyError> {
+    let samples = Samples::new(track)?;
+    let motion = Motion::of(&samples, list);
+    let directions = |sign: f64| motion.signs.iter().any(|it| it * sign > 0.0);
+    if !(directions(1.0) && directions(-1.0)) {
+        return Err(IdentifyError::OneDirection);
+    }
+    let used = motion.used(samples_in(AFTER_S, samples.step_s));
+    let whole = regress(&samples, &motion, &used, |_| 0);
+    let ranges = regress(&samples, &motion, &used, range_of);
+    let [Some(whole), Some(ranges)] = [whole, ranges] else {
+        return Err(IdentifyError::NoSegments);
+    };
+    let scales = ranges.scales.iter().enumerate();
+    let ranges = scales.filter_map(|(at, scale)| {
+        Some(ScaleRange {
+            from: at.checked_sub(1).map_or(REST, |before| BOUNDS[before]),
+            to: BOUNDS[at].min(motion.fastest()),
+            scale: (*scale)?,
+        })
+    });
+    let scale = whole.scales[0].unwrap_or(0.0);
+    let rest: Vec<f64> = (0..samples.torques.len())
+        .map(|at| samples.torques[at] - whole.inertia * motion.accelerations[at] - whole.offset)
+        .collect();
+    let squares: f64 = used
+        .iter()
+        .map(|&at| (rest[at] - scale * motion.predicted[at]).powi(2))
+        .sum();
+    let turns = motion.turns();
+    let at_once: Vec<usize> = turns
+        .iter()
+        .copied()
+        .filter(|&at| motion.turns_at_once(at))
+        .collect();
+    Ok(Verified {
+        scale,
+        ranges: ranges.collect(),
+        offset: whole.offset,
+        inertia: whole.inertia,
+        lag: motion.lag(&rest, &at_once),
+        step_s: samples.step_s,
+        residual: (squares / count(used.len())).sqrt(),
+        reversals: turns
+            .iter()
+            .filter_map(|&at| motion.reversal(&samples, &rest, at))
+            .collect(),
+    })
+}
+
+/// The motion of an axis, and the friction that the list predicts.
+struct Motion {
+    velocities: Vec<f64>,
+    accelerations: Vec<f64>,
+    /// The direction of each sample; at rest the last one goes on.
+    signs: Vec<f64>,
+    predicted: Vec<f64>,
+}
+
+impl Motion {
+    fn of(samples: &Samples, list: &FrictionList) -> Self {
+        let velocities =
+            moving_average(&samples.velocities, samples_in(AVERAGED_S, samples.step_s));
+        let table = list
+            .table
+            .iter()
+            .map(|point| [point.input / 1000.0, point.output]);
+        let table: Vec<[f64; 2]> = table.collect();
+        let factor = f64::from(list.scaling_factor) / 1000.0;
+        let mut direction = 0.0;
+        let signs: Vec<f64> = velocities
+            .iter()
+            .map(|velocity| {
+                if velocity.abs() > REST {
+                    direction = velocity.signum();
+                }
+                direction
+            })
+            .collect();
+        let of_list =
+            |(velocity, sign): (&f64, &f64)| sign * factor * along(&table, velocity.abs());
+        let end = velocities.len() - 1;
+        let slope = |at: usize| {
+            let (from, to) = (at.saturating_sub(2), (at + 2).min(end));
+            (velocities[to] - velocities[from]) / (samples.times_s[to] - samples.times_s[from])
+        };
+        Self {
+            accelerations: (0..=end).map(slope).collect(),
+            predicted: velocities.iter().zip(&signs).map(of_list).collect(),
+            signs,
+            velocities,
+        }
+    }
+
+    fn fastest(&self) -> f64 {
+        self.velocities
+            .iter()
+            .fold(0.0, |most, velocity| most.max(velocity.abs()))
+    }
+
+    /// Where the direction changes.
+    fn turns(&self) -> Vec<usize> {
+        (1..self.signs.len())
+            .filter(|&at| self.signs[at] * self.signs[at - 1] < 0.0)
+            .collect()
+    }
+
+    /// The samples in motion, without those shortly after a change of direction.
+    fn used(&self, after: usize) -> Vec<usize> {
+        let mut since = 0;
+        let mut used = Vec::new();
+        for at in 1..self.signs.len() {
+            since = if self.signs[at] * self.signs[at - 1] > 0.0 {
+                since + 1
+            } else {
+                0
+            };
+            if since >= after && self.velocities[at].abs() > REST {
+                used.push(at);
+            }
+        }
+        used
+    }
+
+    /// Whether the axis turns without standing still: only then time is seen.
+    fn turns_at_once(&self, at: usize) -> bool {
+        const LONGEST: usize = 20;
+        let moving = |index: &usize| self.velocities[*index].abs() > REST;
+        let before = (0..at).rev().take(LONGEST).find(moving);
+        before.is_some_and(|index| self.velocities[index] * self.velocities[at] < 0.0)
+    }
+
+    /// By how many samples what was recorded comes after what is predicted, at the changes of direction.
+    fn lag(&self, rest: &[f64], turns: &[usize]) -> Option<i32> {
+        const AROUND: i32 = 60;
+        let apart = |lag: i32| -> f64 {
+            let at_turn = |&turn: &usize| -> f64 {
+                let turn = i32::try_from(turn).unwrap_or(i32::MAX);
+                let square = |offset: i32| {
+                    let at = turn.checked_add(offset)?;
+                    let then = usize::try_from(at.checked_sub(lag)?).ok()?;
+                    let recorded = rest.get(usize::try_from(at).ok()?)?;
+                    Some((recorded - self.predicted.get(then)?).powi(2))
+                };
+                (-AROUND..AROUND).filter_map(square).sum()
+            };
+            turns.iter().map(at_turn).sum()
+        };
+        let lags = (-MOST_LAG..=MOST_LAG).map(|lag| (lag, apart(lag)));
+        let best = lags
+            .min_by(|one, other| one.1.total_cmp(&other.1))
+            .map(|it| it.0);
+        best.filter(|lag| !turns.is_empty() && lag.abs() < MOST_LAG)
+    }
+
+    fn reversal(&self, samples: &Samples, rest: &[f64], at: usize) -> Option<Reversal> {
+        let width = samples_in(0.02, samples.step_s);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / count(values.len());
+        let [before, after] = [
+            at.checked_sub(3 * width)?..at - 2 * width,
+            at + 2 * width..at + 3 * width,
+        ];
+        let step = |values: &[f64]| {
+            Some(mean(values.get(after.clone())?) - mean(values.get(before.clone())?))
+        };
+        Some(Reversal {
+            time_s: samples.times_s[at],
+            recorded: step(rest)?,
+            predicted: step(&self.predicted)?,
+        })
+    }
+}
+
+/// Which range a speed in mm/s belongs to.
+fn range_of(speed: f64) -> usize {
+    BOUNDS.partition_point(|bound| *bound < speed)
+}
+
+/// A least-squares fit of the recorded torque.
+struct Regression {
+    /// By range; `None` with too few samples.
+    scales: Vec<Option<f64>>,
+    inertia: f64,
+    offset: f64,
+}
+
+/// The torque as the prediction times a scale, which may differ between ranges, an inertia times the
+/// acceleration, and an offset.
+fn regress(
+    samples: &Samples,
+    motion: &Motion,
+    used: &[usize],
+    range: impl Fn(f64) -> usize,
+) -> Option<Regression> {
+    let ranges = BOUNDS.len();
+    let size = ranges + 2;
+    let mut sums = vec![vec![0.0; size + 1]; size];
+    let mut weights = [0.0; BOUNDS.len()];
+    let mut row = vec![0.0; size];
+    for &at in used {
+        row.fill(0.0);
+        let range = range(motion.velocities[at].abs());
+        weights[range] += 1.0;
+        row[range] = motion.predicted[at];
+        row[ranges] = motion.accelerations[at];
+        row[ranges + 1] = 1.0;
+        for (i, one) in row.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            for (j, other) in row.iter().enumerate() {
+                sums[i][j] += one * other;
+            }
+            sums[i][size] += one * samples.torques[at];
+        }
+    }
+    let is_kept = |at: &usize| match at.checked_sub(ranges) {
+        None => weights[*at] >= FEWEST && sums[*at][*at] > 0.0,
+        Some(0) => sums[*at][*at] > 1e-6 * count(used.len()),
+        Some(_) => true,
+    };
+    let kept: Vec<usize> = (0..size).filter(is_kept).collect();
+    let matrix = kept.iter().map(|&i| {
+        let row = kept.iter().map(|&j| sums[i][j]);
+        row.chain([sums[i][size]]).collect()
+    });
+    let found = solve_linear(matrix.collect())?;
+    let value = |part: usize| Some(found[kept.iter().position(|&it| it == part)?]);
+    let scales: Vec<Option<f64>> = (0..ranges).map(value).collect();
+    scales.iter().any(Option::is_some).then(|| Regression {
+        scales,
+        inertia: value(ranges).unwrap_or(0.0),
+        offset: value(ranges + 1).unwrap_or(0.0),
+    })
+}
+
+impl Verified {
+    /// What is wrong with the list, each a sentence; empty where nothing is.
+    pub fn verdict(&self) -> Vec<String> {
+        /// A list within this part is right.
+        const RIGHT: f64 = 0.03;
+        let mut said = Vec::new();
+        if self.scale < 0.0 {
+            said.push("the sign of the list is inverted".to_owned());
+        }
+        let off = |range: &&ScaleRange| (range.scale.abs() - 1.0).abs() > RIGHT;
+        for range in self.ranges.iter().filter(off) {
+            let part = (1.0 - 1.0 / range.scale.abs()) * 100.0;
+            let word = if part > 0.0 { "low" } else { "high" };
+            said.push(format!(
+                "the list is {:.0} % {word} from {:.2} to {:.1} mm/s",
+                part.abs(),
+                range.from,
+                range.to
+            ));
+        }
+        if let Some(lag) = self.lag.filter(|lag| lag.abs() > 1) {
+            let word = if lag > 0 { "early" } else { "late" };
+            said.push(format!(
+                "the list is {} cycles {word} at reversals",
+                lag.abs()
+            ));
+        }
+        said
+    }
+}

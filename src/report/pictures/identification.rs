@@ -1,0 +1,186 @@
+//! An identified friction curve: speeds with their errors, the curve, and what is left over.
+
+use crate::report::identify::IdentifyReport;
+use crate::report::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
+
+/// Friction over speed: the pairs with their errors, the curve, the points of the list; below it what
+/// the pairs differ from the curve.
+pub fn friction_curve(report: &IdentifyReport) -> LineChart {
+    let found = &report.identified;
+    let unit = report.unit();
+    let (slowest, fastest) = match (found.pairs.first(), found.pairs.last()) {
+        (Some(first), Some(last)) => (first.speed, last.speed),
+        _ => (1.0, 1.0),
+    };
+    let bars = |values: &dyn Fn(f64, f64) -> f64| {
+        let bar = |pair: &crate::identify::Pair| {
+            let value = values(pair.speed, pair.friction);
+            [
+                [pair.speed, value - pair.error],
+                [pair.speed, value + pair.error],
+                [f64::NAN, f64::NAN],
+            ]
+        };
+        found.pairs.iter().flat_map(bar).collect()
+    };
+    let measured: Vec<[f64; 2]> = found
+        .pairs
+        .iter()
+        .flat_map(|pair| [[pair.speed, pair.friction], [f64::NAN, f64::NAN]])
+        .collect();
+    let residuals: Vec<[f64; 2]> = found
+        .pairs
+        .iter()
+        .flat_map(|pair| {
+            [
+                [pair.speed, pair.friction - found.curve.at(pair.speed)],
+                [f64::NAN, f64::NAN],
+            ]
+        })
+        .collect();
+    let steps = (fastest / slowest).ln() / 200.0;
+    let speeds = (0..=200).map(|at| slowest * (f64::from(at) * steps).exp());
+    let points: Vec<[f64; 2]> = found
+        .points
+        .iter()
+        .map(|point| [point.input / 1000.0, point.output])
+        .collect();
+    let listed = points.iter().filter(|point| point[0] >= slowest);
+    let listed = listed.flat_map(|point| [*point, [f64::NAN, f64::NAN]]);
+    LineChart {
+        title: title(report, "Friction"),
+        description: format!(
+            "Friction in {unit} at {} speeds from {slowest:.3} to {fastest:.3} mm/s with standard errors, the \
+             curve through them and the {} points of the value list; below, what the speeds differ from \
+             the curve.",
+            found.pairs.len(),
+            found.points.len()
+        ),
+        x: ChartAxis::logarithmic("speed in mm/s, logarithmic"),
+        bands: Vec::new(),
+        panels: vec![
+            Panel {
+                y: ChartAxis::linear(format!("friction in {unit}, bars are standard errors")),
+                series: vec![
+                    series("measured", measured, Drawn::Marked),
+                    series("error", bars(&|_, friction| friction), Drawn::Held),
+                    series(
+                        "curve",
+                        speeds.map(|v| [v, found.curve.at(v)]).collect(),
+                        Drawn::Line,
+                    ),
+                    series("points of the value list", listed.collect(), Drawn::Marked),
+                ],
+            },
+            Panel {
+                y: ChartAxis::linear(format!("residual in {unit}")),
+                series: vec![
+                    series("residual", residuals, Drawn::Marked),
+                    series(
+                        "error",
+                        bars(&|v, friction| friction - found.curve.at(v)),
+                        Drawn::Held,
+                    ),
+                ],
+            },
+        ],
+    }
+}
+
+/// What the torque differs from the mean of its segment, over the position.
+pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
+    let unit = report.unit();
+    let mut points = report.identified.residuals.clone();
+    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    LineChart {
+        title: title(report, "Residual torque over the position"),
+        description: format!(
+            "What the torque differs from the mean of its segment, in {unit}, over the position: what \
+             repeats here is no friction."
+        ),
+        x: ChartAxis::linear("position in mm"),
+        bands: Vec::new(),
+        panels: vec![Panel {
+            y: ChartAxis::linear(format!("residual in {unit}")),
+            series: vec![
+                series("all samples", points.clone(), Drawn::Line),
+                series("mean of neighbours", smoothed(&points), Drawn::Line),
+            ],
+        }],
+    }
+}
+
+/// Means of neighbours, some four hundred over the way.
+fn smoothed(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let chunk = (points.len() / 400).max(1);
+    let mean = |values: &[[f64; 2]], at: usize| {
+        let sum: f64 = values.iter().map(|it| it[at]).sum();
+        sum / f64::from(u32::try_from(values.len()).unwrap_or(u32::MAX))
+    };
+    points
+        .chunks(chunk)
+        .map(|it| [mean(it, 0), mean(it, 1)])
+        .collect()
+}
+
+/// Velocity and torque over time, the samples that are used drawn over all others.
+pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
+    let track = &report.recording.track;
+    let over_time = |values: &[f64], factor: f64| -> Vec<[f64; 2]> {
+        let pairs = track.times_s.iter().zip(values);
+        pairs.map(|(time, value)| [*time, value * factor]).collect()
+    };
+    let used = |values: &[f64], factor: f64| -> Vec<[f64; 2]> {
+        let segment = |segment: &crate::identify::Segment| {
+            let samples = segment.samples.clone();
+            let points = samples.map(|at| [track.times_s[at], values[at] * factor]);
+            points.chain([[f64::NAN, f64::NAN]]).collect::<Vec<_>>()
+        };
+        report
+            .identified
+            .segments
+            .iter()
+            .flat_map(segment)
+            .collect()
+    };
+    let (motion, label, factor) = match (&track.velocities, &track.positions) {
+        (Some(velocities), _) => (velocities, "velocity in mm/s", 1e-3),
+        (None, Some(positions)) => (positions, "position in mm", 1e-4),
+        (None, None) => (&track.torques, "torque", 1.0),
+    };
+    let panel = |label: String, values: &[f64], factor: f64| Panel {
+        y: ChartAxis::linear(label.clone()),
+        series: vec![
+            series(&label, over_time(values, factor), Drawn::Line),
+            series(&format!("{label}, used"), used(values, factor), Drawn::Line),
+        ],
+    };
+    LineChart {
+        title: title(report, "Segments of constant speed"),
+        description: format!(
+            "The recording over time, and the {} segments of constant speed that are used.",
+            report.identified.segments.len()
+        ),
+        x: ChartAxis::linear("time in s"),
+        bands: Vec::new(),
+        panels: vec![
+            panel(label.to_owned(), motion, factor),
+            panel(format!("torque in {}", report.unit()), &track.torques, 1.0),
+        ],
+    }
+}
+
+fn title(report: &IdentifyReport, what: &str) -> String {
+    match &report.axis {
+        Some(axis) => format!("{what} of axis {axis}"),
+        None => what.to_owned(),
+    }
+}
+
+fn series(name: &str, points: Vec<[f64; 2]>, drawn: Drawn) -> Series {
+    Series {
+        name: name.to_owned(),
+        points,
+        drawn,
+    }
+}

@@ -1,0 +1,250 @@
+//! Channels of several rates brought to one clock.
+
+use thiserror::Error;
+
+use super::channel::ChannelIndex;
+use super::clock::Clock;
+use super::recording::TraceRecording;
+use super::select::Pick;
+
+/// Samples of several channels at the same times.
+#[derive(Debug, Clone, Default)]
+pub struct Aligned {
+    /// The times in seconds, rising.
+    pub times_s: Vec<f64>,
+    /// For each channel its samples in the units of lists and traces.
+    pub columns: Vec<Vec<f64>>,
+    /// The usual time between two samples.
+    pub step_s: f64,
+    /// What was done to bring the channels together, each a sentence in lower case.
+    pub remarks: Vec<String>,
+}
+
+/// Why channels cannot be brought together.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum NotAligned {
+    /// A table without a column of times, and nothing that says how far its rows are apart.
+    #[error("the trace has no times")]
+    NoTimes,
+    /// A clock that jumps back or stands still.
+    #[error("the times do not rise: after {before_s} s comes {after_s} s")]
+    Backwards {
+        /// A time.
+        before_s: f64,
+        /// The one below it.
+        after_s: f64,
+    },
+    /// Channels that were recorded one after the other.
+    #[error("the channels `{one}` and `{other}` have no time in common")]
+    Apart {
+        /// A channel.
+        one: String,
+        /// Another one.
+        other: String,
+    },
+    /// Fewer samples than anything can be said about.
+    #[error("the channel `{channel}` has {samples} samples")]
+    Short {
+        /// The channel.
+        channel: String,
+        /// How many samples it has.
+        samples: usize,
+    },
+}
+
+impl NotAligned {
+    /// What to do about it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::NoTimes => {
+                "name the column of the times, or give the cycle in which the rows were recorded"
+            }
+            Self::Backwards { .. } => "a trace is one recording; separate what was recorded later",
+            Self::Apart { .. } => "record the channels together",
+            Self::Short { .. } => "record for a longer time",
+        }
+    }
+}
+
+/// A gap that is so many steps long is not bridged.
+const BRIDGED: f64 = 5.0;
+
+impl TraceRecording {
+    /// The samples of some channels on the clock of the fastest one, the others interpolated. Rows
+    /// without times are `cycle_s` apart.
+    ///
+    /// # Errors
+    /// The channels have no times in common, or none that rise.
+    pub fn align(&self, picks: &[Pick], cycle_s: Option<f64>) -> Result<Aligned, NotAligned> {
+        let mut aligned = Aligned::default();
+        let tracks: Vec<Track> = picks
+            .iter()
+            .map(|pick| self.track(pick, cycle_s, &mut aligned.remarks))
+            .collect::<Result<_, _>>()?;
+        let fastest = tracks
+            .iter()
+            .min_by(|one, other| one.step_s.total_cmp(&other.step_s));
+        let Some(base) = fastest else {
+            return Ok(aligned);
+        };
+        let begin = tracks
+            .iter()
+            .max_by(|one, other| one.first().total_cmp(&other.first()));
+        let end = tracks
+            .iter()
+            .min_by(|one, other| one.last().total_cmp(&other.last()));
+        if let (Some(begin), Some(end)) = (begin, end)
+            && begin.first() > end.last()
+        {
+            return Err(NotAligned::Apart {
+                one: self.name(begin.channel),
+                other: self.name(end.channel),
+            });
+        }
+        let from = begin.map_or(f64::NEG_INFINITY, Track::first);
+        let to = end.map_or(f64::INFINITY, Track::last);
+        let slower =
+            |track: &&Track| track.clock != base.clock || track.clock.is_none() && track.has_holes;
+        for track in tracks
+            .iter()
+            .filter(slower)
+            .filter(|it| it.channel != base.channel)
+        {
+            aligned.remarks.push(format!(
+                "`{}`, sampled every {} ms, is brought to the {} ms of `{}` by interpolation",
+                self.name(track.channel),
+                milliseconds(track.step_s),
+                milliseconds(base.step_s),
+                self.name(base.channel)
+            ));
+        }
+        let is_inside = |time: f64| {
+            (from..=to).contains(&time) && tracks.iter().all(|track| track.covers(time))
+        };
+        aligned.step_s = base.step_s;
+        aligned.times_s = base
+            .times_s
+            .iter()
+            .copied()
+            .filter(|&time| is_inside(time))
+            .collect();
+        aligned.columns = tracks
+            .iter()
+            .map(|track| track.at(&aligned.times_s))
+            .collect();
+        Ok(aligned)
+    }
+
+    fn name(&self, channel: ChannelIndex) -> String {
+        self.channels()[channel.get()].name.clone()
+    }
+
+    fn track(
+        &self,
+        pick: &Pick,
+        cycle_s: Option<f64>,
+        remarks: &mut Vec<String>,
+    ) -> Result<Track, NotAligned> {
+        let channel = pick.channel;
+        let values = self.values(channel);
+        #[allow(clippy::cast_precision_loss)] // rows of a file
+        let counted = |cycle: f64| (0..values.len()).map(|row| row as f64 * cycle).collect();
+        let all: Vec<f64> = match (self.times_s(channel), cycle_s) {
+            (Some(times), _) => times.to_vec(),
+            (None, Some(cycle)) => counted(cycle),
+            (None, None) => return Err(NotAligned::NoTimes),
+        };
+        let pairs = all
+            .iter()
+            .zip(values)
+            .filter(|(_, value)| value.is_finite());
+        let (times_s, values): (Vec<f64>, Vec<f64>) = pairs
+            .map(|(time, value)| (*time, value * pick.unit.factor))
+            .unzip();
+        let missing = all.len() - times_s.len();
+        if missing > 0 {
+            remarks.push(format!(
+                "{missing} samples of `{}` are no numbers and left out",
+                self.name(channel)
+            ));
+        }
+        if let Some(pair) = times_s.windows(2).find(|pair| pair[1] <= pair[0]) {
+            return Err(NotAligned::Backwards {
+                before_s: pair[0],
+                after_s: pair[1],
+            });
+        }
+        let step_s = Clock::of(&times_s).and_then(|clock| clock.step_s);
+        let Some(step_s) = step_s else {
+            return Err(NotAligned::Short {
+                channel: self.name(channel),
+                samples: times_s.len(),
+            });
+        };
+        Ok(Track {
+            channel,
+            clock: self.clock(channel),
+            has_holes: missing > 0,
+            times_s,
+            values,
+            step_s,
+        })
+    }
+}
+
+fn milliseconds(seconds: f64) -> f64 {
+    (seconds * 1e6).round() / 1e3
+}
+
+/// A channel with its own times.
+struct Track {
+    channel: ChannelIndex,
+    clock: Option<usize>,
+    has_holes: bool,
+    times_s: Vec<f64>,
+    values: Vec<f64>,
+    step_s: f64,
+}
+
+impl Track {
+    fn first(&self) -> f64 {
+        self.times_s.first().copied().unwrap_or(f64::INFINITY)
+    }
+
+    fn last(&self) -> f64 {
+        self.times_s.last().copied().unwrap_or(f64::NEG_INFINITY)
+    }
+
+    /// Whether there are samples around a time, not too far from each other.
+    fn covers(&self, time: f64) -> bool {
+        let after = self.times_s.partition_point(|&it| it < time);
+        match (
+            after.checked_sub(1).map(|at| self.times_s[at]),
+            self.times_s.get(after),
+        ) {
+            (_, Some(&exact)) if exact <= time => true,
+            (Some(before), Some(after)) => after - before <= self.step_s * BRIDGED,
+            _ => false,
+        }
+    }
+
+    /// The values at some rising times.
+    fn at(&self, times_s: &[f64]) -> Vec<f64> {
+        let mut after = 0;
+        let value = |&time: &f64| {
+            while self.times_s.get(after).is_some_and(|&it| it < time) {
+                after += 1;
+            }
+            let here = after.min(self.values.len().saturating_sub(1));
+            let before = here.saturating_sub(1);
+            let span = self.times_s[here] - self.times_s[before];
+            if self.times_s[here] <= time || span <= 0.0 {
+                return self.values[here];
+            }
+            let share = (time - self.times_s[before]) / span;
+            self.values[before] + share * (self.values[here] - self.values[before])
+        };
+        times_s.iter().map(value).collect()
+    }
+}

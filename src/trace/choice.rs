@@ -1,0 +1,56 @@
+//! Which channels of a file are kept.
+
+use super::channel::{Channel, ChannelIndex};
+use super::error::SelectError;
+use super::select::Pick;
+
+/// Which channels are kept.
+#[derive(Debug, Clone, Default)]
+pub struct Choice {
+    /// Channels of numbers.
+    pub values: Vec<ChannelIndex>,
+    /// Channels of `on` and `off`, kept as 1 and 0.
+    pub switches: Vec<ChannelIndex>,
+    /// Where their times come from.
+    pub time: TimeSource,
+}
+
+/// Where the times of samples come from.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum TimeSource {
+    /// From the columns of times that the layout has; a table with a header has none.
+    #[default]
+    Layout,
+    /// From a channel.
+    Channel(Pick),
+}
+
+impl Choice {
+    /// All channels that are there, with the times of one of them where the layout has none.
+    pub fn all(channels: &[Channel], time: Option<Pick>) -> Self {
+        Self {
+            values: (0..channels.len()).map(ChannelIndex).collect(),
+            switches: Vec::new(),
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+        }
+    }
+}
+
+impl Choice {
+    /// The same with the channel of a name, where there is one, as a switch.
+    pub fn with_switch(mut self, name: &str, channels: &[Channel]) -> (Self, Option<ChannelIndex>) {
+        let found = channels.iter().position(|channel| channel.name == name);
+        let found = found.map(ChannelIndex);
+        self.switches.extend(found);
+        (self, found)
+    }
+}
+
+/// Says which of the channels are kept.
+type Choose<'a> = Box<dyn FnMut(&[Channel]) -> Result<Choice, SelectError> + Send + 'a>;
+
+/// What is wanted of a trace.
+pub(super) struct Demand<'a> {
+    pub(super) choose: Choose<'a>,
+    pub(super) most_rows: usize,
+}

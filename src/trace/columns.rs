@@ -1,0 +1,48 @@
+//! Which column of a table is what.
+
+use super::cell::Separator;
+use super::channel::Channel;
+use super::recording::Layout;
+
+/// A line of a file without its end.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    pub(super) number: u64,
+    pub(super) bytes: Vec<u8>,
+}
+
+/// How times are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum TimeScale {
+    /// As Scope does: ms from the first point, or FILETIME, 100 ns since the year 1601.
+    Scope,
+    /// In a unit that makes so many seconds.
+    Seconds(f64),
+}
+
+/// Columns that share a column of times.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Group {
+    /// The column of the times, where there is one.
+    pub(super) time: Option<usize>,
+    pub(super) scale: TimeScale,
+}
+
+/// A channel with its place.
+#[derive(Debug, Clone)]
+pub(super) struct Column {
+    pub(super) channel: Channel,
+    pub(super) at: usize,
+    pub(super) group: usize,
+}
+
+/// Which column of a table is what.
+#[derive(Debug, Clone)]
+pub(super) struct Columns {
+    pub(super) layout: Layout,
+    pub(super) separator: Separator,
+    /// How many cells a row has.
+    pub(super) count: usize,
+    pub(super) described: Vec<Column>,
+    pub(super) groups: Vec<Group>,
+}

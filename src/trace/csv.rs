@@ -1,0 +1,127 @@
+//! Tables on their way in: lines of bytes, the header, then rows.
+
+use super::choice::Demand;
+use super::columns::{Columns, Line};
+use super::error::TraceProblem;
+use super::head::Head;
+use super::recording::TraceRecording;
+use super::table::Table;
+
+/// A line is not longer.
+const MOST_LINE: usize = 4 << 20;
+
+/// A table of which some lines came.
+#[derive(Default)]
+pub(super) struct Csv {
+    /// The begin of a line whose end has not come.
+    begun: Vec<u8>,
+    lines: u64,
+    stage: Stage,
+}
+
+#[derive(Default)]
+enum Stage {
+    /// Above the numbers.
+    Head(Head),
+    /// Among the numbers.
+    Rows(Box<Table>),
+    /// Between the two, and after a problem.
+    #[default]
+    Empty,
+}
+
+impl Csv {
+    pub(super) fn new() -> Self {
+        Self {
+            stage: Stage::Head(Head::default()),
+            ..Self::default()
+        }
+    }
+
+    /// Takes the next bytes.
+    pub(super) fn feed(
+        &mut self,
+        piece: &[u8],
+        demand: &mut Demand<'_>,
+    ) -> Result<(), TraceProblem> {
+        let mut rest = piece;
+        while let Some(end) = memchr::memchr(b'\n', rest) {
+            let (line, after) = (&rest[..end], &rest[end + 1..]);
+            if self.begun.is_empty() {
+                self.line(line, demand)?;
+            } else {
+                let mut whole = std::mem::take(&mut self.begun);
+                whole.extend(line);
+                self.line(&whole, demand)?;
+                whole.clear();
+                self.begun = whole;
+            }
+            rest = after;
+        }
+        if self.begun.len() + rest.len() > MOST_LINE {
+            return Err(TraceProblem::Long {
+                line: self.lines + 1,
+                most: MOST_LINE,
+            });
+        }
+        self.begun.extend(rest);
+        Ok(())
+    }
+
+    /// Takes the last line, and gives everything.
+    pub(super) fn finish(
+        mut self,
+        demand: &mut Demand<'_>,
+    ) -> Result<TraceRecording, TraceProblem> {
+        if !self.begun.is_empty() {
+            let last = std::mem::take(&mut self.begun);
+            self.line(&last, demand)?;
+        }
+        match self.stage {
+            Stage::Head(head) => Ok(Self::table(head, demand)?.finish()),
+            Stage::Rows(table) => Ok(table.finish()),
+            Stage::Empty => Err(TraceProblem::NoRows),
+        }
+    }
+
+    fn line(&mut self, line: &[u8], demand: &mut Demand<'_>) -> Result<(), TraceProblem> {
+        self.lines += 1;
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        match &mut self.stage {
+            Stage::Rows(table) => table.row(self.lines, line),
+            Stage::Head(head) => {
+                if memchr::memchr(0, line).is_some() {
+                    return Err(TraceProblem::Binary);
+                }
+                let line = Line {
+                    number: self.lines,
+                    bytes: line.to_vec(),
+                };
+                if let Some(columns) = head.line(line)? {
+                    let head = std::mem::take(head);
+                    self.stage = Stage::Rows(Self::begun(head, columns, demand)?);
+                }
+                Ok(())
+            }
+            Stage::Empty => Ok(()),
+        }
+    }
+
+    fn table(head: Head, demand: &mut Demand<'_>) -> Result<Box<Table>, TraceProblem> {
+        let columns = head.end()?;
+        Self::begun(head, columns, demand)
+    }
+
+    /// A table with the rows that came while its columns were not known.
+    fn begun(
+        head: Head,
+        columns: Columns,
+        demand: &mut Demand<'_>,
+    ) -> Result<Box<Table>, TraceProblem> {
+        let mut table = Box::new(Table::new(columns, demand)?);
+        for row in head.rows() {
+            table.row(row.number, &row.bytes)?;
+        }
+        Ok(table)
+    }
+}

@@ -1,0 +1,203 @@
+//! Why a recorded trace cannot be read, or a channel not be found.
+
+use std::fmt::Write as _;
+
+use thiserror::Error;
+
+/// Why a trace cannot be read: one sentence in lower case, with its line where there is one.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TraceProblem {
+    /// A file of bytes, not of text.
+    #[error("it is no text, but binary")]
+    Binary,
+    /// A text without a row of numbers.
+    #[error("it holds no row of numbers")]
+    NoRows,
+    /// `0,001,5,2`, where nobody can tell the numbers apart.
+    #[error(
+        "line {line} has {cells} cells below {columns} columns: a decimal comma cannot be told from the separator `,`"
+    )]
+    DecimalComma {
+        /// The line of the file.
+        line: u64,
+        /// How many cells the row has.
+        cells: usize,
+        /// How many columns there are.
+        columns: usize,
+    },
+    /// `0,5` and `0.5` in one file.
+    #[error("line {line} has a decimal {found}, the lines above have the other one")]
+    MixedDecimals {
+        /// The line of the file.
+        line: u64,
+        /// `point` or `comma`.
+        found: &'static str,
+    },
+    /// A row that is too short or too long.
+    #[error("line {line} has {cells} cells, but there are {columns} columns")]
+    Row {
+        /// The line of the file.
+        line: u64,
+        /// How many cells the row has.
+        cells: usize,
+        /// How many columns there are.
+        columns: usize,
+    },
+    /// `1,5` in quotes, or a word.
+    #[error("column `{column}` holds `{text}`, which is not a number")]
+    Number {
+        /// The line of the file.
+        line: u64,
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
+    /// `yes` in a column of switches.
+    #[error("column `{column}` holds `{text}`")]
+    Switch {
+        /// The line of the file.
+        line: u64,
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
+    /// A line, a header or a row that is longer than any export.
+    #[error("line {line} is longer than {most} bytes")]
+    Long {
+        /// The line of the file.
+        line: u64,
+        /// What a line may have.
+        most: usize,
+    },
+    /// A trace that was recorded at a very high rate.
+    #[error("it has more than {most} rows")]
+    TooLong {
+        /// What it may have.
+        most: usize,
+    },
+    /// A header that cannot be divided, because its separator stands in the names.
+    #[error("the header cannot be divided: its names contain the separator")]
+    Divided,
+    /// `<!DOCTYPE`, by which a small text becomes a large one.
+    #[error("line {line} defines entities, which are not read")]
+    Entities {
+        /// The line of the file.
+        line: u64,
+    },
+    /// XML that is not well-formed, or no trace.
+    #[error("line {line}: {reason}")]
+    Xml {
+        /// The line of the file.
+        line: u64,
+        /// What is wrong.
+        reason: String,
+    },
+    /// What was asked for is not there.
+    #[error(transparent)]
+    Select(#[from] SelectError),
+}
+
+impl TraceProblem {
+    /// The line of the file, where it is about one value.
+    pub fn line(&self) -> Option<u64> {
+        match self {
+            Self::Number { line, .. } | Self::Switch { line, .. } => Some(*line),
+            _ => None,
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            Self::Binary => {
+                "export the recording as CSV: in TwinCAT Scope `Export`, or with \
+                 `TC3ScopeExportTool.exe svd=FILE.svdx target=FILE.csv silent`"
+            }
+            Self::NoRows => {
+                "a trace is a CSV file with a header, an export of TwinCAT Scope or the XML of a SINUMERIK trace"
+            }
+            Self::DecimalComma { .. } => {
+                "export with the separator tab or `;`, or with a decimal point"
+            }
+            Self::MixedDecimals { .. } => "export with one decimal mark",
+            Self::Row { .. } => "every row has a cell for each column",
+            Self::Number { .. } => "write numbers with a decimal point",
+            Self::Switch { .. } => "write `on` or `off`",
+            Self::Long { .. } => "a trace has one line for each sample",
+            Self::TooLong { .. } => "record with a lower rate, or a shorter time",
+            Self::Divided => "export with the separator tab or `;`",
+            Self::Entities { .. } => "export the trace again; a trace needs no entities",
+            Self::Xml { .. } => "export the trace of the control again",
+            Self::Select(error) => return error.help(),
+        };
+        Some(help.to_owned())
+    }
+}
+
+/// Why a channel was not found.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SelectError {
+    /// A name that no channel has.
+    #[error("there is no channel `{wanted}`")]
+    None {
+        /// What was asked for.
+        wanted: String,
+        /// What there is.
+        found: Vec<String>,
+        /// What may be meant.
+        guess: Option<String>,
+    },
+    /// A name that several channels have.
+    #[error("{} channels fit `{wanted}`: {}", .found.len(), .found.join(", "))]
+    Several {
+        /// What was asked for.
+        wanted: String,
+        /// Those that fit.
+        found: Vec<String>,
+    },
+    /// Channels that are needed and not named.
+    #[error("the trace has {lacks}, only {}", listed(.found))]
+    Lacks {
+        /// What is not there: no columns `x` and `y`.
+        lacks: String,
+        /// What there is.
+        found: Vec<String>,
+        /// What to do.
+        help: String,
+    },
+}
+
+/// Names for a sentence; of very many the first ones.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 40;
+    let mut text = names[..names.len().min(SHOWN)].join(", ");
+    if names.len() > SHOWN {
+        let _ = write!(text, " and {} more", names.len() - SHOWN);
+    }
+    text
+}
+
+impl SelectError {
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::None { found, guess, .. } => {
+                let there = format!("the channels are {}", listed(found));
+                Some(match guess {
+                    Some(guess) => format!("did you mean `{guess}`? {there}"),
+                    None => there,
+                })
+            }
+            Self::Several { .. } => Some(
+                "name one by its symbol, by its comment or as a CNC object, `0x120300:0x10017`, \
+                 or give the axis"
+                    .to_owned(),
+            ),
+            Self::Lacks { help, .. } => Some(help.clone()),
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! A recording: channels with their samples, each on the clock on which it was sampled.
+
+use super::channel::{Channel, ChannelIndex};
+
+/// How a file is laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Layout {
+    /// An export of TwinCAT Scope with rows of attributes.
+    Scope,
+    /// A table with a header.
+    Plain,
+    /// Numbers without any header, taken as an export of TwinCAT Scope.
+    Headless,
+    /// The XML of a SINUMERIK trace.
+    Sinumerik,
+}
+
+impl Layout {
+    /// Its name in a sentence.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Scope => "TwinCAT Scope CSV",
+            Self::Plain => "CSV with a header",
+            Self::Headless => "CSV without a header",
+            Self::Sinumerik => "SINUMERIK trace XML",
+        }
+    }
+}
+
+/// Cells of a channel that hold no number.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Missing {
+    /// How many.
+    pub count: u64,
+    /// The line of the first one.
+    pub line: u64,
+    /// What stands in the first one.
+    pub text: String,
+}
+
+/// The samples of a channel.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Samples {
+    pub(super) values: Vec<f64>,
+    pub(super) missing: Missing,
+    /// Which of the clocks, where the file has times.
+    pub(super) clock: Option<usize>,
+}
+
+/// Channels with their samples.
+#[derive(Debug, Clone)]
+pub struct TraceRecording {
+    pub(super) layout: Layout,
+    pub(super) channels: Vec<Channel>,
+    /// In the order of the channels; none for those that were not asked for.
+    pub(super) samples: Vec<Option<Samples>>,
+    /// The times of the clocks in seconds.
+    pub(super) clocks: Vec<Vec<f64>>,
+    pub(super) remarks: Vec<String>,
+}
+
+impl TraceRecording {
+    /// How the file is laid out.
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// Every channel of the file, also those whose samples were not asked for.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// What there is to say about how the file was read, each a sentence in lower case.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
+    /// The channels whose samples were asked for.
+    pub fn kept(&self) -> impl Iterator<Item = ChannelIndex> {
+        let kept = self.samples.iter().enumerate();
+        kept.filter_map(|(index, samples)| samples.is_some().then_some(ChannelIndex(index)))
+    }
+
+    /// The samples of a channel as the file has them; NaN where one is missing in the middle.
+    pub fn values(&self, channel: ChannelIndex) -> &[f64] {
+        self.of(channel).map_or(&[], |samples| &samples.values)
+    }
+
+    /// Takes the samples of a channel out.
+    pub fn take_values(&mut self, channel: ChannelIndex) -> Vec<f64> {
+        let samples = self.samples.get_mut(channel.0).and_then(Option::as_mut);
+        samples.map_or_else(Vec::new, |samples| std::mem::take(&mut samples.values))
+    }
+
+    /// The times of the samples of a channel in seconds, where the file has times. There are as many
+    /// as samples.
+    pub fn times_s(&self, channel: ChannelIndex) -> Option<&[f64]> {
+        let samples = self.of(channel)?;
+        let times = self.clocks.get(samples.clock?)?;
+        Some(&times[..times.len().min(samples.values.len())])
+    }
+
+    /// The cells of a channel that hold no number.
+    pub fn missing(&self, channel: ChannelIndex) -> Missing {
+        let missing = self.of(channel).map(|samples| samples.missing.clone());
+        missing.unwrap_or_default()
+    }
+
+    fn of(&self, channel: ChannelIndex) -> Option<&Samples> {
+        self.samples.get(channel.0)?.as_ref()
+    }
+
+    /// The number of the clock of a channel: channels with the same one were sampled together.
+    pub fn clock(&self, channel: ChannelIndex) -> Option<usize> {
+        self.of(channel)?.clock
+    }
+}

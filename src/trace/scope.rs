@@ -1,0 +1,381 @@
+//! Exports of TwinCAT Scope: rows of attributes above the numbers (R6.2).
+//!
+//! The first cell of such a row is the name of an attribute. It stands above a column of times, the
+//! cells after it belong to channels that share these times, and where the name comes again the next
+//! group begins.
+
+use super::cell::{Separator, is_data, text};
+use super::channel::{Channel, CncObject, parse_address};
+use super::columns::{Column, Columns, Group, Line, TimeScale};
+use super::error::TraceProblem;
+use super::recording::Layout;
+
+/// The attributes of channels. What begins another one stands before it.
+const ATTRIBUTES: [&str; 19] = [
+    "Name",
+    "SymbolComment",
+    "SymbolName",
+    "SymbolBased",
+    "Data-Type",
+    "SampleTime[ms]",
+    "SampleTime",
+    "VariableSize",
+    "IndexGroup",
+    "IndexOffset",
+    "NetID",
+    "NetId",
+    "Port",
+    "Offset",
+    "ScaleFactor",
+    "BitMask",
+    "Unit ScaleFactor",
+    "Unit Offset",
+    "Unit",
+];
+
+/// The rows about the file, above those about channels.
+const OF_FILE: [&str; 3] = ["File", "Starttime of export", "Endtime of export"];
+
+/// The name that a line begins with, and the separator after it.
+fn key_of(line: &[u8]) -> Option<(&'static str, Option<u8>)> {
+    let (bare, quote) = match line.strip_prefix(b"\"") {
+        Some(bare) => (bare, &b"\""[..]),
+        None => (line, &b""[..]),
+    };
+    let mut keys = OF_FILE.iter().chain(&ATTRIBUTES);
+    keys.find_map(|key| {
+        let after = bare.strip_prefix(key.as_bytes())?.strip_prefix(quote)?;
+        match after.first() {
+            None => Some((*key, None)),
+            // `Unit Offset` begins like `Unit`, but goes on with a letter.
+            Some(b' ')
+                if after
+                    .get(1)
+                    .is_some_and(|it| key == &"Unit" && b"SO".contains(it)) =>
+            {
+                None
+            }
+            Some(&it @ (b'\t' | b';' | b',' | b'|' | b':' | b' ')) => Some((*key, Some(it))),
+            Some(_) => None,
+        }
+    })
+}
+
+fn is_of_file(key: &str) -> bool {
+    OF_FILE.contains(&key)
+}
+
+/// The separator, where the lines are those of Scope.
+pub(super) fn separator_of(above: &[Line]) -> Option<Separator> {
+    let first = above
+        .iter()
+        .find(|line| !line.bytes.trim_ascii().is_empty())?;
+    let keyed = |line: &Line| key_of(&line.bytes).and_then(|(_, separator)| separator);
+    key_of(&first.bytes)?;
+    above.iter().find_map(keyed).map(Separator::Byte)
+}
+
+/// The rows of attributes, without those about the file.
+fn attributes(above: &[Line]) -> impl Iterator<Item = (&'static str, &Line)> {
+    let keyed = |line: &'_ Line| key_of(&line.bytes).map(|(key, _)| key);
+    above.iter().enumerate().filter_map(move |(at, line)| {
+        let key = keyed(line)?;
+        let next = above.get(at + 1).and_then(keyed);
+        // The name of the project stands right above the name of the file.
+        let is_project = key == "Name" && next.is_some_and(is_of_file);
+        (!is_of_file(key) && !is_project).then_some((key, line))
+    })
+}
+
+/// Whether channels are described.
+pub(super) fn has_attributes(above: &[Line]) -> bool {
+    separator_of(above).is_some() && attributes(above).next().is_some()
+}
+
+/// A row of attributes that may go on in the next line.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OpenRow {
+    separator: u8,
+    /// A cell began with a quote that is not closed.
+    is_quoted: bool,
+    cells: usize,
+    /// How many cells it must have: a comment without quotes goes on until its row is as wide as the
+    /// others.
+    wanted: usize,
+    /// How many letters the last cell has, but for the name of the attribute.
+    letters: usize,
+}
+
+impl OpenRow {
+    /// The last of some lines, where it is a row of attributes.
+    pub(super) fn last(above: &[Line]) -> Option<Self> {
+        let Separator::Byte(separator) = separator_of(above)? else {
+            return None;
+        };
+        let filled = above
+            .iter()
+            .rposition(|line| !line.bytes.trim_ascii().is_empty())?;
+        let (last, before) = above[..=filled].split_last()?;
+        let (key, _) = key_of(&last.bytes)?;
+        if is_of_file(key) {
+            return None;
+        }
+        let mut wanted = 0;
+        if key == "SymbolComment" && separator != b' ' {
+            let cells = attributes(before)
+                .map(|(_, row)| Separator::Byte(separator).quoted_cells(&row.bytes).len());
+            wanted = cells.max().unwrap_or(0);
+        }
+        let mut row = Self {
+            separator,
+            is_quoted: false,
+            cells: 1,
+            wanted,
+            letters: 0,
+        };
+        row.take(&last.bytes);
+        if last.bytes.trim_ascii_end().ends_with(key.as_bytes()) {
+            row.letters = 0;
+        }
+        Some(row)
+    }
+
+    /// Whether a line belongs to the row.
+    pub(super) fn continues(&self, line: &[u8]) -> bool {
+        if self.is_quoted {
+            return true;
+        }
+        if self.wanted == 0 || self.letters == 0 || key_of(line).is_some() {
+            return false;
+        }
+        // The comment of the last channel ends where numbers begin.
+        let is_more =
+            !line.trim_ascii().is_empty() && !is_data(line, Some(Separator::Byte(self.separator)));
+        self.cells < self.wanted || is_more
+    }
+
+    /// Counts the cells of a line, of which the first one goes on with the last one before.
+    pub(super) fn take(&mut self, line: &[u8]) {
+        let mut is_start = !self.is_quoted;
+        let mut was_closed = false;
+        for &byte in line {
+            let mut closes = false;
+            match byte {
+                b'"' if self.is_quoted => {
+                    self.is_quoted = false;
+                    closes = true;
+                }
+                // Two quotes within quotes are one, and go on.
+                b'"' if is_start || was_closed => self.is_quoted = true,
+                _ if byte == self.separator && !self.is_quoted => {
+                    self.cells += 1;
+                    self.letters = 0;
+                }
+                _ => self.letters += usize::from(!byte.is_ascii_whitespace()),
+            }
+            is_start = byte == self.separator && !self.is_quoted;
+            was_closed = closes;
+        }
+    }
+}
+
+/// The columns of an export with rows of attributes.
+pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProblem> {
+    let separator = separator_of(above).unwrap_or(Separator::Byte(b'\t'));
+    let in_row = width(&separator.quoted_cells(&first.bytes));
+    let rows: Vec<Row> = attributes(above)
+        .map(|(key, line)| Row {
+            key,
+            cells: separator.quoted_cells(&line.bytes),
+        })
+        .collect();
+    let mut lead = ["Name", "SymbolName"].into_iter();
+    let lead = lead.find_map(|key| rows.iter().find(|row| row.key == key));
+    let lead = lead.or_else(|| rows.iter().find(|row| row.key != "SymbolComment"));
+    let lead = lead.or(rows.first()).ok_or(TraceProblem::NoRows)?;
+    let divided = Division::of(lead, &rows, (separator, in_row))?;
+    let count = divided.count.max(divided.starts.len());
+    // Without time columns a row of numbers is as much shorter as there are groups.
+    let is_timed = in_row > count - divided.starts.len() || in_row == 0;
+    let mut columns = Columns {
+        layout: Layout::Scope,
+        separator,
+        count: if is_timed {
+            count
+        } else {
+            count - divided.starts.len()
+        },
+        described: Vec::new(),
+        groups: Vec::new(),
+    };
+    let rows: Vec<Vec<Vec<String>>> = rows.iter().map(|row| divided.segments(row)).collect();
+    let keys: Vec<&str> = attributes(above).map(|(key, _)| key).collect();
+    let mut at = 0;
+    for (group, width) in divided.widths().into_iter().enumerate() {
+        columns.groups.push(Group {
+            time: is_timed.then_some(at),
+            scale: TimeScale::Scope,
+        });
+        at += usize::from(is_timed);
+        for place in 0..width {
+            let cell = |wanted: &str| {
+                let row = keys.iter().position(|key| *key == wanted)?;
+                let cell = rows[row].get(group)?.get(place)?.trim();
+                (!cell.is_empty()).then(|| cell.to_owned())
+            };
+            columns.described.push(Column {
+                channel: channel(&cell, at),
+                at,
+                group,
+            });
+            at += 1;
+        }
+    }
+    Ok(columns)
+}
+
+/// The channel of a column by its attributes.
+fn channel(cell: &dyn Fn(&str) -> Option<String>, at: usize) -> Channel {
+    let symbol = cell("SymbolName").unwrap_or_default();
+    let address = |key: &str| cell(key).as_deref().and_then(parse_address);
+    let number = |key: &str| cell(key).and_then(|text| text.replace(',', ".").parse::<f64>().ok());
+    let is_other = |key: &str, plain: f64| number(key).is_some_and(|it| (it - plain).abs() > 0.0);
+    let name = cell("Name").or_else(|| (!symbol.is_empty()).then(|| symbol.clone()));
+    Channel {
+        name: name.unwrap_or_else(|| format!("column {}", at + 1)),
+        comment: cell("SymbolComment").unwrap_or_default(),
+        unit: cell("Unit").filter(|unit| !unit.starts_with('(')),
+        object: address("IndexGroup")
+            .zip(address("IndexOffset"))
+            .map(|(group, offset)| CncObject { group, offset }),
+        sample_time_s: number("SampleTime[ms]")
+            .or_else(|| number("SampleTime"))
+            .filter(|&ms| ms > 0.0 && ms.is_finite())
+            .map(|ms| ms / 1000.0),
+        is_drawn_scaled: is_other("ScaleFactor", 1.0) || is_other("Offset", 0.0),
+        symbol,
+    }
+}
+
+/// A row of attributes.
+struct Row {
+    key: &'static str,
+    cells: Vec<Vec<u8>>,
+}
+
+impl Row {
+    fn is_key(&self, at: usize) -> bool {
+        self.cells
+            .get(at)
+            .is_some_and(|cell| cell.trim_ascii() == self.key.as_bytes())
+    }
+}
+
+/// How many cells a row has up to its last one that is not empty.
+fn width(cells: &[Vec<u8>]) -> usize {
+    let last = cells.iter().rposition(|cell| !cell.trim_ascii().is_empty());
+    last.map_or(0, |last| last + 1)
+}
+
+/// Where the groups begin.
+struct Division {
+    /// The columns with the names of attributes.
+    starts: Vec<usize>,
+    count: usize,
+    /// Names may contain the separator: each group is one channel, whatever its cells.
+    is_joined: bool,
+}
+
+impl Division {
+    /// By the leading row, and by the others where they are as wide: a channel may be called `Name`.
+    fn of(
+        lead: &Row,
+        rows: &[Row],
+        (separator, in_row): (Separator, usize),
+    ) -> Result<Self, TraceProblem> {
+        let own = width(&lead.cells);
+        let mut starts = Vec::new();
+        for at in 0..own {
+            let follows_start = starts.last().is_some_and(|last| last + 1 == at);
+            let others = rows
+                .iter()
+                .filter(|row| row.cells.len() == lead.cells.len());
+            if lead.is_key(at) && !follows_start && others.clone().all(|row| row.is_key(at)) {
+                starts.push(at);
+            }
+        }
+        if starts.first() != Some(&0) {
+            starts.insert(0, 0);
+        }
+        let fits = in_row <= own;
+        if separator != Separator::Byte(b' ') || in_row == own {
+            return Ok(Self {
+                starts,
+                // The last channel of a group may have no name.
+                count: own.max(if fits { in_row } else { 0 }).max(2),
+                is_joined: false,
+            });
+        }
+        let groups = starts.len();
+        if in_row == 2 * groups {
+            return Ok(Self {
+                starts,
+                count: in_row,
+                is_joined: true,
+            });
+        }
+        Err(TraceProblem::Divided)
+    }
+
+    /// How many channels each group has.
+    fn widths(&self) -> Vec<usize> {
+        if self.is_joined {
+            return vec![1; self.starts.len()];
+        }
+        let ends = self.starts.iter().skip(1).copied().chain([self.count]);
+        let widths = self.starts.iter().zip(ends);
+        widths.map(|(start, end)| end - start - 1).collect()
+    }
+
+    /// The cells of a row, by group.
+    fn segments(&self, row: &Row) -> Vec<Vec<String>> {
+        let widths = self.widths();
+        let filled = width(&row.cells);
+        let is_aligned =
+            !self.is_joined && filled <= self.count && self.starts.iter().all(|&at| row.is_key(at));
+        if is_aligned {
+            let groups = self.starts.iter().zip(&widths);
+            return groups
+                .map(|(&start, width)| {
+                    let cells = (start + 1..=start + width).map(|at| row.cells.get(at));
+                    cells
+                        .map(|cell| text(cell.map_or(&[], Vec::as_slice)))
+                        .collect()
+                })
+                .collect();
+        }
+        // A decimal comma between commas makes two cells of one: by the name that comes again.
+        let key_at: Vec<usize> = (0..filled).filter(|&at| row.is_key(at)).collect();
+        if key_at.len() != widths.len() {
+            return Vec::new();
+        }
+        let ends = key_at.iter().skip(1).copied().chain([filled]);
+        let segments = key_at.iter().zip(ends).zip(&widths);
+        segments
+            .map(|((&start, end), &width)| {
+                let cells: Vec<String> = row.cells[start + 1..end]
+                    .iter()
+                    .map(|it| text(it))
+                    .collect();
+                if width == 1 {
+                    let between = if self.is_joined { " " } else { "," };
+                    return vec![cells.join(between)];
+                }
+                if cells.len() == 2 * width {
+                    return cells.chunks(2).map(|pair| pair.join(",")).collect();
+                }
+                cells
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,222 @@
+//! Units of channels, and what makes the units of lists and traces of them.
+
+/// What a unit measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ChannelQuantity {
+    /// In seconds.
+    Time,
+    /// In 0.1 µm or 0.0001°.
+    Position,
+    /// In µm/s or 0.001°/s.
+    Velocity,
+    /// In drive units, or in what the drive measures.
+    Torque,
+}
+
+impl ChannelQuantity {
+    /// Its name in a sentence.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Position => "position",
+            Self::Velocity => "velocity",
+            Self::Torque => "torque",
+        }
+    }
+
+    /// The unit that the CNC records it in, which is taken where a file names none.
+    pub fn own_unit(self) -> &'static str {
+        match self {
+            Self::Time => "s",
+            Self::Position => "0.1 µm or 0.0001°",
+            Self::Velocity => "µm/s or 0.001°/s",
+            Self::Torque => "drive units",
+        }
+    }
+}
+
+/// Along what an axis moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum AxisMotion {
+    /// Along a line.
+    Linear,
+    /// Round an axis.
+    Rotary,
+}
+
+/// A unit that a file names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// What it measures.
+    pub quantity: ChannelQuantity,
+    /// What makes the units of lists and traces of it.
+    pub factor: f64,
+    /// Whether it is one of lengths or of angles.
+    pub motion: Option<AxisMotion>,
+    /// Whether the result is in drive units; amperes, newtons and newton metres are not.
+    pub is_of_the_drive: bool,
+}
+
+use AxisMotion::{Linear, Rotary};
+use ChannelQuantity::{Position, Time, Torque, Velocity};
+
+/// The units as [`plain`] writes them.
+const UNITS: [(&str, ChannelQuantity, f64, Option<AxisMotion>); 39] = [
+    ("s", Time, 1.0, None),
+    ("ms", Time, 1e-3, None),
+    ("us", Time, 1e-6, None),
+    ("ns", Time, 1e-9, None),
+    ("min", Time, 60.0, None),
+    ("m", Position, 1e7, Some(Linear)),
+    ("mm", Position, 1e4, Some(Linear)),
+    ("um", Position, 10.0, Some(Linear)),
+    ("0.1um", Position, 1.0, Some(Linear)),
+    ("nm", Position, 1e-2, Some(Linear)),
+    ("inch", Position, 254_000.0, Some(Linear)),
+    ("in", Position, 254_000.0, Some(Linear)),
+    ("deg", Position, 1e4, Some(Rotary)),
+    ("mdeg", Position, 10.0, Some(Rotary)),
+    ("0.001deg", Position, 10.0, Some(Rotary)),
+    ("0.0001deg", Position, 1.0, Some(Rotary)),
+    ("m/s", Velocity, 1e6, Some(Linear)),
+    ("mm/s", Velocity, 1e3, Some(Linear)),
+    ("um/s", Velocity, 1.0, Some(Linear)),
+    ("m/min", Velocity, 1e6 / 60.0, Some(Linear)),
+    ("mm/min", Velocity, 1e3 / 60.0, Some(Linear)),
+    ("inch/min", Velocity, 25_400.0 / 60.0, Some(Linear)),
+    ("deg/s", Velocity, 1e3, Some(Rotary)),
+    ("mdeg/s", Velocity, 1.0, Some(Rotary)),
+    ("0.001deg/s", Velocity, 1.0, Some(Rotary)),
+    ("deg/min", Velocity, 1e3 / 60.0, Some(Rotary)),
+    ("rpm", Velocity, 6e3, Some(Rotary)),
+    ("1/min", Velocity, 6e3, Some(Rotary)),
+    ("u/min", Velocity, 6e3, Some(Rotary)),
+    ("rev/s", Velocity, 360e3, Some(Rotary)),
+    ("%", Torque, 10.0, None),
+    ("0.1%", Torque, 1.0, None),
+    ("\u{2030}", Torque, 1.0, None),
+    ("a", Torque, 1.0, None),
+    ("ma", Torque, 1.0, None),
+    ("n", Torque, 1.0, None),
+    ("kn", Torque, 1.0, None),
+    ("nm.", Torque, 1.0, None),
+    ("ncm", Torque, 1.0, None),
+];
+
+/// Units of torque that are parts of what the drive is rated for.
+const OF_THE_DRIVE: [&str; 3] = ["%", "0.1%", "\u{2030}"];
+
+impl Unit {
+    /// The units that are known, for a sentence.
+    pub const NAMED: &str = "s, ms, us, m, mm, um, 0.1um, nm, inch, deg, 0.0001deg, m/s, mm/s, um/s, m/min, \
+                             mm/min, deg/s, 0.001deg/s, rpm, %, 0.1%, A, mA, N, kN, Nm, Ncm";
+
+    /// The unit of a text such as `mm/s`, `µm`, `%`, `V (Voltage)`. `Nm` is a torque, `nm` a length.
+    pub fn parse(text: &str) -> Option<Self> {
+        let name = plain(text);
+        let (name, quantity, factor, motion) = *UNITS.iter().find(|(known, ..)| *known == name)?;
+        Some(Self {
+            quantity,
+            factor,
+            motion,
+            is_of_the_drive: quantity != Torque || OF_THE_DRIVE.contains(&name),
+        })
+    }
+
+    /// The unit in which a quantity is recorded by the CNC itself.
+    pub fn own(quantity: ChannelQuantity) -> Self {
+        Self {
+            quantity,
+            factor: 1.0,
+            motion: None,
+            is_of_the_drive: true,
+        }
+    }
+}
+
+/// A unit in one way of writing: `mm / s`, `µm/s`, `grad/sec` and `V (Voltage)`.
+fn plain(text: &str) -> String {
+    let text = text.trim();
+    // Scope adds what is measured: `mm/s (Velocity)`.
+    let text = text.split(" (").next().unwrap_or(text);
+    if text == "Nm" || text == "N\u{b7}m" {
+        return "nm.".to_owned();
+    }
+    text.to_lowercase()
+        .replace(char::is_whitespace, "")
+        .replace(['\u{b5}', '\u{3bc}'], "u")
+        .replace("degrees", "deg")
+        .replace("degree", "deg")
+        .replace("grad", "deg")
+        .replace('\u{b0}', "deg")
+        .replace("sec", "s")
+}
+
+/// A header cell such as `v [mm/s]`, `x_um`, `torque (A)`, `t/s` as a name and the unit in it.
+pub(super) fn split_unit(header: &str) -> (&str, Option<&str>) {
+    let header = header.trim();
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some(rest) = header.strip_suffix(close)
+            && let Some((name, unit)) = rest.rsplit_once(open)
+            && !name.trim().is_empty()
+        {
+            return (name.trim(), Some(unit.trim()));
+        }
+    }
+    for between in ['_', ' ', '/', '.'] {
+        // From the left, so that `v_mm/s` and `v/mm/s` end in a whole unit.
+        for (at, _) in header.match_indices(between) {
+            let (name, unit) = (header[..at].trim(), &header[at + 1..]);
+            if !name.is_empty() && Unit::parse(unit).is_some() {
+                return (name, Some(unit.trim()));
+            }
+        }
+    }
+    (header, None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_known_in_every_way_of_writing() {
+        // R6.3
+        for (text, quantity, factor) in [
+            ("mm/s (Velocity)", Velocity, 1e3),
+            ("m / min", Velocity, 1e6 / 60.0),
+            ("\u{b5}m/s", Velocity, 1.0),
+            ("\u{3bc}m", Position, 10.0),
+            ("Grad/s", Velocity, 1e3),
+            ("\u{b0}", Position, 1e4),
+            ("Nm", Torque, 1.0),
+            ("nm", Position, 1e-2),
+            ("%", Torque, 10.0),
+            ("ms", Time, 1e-3),
+        ] {
+            let unit = Unit::parse(text).unwrap_or_else(|| panic!("{text}"));
+            assert_eq!((unit.quantity, unit.factor), (quantity, factor), "{text}");
+        }
+        assert_eq!(Unit::parse("(None)"), None);
+        assert_eq!(Unit::parse("V (Voltage)"), None);
+    }
+
+    #[test]
+    fn a_header_has_its_unit_behind_the_name() {
+        // R6.3
+        for (header, name, unit) in [
+            ("v [mm/s]", "v", Some("mm/s")),
+            ("x_um", "x", Some("um")),
+            ("torque (A)", "torque", Some("A")),
+            ("t/s", "t", Some("s")),
+            ("v/mm/s", "v", Some("mm/s")),
+            ("v mm/s", "v", Some("mm/s")),
+            ("act_velo", "act_velo", None),
+            ("[mm]", "[mm]", None),
+            ("", "", None),
+        ] {
+            assert_eq!(split_unit(header), (name, unit), "{header}");
+        }
+    }
+}

@@ -223,7 +223,7 @@ impl Compensation {
     }
 
     /// Says whether an axis is in a coupling: COMP is refused while it is, and what COMP leaves is
-    /// unknown while nobody knows.
+    /// unknown while that is open.
     pub fn set_coupled(&mut self, axis: AxisIndex, coupling: Coupling) {
         self.axes[axis.get()].coupling = coupling;
     }

@@ -13,11 +13,11 @@ use super::codes::Code;
 pub enum Budget {
     /// Executed blocks.
     Blocks,
-    /// Subprogram calls within each other.
+    /// Nested subprogram calls.
     Calls,
-    /// Control blocks within each other.
+    /// Nested control blocks.
     Nesting,
-    /// Macros within each other.
+    /// Nested macros.
     Macros,
     /// Values that the program holds.
     Values,

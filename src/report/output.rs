@@ -10,7 +10,7 @@ const CHUNK: usize = 64 * 1024;
 
 /// A timeline format whose output can be ended.
 pub trait Report: Sink {
-    /// Writes what is ready while nobody knows when the next record comes. Formats that fold or
+    /// Writes what is ready while it is open when the next record comes. Formats that fold or
     /// hold back records keep those.
     fn flush(&mut self) -> ControlFlow<()>;
 

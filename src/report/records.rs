@@ -298,7 +298,7 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
     out.push(b'}');
 }
 
-/// How often remarks came true that were made once a place.
+/// How often each remark applied that was made only once for its place.
 fn repeats(out: &mut Vec<u8>, repeated: &[Repeat]) {
     out.extend_from_slice(b",\"repeated\":[");
     for (at, repeat) in repeated.iter().enumerate() {

@@ -110,7 +110,7 @@ impl Said {
         false
     }
 
-    /// What came true more often than it was said, in the order of the places.
+    /// What applied more often than it was said, in the order of the places.
     pub(super) fn repeats(&self) -> Vec<Repeat> {
         let mut repeated = Vec::new();
         for ((code, file, start), sayings) in &self.places {

@@ -61,13 +61,13 @@ pub struct SavedState {
     /// Macros with their code.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub macros: BTreeMap<String, String>,
-    /// Macros that may have been redefined, and nobody knows how.
+    /// Macros that may have been redefined in an unknown way.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lost_macros: BTreeMap<String, Arc<str>>,
     /// Coupling groups with the names of their axes.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub couplings: BTreeMap<String, Vec<String>>,
-    /// The axes that coupling groups may name which nobody knows any more.
+    /// The axes that coupling groups with unknown members may name.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lost_couplings: Vec<String>,
     /// Arrays in which some element was written, though it is not known which.

@@ -84,7 +84,7 @@ pub struct Row<'a> {
     pub diagnostics: &'a [Diagnostic],
 }
 
-/// How often a remark came true that was made once.
+/// How often a remark applied that was made only once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Repeat {
     /// The remark.
@@ -93,7 +93,7 @@ pub struct Repeat {
     pub file: String,
     /// The line of the remark.
     pub line: u32,
-    /// How many executed blocks it came true in.
+    /// The number of executed blocks to which it applied.
     pub times: u64,
     /// Where the remark points.
     pub start: Position,
@@ -112,7 +112,7 @@ pub struct End<'a> {
     pub by: EndedBy,
     /// What can only be said now (FC401, FC403, …); written before the end record.
     pub notes: &'a [EndNote],
-    /// Remarks that were made once for a place although they came true more often.
+    /// Remarks that were made once for a place although they applied more often.
     pub repeated: &'a [Repeat],
     /// What program end itself changed (kinds with manual activation).
     pub changes: &'a [Change],

@@ -1,4 +1,4 @@
-//! Which program a word calls, and what is unknown where nobody knows which (R2.14, R2.75).
+//! Which program a word calls, and what becomes unknown where that is open (R2.14, R2.75).
 
 use std::sync::Arc;
 

@@ -50,7 +50,7 @@ impl Interpreter {
         self.mark_coupled(changed);
     }
 
-    /// Groups may couple these axes of which nobody knows which.
+    /// These axes may be coupled by groups whose members are unknown.
     pub(in crate::interpreter) fn doubt_definitions(&mut self, axes: &[AxisIndex]) {
         let changed = self.state.couplings.doubt_definitions(axes);
         self.mark_coupled(changed);

@@ -34,7 +34,7 @@ const MAX_WEIGHT: usize = 10_000;
 const MOST_PASSES: u64 = 1 << 20;
 
 /// How often a loop is run until its state repeats. One that is left more often stands in another
-/// loop, and loops in each other must not multiply their passes.
+/// loop, and nested loops must not multiply their passes.
 const RUN_THROUGH: u32 = 2;
 
 /// Why a loop need not be run any further.

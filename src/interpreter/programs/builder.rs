@@ -72,7 +72,7 @@ struct Jump {
 }
 
 impl Index {
-    /// Indexes a text. At most `nesting` control blocks may stand in each other.
+    /// Indexes a text. Control blocks may be nested up to `nesting` levels deep.
     pub(in crate::interpreter) fn new(source: SourceFile, nesting: u32) -> Self {
         let builder = Builder {
             index: Self {

@@ -30,19 +30,19 @@ pub(in crate::interpreter) fn file_names(text: &str) -> Vec<(String, FileName<'_
         if length == 0 {
             return names;
         }
-        let (word, behind) = rest.split_at(length);
-        let behind = behind.trim_start();
-        let behind = behind.strip_prefix('=').unwrap_or(behind).trim_start();
+        let (word, after) = rest.split_at(length);
+        let after = after.trim_start();
+        let after = after.strip_prefix('=').unwrap_or(after).trim_start();
         let word = crate::machine::canonical_word(word);
-        if let Some((name, behind)) = behind.strip_prefix('"').and_then(|it| it.split_once('"')) {
+        if let Some((name, after)) = after.strip_prefix('"').and_then(|it| it.split_once('"')) {
             names.push((word, FileName::Written(name.trim())));
-            rest = behind;
+            rest = after;
         } else {
-            let end = behind
+            let end = after
                 .find([' ', '\t', '\n', ']', ','])
-                .unwrap_or(behind.len());
-            names.push((word, FileName::Elsewhere(&behind[..end])));
-            rest = &behind[end..];
+                .unwrap_or(after.len());
+            names.push((word, FileName::Elsewhere(&after[..end])));
+            rest = &after[end..];
         }
     }
 }

@@ -47,7 +47,7 @@ pub(in crate::interpreter) struct Section {
     pub(in crate::interpreter) end: EntryIndex,
 }
 
-/// How the parts of a control block hang together.
+/// Which statements belong to one control block.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::interpreter) struct Links {
     /// The statement that opened the control block.

@@ -91,7 +91,7 @@ impl Couplings {
         changed
     }
 
-    /// Groups may name these axes of which nobody knows which.
+    /// Groups whose members are unknown may name these axes.
     pub(in crate::interpreter) fn lose(&mut self, axes: impl IntoIterator<Item = AxisIndex>) {
         self.named.extend(axes);
         self.vague = true;

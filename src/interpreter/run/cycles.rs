@@ -8,7 +8,7 @@ use crate::interpreter::programs::index::ProgramId;
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::{Call, Repetition};
 
-/// The modal cycle in force, or those of which nobody knows which one is.
+/// The modal cycle in force, or the cycles of which one may be.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct ModalCycles {
     cycles: Vec<Repeated>,

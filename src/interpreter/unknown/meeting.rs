@@ -55,11 +55,11 @@ impl Interpreter {
         for Departing {
             to,
             cause,
-            here: behind,
+            here: after,
             ..
         } in departing
         {
-            here = here.max(behind);
+            here = here.max(after);
             let targets: Vec<(usize, EntryIndex)> = match to {
                 Aim::Block(target) => vec![(depth, target)],
                 Aim::Return => vec![(depth, RETURN)],
@@ -193,7 +193,7 @@ impl Interpreter {
         let open = std::mem::take(&mut self.state.ways.open);
         for mut way in open {
             let frames = self.state.frames.iter().take(way.depth);
-            let behind = frames.enumerate().filter_map(|(level, frame)| {
+            let rest = frames.enumerate().filter_map(|(level, frame)| {
                 let from = if level + 1 == way.depth {
                     (way.target != RETURN).then_some(way.target)?
                 } else {
@@ -205,8 +205,8 @@ impl Interpreter {
                     from,
                 })
             });
-            let behind: Vec<Tail> = behind.collect();
-            way.tails.extend(behind);
+            let rest: Vec<Tail> = rest.collect();
+            way.tails.extend(rest);
             self.join(way, &mut tails);
         }
         self.forget_called(finder);

@@ -38,6 +38,6 @@ pub struct Carried {
     pub lost_macros: BTreeMap<String, Arc<str>>,
     /// The coupling groups that `#SET AX LINK` defined, with the names of their axes.
     pub couplings: BTreeMap<String, Vec<String>>,
-    /// The axes that coupling groups may name which nobody knows any more.
+    /// The axes that coupling groups with unknown members may name.
     pub lost_couplings: Vec<String>,
 }

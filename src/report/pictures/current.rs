@@ -49,7 +49,7 @@ impl AxisPlot {
     }
 
     /// Takes a CNC cycle: seconds, commanded velocity in µm/s or 0.001°/s, state, and what is
-    /// added. In the state `unknown` nobody knows the current, and it is not drawn.
+    /// added. In the state `unknown` the current is not known, and it is not drawn.
     fn push(&mut self, time: f64, velocity: f64, (state, added): (State, &Added)) {
         self.velocity.push([time, velocity]);
         if state == State::Unknown {

@@ -65,17 +65,26 @@ fn main() {
         base,
         Duration::from_millis(60),
     );
-    let tune = bench.fastest(|| {
-        let status = Command::new(TOOL)
-            .args(["tune", "--feeds", "500,1000,2000,5000"])
-            .stdout(Stdio::null())
-            .status();
-        assert!(status.is_ok_and(|status| status.success()));
-    });
+    let tune = |options: &[&str]| {
+        bench.fastest(|| {
+            let status = Command::new(TOOL)
+                .args(["tune", "--feeds", "500,1000,2000,5000"])
+                .args(options)
+                .stdout(Stdio::null())
+                .status();
+            assert!(status.is_ok_and(|status| status.success()));
+        })
+    };
     row(
-        "tune, four feeds, all cores",
-        tune,
+        "tune, four feeds, all cores, no shaping",
+        tune(&["--no-shaping"]),
         base,
         Duration::from_secs(5),
+    );
+    row(
+        "tune, four feeds, all cores, shaped",
+        tune(&[]),
+        base,
+        Duration::from_secs(10),
     );
 }

@@ -42,11 +42,17 @@ const LATER: f64 = 3.0;
 /// The outputs alone scale the table.
 const UNSCALED: i16 = 1000;
 
-/// Generations at most.
+/// Searches that begin with other random numbers: each ends in another valley.
+const RUNS: usize = 3;
+
+/// Generations of each, before the best of them goes on alone.
+const TRIAL: usize = 40;
+
+/// Generations at most, of all searches together.
 const MOST: usize = 220;
 
 /// Generations without a gain after which the search ends.
-const IDLE: usize = 50;
+const IDLE: usize = 40;
 
 /// What counts as a gain, as a part.
 const GAIN: f64 = 0.001;
@@ -54,7 +60,9 @@ const GAIN: f64 = 0.001;
 /// A search for outputs and times.
 #[derive(Debug, Clone)]
 pub(super) struct ShapeSearch {
-    evolution: Evolution,
+    runs: [Run; RUNS],
+    /// Which of them is asked.
+    current: usize,
     start: Candidate,
     ranges: Ranges,
     curve: FrictionList,
@@ -64,6 +72,13 @@ pub(super) struct ShapeSearch {
     generations: usize,
     idle: usize,
     goal: f64,
+}
+
+/// One of the searches, and the least that it found.
+#[derive(Debug, Clone)]
+struct Run {
+    evolution: Evolution,
+    least: f64,
 }
 
 /// A list with its own shape.
@@ -85,7 +100,11 @@ impl ShapeSearch {
         let mut mean = vec![0.0; FREE];
         mean.extend([LATER / DELAY, 0.0, 0.0]);
         Self {
-            evolution: Evolution::new(mean, STEP),
+            runs: [0, 1, 2].map(|seed| Run {
+                evolution: Evolution::new(mean.clone(), STEP, seed),
+                least: f64::INFINITY,
+            }),
+            current: 0,
             start: Candidate {
                 scaling_factor: UNSCALED,
                 ..start
@@ -106,7 +125,13 @@ impl ShapeSearch {
         if self.generations >= MOST || self.idle >= IDLE {
             return None;
         }
-        self.asked = self.evolution.ask();
+        self.current = self.generations / TRIAL;
+        if self.current >= RUNS {
+            let best = (0..RUNS)
+                .min_by(|&one, &other| self.runs[one].least.total_cmp(&self.runs[other].least));
+            self.current = best.unwrap_or_default();
+        }
+        self.asked = self.runs[self.current].evolution.ask();
         let lists = self.asked.iter().map(|point| self.shaped(point).list);
         Some(lists.collect())
     }
@@ -117,6 +142,10 @@ impl ShapeSearch {
         self.idle += 1;
         let asked = std::mem::take(&mut self.asked);
         let mut values = Vec::new();
+        let run = &mut self.runs[self.current];
+        for heights in heights {
+            run.least = run.least.min(heights.worst_um());
+        }
         for (point, heights) in asked.iter().zip(heights) {
             let worst = heights.worst_um();
             if self.best.as_ref().is_none_or(|(least, _)| worst < *least) {
@@ -128,11 +157,12 @@ impl ShapeSearch {
             .best
             .as_ref()
             .map_or(f64::INFINITY, |(least, _)| *least);
-        if least < self.goal * (1.0 - GAIN) {
+        // While the searches compete none of them is given up.
+        if least < self.goal * (1.0 - GAIN) || self.generations <= RUNS * TRIAL {
             self.goal = least;
             self.idle = 0;
         }
-        self.evolution.tell(&values);
+        self.runs[self.current].evolution.tell(&values);
     }
 
     /// The best list that was tried.

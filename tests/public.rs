@@ -141,13 +141,14 @@ fn a_type_has_a_name_of_its_own() {
 
 /// Whether a public name is that of a trait.
 fn is_trait(name: &str) -> bool {
-    const TRAITS: [&str; 11] = [
+    const TRAITS: [&str; 12] = [
         "CurrentSink",
         "Finder",
         "LineSource",
         "ListFiles",
         "Observer",
         "Report",
+        "Simulations",
         "Simulations",
         "Sources",
         "Sink",

@@ -67,8 +67,10 @@ pub struct PathShape {
     pub ellipse_um: [f64; 2],
 }
 
-/// A peak has decayed when less of it is left than this part of the step.
-const SETTLED: f64 = 0.5;
+/// A peak has decayed when less of it is left than this part of the step. Real backlash leaves less
+/// than a tenth; friction that falls steeply with the speed bends the path far beyond the crossing
+/// and leaves more than a fifth of what looks like a step.
+const SETTLED: f64 = 0.15;
 
 impl PathShape {
     /// The shape of a path; `None` where its windows reach the next crossings.

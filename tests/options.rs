@@ -695,3 +695,20 @@ fn stiction_is_computed_from_what_is_given() {
         );
     }
 }
+
+#[test]
+fn what_describes_no_axis_is_no_drive_in_order() {
+    // R7.5
+    let bench = bare(&[
+        ("trace.csv", "t,x\n0,1\n"),
+        ("hochlauf.lis", "achs_mds[0] missing.lis\nEnde\n"),
+    ]);
+    let output = bench.call(&["drive", "trace.csv"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(said.contains("`trace.csv` describes no axis"), "{said}");
+    let output = bench.call(&["drive", "hochlauf.lis"]);
+    assert_ne!(output.status.code(), Some(0));
+    let shown = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(shown.contains("FC123"), "{shown}");
+}

@@ -12,6 +12,7 @@ use super::listing::{ListingArgs, total};
 use super::named_lists::NamedLists;
 use super::outputs::Outputs;
 use super::painted::parts;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::drive_interface::{
     DriveReport, Evidence, SlaveOfAxis, XmlError, check_drive, read_devices, read_network,
 };
@@ -107,6 +108,25 @@ fn drives(report: &ListsReport, evidence: &Evidence) -> Vec<DriveReport> {
     drives.collect()
 }
 
+/// What is said about a list: why it cannot be read, then what there is to say about its drives. What
+/// the axis list alone makes certain is in both.
+fn collect(report: &ListsReport, drives: &[DriveReport], said: &mut Vec<Diagnostic>) {
+    let of_list = report.diagnostics.iter();
+    said.extend(of_list.filter(|it| it.severity == Severity::Error).cloned());
+    for drive in drives {
+        for diagnostic in drive.diagnostics.iter().chain(&drive.open) {
+            if !said.contains(diagnostic) {
+                said.push(diagnostic.clone());
+            }
+        }
+    }
+}
+
+fn no_axis(path: &Path) -> Failure {
+    Failure::new(format!("`{}` describes no axis", path.display()))
+        .with_help("name a start-up list, axis lists or a `frictcomp.toml`")
+}
+
 /// Says which `--slave` names no axis of the lists.
 fn check_axes(args: &DriveArgs, reports: &[DriveReport]) -> Result<(), Failure> {
     let is_known = |given: &&SlaveOfAxis| reports.iter().any(|report| report.axis == given.axis);
@@ -142,8 +162,9 @@ pub(super) fn run(args: &DriveArgs, console: Console) -> Result<u8, Failure> {
                     ledger.reads("list", Path::new(&**file));
                 }
                 let drives = drives(&report, &evidence);
-                for drive in &drives {
-                    said.extend(drive.diagnostics.iter().chain(&drive.open).cloned());
+                collect(&report, &drives, &mut said);
+                if drives.is_empty() {
+                    failures.push(no_axis(path));
                 }
                 reports.extend(drives);
             }

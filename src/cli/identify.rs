@@ -188,7 +188,7 @@ fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
     let mut options = IdentifyOptions::default();
     if !(args.feed > 0.0 && args.feed.is_finite()) {
         return Err(Failure::new(format!(
-            "a feed of {} mm/min is none",
+            "a feed of {} mm/min cannot be used",
             args.feed
         )));
     }

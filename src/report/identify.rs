@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::diagnostic::Severity;
 use crate::identify::{AxisRecording, Fit, FrictionCurve, Identified, TraceFinding};
 
 /// A recording and what was identified in it.
@@ -82,20 +82,7 @@ pub fn render_text(report: &IdentifyReport) -> String {
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
     }
-    for finding in report.findings() {
-        let severity = match finding.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Info => "info",
-        };
-        let _ = writeln!(
-            out,
-            "\n{severity}[{}]: {}\n  help: {}",
-            finding.code,
-            visible_line(&finding.message),
-            visible_line(&finding.help)
-        );
-    }
+    write_findings(report.findings(), &mut out);
     out
 }
 

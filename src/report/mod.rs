@@ -10,6 +10,7 @@ mod concise;
 mod csv;
 mod diagnostics;
 pub mod drives;
+mod findings;
 mod github;
 pub mod html;
 pub mod identify;

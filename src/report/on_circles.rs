@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::identify::{AxisRecording, OnCircles, TraceFinding};
@@ -82,15 +83,7 @@ pub fn render_text(report: &OnCirclesReport) -> String {
             speeds.join(", ")
         );
     }
-    for finding in report.findings() {
-        let _ = writeln!(
-            out,
-            "\n[{}]: {}\n  help: {}",
-            finding.code,
-            visible_line(&finding.message),
-            visible_line(&finding.help)
-        );
-    }
+    write_findings(report.findings(), &mut out);
     out
 }
 

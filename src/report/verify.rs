@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::identify::{AxisRecording, TraceFinding, Verified};
@@ -78,15 +79,7 @@ pub fn render_text(report: &VerifyReport) -> String {
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
     }
-    for finding in &report.recording.findings {
-        let _ = writeln!(
-            out,
-            "\n[{}]: {}\n  help: {}",
-            finding.code,
-            visible_line(&finding.message),
-            visible_line(&finding.help)
-        );
-    }
+    write_findings(&report.recording.findings, &mut out);
     out
 }
 

@@ -12,7 +12,7 @@
 mod layouts;
 
 use frictcomp::trace::{
-    ChannelQuantity, ChannelSelection, Choice, CncObject, Layout, SelectError, TraceProblem,
+    ChannelQuantity, ChannelSelection, Choice, CncObject, Layout, Pick, SelectError, TraceProblem,
     TraceReader, TraceRecording, Unit,
 };
 use layouts::{Comments, Export, Filled, Header, Letters, Signal, Task, Times, sinumerik};
@@ -33,6 +33,13 @@ fn read_pieces(bytes: &[u8], piece: usize) -> Result<TraceRecording, TraceProble
 
 fn read(text: &str) -> Result<TraceRecording, TraceProblem> {
     read_pieces(text.as_bytes(), 7)
+}
+
+/// The channel of a name, taken as a torque.
+fn torque(recording: &TraceRecording, name: &str) -> Pick {
+    let (selection, channels) = (ChannelSelection::default(), recording.channels());
+    let picked = selection.pick_named(name, ChannelQuantity::Torque, channels);
+    picked.expect("a channel")
 }
 
 fn problem(text: &str) -> TraceProblem {
@@ -433,16 +440,8 @@ fn what_is_no_number_is_missing_and_counted() {
         (1, 4)
     );
     assert_eq!(recording.values(b).len(), 3);
-    let pick = |name: &str| {
-        let picked = ChannelSelection::default().pick_named(
-            name,
-            ChannelQuantity::Torque,
-            recording.channels(),
-        );
-        picked.expect("a channel")
-    };
     let aligned = recording
-        .align(&[pick("A"), pick("B")], None)
+        .align(&["A", "B"].map(|name| torque(&recording, name)), None)
         .expect("one clock");
     assert_eq!(aligned.columns[1], [2.0, 4.0]);
     assert!(
@@ -457,16 +456,8 @@ fn channels_of_different_rates_are_brought_to_one() {
     // R6.2
     let text = "Name\tFast\tName\tSlow\n\n0\t0\t0\t0\n1\t10\t4\t8\n2\t20\t8\t16\n3\t30\n4\t40\n5\t50\n6\t60\n";
     let recording = read(text).expect("a recording");
-    let pick = |name: &str| {
-        let picked = ChannelSelection::default().pick_named(
-            name,
-            ChannelQuantity::Torque,
-            recording.channels(),
-        );
-        picked.expect("a channel")
-    };
     let aligned = recording
-        .align(&[pick("Slow"), pick("Fast")], None)
+        .align(&["Slow", "Fast"].map(|name| torque(&recording, name)), None)
         .expect("one clock");
     assert_eq!(aligned.columns[0], [0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0]);
     assert_eq!(aligned.columns[1][6], 60.0);

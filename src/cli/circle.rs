@@ -14,6 +14,7 @@ use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::{Outputs, write_text};
 use super::progress;
+use super::result::ResultArgs;
 use crate::circle::{Circle, CircularTest, CommandedCircle, PathCentre, PlaneAxis};
 use crate::current::Reading;
 use crate::host::{
@@ -74,18 +75,14 @@ pub(super) struct CircleArgs {
     /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
     #[arg(long, value_name = "CHANNEL=UNIT", requires = "trace", value_parser = parse_unit)]
     unit: Vec<(String, Unit)>,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    result: ResultArgs<Format>,
     /// Draw the circle with magnified deviation, compensation off and on, to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Write an HTML report with the picture and the figures to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the result to this file
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
 }
 
 /// A format of the result.
@@ -105,7 +102,7 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
     memory_for_simulation()?;
     let ledger = Ledger::default();
     let mut outputs = Outputs::new(&ledger, console);
-    let mut result = outputs.result(args.output.as_deref())?;
+    let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
     let report = if args.trace.is_empty() {
@@ -125,7 +122,7 @@ pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
         let recording = read_circles(&args.trace, &channels(args), commanded, args.centre)?;
         CircleReport::recorded(recording)
     };
-    let text = match args.format {
+    let text = match args.result.format {
         Format::Text => fitted(&render_text(&report), result.look.width),
         Format::Json => render_json(&report),
         Format::Csv => render_csv(&report),

@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::json;
 
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::painted::severities;
+use super::result::Format;
 use crate::diagnostic::Code;
 
 /// List all codes with severity and title
@@ -17,16 +18,6 @@ pub(super) struct CodesArgs {
     /// The format of the list
     #[arg(long, default_value = "text")]
     format: Format,
-}
-
-/// A format of the list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// For people.
-    #[default]
-    Text,
-    /// One JSON document.
-    Json,
 }
 
 /// Runs the command.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::channels::AxisChannels;
 use super::console::Console;
@@ -10,6 +10,7 @@ use super::cycle::CycleArgs;
 use super::exit;
 use super::failure::Failure;
 use super::outputs::{Outputs, write_text};
+use super::result::Format;
 use crate::comp::CncBuild;
 use crate::host::{Ledger, OutputFile, read_axis};
 use crate::identify::{
@@ -71,16 +72,6 @@ pub(super) struct IdentifyArgs {
     /// Write the value list to this file
     #[arg(long, short, value_name = "LIST")]
     output: Option<PathBuf>,
-}
-
-/// A format of the result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// Tables for people.
-    #[default]
-    Text,
-    /// One JSON document.
-    Json,
 }
 
 /// Runs the command.

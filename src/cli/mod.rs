@@ -32,6 +32,7 @@ mod outputs;
 mod painted;
 mod progress;
 mod quiet;
+mod result;
 mod run;
 mod settings;
 mod severities;

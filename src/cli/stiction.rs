@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
+use super::result::Format;
 use crate::report::stiction::{guideline, render_stiction, stiction_document};
 use crate::stiction::{Quantity, StictionError, solve};
 
@@ -57,16 +58,6 @@ pub(super) struct StictionArgs {
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
-}
-
-/// A format of the result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// For people.
-    #[default]
-    Text,
-    /// One JSON document.
-    Json,
 }
 
 impl StictionArgs {

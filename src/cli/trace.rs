@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::outputs::{Outputs, write_text};
+use super::result::{Format, ResultArgs};
 use crate::host::{Ledger, read_trace};
 use crate::report::html::render_trace;
 use crate::report::pictures::channels;
@@ -27,28 +28,14 @@ pub(super) struct TraceArgs {
     /// The channel of the times, where the file has one that is not called `t` or `time`
     #[arg(long, value_name = "CHANNEL")]
     time: Option<String>,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: Format,
+    #[command(flatten)]
+    result: ResultArgs,
     /// Draw the channels over time to this SVG file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Write an HTML report with the channels over time to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write the result to this file
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
-}
-
-/// A format of the result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// A line for each channel.
-    #[default]
-    Text,
-    /// One JSON document.
-    Json,
 }
 
 /// Runs the command.
@@ -56,7 +43,7 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     ledger.reads("trace", &args.file);
     let mut outputs = Outputs::new(&ledger, console);
-    let mut result = outputs.result(args.output.as_deref())?;
+    let mut result = outputs.result(args.result.output.as_deref())?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
     outputs.check()?;
@@ -78,7 +65,7 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
     if let Some(mut html) = html {
         render_trace(&report, &mut html).map_err(Failure::output)?;
     }
-    result.text(&match args.format {
+    result.text(&match args.result.format {
         Format::Text => render_text(&report),
         Format::Json => render_json(&report),
     })?;

@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::progress;
+use super::result::Format;
 use crate::circle::{Circle, FeedResult, PlaneAxis, Ranges, Shaping, Task, TunedAxis};
 use crate::comp::CncBuild;
 use crate::current::Reading;
@@ -117,16 +118,6 @@ enum Free {
     /// Up to 50 cycles.
     #[value(name = "reversal_lookahead", alias = "reversal-lookahead")]
     ReversalLookahead,
-}
-
-/// A format of the result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// A table for people.
-    #[default]
-    Text,
-    /// One JSON document.
-    Json,
 }
 
 /// Runs the command.

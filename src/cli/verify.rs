@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::channels::AxisChannels;
 use super::console::Console;
@@ -11,6 +11,7 @@ use super::exit;
 use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::Outputs;
+use super::result::{Format, ResultArgs};
 use crate::host::{Ledger, read_axis};
 use crate::identify::verify;
 use crate::report::fitted;
@@ -32,22 +33,8 @@ pub(super) struct VerifyArgs {
     channels: AxisChannels,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// The format of the result
-    #[arg(long, default_value = "text")]
-    format: Format,
-    /// Write the result to this file
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
-}
-
-/// A format of the result.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// Tables for people.
-    #[default]
-    Text,
-    /// One JSON document.
-    Json,
+    #[command(flatten)]
+    result: ResultArgs,
 }
 
 /// Runs the command.
@@ -55,7 +42,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let ledger = Ledger::default();
     ledger.reads("trace", &args.trace);
     let mut outputs = Outputs::new(&ledger, console);
-    let mut result = outputs.result(args.output.as_deref())?;
+    let mut result = outputs.result(args.result.output.as_deref())?;
     let list = value_list(&args.value_list, &ledger)?;
     outputs.check()?;
     let recording = read_axis(
@@ -70,7 +57,7 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
         recording,
         verified,
     };
-    result.text(&match args.format {
+    result.text(&match args.result.format {
         Format::Text => fitted(&render_text(&report), result.look.width),
         Format::Json => render_json(&report),
     })?;

@@ -1,0 +1,29 @@
+//! The result of a command: its format, and where it goes.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Format {
+    /// For people.
+    #[default]
+    Text,
+    /// One JSON document.
+    Json,
+}
+
+/// A result that goes to standard output or to a file, in one of the formats `F`.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ResultArgs<F = Format>
+where
+    F: ValueEnum + Clone + Default + Send + Sync + 'static,
+{
+    /// The format of the result
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) format: F,
+    /// Write the result to this file
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+}

@@ -107,6 +107,7 @@ pub mod syntax;
 pub mod text;
 pub mod timeline;
 pub mod trace;
+pub mod versions;
 
 pub use comp::{CompCommand, Compensation, CompensationError};
 pub use diagnostic::{Code, Diagnostic, Severity};

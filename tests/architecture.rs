@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 23] = [
+const ROOMS: [(&str, &[&str]); 24] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -93,6 +93,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
         ],
     ),
     ("simulation", &["text", "diagnostic", "lists", "config"]),
+    ("versions", &["diagnostic", "comp", "timeline"]),
     ("stiction", &[]),
     ("circle", &["diagnostic", "lists", "current", "simulation"]),
     ("trace", &["diagnostic"]),
@@ -119,6 +120,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
             "circle",
             "trace",
             "identify",
+            "versions",
         ],
     ),
     (
@@ -159,6 +161,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
             "circle",
             "trace",
             "identify",
+            "versions",
             "report",
             "host",
         ],

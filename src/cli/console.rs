@@ -70,6 +70,15 @@ impl Target {
             Err(error) => Err(Failure::output(error)),
         }
     }
+
+    /// Writes a text, with lines in the styles that `style` gives them.
+    pub(super) fn painted(
+        &mut self,
+        text: &str,
+        style: fn(&str) -> anstyle::Style,
+    ) -> Result<Printed, Failure> {
+        self.text(&painted(&visible(text), self.look, style))
+    }
 }
 
 impl Console {
@@ -150,8 +159,7 @@ impl Console {
         text: &str,
         style: fn(&str) -> anstyle::Style,
     ) -> Result<Printed, Failure> {
-        let mut target = self.stdout();
-        target.text(&painted(&visible(text), target.look, style))
+        self.stdout().painted(text, style)
     }
 
     /// Says a line on stderr. When nobody listens, nothing is lost.

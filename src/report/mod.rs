@@ -30,6 +30,7 @@ mod text;
 pub mod trace;
 pub mod tune;
 pub mod verify;
+pub mod versions;
 mod view;
 mod visible;
 mod wording;

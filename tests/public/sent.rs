@@ -7,6 +7,7 @@ use frictcomp::current::CurrentCycle;
 use frictcomp::{
     circle, comp, current, diagnostic, drive_interface, host, identify, interpreter, lists,
     machine, motion, report, session, simulation, stiction, syntax, text, timeline, trace,
+    versions,
 };
 
 /// A sink of currents, for the types that are made over one.
@@ -422,4 +423,12 @@ sent! {
     trace::TraceReader<'static>,
     trace::TraceRecording,
     trace::Unit,
+    versions::Agreement,
+    versions::Obstacle,
+    versions::Paired,
+    versions::Reason,
+    versions::Switch,
+    versions::Version,
+    versions::VersionComparison,
+    versions::Which,
 }

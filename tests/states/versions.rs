@@ -40,7 +40,7 @@ fn what_is_not_known_is_not_comparable() {
     let (status, shown) = diff(unknown, unknown, &[]);
     assert_eq!(status, Some(1), "{shown}");
     assert!(
-        shown.contains("not comparable: from old.nc:1 on FRICT of X"),
+        shown.contains("not comparable: from old.nc:1 on, FRICT of X"),
         "{shown}"
     );
     let (status, shown) = diff(unknown, unknown, &["--set", "V.E.A=1"]);
@@ -57,6 +57,91 @@ fn what_is_not_known_is_not_comparable() {
     );
     let (status, shown) = diff(off, off, &["--isolated", "--enable", "X"]);
     assert_eq!(status, Some(0), "{shown}");
+}
+
+#[test]
+fn a_silenced_message_makes_nothing_comparable() {
+    // R9.81
+    let bench = Bench::new(&[
+        (
+            "undescribed.nc",
+            "X[COMP OFF FRICT] ; frictcomp: allow FC408\nM30\n",
+        ),
+        (
+            "assumed.nc",
+            "N1 $GOTO N[V.E.A] ; frictcomp: allow FC902\nN5 X[COMP OFF FRICT]\nN6 X[COMP ON FRICT]\nM30\n",
+        ),
+        ("still.nc", "G0 X1\nM30\n"),
+    ]);
+    let diff = |name: &str, arguments: &[&str]| {
+        let output = bench.call(&[&["diff", name, name], arguments].concat());
+        let shown = String::from_utf8(output.stdout).expect("text");
+        (output.status.code(), shown)
+    };
+    let (status, shown) = diff("undescribed.nc", &["--isolated"]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert!(
+        shown.contains("not comparable: what undescribed.nc does depends on a machine"),
+        "{shown}"
+    );
+    let (status, shown) = diff("assumed.nc", &[]);
+    assert_eq!(status, Some(1), "{shown}");
+    assert!(shown.contains("not comparable: "), "{shown}");
+    // What switches nothing does not depend on the machine.
+    assert_eq!(diff("still.nc", &["--isolated"]).0, Some(0));
+}
+
+#[test]
+fn a_comparison_is_a_document_and_a_page() {
+    // R9.81, R9.71
+    let bench = Bench::new(&[
+        (
+            "old.nc",
+            "N10 X[COMP OFF FRICT]\nN20 X[COMP ON FRICT]\nM30\n",
+        ),
+        (
+            "new.nc",
+            "(<b>moved</b>)\nN10 X[COMP OFF FRICT]\nN15 Y[COMP OFF FRICT] (<i>)\nN20 X[COMP ON FRICT]\nZ[COMP ON FRICT]\n",
+        ),
+    ]);
+    let output = bench.call(&[
+        "diff", "old.nc", "new.nc", "--format", "json", "--html", "d.html", "-o", "d.json",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.stdout, b"");
+    let document: serde_json::Value =
+        serde_json::from_str(&bench.read("d.json")).expect("a document");
+    assert_eq!(document["verdict"], "not-comparable");
+    assert_eq!(document["common"], 2);
+    let difference = &document["differences"][0];
+    assert_eq!(difference["version"], "new");
+    assert_eq!(
+        (&difference["line"], &difference["n"]),
+        (&3.into(), &15.into())
+    );
+    assert_eq!(
+        (&difference["axis"], &difference["to"]),
+        (&"Y".into(), &"inactive".into())
+    );
+    let obstacle = &document["obstacles"][0];
+    assert_eq!(
+        (&obstacle["reason"], &obstacle["code"]),
+        (&"stopped".into(), &"P-ERR-70495".into())
+    );
+    assert_eq!(obstacle["line"], 5);
+    let page = bench.read("d.html");
+    for part in [
+        "The versions cannot be compared as a whole.",
+        "1 of 3 changes of state are in only one version.",
+        "new version: new.nc:5 stops with P-ERR-70495",
+        "+ new only",
+        "(&lt;i&gt;)",
+    ] {
+        assert!(page.contains(part), "{part}\n{page}");
+    }
+    assert!(!page.contains("<i>"));
+    let output = bench.call(&["diff", "old.nc", "new.nc", "-o", "new.nc"]);
+    assert_eq!(output.status.code(), Some(2), "an output is an input");
 }
 
 #[test]

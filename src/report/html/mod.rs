@@ -19,6 +19,7 @@ mod run;
 mod source;
 mod states;
 mod track;
+mod versions;
 
 pub use circle::render_circle;
 pub use digest::RunDigest;
@@ -26,3 +27,4 @@ pub use given::RunInputs;
 pub use identify::{render_identification, render_trace};
 pub use run::render_run;
 pub use source::Sources;
+pub use versions::render_versions;

@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if cycles % 50 == 0 {
             say(&format!(
                 "{:.3} s, line {}: {:>8.1} µm/s, {:>6.1} drive units",
-                cycle.time_s, cycle.line, x.commanded.velocity_units, x.added.current_units
+                cycle.time_s, cycle.cause.line, x.commanded.velocity_units, x.added.current_units
             ));
         }
         cycles += 1;

@@ -15,7 +15,7 @@ use frictcomp::diagnostic::Code;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 17] = [
+const ELSEWHERE: [(&str, &str); 19] = [
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
     ("FC506", "said by `tune`; tests/circle_cli.rs has it"),
     ("FC511", "said by `identify`; tests/identify.rs has it"),
@@ -33,6 +33,8 @@ const ELSEWHERE: [(&str, &str); 17] = [
         "FC905",
         "needs 10 000 messages; tests/language/budgets.rs has them",
     ),
+    ("FC906", "said by `current`; tests/motion/start.rs has it"),
+    ("FC907", "said by `current`; tests/motion/feeds.rs has it"),
     (
         "FC918",
         "needs a million values; tests/language/budgets.rs has it",

@@ -59,8 +59,8 @@ impl ExecutionArgs {
             run,
             levels: loaded.levels.clone(),
             settings: loaded.settings.clone(),
-            switched: Vec::new(),
             wording: Some(command_line),
+            ..SessionOptions::default()
         }
     }
 }

@@ -36,6 +36,7 @@ mod result;
 mod run;
 mod settings;
 mod severities;
+mod start;
 mod stiction;
 mod trace;
 mod tune;

@@ -17,6 +17,7 @@ use super::outputs::Outputs;
 use super::quiet::Quiet;
 use super::settings;
 use super::severities::SeverityArgs;
+use super::start::StartArgs;
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::host::{
@@ -78,6 +79,8 @@ pub(super) struct RunArgs {
     severities: SeverityArgs,
     #[command(flatten)]
     machine: MachineArgs,
+    #[command(flatten)]
+    start: StartArgs,
     #[command(flatten)]
     execution: ExecutionArgs,
 }
@@ -155,6 +158,9 @@ impl RunArgs {
                 "state at start",
                 "that of a restart of the control".to_owned(),
             ),
+        }
+        for (axis, position) in self.start.given() {
+            say("--start", format!("{axis} at {position}"));
         }
         let policy = if self.keep_going {
             "the command is passed over (--keep-going)"
@@ -244,6 +250,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
     let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
     let mut options = args.execution.options(&loaded, args.stop_policy());
+    options.start = args.start.positions(&loaded.machine)?;
     if !loaded.machine.is_described() {
         options.switched = switched_axes(&inputs);
     }

@@ -23,8 +23,8 @@ use crate::timeline::{Record, Sink};
 pub struct CurrentCycle<'a> {
     /// The time since the beginning of the program.
     pub time_s: f64,
-    /// The line of the block that is executed.
-    pub line: u32,
+    /// The block that is executed, and what holds in it.
+    pub cause: &'a Arc<Cause>,
     /// The axes, in the order in which they were asked for.
     pub axes: &'a [CurrentSample],
 }
@@ -124,8 +124,8 @@ pub struct ProgramCurrents<S> {
 /// The cycles of a trace on their way to a sink.
 struct Cycles<S> {
     followers: Followers,
-    /// Time and line of the cycles whose current is not known yet.
-    waiting: VecDeque<(f64, u32)>,
+    /// Time and block of the cycles whose current is not known yet.
+    waiting: VecDeque<(f64, Arc<Cause>)>,
     count: u64,
     sink: S,
 }
@@ -169,6 +169,11 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         (&self.errors, self.planner.diagnostics())
     }
 
+    /// How many motions the trace leaves out.
+    pub fn left_out(&self) -> u64 {
+        self.planner.left_out()
+    }
+
     /// How many cycles the trace has.
     pub fn cycles(&self) -> u64 {
         self.cycles.count
@@ -209,10 +214,15 @@ impl<S: CurrentSink> Cycles<S> {
     /// Gives out the cycles that wait for others.
     fn drain(&mut self) -> ControlFlow<()> {
         while let Some(axes) = self.followers.pop() {
-            let Some((time_s, line)) = self.waiting.pop_front() else {
+            let Some((time_s, cause)) = self.waiting.pop_front() else {
                 break;
             };
-            self.sink.cycle(&CurrentCycle { time_s, line, axes })?;
+            let cause = &cause;
+            self.sink.cycle(&CurrentCycle {
+                time_s,
+                cause,
+                axes,
+            })?;
         }
         ControlFlow::Continue(())
     }
@@ -228,7 +238,8 @@ impl<S: CurrentSink> TraceSink for Cycles<S> {
 
     fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
         self.count += 1;
-        self.waiting.push_back((sample.time_s, sample.cause.line));
+        self.waiting
+            .push_back((sample.time_s, Arc::clone(sample.cause)));
         let axes = sample.positions.iter().zip(sample.velocities);
         let inputs = axes
             .zip(sample.cause.friction.iter())
@@ -238,9 +249,14 @@ impl<S: CurrentSink> TraceSink for Cycles<S> {
                 friction: *state,
             });
         if let Some(axes) = self.followers.push(inputs)
-            && let Some((time_s, line)) = self.waiting.pop_front()
+            && let Some((time_s, cause)) = self.waiting.pop_front()
         {
-            return self.sink.cycle(&CurrentCycle { time_s, line, axes });
+            let cause = &cause;
+            return self.sink.cycle(&CurrentCycle {
+                time_s,
+                cause,
+                axes,
+            });
         }
         ControlFlow::Continue(())
     }

@@ -66,6 +66,8 @@ pub enum Advice {
     EndLoop,
     /// Write what a motion lacks into the program, or give the values.
     CompleteMotion,
+    /// Say where these axes stand at the start.
+    GiveStart(Vec<String>),
     /// Let programs be called from the folder of this one, or from anywhere.
     AllowOutside,
     /// Let the text of lists outside the folders of the machine and the programs be shown.
@@ -160,6 +162,9 @@ impl fmt::Display for Advice {
             Self::CompleteMotion => f.write_str(
                 "write what is missing into the program (`F`, absolute positions), or give the values; the trace restarts after it",
             ),
+            Self::GiveStart(axes) => {
+                write!(f, "give the place at the start of {}", axes.join(", "))
+            }
             Self::AllowOutside => f.write_str(
                 "add its folder to `program_dirs`, or allow calls from anywhere",
             ),

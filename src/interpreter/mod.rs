@@ -24,6 +24,8 @@ pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, M
 pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };
+pub use coordinates::pace::ProgrammedFeed;
+pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
 pub use run::event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};

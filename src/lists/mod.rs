@@ -1,6 +1,7 @@
 //! The control's ASCII lists: their lines, what they say, and the control's checks.
 
 mod axis;
+mod channel_settings;
 mod check;
 mod friction;
 mod line;
@@ -14,6 +15,7 @@ mod write;
 
 pub use axis::AxisValues;
 pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
+pub use channel_settings::{ChannelDraft, ChannelSettings, FeedUnit};
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 pub use line::{Entries, Entry};

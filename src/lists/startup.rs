@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::axis::{axis_number, text};
+use super::channel_settings::{ChannelDraft, ChannelSettings};
 use super::line::{Entries, Entry};
 use super::program::ChannelPrograms;
 use super::value::Given;
@@ -65,6 +66,8 @@ const CHANNEL_KEYS: &[&str] = &[
     "d_prog_file",
     "g8",
     "einrechnen_mit_t",
+    "main_spindle_",
+    "mass_einh",
 ];
 
 const AXIS_KEYS: &[&str] = &[
@@ -232,6 +235,8 @@ pub struct ChannelList {
     count: Option<u32>,
     /// The programs and macros that it names.
     pub programs: ChannelPrograms,
+    /// What it says about motion.
+    pub motion: ChannelDraft,
 }
 
 impl ChannelList {
@@ -239,6 +244,7 @@ impl ChannelList {
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
         let mut channel = Self {
             programs: ChannelPrograms::from_entries(list),
+            motion: ChannelDraft::from_entries(list, diagnostics),
             ..Self::default()
         };
         for entry in &list.entries {
@@ -284,6 +290,7 @@ impl ChannelList {
         }
         self.count = other.count.or(self.count);
         self.programs.override_with(other.programs);
+        self.motion.override_with(other.motion);
     }
 
     /// The axes in the order of their indices, as many as the group has. An axis with the number 0
@@ -292,6 +299,16 @@ impl ChannelList {
         let count = self.count.unwrap_or(u32::MAX);
         let axes = self.axes.range(..count).map(|(_, axis)| axis);
         axes.filter(|axis| axis.is_there())
+    }
+
+    /// What holds for motion.
+    pub fn settings(&self) -> ChannelSettings {
+        let spindles = self.spindles().filter_map(|spindle| {
+            let name = spindle.name.as_ref()?;
+            let number = spindle.number.as_ref().map(|given| given.value);
+            Some((name.value.as_str(), number))
+        });
+        self.motion.settings(spindles)
     }
 
     /// The spindles in the order of their indices.

@@ -28,7 +28,7 @@ pub struct ListsReport {
     pub diagnostics: Vec<Diagnostic>,
     /// The effective parameters of each axis that the list describes.
     pub reports: Vec<AxisReport>,
-    /// The programs and macros of the channel, and where they stand.
+    /// The programs and macros of the channel, what holds for motion in it, and where that stands.
     pub programs: Vec<Parameter>,
     /// The value lists that the control would take.
     pub accepted: Vec<AcceptedList>,
@@ -98,6 +98,7 @@ pub fn check_list(
         Some(ListKind::Channel) => {
             let channel = ChannelList::from_entries(&entries, &mut diagnostics);
             programs = channel.programs.parameters(&|_| false);
+            programs.extend(channel.motion.parameters());
         }
         Some(ListKind::Axis | ListKind::Head) => {
             let values = AxisValues::from_entries(&entries, &mut diagnostics);

@@ -33,7 +33,8 @@ pub struct Configuration {
     pub missing: usize,
     /// The effective parameters of each axis, in the order of [`Machine::axes`].
     pub reports: Vec<AxisReport>,
-    /// The programs and macros that the configuration names, and where.
+    /// The programs and macros that the configuration names, and what the channel list says about
+    /// motion; and where.
     pub programs: Vec<Parameter>,
 }
 
@@ -63,11 +64,13 @@ impl Configuration {
         self.diagnostics.extend(loader.diagnostics);
         self.files.extend(loader.names);
         self.missing += loader.missing;
-        if let Some(programs) = loader.programs {
+        if let Some(channel) = loader.channel {
             let named = &self.machine.programs;
-            self.programs
-                .extend(programs.parameters(&|role| named.has(role)));
-            self.machine.programs.add_channel(&programs);
+            let programs = channel.programs.parameters(&|role| named.has(role));
+            self.programs.extend(programs);
+            self.programs.extend(channel.motion.parameters());
+            self.machine.programs.add_channel(&channel.programs);
+            self.machine.channel = channel.settings;
         }
         let conditions = Conditions {
             build: self.machine.build,

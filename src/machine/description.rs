@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::harmless::HarmlessWords;
 use super::programs::ConfiguredPrograms;
 use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation};
-use crate::lists::Origin;
+use crate::lists::{ChannelSettings, Origin};
 
 /// Where the axes of a machine come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -34,6 +34,8 @@ pub struct Machine {
     pub harmless: HarmlessWords,
     /// What a program start does to P parameters.
     pub parameters: Parameters,
+    /// What the channel list says about motion.
+    pub channel: ChannelSettings,
 }
 
 /// What a program start does to P parameters (R2.33).

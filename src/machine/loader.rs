@@ -6,7 +6,9 @@ use super::described::describe;
 use super::files::{ListFiles, NoList, folder, is_absolute, join};
 use super::value_list::ValueList;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lists::{AxisValues, ChannelPrograms, Entries, Given, ListKind};
+use crate::lists::{
+    AxisValues, ChannelDraft, ChannelPrograms, ChannelSettings, Entries, Given, ListKind,
+};
 use crate::text::SourceFile;
 
 /// More folders above a list than there are on any disk.
@@ -21,8 +23,15 @@ pub(super) struct Loader<'f> {
     pub(super) names: Vec<Arc<str>>,
     /// How many lists were asked for and are not there.
     pub(super) missing: usize,
-    /// What the first channel names.
-    pub(super) programs: Option<ChannelPrograms>,
+    /// What the list of the first channel says.
+    pub(super) channel: Option<FirstChannel>,
+}
+
+/// The channel in which programs run.
+pub(super) struct FirstChannel {
+    pub(super) programs: ChannelPrograms,
+    pub(super) motion: ChannelDraft,
+    pub(super) settings: ChannelSettings,
 }
 
 impl<'f> Loader<'f> {
@@ -33,7 +42,7 @@ impl<'f> Loader<'f> {
             diagnostics: Vec::new(),
             names: Vec::new(),
             missing: 0,
-            programs: None,
+            channel: None,
         }
     }
 

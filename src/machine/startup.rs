@@ -2,7 +2,7 @@
 
 use super::assemble::AxisDraft;
 use super::files::folder;
-use super::loader::Loader;
+use super::loader::{FirstChannel, Loader};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
     AXIS_NAME_HELP, AxisType, AxisValues, ChannelAxis, ChannelList, Entries, Given, ListKind,
@@ -72,8 +72,11 @@ impl Loader<'_> {
             let mut channel = base.clone();
             channel.override_with(own);
             // A program runs in one channel; the first one is taken.
-            self.programs
-                .get_or_insert_with(|| channel.programs.clone());
+            self.channel.get_or_insert_with(|| FirstChannel {
+                programs: channel.programs.clone(),
+                motion: channel.motion.clone(),
+                settings: channel.settings(),
+            });
             let mut taken = Vec::new();
             for axis in channel.axes() {
                 let found = find_listed(axis, listed).map(|at| listed.remove(at).1);

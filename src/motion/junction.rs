@@ -16,6 +16,11 @@ const SHARP: f64 = 0.1;
 pub(super) enum Junction {
     /// Nothing changes but the bounds.
     Smooth,
+    /// Nothing changes, but the program asks for a velocity in it.
+    Paced {
+        /// The highest path velocity in it.
+        velocity: f64,
+    },
     /// A kink that may be passed while the path speeds up or slows down.
     Bend {
         /// The highest path velocity in it.
@@ -67,7 +72,18 @@ impl Junction {
             let velocity = velocity.min(before.length.min(after.length) / cycle);
             junction = junction.and(velocity, passing);
         }
-        junction
+        junction.paced(before.end_velocity)
+    }
+
+    /// The same at a velocity that the program asks for (E).
+    fn paced(self, asked: f64) -> Self {
+        let velocity = asked.min(self.velocity());
+        match self {
+            Self::Smooth if asked.is_finite() => Self::Paced { velocity },
+            Self::Bend { .. } => Self::Bend { velocity },
+            Self::Corner { .. } => Self::Corner { velocity },
+            kept => kept,
+        }
     }
 
     /// The stricter of what is known and one more kink.
@@ -84,7 +100,9 @@ impl Junction {
     pub(super) fn velocity(self) -> f64 {
         match self {
             Self::Smooth => f64::INFINITY,
-            Self::Bend { velocity } | Self::Corner { velocity } => velocity,
+            Self::Paced { velocity } | Self::Bend { velocity } | Self::Corner { velocity } => {
+                velocity
+            }
             Self::Stop => 0.0,
         }
     }

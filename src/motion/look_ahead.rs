@@ -44,6 +44,11 @@ impl LookAhead {
         }
     }
 
+    /// The path velocity along a segment at which one axis moves at its limit.
+    pub(super) fn fastest(&self, segment: &Segment) -> f64 {
+        segment.fastest(&self.limits)
+    }
+
     /// The sampled seconds.
     pub(super) fn time_s(&self) -> f64 {
         self.sampler.time_s()

@@ -3,7 +3,8 @@
 //!
 //! The rows of a session say what each block moves. A [`TrajectoryPlanner`] makes segments of a
 //! path from them, plans the path velocity with full look-ahead within the limits of all axes, and
-//! hands a [`Sample`] a cycle to a [`TraceSink`]: memory is the same for a program of any length.
+//! hands a [`Sample`] a cycle to a [`TraceSink`], with the [`Cause`] of each: memory is the same for a
+//! program of any length. What cannot be followed is left out and told, see [`SkippedMotion`].
 //! What is modelled, and how a control differs, is in `docs/motion.md`.
 //!
 //! Positions are in mm or degrees, as the axis is linear or rotary; velocities, accelerations and
@@ -16,12 +17,14 @@ mod look_ahead;
 mod plan;
 mod planner;
 mod profile;
+mod remarks;
 mod sampler;
 mod segment;
 mod share;
 mod trace;
 
+pub use crate::interpreter::{PositionFrame, Simplification, Simplifications};
 pub use cycle::{CycleError, check_cycle};
 pub use limits::{Assumed, AxisLimits};
 pub use planner::{PlannerOptions, TrajectoryPlanner};
-pub use trace::{Cause, Sample, TraceSink};
+pub use trace::{Cause, Movement, Sample, SkippedMotion, TraceSink};

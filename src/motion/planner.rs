@@ -1,19 +1,18 @@
 //! Makes the path from the rows of a session.
 
-use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::limits::AxisLimits;
 use super::look_ahead::LookAhead;
+use super::remarks::{At, Remarks};
 use super::sampler::Sampler;
 use super::segment::{Ends, SAME_PLACE, Segment};
-use super::trace::{Cause, Dwell, TraceSink};
+use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
-use crate::interpreter::{Form, Motion, PathFeed, Travel};
+use crate::interpreter::{Form, Motion, PathFeed, PositionFrame, Travel};
 use crate::machine::Machine;
-use crate::text::{Place, Span};
 use crate::timeline::Row;
 
 /// How a trace is made.
@@ -50,13 +49,15 @@ impl Default for PlannerOptions {
     }
 }
 
-/// How many places are named at which the motion is not known.
-const MAX_NAMED: usize = 100;
+/// Why a motion is left out whose start is not known.
+const UNKNOWN_START: &str = "the position of the axes before this motion is not known";
 
 /// Turns the rows of a session into the commanded trace of some axes.
 pub struct TrajectoryPlanner {
     look_ahead: LookAhead,
     followed: Vec<AxisIndex>,
+    /// The name of each axis.
+    names: Vec<String>,
     /// Whether each axis is X, Y or Z.
     main: Vec<bool>,
     /// Where the path ends, by axis; empty before it begins.
@@ -70,8 +71,10 @@ pub struct TrajectoryPlanner {
     file: Arc<str>,
     text: String,
     line: u32,
-    diagnostics: Vec<Diagnostic>,
-    named: BTreeSet<(Code, Arc<str>, u32)>,
+    /// Whether a motion was left out for another reason than its start.
+    has_lost: bool,
+    left_out: u64,
+    remarks: Remarks,
 }
 
 /// A difference, in mm or degrees, that rounding makes and no program.
@@ -101,23 +104,6 @@ enum Obstacle {
     Reason(&'static str),
 }
 
-/// The place of a block.
-struct At<'a> {
-    file: &'a str,
-    text: &'a str,
-    line: u32,
-}
-
-impl<'a> At<'a> {
-    fn of(row: &Row<'a>) -> Self {
-        Self {
-            file: row.file,
-            text: row.text,
-            line: row.line,
-        }
-    }
-}
-
 impl TrajectoryPlanner {
     /// A planner for some axes of a machine, before the first block.
     pub fn new(machine: &Machine, followed: &[AxisIndex], options: PlannerOptions) -> Self {
@@ -139,8 +125,10 @@ impl TrajectoryPlanner {
             file: Arc::from(""),
             text: String::new(),
             line: 0,
-            diagnostics: Vec::new(),
-            named: BTreeSet::new(),
+            has_lost: false,
+            left_out: 0,
+            remarks: Remarks::default(),
+            names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
         }
     }
 
@@ -170,7 +158,7 @@ impl TrajectoryPlanner {
             };
             let help = Advice::RaiseBudget(Budget::Cycles);
             let message = "the trace is longer than its budget and ends here";
-            self.say(&at, (Code::Fc915, message), help);
+            self.remarks.say(&at, (Code::Fc915, message), help);
         }
     }
 
@@ -180,15 +168,21 @@ impl TrajectoryPlanner {
 
     /// Follows the path to its end.
     pub fn finish(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        self.remarks.say_before();
         self.running = Running::No;
         let flow = self.look_ahead.stop(sink);
         self.check_budget();
         flow
     }
 
+    /// How many motions the trace leaves out.
+    pub fn left_out(&self) -> u64 {
+        self.left_out
+    }
+
     /// What there is to say about the motions, each once a place.
     pub fn diagnostics(&self) -> &[Diagnostic] {
-        &self.diagnostics
+        self.remarks.diagnostics()
     }
 
     fn travel(
@@ -200,15 +194,12 @@ impl TrajectoryPlanner {
         let segment = self.segment(row, travel);
         let segment = match segment {
             Ok(segment) => segment,
-            // Where the path has not begun, nobody expects to know where it comes from.
-            Err(Obstacle::Start) if self.running == Running::No => return ControlFlow::Continue(()),
-            Err(Obstacle::Start) => {
-                return self.lose(
-                    row,
-                    "the position of the axes before this motion is not known",
-                    sink,
-                );
+            Err(Obstacle::Start) if self.running == Running::No => {
+                self.note_before(row, travel);
+                self.leave_out(row, UNKNOWN_START, sink);
+                return ControlFlow::Continue(());
             }
+            Err(Obstacle::Start) => return self.lose(row, UNKNOWN_START, sink),
             Err(Obstacle::Reason(reason)) => return self.lose(row, reason, sink),
         };
         let Some(segment) = segment else {
@@ -220,7 +211,7 @@ impl TrajectoryPlanner {
         if !row.modal.transformed.is_empty() {
             let message = "from here on the trace is that of the program, not of the machine: a \
                            transformation is active";
-            self.say(
+            self.remarks.say(
                 &At::of(row),
                 (Code::Fc904, message),
                 "the axes of the machine move differently",
@@ -236,6 +227,7 @@ impl TrajectoryPlanner {
             self.running = Running::No;
         }
         if self.running == Running::No {
+            self.remarks.say_before();
             sink.begin(self.look_ahead.time_s(), &segment.cause)?;
             self.running = Running::Yes;
         }
@@ -258,7 +250,7 @@ impl TrajectoryPlanner {
             Some(seconds) if seconds >= 0.0 && seconds.is_finite() => {
                 let dwell = Dwell {
                     seconds,
-                    cause: &self.cause(row),
+                    cause: &self.cause(row, Movement::Dwell),
                 };
                 self.look_ahead.rest(dwell, sink)
             }
@@ -274,32 +266,30 @@ impl TrajectoryPlanner {
         reason: &'static str,
         sink: &mut dyn TraceSink,
     ) -> ControlFlow<()> {
-        let message = format!("the trace leaves this motion out: {reason}");
-        self.say(
-            &At::of(row),
-            (Code::Fc903, &message),
-            Advice::CompleteMotion,
-        );
+        self.remarks.say_left_out(row, reason);
+        self.has_lost = true;
         self.running = Running::No;
-        self.look_ahead.stop(sink)
+        self.look_ahead.stop(sink)?;
+        self.leave_out(row, reason, sink);
+        ControlFlow::Continue(())
     }
 
     /// The segment of a motion; `None` where nothing moves.
     fn segment(&mut self, row: &Row<'_>, travel: &Travel) -> Result<Option<Segment>, Obstacle> {
-        let moves = travel.from.iter().zip(&travel.to).enumerate();
-        let mut unknown = moves.filter(|(_, (from, _))| from.is_none());
-        if unknown.any(|(axis, (_, to))| to.is_some() || self.follows(axis)) {
+        if let Form::Unknown(reason) = travel.form {
+            return Err(Obstacle::Reason(reason));
+        }
+        if self.unknown_at_start(travel).next().is_some() {
             return Err(Obstacle::Start);
         }
-        let feed = match (travel.form, travel.feed) {
-            (Form::Rapid, _) => PathFeed::PerMinute(f64::INFINITY),
-            (Form::Unknown(reason), _) | (_, PathFeed::Unknown(reason)) => {
-                return Err(Obstacle::Reason(reason));
-            }
-            (_, PathFeed::PerMinute(feed) | PathFeed::Seconds(feed)) if feed <= 0.0 => {
+        let feed = match travel.feed {
+            PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
+            PathFeed::PerMinute(feed) | PathFeed::Seconds(feed) | PathFeed::OfAxes(feed)
+                if feed <= 0.0 =>
+            {
                 return Err(Obstacle::Reason("F is not above 0"));
             }
-            (_, feed) => feed,
+            feed => feed,
         };
         let mut from = Vec::with_capacity(travel.from.len());
         let mut to = Vec::with_capacity(travel.from.len());
@@ -326,7 +316,12 @@ impl TrajectoryPlanner {
         if is_nothing(travel, &from, &to) {
             return Ok(None);
         }
-        let cause = self.cause(row);
+        let movement = match travel.form {
+            Form::Rapid => Movement::Rapid,
+            _ => Movement::Feed,
+        };
+        self.remarks.say_simplified(row, travel.simplified);
+        let cause = self.cause(row, movement);
         let ends = Ends {
             from: from.into(),
             to: to.into(),
@@ -345,13 +340,18 @@ impl TrajectoryPlanner {
         segment.feed = match feed {
             PathFeed::PerMinute(feed) => feed / 60.0,
             PathFeed::Seconds(seconds) => segment.length / seconds,
+            PathFeed::OfAxes(share) if share >= 1.0 => f64::INFINITY,
+            PathFeed::OfAxes(share) => self.look_ahead.fastest(&segment) * share,
             PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
         };
         segment.end = travel.end;
+        if let Some(feed) = travel.end_feed_per_min {
+            segment.end_velocity = feed / 60.0;
+        }
         Ok(Some(segment))
     }
 
-    fn cause(&mut self, row: &Row<'_>) -> Arc<Cause> {
+    fn cause(&mut self, row: &Row<'_>, movement: Movement) -> Arc<Cause> {
         if self.version != Some(row.state.version) {
             self.version = Some(row.state.version);
             let axes = self.followed.iter();
@@ -363,29 +363,52 @@ impl TrajectoryPlanner {
             self.file = row.file.into();
         }
         Arc::new(Cause {
+            program: row.program,
             seq: row.seq,
             file: Arc::clone(&self.file),
             line: row.line,
+            number: row.number,
+            movement,
+            frame: if row.modal.transformed.is_empty() {
+                PositionFrame::Machine
+            } else {
+                PositionFrame::Programmed
+            },
+            simplified: self.remarks.simplified(),
             friction: Arc::clone(&self.friction),
         })
     }
 
-    /// Says something about a block, once a place; of what holds for the rest of the program only
-    /// the first.
-    fn say(&mut self, at: &At<'_>, (code, message): (Code, &str), help: impl Into<Advice>) {
-        let place = Place {
-            file: at.file.into(),
-            text: at.text.into(),
-            first_line: at.line,
-            span: Span::new(0, at.text.len()),
-        };
-        let key = match code {
-            Code::Fc903 => (code, Arc::clone(&place.file), at.line),
-            _ => (code, Arc::from(""), 0),
-        };
-        if self.named.len() < MAX_NAMED && self.named.insert(key) {
-            let diagnostic = Diagnostic::new(code, place, message).with_help(help);
-            self.diagnostics.push(diagnostic);
+    /// A motion that is not part of the trace.
+    fn leave_out(&mut self, row: &Row<'_>, reason: &'static str, sink: &mut dyn TraceSink) {
+        self.left_out += 1;
+        sink.left_out(&SkippedMotion {
+            time_s: self.look_ahead.time_s(),
+            file: row.file,
+            line: row.line,
+            number: row.number,
+            reason,
+        });
+    }
+
+    /// A motion before the trace begins. Once it has begun, what made it break off was said.
+    fn note_before(&mut self, row: &Row<'_>, travel: &Travel) {
+        if self.has_lost || !self.stand.is_empty() {
+            return;
         }
+        let unknown = self.unknown_at_start(travel);
+        let names: Vec<String> = unknown.map(|axis| self.names[axis].clone()).collect();
+        self.remarks.note_before(row, names);
+    }
+
+    /// The axes that matter to a motion, and of which nobody knows where they stand before it.
+    fn unknown_at_start(&self, travel: &Travel) -> impl Iterator<Item = usize> {
+        let ends = travel.from.iter().zip(&travel.to).enumerate();
+        let matters = |axis, to: &Option<f64>| {
+            let moves = || travel.axes.iter().any(|moved| moved.get() == axis);
+            to.is_some() || self.follows(axis) || moves()
+        };
+        ends.filter(move |(axis, (from, to))| from.is_none() && matters(*axis, to))
+            .map(|(axis, _)| axis)
     }
 }

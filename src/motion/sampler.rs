@@ -21,6 +21,7 @@ pub(super) struct Sampler {
     end: f64,
     positions: Vec<f64>,
     velocities: Vec<f64>,
+    path_velocity: f64,
     /// The block that was followed last.
     last: Option<Arc<Cause>>,
     /// How many cycles there may be.
@@ -38,6 +39,7 @@ impl Sampler {
             end: 0.0,
             positions: vec![0.0; followed.len()],
             velocities: vec![0.0; followed.len()],
+            path_velocity: 0.0,
             last: None,
             budget,
             over: false,
@@ -83,6 +85,7 @@ impl Sampler {
                     // No negative zero.
                     self.velocities[place] = segment.slope(axis, way) * state.velocity + 0.0;
                 }
+                self.path_velocity = state.velocity;
                 self.emit(&segment.cause, sink)?;
             }
             passed += segment.length;
@@ -100,7 +103,7 @@ impl Sampler {
     pub(super) fn rest(&mut self, dwell: Dwell<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let Dwell { seconds, cause } = dwell;
         self.end += seconds;
-        self.velocities.fill(0.0);
+        self.halt();
         self.last = Some(Arc::clone(cause));
         while self.time_s() <= self.end {
             self.emit(cause, sink)?;
@@ -110,12 +113,18 @@ impl Sampler {
 
     /// One more cycle, so that the axes are seen at rest at the end of the path.
     pub(super) fn settle(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
-        self.velocities.fill(0.0);
+        self.halt();
         if let Some(cause) = self.last.take() {
             self.emit(&cause, sink)?;
             self.end = self.time_s();
         }
         ControlFlow::Continue(())
+    }
+
+    /// The axes stand.
+    fn halt(&mut self) {
+        self.velocities.fill(0.0);
+        self.path_velocity = 0.0;
     }
 
     /// Whether more cycles than the budget were wanted.
@@ -134,6 +143,7 @@ impl Sampler {
             time_s,
             positions: &self.positions,
             velocities: &self.velocities,
+            path_velocity: self.path_velocity,
             cause,
         })
     }

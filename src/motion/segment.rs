@@ -38,6 +38,8 @@ pub(super) struct Segment {
     /// The highest path velocity that the program asks for.
     pub(super) feed: f64,
     pub(super) end: BlockEnd,
+    /// The highest path velocity at its end.
+    pub(super) end_velocity: f64,
     pub(super) cause: Shared<Cause>,
 }
 
@@ -110,8 +112,18 @@ impl Segment {
             length,
             feed: f64::INFINITY,
             end: BlockEnd::Through,
+            end_velocity: f64::INFINITY,
             cause,
         }
+    }
+
+    /// The path velocity at which one axis moves at its limit, and none beyond.
+    pub(super) fn fastest(&self, limits: &[AxisLimits]) -> f64 {
+        let open = Self {
+            feed: f64::INFINITY,
+            ..self.clone()
+        };
+        open.bounds(limits, Share::Whole).velocity
     }
 
     /// Where the axes are at its end.

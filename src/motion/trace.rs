@@ -4,19 +4,41 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::comp::State;
+use crate::interpreter::{PositionFrame, Simplifications};
 
-/// The block that a piece of the path comes from, and the friction compensation that is in force
-/// while it is followed.
+/// The block that a piece of the path comes from, and what holds while it is followed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cause {
+    /// The program of the session, from 1.
+    pub program: u32,
     /// The executed block of its program, from 1.
     pub seq: u64,
     /// The file.
     pub file: Arc<str>,
     /// The line on which the block starts, from 1.
     pub line: u32,
+    /// The block number, where it is known.
+    pub number: Option<i64>,
+    /// How the axes move.
+    pub movement: Movement,
+    /// Whether positions are those of the machine (R5.4).
+    pub frame: PositionFrame,
+    /// What the control does to the path or its velocity and the trace does not.
+    pub simplified: Simplifications,
     /// The friction compensation of each followed axis.
     pub friction: Arc<[State]>,
+}
+
+/// How the axes move along a piece of the path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Movement {
+    /// As fast as they can, G00.
+    Rapid,
+    /// At a feed, G01, G02, G03.
+    Feed,
+    /// They rest for a time, G04.
+    Dwell,
 }
 
 /// The commanded trace in one CNC cycle (R5.1).
@@ -28,8 +50,26 @@ pub struct Sample<'a> {
     pub positions: &'a [f64],
     /// How fast each followed axis is commanded to move, in mm or degrees per second.
     pub velocities: &'a [f64],
+    /// How fast the path is followed, in mm/s, or °/s where the feed is that of rotary axes.
+    pub path_velocity: f64,
     /// The block that is followed.
     pub cause: &'a Arc<Cause>,
+}
+
+/// A motion that the trace leaves out, because where it leads or how fast is not known.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct SkippedMotion<'a> {
+    /// The time of the trace at which it would begin.
+    pub time_s: f64,
+    /// The file.
+    pub file: &'a str,
+    /// The line of the block, from 1.
+    pub line: u32,
+    /// The block number, where it is known.
+    pub number: Option<i64>,
+    /// Why, in lower case.
+    pub reason: &'static str,
 }
 
 /// A stay where the path ends.
@@ -46,4 +86,9 @@ pub trait TraceSink {
 
     /// Takes the next cycle; `Break` ends the trace.
     fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()>;
+
+    /// The trace leaves a motion out. The motions before it have been followed.
+    fn left_out(&mut self, motion: &SkippedMotion<'_>) {
+        let _ = motion;
+    }
 }

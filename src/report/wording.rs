@@ -36,6 +36,10 @@ pub fn command_line(advice: &Advice) -> Option<String> {
             "write what is missing into the program (`F`, absolute positions), or give values with `--set`; the trace restarts after it"
                 .to_owned()
         }
+        Advice::GiveStart(axes) => {
+            let start: Vec<String> = axes.iter().map(|axis| start_word(axis)).collect();
+            format!("give it with `--start {}` for instance", start.join(","))
+        }
         Advice::AllowOutside => {
             "add its folder to `program_dirs`, or call programs from anywhere with `--allow-outside`"
                 .to_owned()
@@ -56,6 +60,14 @@ pub fn command_line(advice: &Advice) -> Option<String> {
         Advice::ReadPage(code) => format!("`frictcomp explain {code}` says why"),
         _ => return None,
     })
+}
+
+/// An axis at 0, `X0`, `X1=0`.
+fn start_word(axis: &str) -> String {
+    match axis.len() {
+        1 => format!("{axis}0"),
+        _ => format!("{axis}=0"),
+    }
 }
 
 fn raise(budget: Budget) -> &'static str {

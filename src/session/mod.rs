@@ -43,6 +43,8 @@ pub struct SessionOptions {
     pub levels: Levels,
     /// Values of variables that only the machine knows.
     pub settings: Vec<(String, Setting)>,
+    /// Where axes stand before the first program, by their names, in mm or degrees.
+    pub start: Vec<(String, f64)>,
     /// The axes that the programs switch, as far as a look ahead found them: what is proposed where
     /// no machine is described (R1.37).
     pub switched: Vec<String>,
@@ -66,6 +68,12 @@ impl SessionOptions {
     /// The same with another value of [`settings`](Self::settings).
     pub fn with_settings(mut self, settings: Vec<(String, Setting)>) -> Self {
         self.settings = settings;
+        self
+    }
+
+    /// The same with another value of [`start`](Self::start).
+    pub fn with_start(mut self, start: Vec<(String, f64)>) -> Self {
+        self.start = start;
         self
     }
 
@@ -154,6 +162,9 @@ impl Session {
             interpreter.set(name, setting);
             given.insert(set_name(name), setting.into());
         }
+        for (name, position) in &options.start {
+            interpreter.place(name, *position);
+        }
         let axes = machine.axes.len();
         Self {
             remark: undescribed(&machine, &options.switched)
@@ -203,9 +214,13 @@ impl Session {
                 };
             }
         }
+        let start = options.start.clone();
         let mut session = Self::new(machine, options);
         for axis in &saved.axes {
             session.restore(axis, &saved);
+        }
+        for (name, position) in &start {
+            session.interpreter.place(name, *position);
         }
         session.interpreter.set_compensation(session.start.clone());
         session.interpreter.take_over(saved.into_carried());

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use frictcomp::machine::{Configuration, ListFiles, NoList, check_list};
+use frictcomp::machine::{Configuration, FeedUnit, ListFiles, NoList, check_list};
 use frictcomp::report::lists::render_parameters;
 use frictcomp::text::SourceFile;
 use insta::assert_snapshot;
@@ -115,4 +115,81 @@ fn the_configuration_counts_before_the_channel_list() {
         !shown.contains("init.nc") && !shown.contains("tool change"),
         "{shown}"
     );
+}
+
+#[test]
+fn the_channel_list_says_what_holds_for_motion() {
+    // R3.13 R5.1
+    let channel = |text: &'static str| {
+        let mut files = Files(BTreeMap::from([
+            ("s.lis", "zahl_mds 0\nsda_mds[0] c.lis\nEnde\n"),
+            ("c.lis", text),
+        ]));
+        let toml = "[machine]\nstartup = \"s.lis\"\n";
+        Configuration::from_toml(SourceFile::new("f.toml", toml), &mut files).unwrap()
+    };
+    let found = channel(
+        "gruppe[0].achse[0].bezeichnung X\ngruppe[0].achse[0].log_achs_nr 1\n\
+         prog_start.feedrate_factor 0.1 (m/min)\nprog_start.feedrate 1000\n\
+         prog_start.g_gruppe[0].nr 1\nprog_start.g_gruppe[14].nr -1\n\
+         prog_start.g_gruppe[12].nr 70\nmass_einh 0\nmain_spindle_ax_nr 6\n\
+         main_spindle_name S\nspindel[0].bezeichnung S1\nspindel[0].log_achs_nr 6\n\
+         spindel[1].bezeichnung S2\nspindel[1].log_achs_nr 11\nEnde\n",
+    );
+    assert!(found.diagnostics.is_empty(), "{:?}", found.diagnostics);
+    let settings = &found.machine.channel;
+    assert_eq!(settings.feed_unit, FeedUnit::MetresPerMinute);
+    assert_eq!(settings.feed_mm_per_min, Some(1000.0));
+    assert_eq!(settings.functions, [1, 70]);
+    assert_eq!(settings.main_spindle, ["S", "S1"]);
+    let shown: Vec<_> = found
+        .programs
+        .iter()
+        .map(|row| format!("{} {} {}", row.number, row.key, row.value))
+        .collect();
+    assert_eq!(
+        shown,
+        [
+            "P-CHAN-00108 prog_start.feedrate_factor 0.1",
+            "P-CHAN-00099 prog_start.feedrate 1000",
+            "P-CHAN-00063 prog_start.g_gruppe[0].nr 1",
+            "P-CHAN-00063 prog_start.g_gruppe[12].nr 70",
+            "P-CHAN-00054 mass_einh 0",
+            "P-CHAN-00051 main_spindle_ax_nr 6",
+            "P-CHAN-00053 main_spindle_name S",
+        ]
+    );
+    // 0 and less count as mm/min, and the control warns unless it is -1; others are not documented.
+    for (value, unit, said) in [
+        ("100", FeedUnit::MillimetresPerMinute, 0),
+        ("-1", FeedUnit::MillimetresPerMinute, 0),
+        ("0", FeedUnit::MillimetresPerMinute, 1),
+        ("-5", FeedUnit::MillimetresPerMinute, 1),
+        ("0.1", FeedUnit::MetresPerMinute, 0),
+        ("1", FeedUnit::Unknown, 1),
+        ("2540", FeedUnit::Unknown, 1),
+        ("fast", FeedUnit::MillimetresPerMinute, 1),
+    ] {
+        let text = format!("prog_start.feedrate_factor {value}\nEnde\n");
+        let found = channel(Box::leak(text.into_boxed_str()));
+        assert_eq!(found.machine.channel.feed_unit, unit, "{value}");
+        let codes = found.diagnostics.iter().map(|said| said.code.as_str());
+        let codes: Vec<_> = codes
+            .filter(|code| ["FC130", "FC132"].contains(code))
+            .collect();
+        assert_eq!(codes.len(), said, "{value}: {:?}", found.diagnostics);
+    }
+    for line in [
+        "prog_start.g_gruppe[4].nr 16",
+        "prog_start.g_gruppe[1].nr 5",
+        "mass_einh inch",
+    ] {
+        let text = format!("{line}\nEnde\n");
+        let found = channel(Box::leak(text.into_boxed_str()));
+        let said = found
+            .diagnostics
+            .iter()
+            .any(|said| said.code.as_str() == "FC132");
+        assert!(said, "{line}: {:?}", found.diagnostics);
+    }
 }

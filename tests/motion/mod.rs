@@ -2,8 +2,10 @@
 
 #[cfg(feature = "cli")]
 mod command;
+mod feeds;
 mod forms;
 mod limits;
+mod start;
 mod unknown;
 
 use std::ops::ControlFlow;
@@ -11,7 +13,9 @@ use std::sync::Arc;
 
 use frictcomp::comp::AxisIndex;
 use frictcomp::machine::Machine;
-use frictcomp::motion::{AxisLimits, Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
+use frictcomp::motion::{
+    AxisLimits, Cause, PlannerOptions, Sample, SkippedMotion, TraceSink, TrajectoryPlanner,
+};
 use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
@@ -55,6 +59,12 @@ pub(crate) struct Trace {
     pub(crate) begins: Vec<usize>,
     /// The codes that were said, with their lines.
     pub(crate) said: Vec<(String, u32)>,
+    /// Their messages and help lines.
+    pub(crate) messages: Vec<String>,
+    /// The lines of the motions that are left out, with the times.
+    pub(crate) left_out: Vec<(u32, f64)>,
+    pub(crate) causes: Vec<Arc<Cause>>,
+    pub(crate) path_velocities: Vec<f64>,
 }
 
 impl Trace {
@@ -86,7 +96,13 @@ impl TraceSink for Trace {
         self.positions.push(sample.positions.to_vec());
         self.velocities.push(sample.velocities.to_vec());
         self.lines.push(sample.cause.line);
+        self.causes.push(Arc::clone(sample.cause));
+        self.path_velocities.push(sample.path_velocity);
         ControlFlow::Continue(())
+    }
+
+    fn left_out(&mut self, motion: &SkippedMotion<'_>) {
+        self.left_out.push((motion.line, motion.time_s));
     }
 }
 
@@ -113,6 +129,16 @@ pub(crate) fn trace_of(
     options: PlannerOptions,
 ) -> Trace {
     let machine = Machine::from_toml(machine).expect("a machine");
+    follow(machine, program, (axes, &[]), options)
+}
+
+/// The trace of the named axes on a machine, from where they stand.
+pub(crate) fn follow(
+    machine: Machine,
+    program: &str,
+    (axes, start): (&[&str], &[(&str, f64)]),
+    options: PlannerOptions,
+) -> Trace {
     let followed: Vec<AxisIndex> = axes
         .iter()
         .map(|name| machine.find(name).expect("an axis"))
@@ -121,16 +147,23 @@ pub(crate) fn trace_of(
         planner: TrajectoryPlanner::new(&machine, &followed, options),
         trace: Trace::default(),
     };
-    let mut session = Session::new(
-        machine,
-        SessionOptions::from(Options::default().with_motions(Motions::Taken)),
-    );
+    let start = start.iter().map(|(name, at)| ((*name).to_owned(), *at));
+    let session = SessionOptions::from(Options::default().with_motions(Motions::Taken));
+    let mut session = Session::new(machine, session.with_start(start.collect()));
     let source = SourceFile::new("a.nc", program);
     let flow = session.program("a.nc", Program::Whole(source), &mut NoFiles, &mut planned);
     if flow.is_continue() {
         let _ = planned.planner.finish(&mut planned.trace);
     }
     let said = planned.planner.diagnostics().iter();
+    planned.trace.messages = said
+        .clone()
+        .map(|diagnostic| format!("{}; {}", diagnostic.message, diagnostic.help().join("; ")))
+        .collect();
+    assert_eq!(
+        planned.planner.left_out(),
+        planned.trace.left_out.len() as u64
+    );
     planned.trace.said = said
         .map(|diagnostic| (diagnostic.code.to_string(), diagnostic.place.first_line))
         .collect();

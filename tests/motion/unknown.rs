@@ -10,6 +10,11 @@ fn said(program: &str) -> (Vec<(String, u32)>, usize) {
     (trace.said, trace.begins.len())
 }
 
+/// The first motion is left out, because its start is not known.
+fn fc906() -> Vec<(String, u32)> {
+    vec![("FC906".to_owned(), 1)]
+}
+
 fn fc903(lines: &[u32]) -> Vec<(String, u32)> {
     lines
         .iter()
@@ -22,8 +27,8 @@ fn the_trace_begins_where_the_positions_are_known() {
     // R5.1
     let found = trace("G01 X5 Y5 F1000\nX10\nM30", &["X", "Y"]);
     assert_eq!(found.positions[0], [5.0, 5.0]);
-    assert_eq!((found.said.len(), found.begins.len()), (0, 1));
-    assert_eq!(said("G01 G91 X5 F1000\nX10\nM30"), (vec![], 0));
+    assert_eq!((found.said, found.begins.len()), (fc906(), 1));
+    assert_eq!(said("G01 G91 X5 F1000\nX10\nM30"), (fc906(), 0));
 }
 
 #[test]
@@ -34,7 +39,7 @@ fn motions_that_are_not_known_are_left_out() {
     for middle in [
         "G74 X1",
         "G95 F0.1 X20",
-        "G194 F50 X20",
+        "G194 F150 X20",
         "X=V.E.PLACE",
         "G54 X20",
         "G33 X20 K2",
@@ -45,14 +50,16 @@ fn motions_that_are_not_known_are_left_out() {
         "G04 V.E.TIME",
         "$IF V.E.A == 1\nX30\n$ENDIF\nG91 X20",
     ] {
-        let (codes, begins) = said(&known(middle));
+        let (mut codes, begins) = said(&known(middle));
+        codes.retain(|(code, _)| code != "FC906");
         assert!(
             codes.iter().all(|(code, _)| code == "FC903"),
             "{middle}: {codes:?}"
         );
         assert_eq!((codes.len(), begins), (1, 2), "{middle}");
     }
-    assert_eq!(said("G01 X0\nX10\nX20 F100\nX30\nM30"), (fc903(&[2]), 1));
+    let expected = [fc906(), fc903(&[2])].concat();
+    assert_eq!(said("G01 X0\nX10\nX20 F100\nX30\nM30"), (expected, 1));
 }
 
 #[test]

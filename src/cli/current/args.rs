@@ -8,6 +8,7 @@ use super::super::channels::MotionChannels;
 use super::super::cycle::CycleArgs;
 use super::super::execution::ExecutionArgs;
 use super::super::machine::MachineArgs;
+use super::super::start::StartArgs;
 use crate::current::Reading;
 use crate::motion::PlannerOptions;
 
@@ -73,12 +74,15 @@ pub(in crate::cli) struct CurrentArgs {
     #[command(flatten)]
     pub(super) machine: MachineArgs,
     #[command(flatten)]
+    pub(super) start: StartArgs,
+    #[command(flatten)]
     pub(super) execution: ExecutionArgs,
 }
 
 /// Options that have no effect on a trace (R9.71).
-const OF_PROGRAMS: [&str; 14] = [
+const OF_PROGRAMS: [&str; 15] = [
     "max_cycles",
+    "start",
     "config",
     "isolated",
     "startup",
@@ -109,4 +113,6 @@ pub(super) enum Column {
     Comp,
     /// The line of the block being executed.
     Line,
+    /// What the control does beyond the trace, such as `G261` (FC907).
+    Simplified,
 }

@@ -59,6 +59,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let mut currents = ProgramCurrents::new(&loaded.machine, &followed, options, table);
     let mut session = args.execution.options(&loaded, StopPolicy::FirstError);
     session.run.motions = Motions::Taken;
+    session.start = args.start.positions(&loaded.machine)?;
     let alone = Alone {
         options: session,
         naming: Naming::AsGiven,
@@ -85,6 +86,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     if cycles == 0 {
         Console::talk(&nothing(&names));
     }
+    say_left_out(currents.left_out());
     say_table(&names, currents.sink());
     Console::talk(&format!("reading: {}", args.reading));
     for (name, cycles) in names.iter().zip(currents.saturated()) {
@@ -177,6 +179,15 @@ fn levelled(diagnostics: &[Diagnostic], loaded: &LoadedMachine) -> Vec<Diagnosti
         })
     });
     levelled.collect()
+}
+
+/// Says how many motions are not in the trace.
+fn say_left_out(motions: u64) {
+    match motions {
+        0 => {}
+        1 => Console::talk("1 motion is left out of the trace"),
+        more => Console::talk(&format!("{more} motions are left out of the trace")),
+    }
 }
 
 fn nothing(names: &[String]) -> String {

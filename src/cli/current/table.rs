@@ -9,6 +9,7 @@ use super::plot::Plot;
 use crate::comp::State;
 use crate::current::{CurrentCycle, CurrentSample, CurrentSink};
 use crate::host::{Done, LineTracker, Watch};
+use crate::motion::Simplification;
 
 /// Cycles between two looks at the clock.
 const STEP: u64 = 1 << 16;
@@ -96,8 +97,10 @@ impl Table {
                 header.push(format!("{column}{suffix}"));
             }
         }
-        if self.columns.contains(&Column::Line) {
-            header.push("line".to_owned());
+        for (column, name) in [(Column::Line, "line"), (Column::Simplified, "simplified")] {
+            if self.columns.contains(&column) {
+                header.push(name.to_owned());
+            }
         }
         self.written = writeln!(self.writer, "{}", header.join(","));
     }
@@ -113,9 +116,9 @@ impl CurrentSink for Table {
 
     fn cycle(&mut self, cycle: &CurrentCycle<'_>) -> ControlFlow<()> {
         self.cycles += 1;
-        let passes = self.tracker.reach(cycle.line);
+        let passes = self.tracker.reach(cycle.cause.line);
         if self.cycles.is_multiple_of(STEP) {
-            let place = (self.program.as_str(), cycle.line);
+            let place = (self.program.as_str(), cycle.cause.line);
             self.watch
                 .show_program(Done::Cycles(self.cycles), place, passes);
         }
@@ -167,7 +170,11 @@ fn write_row(
         }
     }
     if columns.contains(&Column::Line) {
-        write!(writer, ",{}", cycle.line)?;
+        write!(writer, ",{}", cycle.cause.line)?;
+    }
+    if columns.contains(&Column::Simplified) {
+        let names = cycle.cause.simplified.iter().map(Simplification::name);
+        write!(writer, ",{}", names.collect::<Vec<_>>().join(" "))?;
     }
     writeln!(writer)
 }

@@ -70,6 +70,7 @@ impl Interpreter {
             name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
                 self.state.modal.hash(name);
+                self.pace_command(name, rest, at);
                 for target in &hash.written {
                     let place = self.target_place(target.place, at)?;
                     self.write(place, Value::Unknown(name.into()));

@@ -138,8 +138,9 @@ impl Interpreter {
                 keyword,
                 span,
             } => {
-                let word = format!("{}[{}]", axis.of(at.text), keyword.of(at.text));
-                self.pass_over(&word, *span, at);
+                let (name, keyword) = (axis.of(at.text), keyword.of(at.text));
+                self.bracket((name, keyword), *span, at);
+                self.pass_over(&format!("{name}[{keyword}]"), *span, at);
                 Ok(())
             }
             Item::BareNumber(operand, span) => {

@@ -7,6 +7,7 @@ pub(super) mod flow;
 pub(super) mod hash;
 pub(super) mod implicit;
 pub(super) mod items;
+pub(super) mod pace;
 pub(super) mod resolve;
 pub(super) mod sequence;
 pub(super) mod travel;

@@ -7,8 +7,10 @@ use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{
     Arc, BlockEnd, Centre, Form, Motion, PathFeed, Travel, Turn,
 };
+use crate::interpreter::coordinates::pace::{Haste, ProgrammedFeed};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
+use crate::machine::AxisType;
 use crate::text::Span;
 
 impl Interpreter {
@@ -137,13 +139,16 @@ impl Interpreter {
         let modal = &self.state.modal;
         Some(Motion::Travel(Travel {
             form,
+            axes: self.work.moved.iter().map(|word| word.axis).collect(),
             from,
             to: modal.positions().to_vec(),
-            feed: self.path_feed(),
+            feed: self.path_feed(geometry),
             end: match geometry.end {
                 BlockEnd::Through => modal.functions.block_end,
                 BlockEnd::ExactStop => BlockEnd::ExactStop,
             },
+            end_feed_per_min: self.end_feed(geometry),
+            simplified: modal.simplified.union(geometry.simplified),
         }))
     }
 
@@ -215,17 +220,74 @@ impl Interpreter {
         start.zip(word).map(|(start, word)| start + word)
     }
 
-    fn path_feed(&self) -> PathFeed {
+    /// What F, overrides and the spindle make of the velocity of the block.
+    fn path_feed(&self, geometry: &Geometry) -> PathFeed {
         let modal = &self.state.modal;
+        let haste = match modal.functions.motion {
+            0 if modal.is_known(Group::Motion) => Haste::Rapid,
+            _ => Haste::Feed,
+        };
+        let Some(share) = self.override_share(geometry, haste) else {
+            return PathFeed::Unknown("the override is not known");
+        };
+        if haste == Haste::Rapid {
+            return PathFeed::OfAxes(share);
+        }
         if !modal.is_known(Group::Feed) {
             return PathFeed::Unknown("it is not known whether G93, G94 or G95 is active");
         }
-        match (modal.functions.feed_mode, modal.functions.feeds) {
-            (93, [Some(seconds), ..]) => PathFeed::Seconds(seconds),
-            (94, [_, Some(feed), _]) => PathFeed::PerMinute(feed),
-            (95, _) => PathFeed::Unknown("G95 needs the speed of a spindle"),
-            (194, _) => PathFeed::Unknown("G194 weights feeds of the machine"),
+        if matches!(geometry.end_feed, Some(None)) {
+            return PathFeed::Unknown("E is not known");
+        }
+        let mode = modal.functions.feed_mode;
+        match (mode, modal.functions.feeds) {
+            (93, [Some(feed), ..]) => PathFeed::Seconds(feed.value / share),
+            (94, [_, Some(feed), ..]) => match self.per_minute(feed) {
+                Some(feed) => PathFeed::PerMinute(feed * share),
+                None => PathFeed::Unknown("the unit of F is not known"),
+            },
+            (95, [_, _, Some(feed), _]) => match (modal.pace.per_minute(), self.per_minute(feed)) {
+                (Ok(turns), Some(feed)) => PathFeed::PerMinute(feed * turns * share),
+                (Err(reason), _) => PathFeed::Unknown(reason),
+                (_, None) => PathFeed::Unknown("the unit of F is not known"),
+            },
+            // The manual admits only weights below 100 % (PM/206602507).
+            (194, [.., Some(feed)]) => match feed.value / 100.0 {
+                weight if weight < 1.0 => PathFeed::OfAxes(weight * share),
+                _ => PathFeed::Unknown("with G194, F is a weight below 100 %"),
+            },
             _ => PathFeed::Unknown("F is not known"),
         }
+    }
+
+    /// What the overrides leave of the velocity; G166 suppresses those that are programmed
+    /// (PM/206744331).
+    fn override_share(&self, geometry: &Geometry, haste: Haste) -> Option<f64> {
+        let pace = &self.state.modal.pace;
+        if geometry.at_full_speed {
+            return pace.weight(haste);
+        }
+        pace.share(haste, self.work.moved.iter().map(|word| word.axis))
+    }
+
+    /// A feed in mm, or in degrees where only rotary axes move.
+    fn per_minute(&self, feed: ProgrammedFeed) -> Option<f64> {
+        let is_rotary =
+            |word: &AxisWord| self.machine.axis(word.axis).axis_type == AxisType::Rotary;
+        let moved = &self.work.moved;
+        if !moved.is_empty() && moved.iter().all(is_rotary) {
+            return Some(feed.value);
+        }
+        feed.unit_mm.map(|unit| feed.value * unit)
+    }
+
+    /// E, which counts with G94 only (PM/206811147).
+    fn end_feed(&self, geometry: &Geometry) -> Option<f64> {
+        let modal = &self.state.modal;
+        let is_per_minute = modal.functions.feed_mode == 94 && modal.functions.motion != 0;
+        let value = geometry.end_feed.flatten().filter(|_| is_per_minute)?;
+        let unit_mm = modal.unit_per_min();
+        let feed = self.per_minute(ProgrammedFeed { value, unit_mm })?;
+        Some(feed * self.override_share(geometry, Haste::Feed)?)
     }
 }

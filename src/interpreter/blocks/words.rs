@@ -10,6 +10,7 @@ use crate::interpreter::coordinates::chain;
 use crate::interpreter::coordinates::geometry::foreign;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
+use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::event::EndedBy;
@@ -21,11 +22,11 @@ use crate::syntax::ast::{Address, Operand, Word};
 use crate::syntax::{Fault, is_letter, not_known};
 use crate::text::Span;
 
-/// G functions whose axis words are no motion: software limits, gain, weighting of acceleration,
-/// ramp time and jerk, feedforward (PM/206590731, 206596619, 206565643), manual mode (PM/206639371),
+/// G functions whose axis words are no motion: software limits, gain, weighting of velocity,
+/// acceleration, ramp time and jerk, feedforward (PM/206573067, 206590731, 206596619, 206565643), manual mode (PM/206639371),
 /// mirroring by axis (PM/206266379).
 const NO_MOTION: [u32; 23] = [
-    98, 99, 112, 129, 130, 131, 132, 133, 134, 135, 136, 137, 200, 201, 202, 230, 231, 233, 333,
+    98, 99, 112, 127, 130, 131, 132, 133, 134, 135, 136, 137, 200, 201, 202, 230, 231, 233, 333,
     334, 338, 339, 351,
 ];
 
@@ -75,6 +76,7 @@ impl Interpreter {
                 let name = name.of(at.text);
                 match self.names.get(name).copied() {
                     Some(axis) => self.axis_word(axis, word.span, number),
+                    None if self.is_main_spindle(name) => self.state.modal.pace.speed(number),
                     None if name.starts_with('S') => {}
                     None => self.pass_over(name, word.span, at),
                 }
@@ -270,6 +272,8 @@ impl Interpreter {
             (b'M', Some(30)) => intent.end = Some(EndedBy::M30),
             (b'M', Some(2)) => intent.end = Some(EndedBy::M02),
             (b'M', Some(17 | 29)) => intent.returns = true,
+            (b'S', _) => self.state.modal.pace.speed(number),
+            (b'E', _) => self.geometry().end_feed = Some(number),
             (b'F', _) => intent.feed = Feed::Given(number),
             (b'M', None) => {
                 self.unknown_word("M", span, at);
@@ -279,6 +283,9 @@ impl Interpreter {
                 }
             }
             (b'M' | b'T' | b'D', number) => {
+                if let (b'M', Some(number)) = (letter, number) {
+                    self.state.modal.pace.m(number);
+                }
                 self.function_word(FunctionWord { letter, number }, span, at, intent);
             }
             (b'R', _) => {
@@ -287,7 +294,7 @@ impl Interpreter {
             }
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
             (b'P', _) if self.work.dwells => self.dwell_parameter(number),
-            (b'H' | b'E' | b'S' | b'N', _) => {}
+            (b'H' | b'N', _) => {}
             _ if !is_letter(letter) => self.unread_word(span, at),
             _ => self.pass_over(&char::from(letter).to_string(), span, at),
         }
@@ -330,6 +337,16 @@ impl Interpreter {
             (None, 150) => self.state.modal.hash("#SPLINE OFF"),
             (None, 151) => self.state.modal.hash("#SPLINE ON"),
             (None, 60) => self.geometry().end = BlockEnd::ExactStop,
+            // PM/206744331
+            (None, 166) => self.geometry().at_full_speed = true,
+            (None, 129) => {
+                self.weigh_rapid(span, at);
+                self.pass_over("G129", span, at);
+            }
+            (None, 96 | 97) => {
+                self.state.modal.pace.cut(number == 96);
+                self.pass_over(&format!("G{number}"), span, at);
+            }
             (None, 92) => intent.axis_words = AxisWords::Reference,
             // G61 and the like have no bearing on the compensation; a configured cycle has.
             (None, _) => {
@@ -345,6 +362,9 @@ impl Interpreter {
                     if chain::is_measuring(number) {
                         intent.axis_words = AxisWords::Measuring;
                     }
+                }
+                if let Some((what, holds)) = simplified::of_g(number) {
+                    self.simplify((what, holds));
                 }
                 self.pass_over(&format!("G{number}"), span, at);
             }

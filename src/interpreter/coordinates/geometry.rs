@@ -1,6 +1,7 @@
 //! The words of a block that shape its motion: I, J, K, R and the like (R2.46).
 
 use super::motion::BlockEnd;
+use super::simplified::Simplifications;
 use crate::text::Span;
 
 /// What a word says: nothing, or a value that may be unknown.
@@ -16,6 +17,12 @@ pub(in crate::interpreter) struct Geometry {
     /// The seconds of `G04 2.5` and `#TIME 2.5`.
     pub(in crate::interpreter) dwell: Given,
     pub(in crate::interpreter) end: BlockEnd,
+    /// E: the feed at the end of the block.
+    pub(in crate::interpreter) end_feed: Given,
+    /// G166: overrides do not count.
+    pub(in crate::interpreter) at_full_speed: bool,
+    /// What a commanded trace does not follow in full, in this block.
+    pub(in crate::interpreter) simplified: Simplifications,
     /// Where the first of I, J, K and R stands.
     pub(in crate::interpreter) span: Option<Span>,
     /// How many axes move along the circle without a word of their own.

@@ -6,3 +6,5 @@ pub(super) mod geometry;
 pub(super) mod group;
 pub(super) mod modal;
 pub(super) mod motion;
+pub(super) mod pace;
+pub(super) mod simplified;

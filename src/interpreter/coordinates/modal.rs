@@ -8,7 +8,10 @@ use super::axis_words::AxisWord;
 use super::chain::{self, Step};
 use super::group::{Group, GroupSet};
 use super::motion::BlockEnd;
+use super::pace::{Pace, ProgrammedFeed};
+use super::simplified::{self, Holds, Simplifications};
 use crate::comp::AxisIndex;
+use crate::machine::ChannelSettings;
 
 /// Whether a position is one of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,8 +47,8 @@ pub struct GFunctions {
     pub inch: bool,
     /// G93 to G95, G194.
     pub feed_mode: u32,
-    /// The feed of each mode, G93, G94, G95, where one was programmed.
-    pub feeds: [Option<f64>; 3],
+    /// The feed of each mode, G93, G94, G95, G194, where one was programmed.
+    pub feeds: [Option<ProgrammedFeed>; 4],
     /// G53 to G59, G159.
     pub offset: u32,
     /// Whether the circle centre is absolute, G161.
@@ -65,7 +68,7 @@ impl Default for GFunctions {
             absolute: true,
             inch: false,
             feed_mode: 94,
-            feeds: [None; 3],
+            feeds: [None; 4],
             offset: 53,
             centre_absolute: false,
             block_end: BlockEnd::Through,
@@ -83,6 +86,12 @@ pub struct Modal {
     pub radius: Option<f64>,
     /// What takes positions away from the machine's: names of `#` commands and G functions.
     pub transformed: BTreeSet<String>,
+    /// What the control does to the path or its velocity and a commanded trace does not.
+    pub simplified: Simplifications,
+    /// What makes of F the velocity of the path.
+    pub(in crate::interpreter) pace: Pace,
+    /// Whether coordinates count from another origin than at the start of the program.
+    origin_moved: bool,
     /// Absolute positions: the programmed coordinate and the offset of G92.
     positions: Vec<Option<f64>>,
     /// G92; `None` where it is not known.
@@ -115,17 +124,45 @@ impl Modal {
             functions: GFunctions::default(),
             radius: None,
             transformed: BTreeSet::new(),
+            simplified: Simplifications::default(),
+            pace: Pace::new(Some(1.0)),
+            origin_moved: false,
             positions: vec![None; axes],
             references: vec![Some(0.0); axes],
             suspended: None,
         }
     }
 
+    /// The state at program start in a channel.
+    pub(in crate::interpreter) fn at_start(axes: usize, channel: &ChannelSettings) -> Self {
+        let mut modal = Self {
+            pace: Pace::new(channel.feed_unit.in_mm()),
+            ..Self::new(axes)
+        };
+        for &number in &channel.functions {
+            match Group::of(number) {
+                Some(group) => modal.set(group, number),
+                // G51: diameters are programmed.
+                None if number == 51 => modal.note_transformed("G51"),
+                None => {}
+            }
+        }
+        let chosen = |number: &u32| Group::of(*number) == Some(Group::Unit);
+        if channel.inch && !channel.functions.iter().any(chosen) {
+            modal.functions.unknown.insert(Group::Unit);
+        }
+        modal.functions.feeds[1] = channel.feed_mm_per_min.map(|value| ProgrammedFeed {
+            value,
+            unit_mm: Some(1.0),
+        });
+        modal
+    }
+
     /// The state at the start of the next program: the axes stay where they are.
-    pub(in crate::interpreter) fn next_program(&self) -> Self {
+    pub(in crate::interpreter) fn next_program(&self, channel: &ChannelSettings) -> Self {
         Self {
             positions: self.positions.clone(),
-            ..Self::new(self.positions.len())
+            ..Self::at_start(self.positions.len(), channel)
         }
     }
 
@@ -199,6 +236,24 @@ impl Modal {
     /// G20 switches mirroring off, G21 to G23 switch it on.
     pub(in crate::interpreter) fn mirror(&mut self, number: u32) {
         self.transform("G21", number != 20);
+    }
+
+    /// A command or function that a commanded trace does not follow in full.
+    pub(in crate::interpreter) fn simplify(
+        &mut self,
+        (what, holds): (simplified::Simplification, Holds),
+    ) {
+        self.simplified = match holds {
+            Holds::On => self.simplified.union(what.into()),
+            Holds::Off => self.simplified.without(what.into()),
+            Holds::Once => self.simplified,
+        };
+    }
+
+    /// Whether coordinates count from another origin than at the start of the program, or may: where
+    /// the axes stood then says nothing any more.
+    pub fn has_moved_origin(&self) -> bool {
+        self.origin_moved
     }
 
     /// Enters or leaves a transformation.
@@ -275,6 +330,7 @@ impl Modal {
         for (feed, before) in self.functions.feeds.iter_mut().zip(before.functions.feeds) {
             *feed = feed.filter(|_| *feed == before);
         }
+        self.pace.doubt(&before.pace);
         self.radius = self.radius.filter(|_| self.radius == before.radius);
         self.forget_positions();
     }
@@ -346,6 +402,7 @@ impl Modal {
 
     /// Forgets where the axes stand.
     pub fn forget_positions(&mut self) {
+        self.origin_moved = true;
         self.positions.fill(None);
     }
 
@@ -362,7 +419,8 @@ impl Modal {
     /// Any word may have been executed.
     pub(in crate::interpreter) fn forget_words(&mut self) {
         self.forget_g(None);
-        self.functions.feeds = [None; 3];
+        self.functions.feeds = [None; 4];
+        self.pace.forget();
         self.radius = None;
     }
 
@@ -379,7 +437,12 @@ impl Modal {
             Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
             None if (21..=23).contains(&number) => self.transform("G21", true),
             None if number == 151 => self.note_transformed("#SPLINE"),
+            None if matches!(number, 96 | 97) => self.pace.forget_spindle(),
+            None if number == 129 => self.pace.forget_overrides(),
             _ => {}
+        }
+        if let Some((what, Holds::On)) = simplified::of_g(number) {
+            self.simplify((what, Holds::On));
         }
         if let Some(group) = Group::of(number) {
             self.functions.unknown.insert(group);
@@ -389,6 +452,12 @@ impl Modal {
     /// What may also have been another state becomes unknown.
     pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
         self.doubt_functions(other);
+        for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
+            *mine = mine.filter(|_| *mine == theirs);
+        }
+        self.pace.doubt(&other.pace);
+        self.simplified = self.simplified.union(other.simplified);
+        self.origin_moved |= other.origin_moved;
         let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {
             if mine != theirs {
                 *mine = None;
@@ -396,7 +465,6 @@ impl Modal {
         };
         unless_same(&mut self.radius, &other.radius);
         let mut pairs: Vec<(&mut Option<f64>, &Option<f64>)> = Vec::new();
-        pairs.extend(self.functions.feeds.iter_mut().zip(&other.functions.feeds));
         pairs.extend(self.positions.iter_mut().zip(&other.positions));
         pairs.extend(self.references.iter_mut().zip(&other.references));
         for (mine, theirs) in pairs {
@@ -409,16 +477,25 @@ impl Modal {
         }
     }
 
-    /// A feed word in mm/min, or the unit of the mode in force.
+    /// A feed word, in the unit of the mode in force.
     pub fn set_feed(&mut self, value: Option<f64>) {
-        match self.functions.feed_mode {
-            _ if !self.is_known(Group::Feed) => self.functions.feeds = [None; 3],
-            93 => self.functions.feeds[0] = value,
-            95 => self.functions.feeds[2] = value,
-            // A weight of feeds that the machine knows, no feed.
-            194 => {}
-            _ => self.functions.feeds[1] = value,
-        }
+        let length = self.metric();
+        let (place, unit_mm) = match self.functions.feed_mode {
+            _ if !self.is_known(Group::Feed) => {
+                self.functions.feeds = [None; 4];
+                return;
+            }
+            93 => (0, Some(1.0)),
+            95 => (2, length),
+            194 => (3, Some(1.0)),
+            _ => (1, self.pace.unit_per_min(length)),
+        };
+        self.functions.feeds[place] = value.map(|value| ProgrammedFeed { value, unit_mm });
+    }
+
+    /// The unit in mm/min that an E word has.
+    pub(in crate::interpreter) fn unit_per_min(&self) -> Option<f64> {
+        self.pace.unit_per_min(self.metric())
     }
 
     /// The programmed coordinate, without the offset of G92.

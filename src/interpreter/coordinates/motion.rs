@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::simplified::Simplifications;
 use crate::comp::AxisIndex;
 
 /// Whether blocks say what they move.
@@ -31,14 +32,20 @@ pub enum Motion {
 pub struct Travel {
     /// Along what.
     pub form: Form,
+    /// The axes that it moves.
+    pub axes: Vec<AxisIndex>,
     /// The position of each axis of the machine before, in mm or degrees, where that is known.
     pub from: Vec<Option<f64>>,
     /// The position of each axis after it.
     pub to: Vec<Option<f64>>,
-    /// How fast; a rapid motion takes no notice of it.
+    /// How fast.
     pub feed: PathFeed,
     /// What happens at the end of the block.
     pub end: BlockEnd,
+    /// The highest velocity at the end of the block in mm/min, E; `None` where it is the feed.
+    pub end_feed_per_min: Option<f64>,
+    /// What the control does to the path or its velocity and a commanded trace does not.
+    pub simplified: Simplifications,
 }
 
 /// What a motion follows.
@@ -94,6 +101,9 @@ pub enum PathFeed {
     PerMinute(f64),
     /// G93: the seconds that the block takes (PM/206602507).
     Seconds(f64),
+    /// At least one axis moves at this part of its highest velocity: G00, and G194 with its weight
+    /// (PM/206602507).
+    OfAxes(f64),
     /// Not known, and why.
     Unknown(&'static str),
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::descriptions::DESCRIPTIONS;
 use crate::comp::{AxisIndex, KindSet};
+use crate::interpreter::coordinates::simplified::{self, Holds};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
 use crate::interpreter::values::memory::unescaped;
@@ -22,7 +23,7 @@ impl Interpreter {
                     Value::Unknown(cause.clone()),
                 );
             }
-            Unread::Spindle => {}
+            Unread::Spindle => self.state.modal.pace.forget_spindle(),
         }
     }
 
@@ -95,7 +96,14 @@ impl Interpreter {
                 modal.forget_words();
                 modal.note_transformed(name);
             }
-            name => self.state.modal.forget_hash(name),
+            "#OVERRIDE" => self.state.modal.pace.forget_overrides(),
+            "#MAIN SPINDLE" => self.state.modal.pace.forget_spindle(),
+            name => {
+                if let Some((what, Holds::On)) = simplified::of_command(name) {
+                    self.state.modal.simplify((what, Holds::On));
+                }
+                self.state.modal.forget_hash(name);
+            }
         }
     }
 }

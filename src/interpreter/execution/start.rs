@@ -96,7 +96,7 @@ impl Interpreter {
 
     /// Prepares the state for a program start.
     pub(in crate::interpreter) fn start(&mut self) {
-        self.state.modal = self.state.modal.next_program();
+        self.state.modal = self.state.modal.next_program(&self.machine.channel);
         self.state.memory.start_program(self.machine.parameters);
         self.state.frames.clear();
         self.state.seq = 0;

@@ -90,7 +90,7 @@ impl Interpreter {
         let state = State {
             compensation,
             memory: Memory::default(),
-            modal: Modal::new(axes),
+            modal: Modal::at_start(axes, &machine.channel),
             frames: CallStack::default(),
             seq: 0,
             blocks: 0,
@@ -124,7 +124,9 @@ impl Interpreter {
     ) -> Self {
         let mut letters = [None; 26];
         let mut names = BTreeMap::new();
-        for (position, axis) in machine.axes.iter().enumerate() {
+        // A spindle is no axis that coordinates move.
+        let axes = machine.axes.iter().enumerate();
+        for (position, axis) in axes.filter(|(_, axis)| !axis.is_spindle()) {
             let index = AxisIndex::new(position);
             match axis.name.as_bytes() {
                 [letter @ b'A'..=b'Z'] => letters[usize::from(letter - b'A')] = Some(index),
@@ -157,6 +159,14 @@ impl Interpreter {
     pub fn set(&mut self, name: &str, setting: &Setting) {
         self.state.memory.give(name, setting.into());
         self.journal.begin_anew();
+    }
+
+    /// Says where an axis stands before the first program, in mm or degrees; a name that no axis has
+    /// is passed over.
+    pub fn place(&mut self, name: &str, position: f64) {
+        if let Some(axis) = self.axis_named(name) {
+            self.state.modal.place(axis, Some(position));
+        }
     }
 
     /// The machine.
@@ -220,6 +230,25 @@ impl Interpreter {
     pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
         let letter = self.state.modal.main_axis(letter)?;
         self.letters[usize::from(letter - b'A')]
+    }
+
+    /// An axis by its name.
+    pub(in crate::interpreter) fn axis_named(&self, name: &str) -> Option<AxisIndex> {
+        match name.as_bytes() {
+            [letter @ b'A'..=b'Z'] => self.letters[usize::from(letter - b'A')],
+            _ => self.names.get(name).copied(),
+        }
+    }
+
+    /// Whether a name is that of the main spindle (P-CHAN-00053).
+    pub(in crate::interpreter) fn is_main_spindle(&self, name: &str) -> bool {
+        name == "S"
+            || self
+                .machine
+                .channel
+                .main_spindle
+                .iter()
+                .any(|main| main == name)
     }
 
     /// An axis occurs.

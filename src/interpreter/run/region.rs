@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::hash::Hash;
 
 use crate::comp::{AxisIndex, KindSet};
+use crate::interpreter::coordinates::simplified::Simplification;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
 use crate::interpreter::values::target::Target;
@@ -18,6 +19,12 @@ pub(in crate::interpreter) enum Effect {
     G(Option<i64>),
     /// The feeds.
     Feeds,
+    /// The speed of the main spindle.
+    Spindle,
+    /// Programmed overrides.
+    Overrides,
+    /// The path or its velocity is followed in a simpler way than by the control.
+    Simplified(Simplification),
     /// The radius of circles.
     Radius,
     /// The position of an axis.

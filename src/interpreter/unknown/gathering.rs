@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use crate::comp::AxisIndex;
 use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::coordinates::simplified::{self, Simplification};
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
@@ -188,11 +189,29 @@ impl Gathering<'_> {
                 self.exit(Exit::Far);
             }
             Item::Return(_) => self.exit(Exit::Return),
-            Item::Unread(Unread::Spindle, _)
-            | Item::BadCommand(_)
-            | Item::Bracket { .. }
-            | Item::BareNumber(..)
-            | Item::Label(_) => {}
+            Item::Unread(Unread::Spindle, _) => self.effect(Effect::Spindle),
+            Item::Bracket { axis, keyword, .. } => {
+                let name = axis.of(at.text);
+                let keyword = keyword.of(at.text).to_ascii_uppercase();
+                self.bracket(name, &keyword);
+            }
+            Item::BadCommand(_) | Item::BareNumber(..) | Item::Label(_) => {}
+        }
+    }
+
+    /// A command in the bracket of an axis or spindle.
+    fn bracket(&mut self, name: &str, keyword: &str) {
+        if keyword.starts_with("OVERRIDE") {
+            self.effect(Effect::Overrides);
+        } else if name.starts_with('S') {
+            self.effect(Effect::Spindle);
+        }
+        if let Some(what) = simplified::of_bracket(keyword) {
+            self.effect(Effect::Simplified(what));
+            let moved = self.run.axis_named(name);
+            if let Some(axis) = moved.filter(|_| what == Simplification::IndependentAxis) {
+                self.effect(Effect::Position(axis));
+            }
         }
     }
 
@@ -361,6 +380,7 @@ impl Gathering<'_> {
         match word.address {
             Address::Letter(b'G') => self.g(number),
             Address::Letter(b'F') => self.effect(Effect::Feeds),
+            Address::Letter(b'S') => self.effect(Effect::Spindle),
             Address::Letter(b'R') => self.effect(Effect::Radius),
             Address::Letter(letter @ b'A'..=b'Z') if !is_letter(letter) => {
                 self.effect(Effect::All);
@@ -372,6 +392,9 @@ impl Gathering<'_> {
                 }
             }
             Address::Letter(letter @ (b'M' | b'T' | b'D')) => {
+                if letter == b'M' && matches!(number, Some(3..=5 | 19)) {
+                    self.effect(Effect::Spindle);
+                }
                 self.effect(Effect::Function(FunctionWord { letter, number }));
             }
             Address::Letter(letter @ b'A'..=b'Z') => {
@@ -382,8 +405,11 @@ impl Gathering<'_> {
             // Which axis it is depends on the plane, which the region may change.
             Address::Main(_) => self.effect(Effect::Positions),
             Address::Name(name) => {
-                if let Some(&axis) = self.run.names.get(name.of(at.text)) {
+                let name = name.of(at.text);
+                if let Some(&axis) = self.run.names.get(name) {
                     self.axis(axis, at);
+                } else if self.run.is_main_spindle(name) {
+                    self.effect(Effect::Spindle);
                 }
             }
             Address::Letter(_) => {}
@@ -394,7 +420,10 @@ impl Gathering<'_> {
         let plain = number.and_then(|number| u32::try_from(number).ok());
         let matters =
             plain.is_none_or(|number| Group::of(number).is_some() || (20..=23).contains(&number));
-        if matters || number == Some(151) {
+        let weighs = plain.is_some_and(|number| {
+            matches!(number, 96 | 97 | 129) || simplified::of_g(number).is_some()
+        });
+        if matters || weighs || number == Some(151) {
             self.effect(Effect::G(number));
         }
         if plain.is_none_or(|number| Group::of(number).is_none()) {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use crate::comp::Kind;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::coordinates::simplified::Holds;
 use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::EntryIndex;
@@ -132,7 +133,10 @@ impl Interpreter {
                 Err(_) => {}
             },
             Effect::G(number) => modal.forget_g(*number),
-            Effect::Feeds => modal.functions.feeds = [None; 3],
+            Effect::Feeds => modal.functions.feeds = [None; 4],
+            Effect::Spindle => modal.pace.forget_spindle(),
+            Effect::Overrides => modal.pace.forget_overrides(),
+            Effect::Simplified(what) => modal.simplify((*what, Holds::On)),
             Effect::Radius => modal.radius = None,
             Effect::Position(axis) => {
                 modal.forget_position(*axis);

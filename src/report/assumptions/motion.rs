@@ -22,10 +22,48 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R5.1",
-        sentence: "F is in mm/min with G70 too",
+        sentence: "with G70, F is in inch/min in the block in which it stands, with G95 in inch/rev; \
+            with F in m/min (P-CHAN-00108) its unit is not known then",
         changes: "the velocity of programs in inches",
+        shows: "the column `v`, FC903",
+        when: &[],
+    },
+    Assumption {
+        rule: "R5.1",
+        sentence: "where only rotary axes move, F is in °/min, whatever the unit for lengths",
+        changes: "the velocity of rotary axes",
         shows: "the column `v`",
         when: &[],
+    },
+    Assumption {
+        rule: "R5.1",
+        sentence: "with G95 the spindle has the last programmed speed, from the block of S on, unless \
+            M5 or M19 stopped it",
+        changes: "the velocity of turning programs",
+        shows: "the column `v`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R5.1",
+        sentence: "programmed overrides, G129 and the speed of the spindle do not outlive a program; \
+            the operator's overrides are at 100 %",
+        changes: "the velocity at the start of a program",
+        shows: "the column `v`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R5.1",
+        sentence: "what is not modelled is followed in a simpler way",
+        changes: "times and velocities near such blocks, and corners that the control rounds",
+        shows: "FC907, `--columns simplified`",
+        when: &[Reported(Code::Fc907)],
+    },
+    Assumption {
+        rule: "R5.1",
+        sentence: "motions whose start is not known are left out before the trace",
+        changes: "where the trace begins",
+        shows: "FC906; `--start`",
+        when: &[Reported(Code::Fc906)],
     },
     Assumption {
         rule: "R5.1",

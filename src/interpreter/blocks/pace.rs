@@ -1,0 +1,148 @@
+//! What a block says about the velocity of paths beside F: overrides, weights, the main spindle, and
+//! what a commanded trace does not follow in full (R5.1).
+
+use crate::interpreter::coordinates::pace::Factors;
+use crate::interpreter::coordinates::simplified::{self, Holds, Simplification};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::text::Span;
+
+/// An override in percent, where it is in the documented range (PM/207625099).
+const OVERRIDE: std::ops::RangeInclusive<f64> = 0.1..=200.0;
+
+/// The keywords of an override.
+const FEED: &str = "FEED_FACT";
+const RAPID: &str = "RAPID_FACT";
+
+impl Interpreter {
+    /// Takes note of what a commanded trace does not follow in full.
+    pub(in crate::interpreter) fn simplify(&mut self, (what, holds): (Simplification, Holds)) {
+        if holds == Holds::Once {
+            let geometry = self.geometry();
+            geometry.simplified = geometry.simplified.union(what.into());
+        } else {
+            self.state.modal.simplify((what, holds));
+        }
+    }
+
+    /// `G129=70` (PM/206578955)
+    pub(in crate::interpreter) fn weigh_rapid(&mut self, span: Span, at: &At<'_>) {
+        let value = span.of(at.text).split_once('=').map(|(_, value)| value);
+        let percent = value.and_then(|value| self.number_in(value.trim(), at));
+        let weight = percent.filter(|it| *it > 0.0).map(|it| it / 100.0);
+        self.state.modal.pace.weigh_rapid(weight);
+    }
+
+    /// What a `#` command says about the velocity of paths.
+    pub(in crate::interpreter) fn pace_command(&mut self, name: &str, rest: &str, at: &At<'_>) {
+        match name {
+            "#OVERRIDE" => {
+                let change = self.factors_in(rest, at);
+                self.state.modal.pace.override_path(change);
+            }
+            "#MAIN SPINDLE" => self.state.modal.pace.forget_spindle(),
+            _ => {
+                if let Some(found) = simplified::of_command(name) {
+                    self.simplify(found);
+                }
+            }
+        }
+    }
+
+    /// A command in the bracket of an axis or spindle, `X[OVERRIDE FEED_FACT=20]`, `S[REV1200 M3]`.
+    pub(in crate::interpreter) fn bracket(
+        &mut self,
+        (name, keyword): (&str, &str),
+        span: Span,
+        at: &At<'_>,
+    ) {
+        let body = span.of(at.text).split_once('[');
+        let body = body.map_or("", |(_, body)| body.trim_end().trim_end_matches(']'));
+        let keyword = keyword.to_ascii_uppercase();
+        let axis = self.axis_named(name);
+        if name.starts_with('S') && axis.is_none() {
+            if self.is_main_spindle(name) {
+                self.spindle_words(body, at);
+            } else if self.machine.channel.main_spindle.is_empty() {
+                // It may be the main spindle under its own name.
+                self.state.modal.pace.forget_spindle();
+            }
+            return;
+        }
+        let Some(axis) = axis else {
+            return;
+        };
+        if keyword.starts_with("OVERRIDE") {
+            let change = self.factors_in(body, at);
+            self.state.modal.pace.override_axis(axis, change);
+        }
+        if let Some(what) = simplified::of_bracket(&keyword) {
+            self.simplify((what, Holds::On));
+            if what == Simplification::IndependentAxis {
+                self.state.modal.forget_position(axis);
+            }
+        }
+    }
+
+    /// The words in the bracket of the main spindle.
+    fn spindle_words(&mut self, body: &str, at: &At<'_>) {
+        for word in body.split_ascii_whitespace() {
+            let upper = word.to_ascii_uppercase();
+            if upper.starts_with("REV") {
+                let speed = self.number_in(word[3..].trim_start_matches('='), at);
+                self.state.modal.pace.speed(speed);
+            } else if let Some(number) = upper.strip_prefix('M')
+                && let Ok(number) = number.parse()
+            {
+                self.state.modal.pace.m(number);
+            }
+        }
+    }
+
+    /// What an override changes.
+    fn factors_in(&mut self, text: &str, at: &At<'_>) -> impl FnOnce(&mut Factors) + use<> {
+        let [feed, rapid] = [FEED, RAPID].map(|key| {
+            let value = value_after(key, text)?;
+            let percent = self.number_in(value, at);
+            let known = percent.filter(|it| OVERRIDE.contains(it));
+            Some(known.map(|it| it / 100.0))
+        });
+        let is_understood = feed.is_some() || rapid.is_some();
+        move |factors| {
+            factors.feed = feed.unwrap_or(factors.feed.filter(|_| is_understood));
+            factors.rapid = rapid.unwrap_or(factors.rapid.filter(|_| is_understood));
+        }
+    }
+}
+
+/// What stands after a keyword, up to the next one.
+fn value_after<'a>(key: &str, text: &'a str) -> Option<&'a str> {
+    let upper = text.to_ascii_uppercase();
+    let start = upper.find(key)? + key.len();
+    let end = [FEED, RAPID]
+        .iter()
+        .filter_map(|next| upper[start..].find(next))
+        .min();
+    let value = &text[start..end.map_or(text.len(), |end| start + end)];
+    Some(
+        value
+            .trim()
+            .trim_start_matches('=')
+            .trim_end_matches(']')
+            .trim(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_stand_after_their_keywords() {
+        // R5.1
+        let text = " FEED_FACT=120 rapid_fact = 75 ]";
+        assert_eq!(value_after(FEED, text), Some("120"));
+        assert_eq!(value_after(RAPID, text), Some("75"));
+        assert_eq!(value_after(RAPID, "FEED_FACT=1"), None);
+    }
+}

@@ -1,0 +1,214 @@
+//! What makes of a programmed F the velocity of the path: the unit, the main spindle, programmed
+//! overrides (R5.1).
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::comp::AxisIndex;
+
+/// A programmed F.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ProgrammedFeed {
+    /// The number after F.
+    pub value: f64,
+    /// The unit of lengths in mm that was in force, where that is known.
+    pub unit_mm: Option<f64>,
+}
+
+/// What a command does to the speed of paths, in parts of the programmed one; `None` where that is
+/// not known.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Factors {
+    /// With G01, G02, G03.
+    pub(in crate::interpreter) feed: Option<f64>,
+    /// With G00.
+    pub(in crate::interpreter) rapid: Option<f64>,
+}
+
+impl Default for Factors {
+    fn default() -> Self {
+        Self {
+            feed: Some(1.0),
+            rapid: Some(1.0),
+        }
+    }
+}
+
+/// Whether a motion is a rapid one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Haste {
+    /// G00.
+    Rapid,
+    /// G01, G02, G03.
+    Feed,
+}
+
+impl Factors {
+    fn of(self, haste: Haste) -> Option<f64> {
+        match haste {
+            Haste::Rapid => self.rapid,
+            Haste::Feed => self.feed,
+        }
+    }
+}
+
+/// Programmed overrides.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+struct Overrides {
+    /// `#OVERRIDE` (PM/207625099).
+    path: Factors,
+    /// `X[OVERRIDE …]`, by axis (PM/208662411).
+    axes: BTreeMap<usize, Factors>,
+    /// G129 (PM/206578955).
+    rapid: Factors,
+}
+
+/// How fast the main spindle turns (PM/208046347).
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct Spindle {
+    /// The last S in 1/min, where it is known.
+    speed_per_min: Option<f64>,
+    /// G96: S is a cutting speed, and the spindle follows the diameter.
+    cuts: bool,
+    /// M5 or M19 stopped it.
+    stands: bool,
+}
+
+/// What makes of a programmed F the velocity of the path.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Pace {
+    /// The unit of F in mm/min (P-CHAN-00108), where it is known.
+    feed_unit_mm: Option<f64>,
+    spindle: Spindle,
+    /// Where there are any, or may be.
+    overrides: Option<Box<Overrides>>,
+}
+
+impl Pace {
+    pub(in crate::interpreter) fn new(feed_unit_mm: Option<f64>) -> Self {
+        Self {
+            feed_unit_mm,
+            spindle: Spindle::default(),
+            overrides: None,
+        }
+    }
+
+    /// The unit of an F word with G94 where lengths are in `length_mm`. G70 makes it inch/min; what
+    /// it makes of m/min is not documented.
+    pub(in crate::interpreter) fn unit_per_min(&self, length_mm: Option<f64>) -> Option<f64> {
+        let (unit, length) = (self.feed_unit_mm?, length_mm?);
+        #[allow(clippy::float_cmp)] // both are constants
+        let plain = unit == 1.0 || length == 1.0;
+        plain.then_some(unit * length)
+    }
+
+    /// An S word of the main spindle.
+    pub(in crate::interpreter) fn speed(&mut self, value: Option<f64>) {
+        self.spindle.speed_per_min = value.filter(|_| !self.spindle.cuts);
+    }
+
+    /// G96, G97: what S is.
+    pub(in crate::interpreter) fn cut(&mut self, cuts: bool) {
+        self.spindle.cuts = cuts;
+        self.spindle.speed_per_min = None;
+    }
+
+    /// An M function of the main spindle.
+    pub(in crate::interpreter) fn m(&mut self, number: i64) {
+        match number {
+            3 | 4 => self.spindle.stands = false,
+            5 | 19 => self.spindle.stands = true,
+            _ => {}
+        }
+    }
+
+    /// Another spindle became the main one, or the speed may be any.
+    pub(in crate::interpreter) fn forget_spindle(&mut self) {
+        self.spindle = Spindle::default();
+    }
+
+    /// Revolutions per minute for G95.
+    ///
+    /// # Errors
+    /// Why they are not known.
+    pub(in crate::interpreter) fn per_minute(&self) -> Result<f64, &'static str> {
+        match self.spindle {
+            Spindle { stands: true, .. } => Err("G95 needs a spindle that turns"),
+            Spindle { cuts: true, .. } => Err("with G96 the spindle speed follows the diameter"),
+            Spindle { speed_per_min, .. } => speed_per_min
+                .filter(|speed| *speed > 0.0)
+                .ok_or("G95 needs the speed of the main spindle, `S`"),
+        }
+    }
+
+    /// `#OVERRIDE`: what it names changes.
+    pub(in crate::interpreter) fn override_path(&mut self, change: impl FnOnce(&mut Factors)) {
+        change(&mut self.overrides.get_or_insert_default().path);
+    }
+
+    /// `X[OVERRIDE …]`
+    pub(in crate::interpreter) fn override_axis(
+        &mut self,
+        axis: AxisIndex,
+        change: impl FnOnce(&mut Factors),
+    ) {
+        let overrides = self.overrides.get_or_insert_default();
+        change(overrides.axes.entry(axis.get()).or_default());
+    }
+
+    /// G129: the weight of rapid motions.
+    pub(in crate::interpreter) fn weigh_rapid(&mut self, weight: Option<f64>) {
+        self.overrides.get_or_insert_default().rapid.rapid = weight;
+    }
+
+    /// What the overrides leave of the velocity of a motion of some axes: that of the path times the
+    /// least of the axes; G166 makes it 1 elsewhere. `None` where it is not known.
+    pub(in crate::interpreter) fn share(
+        &self,
+        haste: Haste,
+        moving: impl Iterator<Item = AxisIndex>,
+    ) -> Option<f64> {
+        let Some(overrides) = &self.overrides else {
+            return Some(1.0);
+        };
+        let mut least = f64::INFINITY;
+        for axis in moving {
+            let own = overrides.axes.get(&axis.get()).copied().unwrap_or_default();
+            least = least.min(own.of(haste)?);
+        }
+        let own = if least.is_finite() { least } else { 1.0 };
+        let path = overrides.path.of(haste)? * overrides.rapid.of(haste)?;
+        Some(path * own)
+    }
+
+    /// The weight of G129 alone, which G166 does not suppress.
+    pub(in crate::interpreter) fn weight(&self, haste: Haste) -> Option<f64> {
+        let overrides = self.overrides.as_ref();
+        overrides.map_or(Some(1.0), |it| it.rapid.of(haste))
+    }
+
+    /// Overrides may have been changed in any way.
+    pub(in crate::interpreter) fn forget_overrides(&mut self) {
+        self.overrides.get_or_insert_default().path = Factors {
+            feed: None,
+            rapid: None,
+        };
+    }
+
+    /// Everything may have been changed in any way.
+    pub(in crate::interpreter) fn forget(&mut self) {
+        self.forget_spindle();
+        self.forget_overrides();
+    }
+
+    /// What may also have been another state becomes unknown.
+    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+        if self.spindle != other.spindle {
+            self.forget_spindle();
+        }
+        if self.overrides != other.overrides {
+            self.forget_overrides();
+        }
+    }
+}

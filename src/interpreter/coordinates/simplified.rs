@@ -1,0 +1,281 @@
+//! What a control does to the path or its velocity and a commanded trace does not: it is followed
+//! in a simpler way, and that is said (R5.1).
+//!
+//! PM/n is page n of the TF5200 programming manual.
+
+use serde::{Deserialize, Serialize};
+
+/// Something that a control does and a commanded trace does not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Simplification {
+    /// G61, G261, `#CONTOUR MODE`: corners are rounded (PM/206307595).
+    Contouring,
+    /// `#HSC`: short blocks are joined to a smooth path.
+    HighSpeed,
+    /// `#SLOPE`: the profile of the acceleration.
+    Slope,
+    /// G127, G128: the highest velocity is weighted (PM/206573067).
+    VelocityWeight,
+    /// G130, G131, G230, G231: accelerations are weighted (PM/206590731).
+    AccelerationWeight,
+    /// G132 to G134, G233: ramp times are weighted (PM/206596619).
+    RampWeight,
+    /// `#DYN WEIGHT`: velocity, acceleration and ramp time are weighted.
+    DynamicWeight,
+    /// G901: the path slows down after the end of the block (PM/206238219).
+    LateDeceleration,
+    /// G193, G293: the feed changes linearly along the block (PM/206245643).
+    FeedRamp,
+    /// G13: feed is reduced in corners.
+    CornerDeceleration,
+    /// G11: feed is adapted to the radius of the tool (PM/206473227).
+    ToolFeed,
+    /// `#FGROUP`: F refers to other axes.
+    FeedGroup,
+    /// `#VECTOR LIMIT`: the path has limits of its own.
+    PathLimits,
+    /// `#GEO FEED ADAPT`: feed is adapted by something else than the program.
+    ForeignFeed,
+    /// `X[INDP_ASYN …]`, `X[OSC …]` and the like: an axis moves by itself.
+    IndependentAxis,
+    /// `X[DYNAMIC …]`: the dynamics of an axis are weighted.
+    AxisDynamics,
+}
+
+impl Simplification {
+    const ALL: [Self; 16] = [
+        Self::Contouring,
+        Self::HighSpeed,
+        Self::Slope,
+        Self::VelocityWeight,
+        Self::AccelerationWeight,
+        Self::RampWeight,
+        Self::DynamicWeight,
+        Self::LateDeceleration,
+        Self::FeedRamp,
+        Self::CornerDeceleration,
+        Self::ToolFeed,
+        Self::FeedGroup,
+        Self::PathLimits,
+        Self::ForeignFeed,
+        Self::IndependentAxis,
+        Self::AxisDynamics,
+    ];
+
+    /// What puts it into force.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Contouring => "G261",
+            Self::HighSpeed => "#HSC",
+            Self::Slope => "#SLOPE",
+            Self::VelocityWeight => "G128",
+            Self::AccelerationWeight => "G131",
+            Self::RampWeight => "G133",
+            Self::DynamicWeight => "#DYN WEIGHT",
+            Self::LateDeceleration => "G901",
+            Self::FeedRamp => "G193",
+            Self::CornerDeceleration => "G13",
+            Self::ToolFeed => "G11",
+            Self::FeedGroup => "#FGROUP",
+            Self::PathLimits => "#VECTOR LIMIT",
+            Self::ForeignFeed => "#GEO FEED ADAPT",
+            Self::IndependentAxis => "INDP",
+            Self::AxisDynamics => "DYNAMIC",
+        }
+    }
+
+    /// What the control does and the trace does instead, after "the trace".
+    pub fn instead(self) -> &'static str {
+        match self {
+            Self::Contouring => {
+                "follows the programmed corners, which the control rounds (`G61`, `G261`, `#CONTOUR MODE`)"
+            }
+            Self::HighSpeed => "follows the programmed blocks, which the control smooths (`#HSC`)",
+            Self::Slope => "keeps its jerk-limited profile, whatever `#SLOPE` selects",
+            Self::VelocityWeight => {
+                "keeps the velocity limits of the axes, which the program weights (`G127`, `G128`)"
+            }
+            Self::AccelerationWeight => {
+                "keeps the accelerations of the axes, which the program weights (`G130`, `G131`, `G230`, `G231`)"
+            }
+            Self::RampWeight => {
+                "keeps the jerks of the axes, which the program weights (`G132` to `G134`, `G233`)"
+            }
+            Self::DynamicWeight => {
+                "keeps the dynamics of the axes, which the program weights (`#DYN WEIGHT`)"
+            }
+            Self::LateDeceleration => {
+                "slows down before the end of a block, the control after it (`G901`)"
+            }
+            Self::FeedRamp => {
+                "changes to the new feed at once, the control along the block (`G193`, `G293`)"
+            }
+            Self::CornerDeceleration => "knows no slower feed in corners than its own (`G13`)",
+            Self::ToolFeed => "keeps F where the control adapts it to the tool radius (`G11`)",
+            Self::FeedGroup => "refers F to X, Y and Z, whatever `#FGROUP` says",
+            Self::PathLimits => "knows no limits but those of the axes (`#VECTOR LIMIT`)",
+            Self::ForeignFeed => {
+                "keeps the programmed F, which the control adapts (`#GEO FEED ADAPT`)"
+            }
+            Self::IndependentAxis => "leaves out motions of single axes beside the path",
+            Self::AxisDynamics => {
+                "keeps the dynamics of the axes, which the program weights (`DYNAMIC`)"
+            }
+        }
+    }
+}
+
+/// A set of simplifications, a bit each; serialised as the list of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(into = "Vec<Simplification>", from = "Vec<Simplification>")]
+pub struct Simplifications(u16);
+
+impl Simplifications {
+    /// Whether there is none.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Those of the set.
+    pub fn iter(self) -> impl Iterator<Item = Simplification> {
+        let all = Simplification::ALL.into_iter();
+        all.filter(move |it| self.0 & 1 << *it as u16 != 0)
+    }
+
+    /// Those of either set.
+    pub fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Those of this set that are not in another.
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+}
+
+impl From<Simplification> for Simplifications {
+    fn from(one: Simplification) -> Self {
+        Self(1 << one as u16)
+    }
+}
+
+impl From<Vec<Simplification>> for Simplifications {
+    fn from(list: Vec<Simplification>) -> Self {
+        let sets = list.into_iter().map(Self::from);
+        sets.fold(Self::default(), Self::union)
+    }
+}
+
+impl From<Simplifications> for Vec<Simplification> {
+    fn from(set: Simplifications) -> Self {
+        set.iter().collect()
+    }
+}
+
+/// How long something holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::interpreter) enum Holds {
+    /// In its block.
+    Once,
+    /// Until it is taken back.
+    On,
+    /// It takes back what held.
+    Off,
+}
+
+/// What a G function simplifies.
+pub(in crate::interpreter) fn of_g(number: u32) -> Option<(Simplification, Holds)> {
+    use Simplification as It;
+    Some(match number {
+        61 => (It::Contouring, Holds::Once),
+        261 => (It::Contouring, Holds::On),
+        260 => (It::Contouring, Holds::Off),
+        127 | 128 => (It::VelocityWeight, Holds::On),
+        130 | 131 | 230 | 231 => (It::AccelerationWeight, Holds::On),
+        132..=134 | 233 => (It::RampWeight, Holds::On),
+        901 => (It::LateDeceleration, Holds::On),
+        900 => (It::LateDeceleration, Holds::Off),
+        193 | 293 => (It::FeedRamp, Holds::Once),
+        13 => (It::CornerDeceleration, Holds::On),
+        12 => (It::CornerDeceleration, Holds::Off),
+        11 => (It::ToolFeed, Holds::On),
+        10 => (It::ToolFeed, Holds::Off),
+        _ => return None,
+    })
+}
+
+/// `#` commands that simplify, by their first words.
+const COMMANDS: [(&str, Simplification); 12] = [
+    ("#CONTOUR MODE", Simplification::Contouring),
+    ("#HSC", Simplification::HighSpeed),
+    ("#SLOPE", Simplification::Slope),
+    ("#SET SLOPE", Simplification::Slope),
+    ("#DYN WEIGHT", Simplification::DynamicWeight),
+    ("#DYN_WEIGHT", Simplification::DynamicWeight),
+    ("#DYNAMIC WEIGHT", Simplification::DynamicWeight),
+    ("#FGROUP", Simplification::FeedGroup),
+    ("#VECTOR LIMIT", Simplification::PathLimits),
+    ("#VECTORACC", Simplification::PathLimits),
+    ("#VECTORVEL", Simplification::PathLimits),
+    ("#GEO", Simplification::ForeignFeed),
+];
+
+/// What a `#` command simplifies. `#CONTOUR MODE` without ON or OFF only sets parameters
+/// (PM/475156491).
+pub(in crate::interpreter) fn of_command(name: &str) -> Option<(Simplification, Holds)> {
+    let begins = |words: &str| {
+        name.strip_prefix(words)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+    };
+    let &(_, what) = COMMANDS.iter().find(|(words, _)| begins(words))?;
+    let has = |word: &str| name.split(' ').any(|it| it == word);
+    if has("OFF") {
+        return Some((what, Holds::Off));
+    }
+    let only_parameters = what == Simplification::Contouring && !has("ON");
+    (!only_parameters).then_some((what, Holds::On))
+}
+
+/// How keywords begin after which an axis moves by itself.
+const ALONE: [&str; 7] = ["INDP_", "OSC", "DIST_CTRL", "LIFT", "SYNC", "POLY", "MC_"];
+
+/// What the command of an axis bracket simplifies, by its keyword in upper case.
+pub(in crate::interpreter) fn of_bracket(keyword: &str) -> Option<Simplification> {
+    let is = |word: &str| keyword.starts_with(word);
+    if is("DYNAMIC") {
+        return Some(Simplification::AxisDynamics);
+    }
+    ALONE
+        .iter()
+        .any(|word| is(word))
+        .then_some(Simplification::IndependentAxis)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_holds_what_was_put_in() {
+        // R5.1
+        let all: Simplifications = Simplification::ALL.to_vec().into();
+        assert_eq!(all.iter().count(), Simplification::ALL.len());
+        let less = all.without(Simplification::Slope.into());
+        assert!(less.iter().all(|it| it != Simplification::Slope));
+        assert_eq!(less.union(Simplification::Slope.into()), all);
+        assert!(all.without(all).is_empty());
+    }
+
+    #[test]
+    fn commands_are_told_apart() {
+        // R5.1
+        let of = |name| of_command(name).map(|(what, holds)| (what.name(), holds));
+        assert_eq!(of("#CONTOUR MODE"), None);
+        assert_eq!(of("#CONTOUR MODE ON"), Some(("G261", Holds::On)));
+        assert_eq!(of("#CONTOUR MODE OFF"), Some(("G261", Holds::Off)));
+        assert_eq!(of("#HSC"), Some(("#HSC", Holds::On)));
+        assert_eq!(of("#HSC OFF"), Some(("#HSC", Holds::Off)));
+        assert_eq!(of("#HSCX"), None);
+    }
+}

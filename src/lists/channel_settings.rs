@@ -1,0 +1,298 @@
+//! What a channel list says about motion: the unit of F, what holds at the start of a program, and
+//! the main spindle (TF5200 Channel parameters, `prog_start.*` and `spindel[].*`).
+
+use std::collections::BTreeMap;
+
+use super::line::{Entries, Entry};
+use super::parameter::Parameter;
+use super::value::{Given, Number};
+use crate::diagnostic::{Code, Diagnostic};
+
+/// The unit of the F word with G94, P-CHAN-00108.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum FeedUnit {
+    /// mm/min, the default.
+    #[default]
+    MillimetresPerMinute,
+    /// m/min.
+    MetresPerMinute,
+    /// The list has a factor whose meaning is not documented.
+    Unknown,
+}
+
+impl FeedUnit {
+    /// The unit in mm/min, where it is known.
+    pub fn in_mm(self) -> Option<f64> {
+        match self {
+            Self::MillimetresPerMinute => Some(1.0),
+            Self::MetresPerMinute => Some(1000.0),
+            Self::Unknown => None,
+        }
+    }
+}
+
+/// What holds for the motion of a channel.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ChannelSettings {
+    /// The unit of F, P-CHAN-00108.
+    pub feed_unit: FeedUnit,
+    /// The feed where a program has no F, in mm/min, P-CHAN-00099.
+    pub feed_mm_per_min: Option<f64>,
+    /// The G functions in force at the start of a program, P-CHAN-00063, where they are not those
+    /// of the control.
+    pub functions: Vec<u32>,
+    /// The unit of coordinates is inch, P-CHAN-00054. What G70 and G71 do then is not documented.
+    pub inch: bool,
+    /// The names of the main spindle beside `S`, P-CHAN-00053 and the name of the spindle with the
+    /// number of P-CHAN-00051.
+    pub main_spindle: Vec<String>,
+}
+
+/// The groups of G functions that have a default at the start of a program, with the functions that
+/// each takes (P-CHAN-00063).
+const GROUPS: [(u32, &[u32]); 11] = [
+    (0, &[0, 1, 2, 3, 4]),
+    (4, &[17, 18, 19]),
+    (6, &[25, 26]),
+    (8, &[51, 52]),
+    (12, &[70, 71]),
+    (14, &[90, 91]),
+    (21, &[135, 137]),
+    (22, &[138, 139, 236, 237, 238, 239]),
+    (23, &[161, 162]),
+    (25, &[164, 165]),
+    (32, &[140, 141]),
+];
+
+/// Values as a channel list gives them.
+#[derive(Debug, Clone, Default)]
+pub struct ChannelDraft {
+    factor: Option<Given<Number>>,
+    feed: Option<Given<Number>>,
+    functions: BTreeMap<u32, Given<u32>>,
+    inch: Option<Given<bool>>,
+    spindle_number: Option<Given<u32>>,
+    spindle_name: Option<Given<String>>,
+}
+
+impl ChannelDraft {
+    /// Gathers what a list gives. FC130 for values that are none, FC132 for those without a
+    /// documented meaning.
+    pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
+        let mut draft = Self::default();
+        for entry in &list.entries {
+            draft.add(entry, diagnostics);
+        }
+        draft
+    }
+
+    fn add(&mut self, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
+        match (entry.pattern.as_str(), entry.indices.as_slice()) {
+            ("prog_start.feedrate_factor", []) => {
+                self.factor = number(entry, diagnostics).or(self.factor.take());
+                if let Some(factor) = &self.factor {
+                    diagnostics.extend(odd_factor(entry, factor));
+                }
+            }
+            ("prog_start.feedrate", []) => {
+                self.feed = number(entry, diagnostics).or(self.feed.take());
+            }
+            ("prog_start.g_gruppe[].nr", &[group]) => self.function(group, entry, diagnostics),
+            ("mass_einh", []) => {
+                let given = entry.truth();
+                match given.value {
+                    Some(inch) => self.inch = Some(given.with(inch)),
+                    None => diagnostics.push(odd(entry, "`0` for mm or `1` for inch")),
+                }
+            }
+            ("main_spindle_ax_nr", []) => {
+                let given = number(entry, diagnostics);
+                self.spindle_number = given.and_then(|given| {
+                    let number = whole(given.value)?;
+                    Some(given.with(number))
+                });
+            }
+            ("main_spindle_name", []) => {
+                let name = entry.text();
+                self.spindle_name = Some(name.with(name.value.to_owned()));
+            }
+            _ => {}
+        }
+    }
+
+    fn function(&mut self, group: u32, entry: &Entry, diagnostics: &mut Vec<Diagnostic>) {
+        let Some(given) = number(entry, diagnostics) else {
+            return;
+        };
+        // The control's own default.
+        if given.value == Number::Integer(-1) {
+            self.functions.remove(&group);
+            return;
+        }
+        let allowed = GROUPS.iter().find(|(known, _)| *known == group);
+        let allowed = allowed.map_or(&[][..], |(_, allowed)| *allowed);
+        let number = whole(given.value).filter(|number| allowed.contains(number));
+        if let Some(number) = number {
+            self.functions.insert(group, given.with(number));
+            return;
+        }
+        let names: Vec<String> = allowed.iter().map(|it| format!("`{it}`")).collect();
+        let expected = match names.as_slice() {
+            [] => "the group takes no default; leave the line out".to_owned(),
+            names => format!("the group takes {}", names.join(", ")),
+        };
+        diagnostics.push(odd(entry, &expected));
+    }
+
+    /// Lets the values of another list replace those that are here.
+    pub(super) fn override_with(&mut self, other: Self) {
+        self.factor = other.factor.or(self.factor.take());
+        self.feed = other.feed.or(self.feed.take());
+        self.functions.extend(other.functions);
+        self.inch = other.inch.or(self.inch.take());
+        self.spindle_number = other.spindle_number.or(self.spindle_number.take());
+        self.spindle_name = other.spindle_name.or(self.spindle_name.take());
+    }
+
+    /// What holds; `spindles` are the names of the spindles with their axis numbers.
+    pub(super) fn settings<'a>(
+        &self,
+        spindles: impl Iterator<Item = (&'a str, Option<u32>)>,
+    ) -> ChannelSettings {
+        let spindles: Vec<_> = spindles.collect();
+        let number = self.spindle_number.as_ref().map(|given| given.value);
+        let main = spindles.iter().filter(|(_, own)| match number {
+            Some(number) => *own == Some(number),
+            // Even a single spindle has to be the main one.
+            None => spindles.len() == 1,
+        });
+        let given = self.spindle_name.iter().map(|given| given.value.as_str());
+        let names = given.chain(main.map(|(name, _)| *name));
+        ChannelSettings {
+            feed_unit: self.factor.as_ref().map_or(FeedUnit::default(), unit_of),
+            feed_mm_per_min: self
+                .feed
+                .as_ref()
+                .map(|given| given.value.to_f64())
+                .filter(|feed| *feed > 0.0),
+            functions: self.functions.values().map(|given| given.value).collect(),
+            inch: self.inch.as_ref().is_some_and(|given| given.value),
+            main_spindle: names
+                .filter(|name| !name.is_empty())
+                .map(str::to_owned)
+                .collect(),
+        }
+    }
+
+    /// The parameters that the list gives.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        let mut rows = Vec::new();
+        let mut row = |number, key: String, value: String, (unit, origin)| {
+            rows.push(Parameter {
+                number,
+                key,
+                value,
+                unit,
+                origin,
+            });
+        };
+        if let Some(given) = &self.factor {
+            let key = "prog_start.feedrate_factor".to_owned();
+            let value = given.value.to_string();
+            row("P-CHAN-00108", key, value, ("", given.into()));
+        }
+        if let Some(given) = &self.feed {
+            let key = "prog_start.feedrate".to_owned();
+            let value = given.value.to_string();
+            row("P-CHAN-00099", key, value, ("mm/min", given.into()));
+        }
+        for (group, given) in &self.functions {
+            let key = format!("prog_start.g_gruppe[{group}].nr");
+            let value = given.value.to_string();
+            row("P-CHAN-00063", key, value, ("", given.into()));
+        }
+        if let Some(given) = &self.inch {
+            let value = u8::from(given.value).to_string();
+            row(
+                "P-CHAN-00054",
+                "mass_einh".to_owned(),
+                value,
+                ("", given.into()),
+            );
+        }
+        if let Some(given) = &self.spindle_number {
+            let key = "main_spindle_ax_nr".to_owned();
+            let value = given.value.to_string();
+            row("P-CHAN-00051", key, value, ("", given.into()));
+        }
+        if let Some(given) = &self.spindle_name {
+            let key = "main_spindle_name".to_owned();
+            row("P-CHAN-00053", key, given.value.clone(), ("", given.into()));
+        }
+        rows
+    }
+}
+
+/// 100 is mm/min, 0.1 is m/min; for 0 and less the control takes mm/min.
+fn unit_of(factor: &Given<Number>) -> FeedUnit {
+    let factor = factor.value.to_f64();
+    let near = |known: f64| (factor - known).abs() < 1e-9;
+    if factor <= 0.0 || near(100.0) {
+        FeedUnit::MillimetresPerMinute
+    } else if near(0.1) {
+        FeedUnit::MetresPerMinute
+    } else {
+        FeedUnit::Unknown
+    }
+}
+
+/// FC132 for a factor that the control warns about, or whose meaning is not documented.
+fn odd_factor(entry: &Entry, factor: &Given<Number>) -> Option<Diagnostic> {
+    let value = factor.value.to_f64();
+    if unit_of(factor) == FeedUnit::Unknown {
+        return Some(odd(
+            entry,
+            "write `100` for mm/min or `0.1` for m/min; until then the velocity of motions with F is not known",
+        ));
+    }
+    let is_default = (value + 1.0).abs() < 1e-9;
+    (value <= 0.0 && !is_default).then(|| {
+        odd(
+            entry,
+            "write `100` for mm/min, which the control takes here",
+        )
+    })
+}
+
+/// FC132 for a value that has no documented meaning.
+fn odd(entry: &Entry, help: &str) -> Diagnostic {
+    let word = entry.word();
+    let message = format!(
+        "`{}` of `{}` is outside the documented values",
+        word.value,
+        entry.key()
+    );
+    Diagnostic::new(Code::Fc132, word.place(), message).with_help(help.to_owned())
+}
+
+fn number(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<Number>> {
+    let given = entry.number();
+    if given.value.number.is_none() {
+        let message = format!(
+            "`{}` is `{}`; the value is not used",
+            entry.key(),
+            given.value.text
+        );
+        let diagnostic = Diagnostic::new(Code::Fc130, given.place(), message);
+        diagnostics.push(diagnostic.with_help("write a number"));
+    }
+    given.value.number.map(|number| given.with(number))
+}
+
+fn whole(number: Number) -> Option<u32> {
+    match number {
+        Number::Integer(value) => u32::try_from(value).ok(),
+        Number::Real(_) => None,
+    }
+}

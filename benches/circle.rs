@@ -11,9 +11,9 @@ use std::hint::black_box;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use frictcomp::circle::{Circle, CircularTest, Job};
+use frictcomp::circle::{Circle, CircularTest, Job, Method};
 use frictcomp::current::Reading;
-use frictcomp::simulation::{FrictionModel, Preset, plant_list};
+use frictcomp::simulation::{FrictionModel, Preset};
 use measure::Bench;
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");
@@ -45,7 +45,7 @@ fn main() {
             feed_mm_per_min: 2000.0,
             ..Circle::default()
         },
-        lists: [plant_list(&plant.x), plant_list(&plant.y)],
+        compensation: Method::of_plant(&plant),
         plant,
         model: FrictionModel::Lugre,
         reading: Reading::default(),

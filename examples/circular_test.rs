@@ -2,9 +2,9 @@
 //!
 //! `cargo run --example circular_test`
 
-use frictcomp::circle::{Circle, CircularTest};
+use frictcomp::circle::{Circle, CircularTest, Method};
 use frictcomp::current::Reading;
-use frictcomp::simulation::{FrictionModel, Preset, plant_list};
+use frictcomp::simulation::{FrictionModel, Preset};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let plant = "stiff".parse::<Preset>()?.plant();
@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             feed_mm_per_min: 2000.0,
             ..Circle::default()
         },
-        lists: [&plant.x, &plant.y].map(plant_list),
+        compensation: Method::of_plant(&plant),
         plant,
         model: FrictionModel::Lugre,
         reading: Reading::default(),

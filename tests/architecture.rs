@@ -92,10 +92,16 @@ const ROOMS: [(&str, &[&str]); 24] = [
             "motion",
         ],
     ),
-    ("simulation", &["text", "diagnostic", "lists", "config"]),
     ("versions", &["diagnostic", "comp", "timeline"]),
     ("stiction", &[]),
-    ("circle", &["diagnostic", "lists", "current", "simulation"]),
+    (
+        "simulation",
+        &["text", "diagnostic", "lists", "config", "stiction"],
+    ),
+    (
+        "circle",
+        &["diagnostic", "lists", "current", "stiction", "simulation"],
+    ),
     ("trace", &["diagnostic"]),
     ("identify", &["diagnostic", "lists", "current", "trace"]),
     (

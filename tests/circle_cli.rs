@@ -270,7 +270,7 @@ fn each_axis_gets_a_list_with_the_name_of_the_machine() {
     let plant = write("p.toml", "[y]\nFc = 800\nFs = 900\n");
     let machine = write(
         "frictcomp.toml",
-        "[[axis]]\nname = \"X1\"\n[[axis]]\nname = \"Y\"\n",
+        "[[axis]]\nname = \"X1\"\nnumber = 7\n[[axis]]\nname = \"Y\"\n",
     );
     let lists = folder.path().join("lists");
     let document = json(&[
@@ -290,6 +290,15 @@ fn each_axis_gets_a_list_with_the_name_of_the_machine() {
         "json",
     ]);
     let [x, y] = ["X1.lis", "Y.lis"].map(|name| lists.join(name));
+    let head = |path: &Path| {
+        let text = fs::read_to_string(path).expect("a list");
+        let head = text.lines().filter(|line| line.starts_with("kopf."));
+        let words = head.map(|line| line.split_whitespace().skip(1).collect::<String>());
+        words.collect::<Vec<_>>()
+    };
+    // R3.11: whose list it is.
+    assert_eq!(head(&x), ["7", "X1"]);
+    assert_eq!(head(&y), ["Y"]);
     let [x, y] = [("X", x), ("Y", y)].map(|(axis, path)| format!("{axis}={}", path.display()));
     let row = &document["feeds"][0];
     let number = |value: &Value| value.as_f64().expect("a number");
@@ -345,4 +354,63 @@ fn compensation_that_makes_it_worse_is_said() {
     let worse = text.lines().filter(is_worse).count();
     assert_eq!(said.matches("FC506").count() > 0, worse > 0, "{text}{said}");
     assert!(worse > 0, "{text}");
+}
+
+#[test]
+fn stiction_compensation_is_reported_in_place_of_a_list() {
+    // R8.3 R8.6
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("text").to_owned();
+    let plant = path("p.toml");
+    let text = "Kv = 16.7\n[stiction]\nmp1511 = 20000\nmp1513 = 2.5\n[x.stiction]\nmp1513 = 4\n";
+    fs::write(&plant, text).expect("written");
+    let call = |command: &str, more: &[&str]| {
+        let (feed, radius) = (["--feeds", "3000"], ["--radius", "20"]);
+        let feed = if command == "tune" {
+            feed
+        } else {
+            ["--feed", "3000"]
+        };
+        let arguments = [&[command, "--plant", &plant], &feed[..], &radius[..], more].concat();
+        tool(&arguments)
+    };
+    let said = |output: Output| {
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let text = said(call("circle", &[]));
+    let flat: Vec<&str> = text.split_whitespace().collect();
+    let flat = flat.join(" ");
+    for part in [
+        "X: MP1511 20000 µs, MP1512 49 (Δs_a at most 3.828125 µm), GP 20 µm, t_C 3000 µs, MP1513 4 m/min",
+        "X: MP1511 is outside the guideline of 5000 to 10000 µs",
+        "Y: the feed is above MP1513, nothing is added",
+        "raise MP1511",
+    ] {
+        assert!(flat.contains(part), "{part}\n{text}");
+    }
+    assert!(!text.contains("scaling_factor"), "{text}");
+    let document: Value =
+        serde_json::from_str(&said(call("circle", &["--format", "json"]))).expect("JSON");
+    assert_eq!(document["stiction"]["X"]["mp1513_m_per_min"], 4.0);
+    assert_eq!(document["value_list"], Value::Null);
+    // A value list takes its place.
+    let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\n\
+                frict_comp.table[0].in 0\nfrict_comp.table[0].out 100\n";
+    fs::write(path("v.lis"), list).expect("written");
+    let listed = said(call("circle", &["--value-list", &path("v.lis")]));
+    assert!(
+        listed.contains("v.lis, 1 points") && !listed.contains("MP1511"),
+        "{listed}"
+    );
+    let text = said(call("tune", &[]));
+    assert!(text.contains("sets of parameters tried\n"), "{text}");
+    let document: Value =
+        serde_json::from_str(&said(call("tune", &["--format", "json"]))).expect("JSON");
+    assert!(document["axes"]["X"]["parameters"]["mp1511_us"].is_number());
+    for option in ["--output", "--output-dir"] {
+        let refused = call("tune", &[option, &path("made")]);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(!Path::new(&path("made")).exists());
+    }
 }

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 use roxmltree::Document;
 
-use frictcomp::circle::{Candidate, FeedResult, Tuned, TunedAxis};
+use frictcomp::circle::{FeedResult, Tuned, TunedAxis};
 use frictcomp::comp::State;
 use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
@@ -136,13 +136,7 @@ fn glitches() -> LineChart {
         glitch_friction_plus20_um: plus20,
     });
     let axis = TunedAxis {
-        candidate: Candidate {
-            position_delay: 9,
-            reversal_lookahead: 2,
-            delay_cycles: 1,
-            scaling_factor: 1000,
-        },
-        list: list(),
+        compensation: Some(list().into()),
         is_shaped: false,
     };
     tuning(&[TuneReport {

@@ -3,10 +3,10 @@
 
 use frictcomp::circle::{
     Circle, CircleError, CircularTest, Comparison, Diagnosis, Direction, Finding, FoundAt, Job,
-    PlaneAxis, diagnose, diagnose_comparison,
+    Method, PlaneAxis, diagnose, diagnose_comparison,
 };
 use frictcomp::current::{Reading, Switched};
-use frictcomp::simulation::{FrictionModel, Plant, Preset, plant_list};
+use frictcomp::simulation::{FrictionModel, Plant, Preset};
 use frictcomp::text::SourceFile;
 
 fn plant(text: &str) -> Plant {
@@ -20,7 +20,7 @@ fn test(plant: Plant, radius_mm: f64, feed_mm_per_min: f64) -> CircularTest {
             feed_mm_per_min,
             ..Circle::default()
         },
-        lists: [plant_list(&plant.x), plant_list(&plant.y)],
+        compensation: Method::of_plant(&plant),
         plant,
         model: FrictionModel::Lugre,
         reading: Reading::default(),

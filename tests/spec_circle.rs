@@ -5,13 +5,14 @@
 use std::f64::consts::TAU;
 
 use frictcomp::circle::{
-    Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt, Job, Lap,
-    PathFigures, PathShape, Ranges, Shaping, Task, Tuned, diagnose, diagnose_comparison, tune,
+    Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt,
+    FreeParameter, Job, Lap, Method, PathFigures, PathShape, Ranges, Shaping, Task, Tuned,
+    diagnose, diagnose_comparison, tune,
 };
 use frictcomp::current::{Reading, Switched};
-use frictcomp::lists::{Field, Points};
+use frictcomp::lists::{FrictionList, Points};
 use frictcomp::simulation::{
-    Drive, DriveParameters, FrictionModel, POSITION_LOOP_S, Plant, Preset, Setpoint, plant_list,
+    Drive, DriveParameters, FrictionModel, POSITION_LOOP_S, Plant, Preset, Setpoint,
 };
 use frictcomp::text::SourceFile;
 use proptest::prelude::{ProptestConfig, Strategy, proptest};
@@ -23,11 +24,19 @@ fn circular_test(feed: f64) -> CircularTest {
             feed_mm_per_min: feed,
             ..Circle::default()
         },
-        lists: [plant_list(&plant.x), plant_list(&plant.y)],
+        compensation: Method::of_plant(&plant),
         plant,
         model: FrictionModel::Lugre,
         reading: Reading::default(),
     }
+}
+
+/// The value lists of a test.
+fn lists(test: &mut CircularTest) -> impl Iterator<Item = &mut FrictionList> {
+    test.compensation.iter_mut().flatten().map(|it| match it {
+        Method::Current(list) => list,
+        _ => panic!("no value list"),
+    })
 }
 
 fn lap(test: &CircularTest, compensation: Switched, direction: Direction) -> Lap {
@@ -264,7 +273,7 @@ fn both_directions_meet_the_reference() {
 fn the_wrong_sign_makes_it_worse() {
     // R5.22
     let mut test = circular_test(1000.0);
-    for list in &mut test.lists {
+    for list in lists(&mut test) {
         list.scaling_factor = -1000;
     }
     within(glitch(&figures(&test, Switched::On)), 24.8, 0.05);
@@ -282,7 +291,7 @@ fn the_wrong_sign_makes_it_worse() {
 #[test]
 fn shapes_tell_what_is_wrong() {
     // R5.24: strength and time of the compensation, wrong on purpose.
-    type Change = fn(&mut frictcomp::lists::FrictionList);
+    type Change = fn(&mut FrictionList);
     let cases: [(Change, Finding); 4] = [
         (|list| list.scaling_factor = 1400, Finding::TooStrong),
         (|list| list.scaling_factor = 600, Finding::TooWeak),
@@ -298,7 +307,7 @@ fn shapes_tell_what_is_wrong() {
     ];
     for (change, finding) in cases {
         let mut test = circular_test(3000.0);
-        test.lists.iter_mut().for_each(change);
+        lists(&mut test).for_each(change);
         let lap = lap(&test, Switched::On, Direction::Ccw);
         let comparison = Comparison::of([lap]);
         let advice = diagnose(&comparison.on.figures, Some(Switched::On));
@@ -449,7 +458,7 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
     let tuned: Tuned = tune(&task).expect("a circle");
     let [x, y] = &tuned.axes;
     assert_eq!(x, y, "equal drives have one list");
-    let best = x.candidate;
+    let best = x.list().expect("a list");
     assert!((0..=10).contains(&best.position_delay), "{best:?}");
     assert!(
         best.reversal_lookahead <= 4 && best.delay_cycles >= 0,
@@ -461,14 +470,14 @@ fn tuning_stays_in_its_ranges_and_finds_small_glitches() {
     assert!(row.glitch_friction_minus20_um > row.glitch_on_um, "{row:?}");
     assert!(row.glitch_friction_plus20_um > row.glitch_on_um, "{row:?}");
     assert_eq!(tune(&task).expect("a circle"), tuned, "the same again");
-    let free = Ranges::default().free(Field::PositionDelay);
+    let free = Ranges::default().free(FreeParameter::PositionDelay);
     assert_eq!(free.position_delay, 0..=2000);
     // What is written leaves what is said.
     let mut test = circular_test(4000.0);
-    test.lists = [x.list.clone(), y.list.clone()];
+    test.compensation = [x, y].map(|axis| axis.compensation.clone());
     let left = glitch(&figures(&test, Switched::On));
     within(left, row.glitch_on_um, 1e-9);
-    assert!(x.list.table.iter().all(|it| it.output.fract() == 0.0));
+    assert!(best.table.iter().all(|it| it.output.fract() == 0.0));
 }
 
 fn any_plant() -> impl Strategy<Value = Plant> {
@@ -503,7 +512,7 @@ proptest! {
         let test = CircularTest {
             circle: Circle { radius_mm: 10.0, feed_mm_per_min: 3000.0, cycle_time_s: 0.002 },
             model: models[model],
-            lists: [plant_list(&plant.x), plant_list(&plant.y)],
+            compensation: Method::of_plant(&plant),
             plant,
             reading: Reading::default(),
         };

@@ -4,11 +4,11 @@
 
 use frictcomp::circle::{
     Circle, CircleError, CircularTest, Comparison, Direction, FeedResult, Job, Ranges, Shaping,
-    Task, Tuned, tune,
+    Task, Tuned, TunedAxis, tune,
 };
 use frictcomp::current::{Reading, Switched};
 use frictcomp::host::{Watch, tune as tune_on_all_processors};
-use frictcomp::lists::{FrictionList, Points};
+use frictcomp::lists::Points;
 use frictcomp::simulation::{FrictionModel, Plant, Preset, plant_list};
 use frictcomp::text::SourceFile;
 
@@ -28,8 +28,8 @@ fn task(plant: Plant, feeds: &[f64]) -> Task {
     }
 }
 
-/// The largest glitch of a whole circle with lists.
-fn left(task: &Task, feed: f64, lists: &[FrictionList; 2]) -> f64 {
+/// The largest glitch of a whole circle with what was found for its axes.
+fn left(task: &Task, feed: f64, axes: &[TunedAxis; 2]) -> f64 {
     let test = CircularTest {
         circle: Circle {
             feed_mm_per_min: feed,
@@ -37,7 +37,7 @@ fn left(task: &Task, feed: f64, lists: &[FrictionList; 2]) -> f64 {
         },
         plant: task.plant.clone(),
         model: task.model,
-        lists: lists.clone(),
+        compensation: axes.each_ref().map(|axis| axis.compensation.clone()),
         reading: task.reading,
     };
     let job = Job {
@@ -49,8 +49,9 @@ fn left(task: &Task, feed: f64, lists: &[FrictionList; 2]) -> f64 {
     glitch.expect("a glitch")
 }
 
-fn lists(tuned: &Tuned) -> [FrictionList; 2] {
-    tuned.axes.each_ref().map(|axis| axis.list.clone())
+/// The output at standstill of a tuned list.
+fn first_output(axis: &TunedAxis) -> f64 {
+    axis.list().expect("a list").table[0].output
 }
 
 #[test]
@@ -61,12 +62,12 @@ fn axes_with_other_friction_get_lists_of_their_own() {
     let task = task(plant, &[9000.0]);
     let tuned = tune(&task).expect("a circle");
     let [x, y] = &tuned.axes;
-    assert!(y.list.table[0].output > 1.5 * x.list.table[0].output);
+    assert!(first_output(y) > 1.5 * first_output(x));
     let row = tuned.feeds[0];
     assert!(row.glitch_on_um < 0.2 * row.glitch_off_um, "{row:?}");
-    assert_eq!(left(&task, 9000.0, &lists(&tuned)), row.glitch_on_um);
+    assert_eq!(left(&task, 9000.0, &tuned.axes), row.glitch_on_um);
     // The list of X on both axes leaves more.
-    let both = [x.list.clone(), x.list.clone()];
+    let both = [x.clone(), x.clone()];
     assert!(left(&task, 9000.0, &both) > 2.0 * row.glitch_on_um);
 }
 
@@ -108,14 +109,8 @@ fn what_counts_is_the_acceleration() {
         glitch_friction_plus20_um: 0.0,
     };
     let drive = Preset::Stiff.plant().x;
-    let axis = frictcomp::circle::TunedAxis {
-        candidate: frictcomp::circle::Candidate {
-            position_delay: 9,
-            reversal_lookahead: 2,
-            delay_cycles: 1,
-            scaling_factor: 1000,
-        },
-        list: plant_list(&drive),
+    let axis = TunedAxis {
+        compensation: Some(plant_list(&drive).into()),
         is_shaped: false,
     };
     let tuned = Tuned {
@@ -150,12 +145,13 @@ fn lists_are_as_good_as_those_that_were_found_elsewhere() {
             tuned.feeds
         );
         let [x, _] = &tuned.axes;
-        assert!((0..=10).contains(&x.candidate.position_delay));
-        assert!(x.candidate.reversal_lookahead <= 4);
-        assert!((0..=248).contains(&x.candidate.delay_cycles));
-        assert!(x.list.table.len() <= 20);
+        let list = x.list().expect("a list");
+        assert!((0..=10).contains(&list.position_delay));
+        assert!(list.reversal_lookahead <= 4);
+        assert!((0..=248).contains(&list.delay_cycles));
+        assert!(list.table.len() <= 20);
         if preset == Preset::Stiff {
-            let fast = left(&task, 12_000.0, &lists(&tuned));
+            let fast = left(&task, 12_000.0, &tuned.axes);
             assert!(fast <= 2.3, "{fast}");
         }
     }

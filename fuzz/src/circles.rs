@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use frictcomp::circle::{Circle, CircleError, CircularTest, Comparison, Job, Lap, MIN_CYCLES};
+use frictcomp::circle::{Circle, CircleError, CircularTest, Comparison, Method, Job, Lap, MIN_CYCLES};
 use frictcomp::current::Reading;
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::simulation::{FrictionModel, Plant, STEP_S, plant_list};
@@ -19,7 +19,7 @@ pub fn check_circle(dice: &mut Dice<'_>) {
     circle.check().expect("a valid circle");
     let test = CircularTest {
         circle,
-        lists: [list(dice, plant_list(&plant.x)), plant_list(&plant.y)],
+        compensation: compensation(dice, &plant),
         model: [FrictionModel::Lugre, FrictionModel::Gms][dice.below(2)],
         plant,
         reading: Reading::default(),
@@ -66,6 +66,15 @@ fn circle(dice: &mut Dice<'_>) -> Circle {
         feed_mm_per_min,
         cycle_time_s,
     }
+}
+
+/// That of the plant, or value lists.
+fn compensation(dice: &mut Dice<'_>, plant: &Plant) -> [Option<Method>; 2] {
+    if dice.below(2) == 0 {
+        return Method::of_plant(plant);
+    }
+    let lists = [list(dice, plant_list(&plant.x)), plant_list(&plant.y)];
+    lists.map(|list| Some(list.into()))
 }
 
 fn list(dice: &mut Dice<'_>, mut list: FrictionList) -> FrictionList {

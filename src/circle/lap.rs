@@ -69,22 +69,21 @@ impl CircularTest {
         };
         let run_in = self.circle.cycles(PI) - 1;
         let mut turn = Gatherer::new(self.circle.radius_m(), WIDEST_GAP);
-        let axis = |axis, drive, list| AxisRun {
+        let axis = |axis, drive| AxisRun {
             axis,
             drive,
-            list: match job.compensation {
-                Switched::On => Some(list),
+            compensation: match job.compensation {
+                Switched::On => self.of(axis),
                 Switched::Off => None,
             },
         };
-        let [of_x, of_y] = &self.lists;
         let run = Run {
             circle: self.circle,
             model: self.model,
             reading: self.reading,
             axes: [
-                axis(PlaneAxis::X, &self.plant.x, of_x),
-                axis(PlaneAxis::Y, &self.plant.y, of_y),
+                axis(PlaneAxis::X, &self.plant.x),
+                axis(PlaneAxis::Y, &self.plant.y),
             ],
         };
         let remarks = run.simulate(stretch, |cycle, [x, y]| {

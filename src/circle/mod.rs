@@ -16,6 +16,7 @@ mod figures;
 mod glitch;
 mod lap;
 mod linear;
+mod method;
 mod profile;
 mod quiet;
 mod recorded;
@@ -34,6 +35,7 @@ pub use direction::Direction;
 pub use figures::{Figures, PathFigures, Paths};
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};
 pub use lap::{Job, Lap};
+pub use method::Method;
 pub use profile::{ANGLES, RadialProfile, UM_PER_M};
 pub use recorded::{
     CommandedCircle, LeftOut, MIN_POINTS, RecordedCircle, RecordedError, RecordedTrace, Recording,
@@ -41,6 +43,6 @@ pub use recorded::{
 pub use reference::{Circle, CircleError, MAX_STEPS, MIN_CYCLES, TURNS};
 pub use test::CircularTest;
 pub use tune::{
-    Candidate, FeedResult, Heights, Ranges, Shaping, Simulations, Task, Tuned, TunedAxis, tune,
-    tune_with,
+    Candidate, FeedResult, FreeParameter, Heights, Ranges, Shaping, Simulations, Task, Tuned,
+    TunedAxis, tune, tune_with,
 };

@@ -1,12 +1,14 @@
 //! The drives on the circle.
 
 use super::crossing::PlaneAxis;
+use super::method::Method;
 use super::reference::{Circle, CircleError, Stretch};
 use crate::current::{
     AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
 };
 use crate::lists::FrictionList;
 use crate::simulation::{Drive, DriveParameters, Drives, FrictionModel, Setpoint};
+use crate::stiction::StictionParameters;
 
 /// What a simulation has to say besides its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,14 +20,13 @@ pub(super) struct Remarks {
 /// Millimetres in a metre.
 const MM_PER_M: f64 = 1000.0;
 
-/// One axis of a simulation: another way of compensation than that of a value list has its place
-/// beside `list`.
+/// One axis of a simulation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AxisRun<'a> {
     pub(super) axis: PlaneAxis,
     pub(super) drive: &'a DriveParameters,
-    /// The value list, where friction compensation is on.
-    pub(super) list: Option<&'a FrictionList>,
+    /// What compensates friction, where that is on.
+    pub(super) compensation: Option<&'a Method>,
 }
 
 /// What is simulated, of `N` axes.
@@ -67,6 +68,15 @@ impl Additive {
     }
 }
 
+impl<'a> AxisRun<'a> {
+    /// Stiction compensation, where it acts at the feed of a circle (R8.2).
+    fn stiction_at(&self, circle: &Circle) -> Option<&'a StictionParameters> {
+        self.compensation?
+            .stiction()
+            .filter(|it| it.acts_at(circle.feed_mm_per_min / MM_PER_M))
+    }
+}
+
 impl<const N: usize> Run<'_, N> {
     /// Follows a stretch with the drives and hands out the number of the CNC cycle and the actual
     /// positions in m after every simulation step.
@@ -93,7 +103,8 @@ impl<const N: usize> Run<'_, N> {
                 .collect()
         };
         let mut added: [Additive; N] = std::array::from_fn(|axis| {
-            Additive::new(self.axes[axis].list, self.reading, velocity(axis))
+            let list = self.axes[axis].compensation.and_then(Method::list);
+            Additive::new(list, self.reading, velocity(axis))
         });
         // Before the drives begin the additive current has already seen the motion of the lead.
         let mut already = [0.0; N];
@@ -115,7 +126,8 @@ impl<const N: usize> Run<'_, N> {
             ..Setpoint::default()
         });
         let parameters = self.axes.map(|run| run.drive);
-        let mut drives = Drives::settled(parameters, self.model, settled, circle.cycle_time_s);
+        let mut drives = Drives::settled(parameters, self.model, settled, circle.cycle_time_s)
+            .with_stiction(self.axes.map(|run| run.stiction_at(circle)));
         for k in begin..cycles {
             to = at(k + 1);
             let cycle = std::array::from_fn(|axis| {

@@ -15,7 +15,7 @@ use super::machine::value_list;
 use super::outputs::{Outputs, write_text};
 use super::progress;
 use super::result::ResultArgs;
-use crate::circle::{Circle, CircularTest, CommandedCircle, PathCentre, PlaneAxis};
+use crate::circle::{Circle, CircularTest, CommandedCircle, Method, PathCentre, PlaneAxis};
 use crate::current::Reading;
 use crate::host::{
     CircleChannels, Ledger, compare, find_plant, memory_for_simulation, read_circles,
@@ -26,7 +26,7 @@ use crate::report::fitted;
 use crate::report::html::render_circle;
 use crate::report::pictures::circle;
 use crate::report::svg::Frame;
-use crate::simulation::{FrictionModel, plant_list};
+use crate::simulation::FrictionModel;
 use crate::trace::{ChannelSelection, Unit};
 
 /// Drive a circle with two simulated axes, with friction compensation off and on
@@ -50,8 +50,8 @@ pub(super) struct CircleArgs {
     /// The friction model
     #[arg(long, default_value = "lugre")]
     model: FrictionModel,
-    /// The compensation value list of both axes, or `X=LIST` and `Y=LIST`; by default the friction
-    /// curve of the plant
+    /// The compensation value list of both axes, or `X=LIST` and `Y=LIST`; by default the stiction
+    /// compensation of the plant if it has one, or else its friction curve
     #[arg(long, value_name = "LIST")]
     value_list: Vec<AxisList>,
     #[command(flatten)]
@@ -152,9 +152,12 @@ fn channels(args: &CircleArgs) -> CircleChannels {
 /// What is simulated, and where the value lists come from.
 fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListOrigin), Failure> {
     let plant = find_plant(&args.plant, ledger)?;
-    let (lists, origin) = match &args.value_list[..] {
-        [] => ([&plant.x, &plant.y].map(plant_list), ListOrigin::Plant),
-        given => given_lists(given, ledger)?,
+    let (compensation, origin) = match &args.value_list[..] {
+        [] => (Method::of_plant(&plant), ListOrigin::Plant),
+        given => {
+            let (lists, origin) = given_lists(given, ledger)?;
+            (lists.map(|list| Some(list.into())), origin)
+        }
     };
     let test = CircularTest {
         circle: Circle {
@@ -167,7 +170,7 @@ fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListO
         },
         plant,
         model: args.model,
-        lists,
+        compensation,
         reading: args.reading,
     };
     Ok((test, origin))

@@ -16,7 +16,7 @@ use crate::host::{Ledger, OutputFile, read_axis};
 use crate::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, Track, Wanted, identify, identify_circles,
 };
-use crate::lists::{FrictionList, Points, write_value_list};
+use crate::lists::{FrictionList, ListHead, Points, write_value_list};
 use crate::report::html::render_identification;
 use crate::report::identify::{IdentifyReport, render_json, render_text};
 use crate::report::on_circles::{self, OnCirclesReport};
@@ -230,7 +230,14 @@ impl Made<'_> {
         if points == Points::Real {
             remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
         }
-        write_value_list(list, points, &remarks)
+        // `--axis` takes a name or a number.
+        let number = self.axis.and_then(|axis| axis.parse().ok());
+        let head = ListHead {
+            remarks: &remarks,
+            number,
+            name: self.axis.filter(|_| number.is_none()),
+        };
+        write_value_list(list, points, &head)
     }
 }
 

@@ -12,12 +12,15 @@ use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::progress;
 use super::result::Format;
-use crate::circle::{Circle, FeedResult, PlaneAxis, Ranges, Shaping, Task, TunedAxis};
+use crate::circle::{
+    Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task, TunedAxis,
+};
 use crate::comp::CncBuild;
 use crate::current::Reading;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::host::{Ledger, OutputFile, find_plant, memory_for_simulation, tune};
-use crate::lists::{AxisType, Field, Points, write_value_list};
+use crate::lists::{AxisType, ListHead, Points, write_value_list};
+use crate::machine::Axis;
 use crate::report::pictures::tuning;
 use crate::report::svg::Frame;
 use crate::report::tune::{TuneReport, render_json, render_text, round, tuned_range};
@@ -35,7 +38,8 @@ const MAX_PLANTS: usize = 16;
 ///
 /// Searches `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` within
 /// their documented ranges for the smallest worst glitch over all circles, then shapes the points
-/// of the friction curve below 1 mm/s where that is worth it.
+/// of the friction curve below 1 mm/s where that is worth it. On a plant with `[stiction]` it
+/// searches MP1511 and MP1512.
 #[derive(Debug, Args)]
 pub(super) struct TuneArgs {
     /// The machine: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one after the other
@@ -118,6 +122,12 @@ enum Free {
     /// Up to 50 cycles.
     #[value(name = "reversal_lookahead", alias = "reversal-lookahead")]
     ReversalLookahead,
+    /// From 0 to 100 000 µs.
+    #[value(name = "mp1511")]
+    Mp1511,
+    /// Up to 1000 counting steps.
+    #[value(name = "mp1512")]
+    Mp1512,
 }
 
 /// Runs the command.
@@ -129,6 +139,16 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         return Err(Failure::new(message).with_help(format!("give at most {MAX_PLANTS}")));
     }
     let ledger = Ledger::default();
+    let plants: Vec<Plant> = args
+        .plant
+        .iter()
+        .map(|name| find_plant(name, &ledger))
+        .collect::<Result<_, _>>()?;
+    if let Some(first) = plants.first()
+        && (args.output.is_some() || args.output_dir.is_some())
+    {
+        check_list(first)?;
+    }
     let mut outputs = Outputs::new(&ledger, console);
     outputs.print("the result")?;
     let list = outputs.optional("--output", args.output.as_deref())?;
@@ -137,11 +157,6 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
         None => Vec::new(),
     };
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
-    let plants: Vec<Plant> = args
-        .plant
-        .iter()
-        .map(|name| find_plant(name, &ledger))
-        .collect::<Result<_, _>>()?;
     outputs.check()?;
     let model = args.model;
     let watch = progress::watch();
@@ -170,14 +185,19 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     }
     if let Some(first) = reports.first() {
         let [x, y] = &first.tuned.axes;
-        if let Some(mut list) = list {
-            write_text(&mut list, &value_list(first, x, args.cnc_build))?;
+        let lists = Lists {
+            report: first,
+            build: args.cnc_build,
+        };
+        if let Some(mut file) = list {
+            write_text(&mut file, &lists.of(x, &ListHead::default()))?;
             if x != y {
                 console.remark("Y has a list of its own: `--output-dir` writes both");
             }
         }
-        for (mut list, axis) in axis_lists.into_iter().zip([x, y]) {
-            write_text(&mut list, &value_list(first, axis, args.cnc_build))?;
+        for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
+            let text = lists.of(axis, &of_axis.head());
+            write_text(&mut of_axis.file, &text)?;
         }
     }
     for report in &reports {
@@ -194,30 +214,76 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// A tuned value list of a plant, written for a build.
-fn value_list(report: &TuneReport, axis: &TunedAxis, build: Option<CncBuild>) -> String {
-    let points = Points::of_build(build);
-    let made = format!(
-        "Friction compensation for the plant {}, tuned with the model {}",
-        visible_line(&report.plant),
-        report.model
+/// Stiction compensation has no value list that could be written.
+fn check_list(plant: &Plant) -> Result<(), Failure> {
+    if [&plant.x, &plant.y].iter().all(|it| it.stiction.is_none()) {
+        return Ok(());
+    }
+    let message = format!(
+        "the plant `{}` compensates stiction, which has no value list",
+        visible_line(&plant.name)
     );
-    let range = tuned_range(&report.tuned);
-    let [x, y] = &report.tuned.axes;
-    let whose = match axis {
-        both if x == y && both == x => "both axes",
-        one if one == x => "its X axis",
-        _ => "its Y axis",
-    };
-    let table = format!("The table is the friction curve of {whose}");
-    let mut remarks = vec![made.as_str(), range.as_str(), table.as_str()];
-    if axis.is_shaped {
-        remarks.push("Below 1 mm/s it is shaped for the reversals");
+    let help =
+        "enter MP1511 and MP1512 of the report in the control and in `[stiction]` of the plant";
+    Err(Failure::new(message).with_help(help))
+}
+
+/// The tuned value lists of a plant, written for a build.
+struct Lists<'a> {
+    report: &'a TuneReport,
+    build: Option<CncBuild>,
+}
+
+impl Lists<'_> {
+    /// The list of an axis; nothing where it has none.
+    fn of(&self, axis: &TunedAxis, head: &ListHead<'_>) -> String {
+        let Some(list) = axis.list() else {
+            return String::new();
+        };
+        let points = Points::of_build(self.build);
+        let made = format!(
+            "Friction compensation for the plant {}, tuned with the model {}",
+            visible_line(&self.report.plant),
+            self.report.model
+        );
+        let range = tuned_range(&self.report.tuned);
+        let [x, y] = &self.report.tuned.axes;
+        let whose = match axis {
+            both if x == y && both == x => "both axes",
+            one if one == x => "its X axis",
+            _ => "its Y axis",
+        };
+        let table = format!("The table is the friction curve of {whose}");
+        let mut remarks = vec![made.as_str(), range.as_str(), table.as_str()];
+        if axis.is_shaped {
+            remarks.push("Below 1 mm/s it is shaped for the reversals");
+        }
+        if points == Points::Real {
+            remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
+        }
+        let head = ListHead {
+            remarks: &remarks,
+            ..*head
+        };
+        write_value_list(list, points, &head)
     }
-    if points == Points::Real {
-        remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
+}
+
+/// The file of the list of an axis, and whose it is.
+struct AxisFile {
+    file: OutputFile,
+    name: String,
+    number: Option<u32>,
+}
+
+impl AxisFile {
+    fn head(&self) -> ListHead<'_> {
+        ListHead {
+            number: self.number,
+            name: Some(&self.name),
+            ..ListHead::default()
+        }
     }
-    write_value_list(&axis.list, points, &remarks)
 }
 
 /// The files of the lists of X and Y, named after the first two linear axes of the machine, if they
@@ -227,7 +293,7 @@ fn axis_lists(
     args: &TuneArgs,
     outputs: &mut Outputs,
     ledger: &Ledger,
-) -> Result<Vec<OutputFile>, Failure> {
+) -> Result<Vec<AxisFile>, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
         Failure::new(format!(
             "the folder `{}` cannot be made: {error}",
@@ -235,21 +301,25 @@ fn axis_lists(
         ))
     })?;
     let loaded = args.machine.machines(ledger).for_folder(Path::new("."))?;
-    let linear = loaded.machine.axes.iter();
-    let linear = linear.filter(|axis| axis.axis_type == AxisType::Linear);
-    let names: Vec<&str> = linear.map(|axis| axis.name.as_str()).collect();
-    let of = |axis: PlaneAxis, at: usize| {
-        let same = names
-            .iter()
-            .find(|name| name.eq_ignore_ascii_case(axis.as_str()));
-        let name = same.or(names.get(at)).copied().unwrap_or(axis.as_str());
-        format!("{name}.lis")
-    };
-    let files = [of(PlaneAxis::X, 0), of(PlaneAxis::Y, 1)];
-    let files = files
+    let linear: Vec<&Axis> = loaded
+        .machine
+        .axes
         .iter()
-        .map(|file| outputs.file("--output-dir", &folder.join(file)));
-    files.collect()
+        .filter(|axis| axis.axis_type == AxisType::Linear)
+        .collect();
+    let of = |(at, axis): (usize, PlaneAxis)| {
+        let same = linear
+            .iter()
+            .find(|it| it.name.eq_ignore_ascii_case(axis.as_str()));
+        let found = same.or(linear.get(at));
+        let name = found.map_or(axis.as_str(), |axis| &axis.name);
+        Ok(AxisFile {
+            file: outputs.file("--output-dir", &folder.join(format!("{name}.lis")))?,
+            name: name.to_owned(),
+            number: found.and_then(|axis| axis.number),
+        })
+    };
+    PlaneAxis::ALL.into_iter().enumerate().map(of).collect()
 }
 
 /// FC506 for each circle on which compensation is worse than none (R5.25).
@@ -312,8 +382,10 @@ fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {
 fn ranges(free: &[Free]) -> Ranges {
     free.iter().fold(Ranges::default(), |ranges, free| {
         ranges.free(match free {
-            Free::PositionDelay => Field::PositionDelay,
-            Free::ReversalLookahead => Field::ReversalLookahead,
+            Free::PositionDelay => FreeParameter::PositionDelay,
+            Free::ReversalLookahead => FreeParameter::ReversalLookahead,
+            Free::Mp1511 => FreeParameter::Mp1511,
+            Free::Mp1512 => FreeParameter::Mp1512,
         })
     })
 }

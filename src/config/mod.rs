@@ -14,5 +14,5 @@ pub(crate) use axis::AxisTable;
 pub use error::ConfigError;
 pub(crate) use file::{ConfigFile, Variable};
 pub(crate) use machine::MachineTable;
-pub(crate) use plant::{DriveTable, PlantFile};
-pub(crate) use plant_keys::Quantity;
+pub(crate) use plant::{DriveTable, PlantFile, StictionTable};
+pub(crate) use plant_keys::{Quantity, StictionKey};

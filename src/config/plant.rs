@@ -5,7 +5,7 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use super::error::ConfigError;
-use super::plant_keys::{self as keys, Facts, Quantity};
+use super::plant_keys::{self as keys, Facts, Quantity, StictionKey};
 use super::section::{Section, Shape};
 use crate::diagnostic::Advice;
 use crate::lists::{Given, Number, Written};
@@ -32,7 +32,15 @@ pub(crate) struct DriveTable {
     pub(crate) attraction: Option<f64>,
     /// The share and the stiffness in N/m of each element of the Maxwell-slip model.
     pub(crate) elements: Option<Vec<[f64; 2]>>,
+    /// Stiction compensation.
+    pub(crate) stiction: Option<StictionTable>,
     whole: Given<()>,
+}
+
+/// The values of a table `[stiction]`, each within its range.
+#[derive(Debug, Clone)]
+pub(crate) struct StictionTable {
+    numbers: Vec<(StictionKey, Given<f64>)>,
 }
 
 /// The whole file.
@@ -45,6 +53,12 @@ const PLANT: Shape = Shape {
 const AXIS: Shape = Shape {
     name: "[x] and [y]",
     keys: Some(&keys::AXIS_KEYS),
+};
+
+/// The tables `[stiction]`, `[x.stiction]` and `[y.stiction]`.
+const STICTION: Shape = Shape {
+    name: "[stiction]",
+    keys: Some(&keys::STICTION_KEYS),
 };
 
 /// Elements of the Maxwell-slip model at most.
@@ -80,16 +94,22 @@ impl DriveTable {
     fn read(table: &Section<'_>) -> Result<Self, ConfigError> {
         let mut numbers = Vec::new();
         for quantity in Quantity::ALL {
-            let Facts { key, .. } = quantity.facts();
-            if let Some(place) = table.given(key) {
-                let number = checked(quantity, &place, table.number(key))?;
-                numbers.push((quantity, place.with(number)));
+            let help = match quantity {
+                Quantity::Backlash => "backlash is the width of the dead zone, 0 without one",
+                _ => "all values are in SI units: kg, N, m, s",
+            };
+            if let Some(number) = number(table, &quantity.facts(), help)? {
+                numbers.push((quantity, number));
             }
         }
         let read = Self {
             numbers,
             attraction: table.positive(keys::ATTRACTION)?,
             elements: elements(table)?,
+            stiction: match table.table(keys::STICTION, &STICTION)? {
+                Some(table) => Some(StictionTable::read(&table)?),
+                None => None,
+            },
             whole: table.whole(),
         };
         let either = [Quantity::RatedForce, Quantity::ForcePerUnit];
@@ -130,23 +150,47 @@ impl DriveTable {
     }
 }
 
-/// A number within its range.
-fn checked(
-    quantity: Quantity,
-    place: &Given<()>,
-    written: Option<Given<Written>>,
-) -> Result<f64, ConfigError> {
-    let Facts { key, unit, range } = quantity.facts();
+impl StictionTable {
+    fn read(table: &Section<'_>) -> Result<Self, ConfigError> {
+        let mut numbers = Vec::new();
+        for key in StictionKey::ALL {
+            let help = "the units are those of the manual: µs, counting steps, µm, m/min";
+            if let Some(number) = number(table, &key.facts(), help)? {
+                numbers.push((key, number));
+            }
+        }
+        Ok(Self { numbers })
+    }
+
+    /// The numbers of the table with their places.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = (StictionKey, &Given<f64>)> {
+        self.numbers.iter().map(|(key, given)| (*key, given))
+    }
+}
+
+/// The number of a key within its range; `None` without the key.
+fn number(
+    table: &Section<'_>,
+    facts: &Facts,
+    help: &'static str,
+) -> Result<Option<Given<f64>>, ConfigError> {
+    let Facts { key, unit, range } = *facts;
+    let Some(place) = table.given(key) else {
+        return Ok(None);
+    };
     let [least, most] = range;
-    let Some(number) = written.and_then(|given| value(&given)) else {
+    let Some(number) = table.number(key).and_then(|given| value(&given)) else {
         let unit = match unit {
             "" => String::new(),
             unit => format!(" in {unit}"),
         };
-        return Err(ConfigError::at(place, format!("`{key}` is a number{unit}")));
+        return Err(ConfigError::at(
+            &place,
+            format!("`{key}` is a number{unit}"),
+        ));
     };
     if (least..=most).contains(&number) {
-        return Ok(number);
+        return Ok(Some(place.with(number)));
     }
     let shown = if number.abs() < 1e15 {
         number.to_string()
@@ -158,11 +202,7 @@ fn checked(
         unit => format!(" {unit}"),
     };
     let message = format!("`{key}` is {shown}{unit}; it must be between {least} and {most}");
-    let help = match quantity {
-        Quantity::Backlash => "backlash is the width of the dead zone, 0 without one",
-        _ => "all values are in SI units: kg, N, m, s",
-    };
-    Err(ConfigError::at(place, message).with_help(help))
+    Err(ConfigError::at(&place, message).with_help(help))
 }
 
 fn value(given: &Given<Written>) -> Option<f64> {

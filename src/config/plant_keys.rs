@@ -29,12 +29,27 @@ pub(crate) enum Quantity {
     Backlash,
 }
 
+/// A key of `[stiction]`, whose value is one number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StictionKey {
+    /// MP1511, the factor.
+    Factor,
+    /// MP1512, the limit in counting steps.
+    Limit,
+    /// The grating period of the encoder.
+    GratingPeriod,
+    /// The control loop cycle.
+    Cycle,
+    /// MP1513, the feed up to which it acts.
+    Feed,
+}
+
 /// What is to be known about a key.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Facts {
     /// The symbol of the equations.
     pub(super) key: &'static str,
-    /// Its SI unit; empty where it has none.
+    /// Its unit, empty where it has none; except in `[stiction]` and for backlash those of SI.
     pub(super) unit: &'static str,
     /// The smallest and the largest value that are accepted. The ranges are wide; they are there
     /// against wrong units and against values that the step of the simulation could not follow.
@@ -90,10 +105,35 @@ impl Quantity {
     }
 }
 
+impl StictionKey {
+    pub(super) const ALL: [Self; 5] = [
+        Self::Factor,
+        Self::Limit,
+        Self::GratingPeriod,
+        Self::Cycle,
+        Self::Feed,
+    ];
+
+    /// The units are those of the manual; only MP1511 has a documented range (R8.3).
+    pub(super) const fn facts(self) -> Facts {
+        let (key, unit, range) = match self {
+            Self::Factor => ("mp1511", "µs", [0.0, 16_777_215.0]),
+            Self::Limit => ("mp1512", "counting steps", [0.0, 1e6]),
+            Self::GratingPeriod => ("gp", "µm", [1e-3, 1e4]),
+            Self::Cycle => ("tc", "µs", [250.0, 1e5]),
+            Self::Feed => ("mp1513", "m/min", [0.0, 1000.0]),
+        };
+        Facts { key, unit, range }
+    }
+}
+
 /// The elements of the Maxwell-slip model.
 pub(super) const ELEMENTS: &str = "gms";
 /// How fast those that slip follow the friction.
 pub(super) const ATTRACTION: &str = "gms_C";
+
+/// The table of stiction compensation.
+pub(super) const STICTION: &str = "stiction";
 
 /// What the plant is called in reports.
 pub(super) const NAME: &str = "name";
@@ -102,7 +142,7 @@ pub(super) const BASE: &str = "base";
 /// The table of each axis.
 pub(super) const AXES: [&str; 2] = ["x", "y"];
 
-const COUNT: usize = Quantity::ALL.len() + 2;
+const COUNT: usize = Quantity::ALL.len() + 3;
 
 /// The keys of `[x]` and `[y]`.
 pub(super) const AXIS_KEYS: [&str; COUNT] = {
@@ -112,8 +152,20 @@ pub(super) const AXIS_KEYS: [&str; COUNT] = {
         keys[at] = Quantity::ALL[at].facts().key;
         at += 1;
     }
-    keys[COUNT - 2] = ELEMENTS;
-    keys[COUNT - 1] = ATTRACTION;
+    keys[COUNT - 3] = ELEMENTS;
+    keys[COUNT - 2] = ATTRACTION;
+    keys[COUNT - 1] = STICTION;
+    keys
+};
+
+/// The keys of `[stiction]`.
+pub(super) const STICTION_KEYS: [&str; StictionKey::ALL.len()] = {
+    let mut keys = [""; StictionKey::ALL.len()];
+    let mut at = 0;
+    while at < keys.len() {
+        keys[at] = StictionKey::ALL[at].facts().key;
+        at += 1;
+    }
     keys
 };
 

@@ -25,4 +25,4 @@ pub use single::{NoValues, ReadList};
 pub use startup::{ChannelAxis, ChannelList, ListKind, NamedList, StartupList};
 pub use table::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
 pub use value::{Given, Number, Written};
-pub use write::{Points, write_value_list};
+pub use write::{ListHead, Points, write_value_list};

@@ -59,7 +59,7 @@ impl FrictionList {
 #[cfg(test)]
 mod tests {
     use super::super::table::TablePoint;
-    use super::super::write::{Points, write_value_list};
+    use super::super::write::{ListHead, Points, write_value_list};
     use super::*;
 
     #[test]
@@ -74,7 +74,7 @@ mod tests {
             max_points: 20,
             table: vec![point(0.0, 126.0), point(3000.0, 112.0)],
         };
-        let text = write_value_list(&list, Points::Whole, &[]);
+        let text = write_value_list(&list, Points::Whole, &ListHead::default());
         assert_eq!(read(&text).map(|read| read.list), Ok(list));
         let reason = |text: &str| read(text).map_err(|refused| refused.reason);
         assert_eq!(

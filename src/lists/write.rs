@@ -59,11 +59,22 @@ impl Points {
     }
 }
 
-/// A value list as the control reads it, switched on, with remarks of a line each above it.
-/// Reading it back gives the same list, but for the decimals of its points.
+/// What stands above the values of a list.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ListHead<'a> {
+    /// Remarks of a line each.
+    pub remarks: &'a [&'a str],
+    /// The logical number of the axis, P-COMP-00001 (`kopf.achs_nr`).
+    pub number: Option<u32>,
+    /// Its name, P-COMP-00002 (`kopf.log_achs_name`); left out if it is no plain word.
+    pub name: Option<&'a str>,
+}
+
+/// A value list as the control reads it, switched on, below its head. Reading it back gives the
+/// same list, but for the decimals of its points.
 ///
 /// ```
-/// use frictcomp::lists::{FrictionList, Points, TablePoint, write_value_list};
+/// use frictcomp::lists::{FrictionList, ListHead, Points, TablePoint, write_value_list};
 ///
 /// let list = FrictionList {
 ///     position_delay: 9,
@@ -73,19 +84,30 @@ impl Points {
 ///     max_points: 20,
 ///     table: vec![TablePoint { input: 0.0, output: 103.3 }],
 /// };
-/// let text = write_value_list(&list, Points::Whole, &["X, measured in May"]);
-/// assert!(text.starts_with("# X, measured in May\n"));
+/// let head = ListHead { remarks: &["measured in May"], name: Some("X"), ..ListHead::default() };
+/// let text = write_value_list(&list, Points::Whole, &head);
+/// assert!(text.starts_with("# measured in May\nkopf.log_achs_name              X\n"));
 /// assert!(text.contains("frict_comp.table[0].out         103\n"));
 /// ```
-pub fn write_value_list(list: &FrictionList, points: Points, remarks: &[&str]) -> String {
+pub fn write_value_list(list: &FrictionList, points: Points, head: &ListHead<'_>) -> String {
     let mut out = String::new();
-    for remark in remarks {
+    for remark in head.remarks {
         let _ = writeln!(out, "# {}", remark.replace(char::is_control, " "));
     }
-    let mut line = |key: &str, value: &dyn Display| {
-        let key = format!("{STRUCTURE}{key}");
+    let mut entry = |key: &str, value: &dyn Display| {
         let _ = writeln!(out, "{key:<31} {value}");
     };
+    if let Some(number) = head.number {
+        entry("kopf.achs_nr", &number);
+    }
+    let is_plain = |name: &&str| {
+        let mut letters = name.chars();
+        !name.is_empty() && letters.all(|it| it.is_ascii_alphanumeric() || it == '_')
+    };
+    if let Some(name) = head.name.filter(is_plain) {
+        entry("kopf.log_achs_name", &name);
+    }
+    let mut line = |key: &str, value: &dyn Display| entry(&format!("{STRUCTURE}{key}"), value);
     let table = points.rounded(&list.table);
     for field in Field::ALL {
         let value: &dyn Display = match field {

@@ -4,10 +4,12 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::circle::stiction_line;
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::circle::{Candidate, FeedResult, Tuned, TunedAxis};
-use crate::lists::TablePoint;
+use crate::circle::{Candidate, FeedResult, Method, Tuned, TunedAxis};
+use crate::lists::{FrictionList, TablePoint};
+use crate::stiction::StictionParameters;
 
 /// A tuned plant.
 #[derive(Debug, Clone)]
@@ -42,10 +44,15 @@ pub fn render_text(reports: &[TuneReport]) -> String {
         }
         let _ = writeln!(
             out,
-            "plant {}, friction {}, {} lists tried\nreading: {}",
+            "plant {}, friction {}, {} {} tried\nreading: {}",
             visible_line(&report.plant),
             report.model,
             report.tuned.trials,
+            if report.tuned.is_stiction() {
+                "sets of parameters"
+            } else {
+                "lists"
+            },
             report.reading
         );
         let [x, y] = &report.tuned.axes;
@@ -93,22 +100,24 @@ fn short(value: f64) -> f64 {
 }
 
 fn parameters(out: &mut String, axis: &str, tuned: &TunedAxis) {
-    let Candidate {
-        position_delay,
-        reversal_lookahead,
-        delay_cycles,
-        scaling_factor,
-    } = tuned.candidate;
+    let line = match &tuned.compensation {
+        Some(Method::Current(list)) => list_line(list, tuned),
+        Some(Method::Stiction(stiction)) => stiction_line(stiction),
+        None => "no compensation".to_owned(),
+    };
+    let _ = writeln!(out, "{axis}{line}");
+}
+
+fn list_line(list: &FrictionList, tuned: &TunedAxis) -> String {
     let table = if tuned.is_shaped {
         "shaped below 1 mm/s"
     } else {
         "the friction curve"
     };
-    let _ = writeln!(
-        out,
-        "{axis}position_delay {position_delay}, reversal_lookahead {reversal_lookahead}, \
-         delay_cycles {delay_cycles}, scaling_factor {scaling_factor}, table: {table}"
-    );
+    format!(
+        "position_delay {}, reversal_lookahead {}, delay_cycles {}, scaling_factor {}, table: {table}",
+        list.position_delay, list.reversal_lookahead, list.delay_cycles, list.scaling_factor
+    )
 }
 
 #[derive(Serialize)]
@@ -127,7 +136,7 @@ struct PlantRecord<'a> {
     reading: &'a str,
     trials: usize,
     /// Those of X.
-    parameters: Candidate,
+    parameters: Option<Parameters>,
     axes: AxisRecords,
     tuned_for: Accelerations,
     feeds: Vec<FeedResult>,
@@ -145,10 +154,29 @@ struct AxisRecords {
 
 #[derive(Serialize)]
 struct AxisRecord {
-    parameters: Candidate,
+    /// `null` for an axis that nothing compensates.
+    parameters: Option<Parameters>,
     is_shaped: bool,
-    /// Pairs of velocity and output.
-    table: Vec<[f64; 2]>,
+    /// Pairs of velocity and output; absent where there is no value list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table: Option<Vec<[f64; 2]>>,
+}
+
+/// Those of a value list, or of stiction compensation.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Parameters {
+    List(Candidate),
+    Stiction(StictionParameters),
+}
+
+impl Parameters {
+    fn of(axis: &TunedAxis) -> Option<Self> {
+        Some(match axis.compensation.as_ref()? {
+            Method::Current(list) => Self::List(Candidate::of(list)),
+            Method::Stiction(stiction) => Self::Stiction(*stiction),
+        })
+    }
 }
 
 /// The range of v²/R in mm/s².
@@ -162,9 +190,11 @@ impl AxisRecord {
     fn of(axis: &TunedAxis) -> Self {
         let pair = |point: &TablePoint| [point.input, point.output];
         Self {
-            parameters: axis.candidate,
+            parameters: Parameters::of(axis),
             is_shaped: axis.is_shaped,
-            table: axis.list.table.iter().map(pair).collect(),
+            table: axis
+                .list()
+                .map(|list| list.table.iter().map(pair).collect()),
         }
     }
 }
@@ -187,7 +217,7 @@ impl<'a> PlantRecord<'a> {
             model: report.model,
             reading: &report.reading,
             trials: report.tuned.trials,
-            parameters: x.candidate,
+            parameters: Parameters::of(x),
             axes: AxisRecords {
                 x: AxisRecord::of(x),
                 y: AxisRecord::of(y),

@@ -4,6 +4,8 @@ use super::clock::{SPEED_LOOP_S, STEP_S};
 use super::coupling::Coupling;
 use super::friction::{Contact, FrictionModel, Push};
 use super::parameters::DriveParameters;
+use super::stiction::Stiction;
+use crate::stiction::StictionParameters;
 
 /// What the fine interpolation asks of a drive in a cycle of the position loop.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,6 +26,8 @@ pub struct Drive {
     parameters: DriveParameters,
     contact: Contact,
     coupling: Coupling,
+    /// Stiction compensation, where it acts.
+    stiction: Option<Stiction>,
     /// Position of the motor in m; the position loop measures it.
     position: f64,
     /// Velocity in m/s.
@@ -63,6 +67,7 @@ impl Drive {
                 setpoint.position_m,
                 setpoint.velocity_m_per_s,
             ),
+            stiction: None,
             position: setpoint.position_m,
             velocity: setpoint.velocity_m_per_s,
             force,
@@ -78,6 +83,15 @@ impl Drive {
             saturated: 0,
             parameters: parameters.clone(),
         }
+    }
+
+    /// The drive with stiction compensation, which acts only with velocity feed forward (R8.2).
+    #[must_use]
+    pub fn with_stiction(mut self, parameters: &StictionParameters) -> Self {
+        let drive = &self.parameters;
+        self.stiction = (drive.velocity_forward > 0.0)
+            .then(|| Stiction::new(parameters, drive.position_gain_per_s, 0.0));
+        self
     }
 
     /// Position of the motor; that of the load differs by at most half of the backlash.
@@ -100,13 +114,18 @@ impl Drive {
         self.saturated
     }
 
-    /// Begins a cycle of the position loop: the velocity `Kv·(x_set - x) + k_ff·v_set` is asked of
-    /// the speed loop, the force `k_a·m·a_set + k_I·I_added` is added to what it gives.
+    /// Begins a cycle of the position loop: the velocity `Kv·(x_set - x) + k_ff·v_set`, and what
+    /// stiction compensation adds, is asked of the speed loop; the force `k_a·m·a_set + k_I·I_added`
+    /// is added to what it gives.
     #[inline]
     pub fn follow(&mut self, setpoint: Setpoint) {
         let drive = &self.parameters;
-        self.target = drive.position_gain_per_s * (setpoint.position_m - self.position)
-            + drive.velocity_forward * setpoint.velocity_m_per_s;
+        let lag = setpoint.position_m - self.position;
+        self.target =
+            drive.position_gain_per_s * lag + drive.velocity_forward * setpoint.velocity_m_per_s;
+        if let Some(stiction) = &mut self.stiction {
+            self.target += stiction.added(lag);
+        }
         self.forward = drive.acceleration_forward * drive.mass_kg * setpoint.acceleration_m_per_s2
             + drive.force_per_unit_n * setpoint.added_units;
     }

@@ -4,6 +4,7 @@ use super::clock::{POSITION_LOOP_S, SPEED_LOOPS_PER_POSITION_LOOP, STEPS_PER_SPE
 use super::drive::{Drive, Setpoint};
 use super::friction::FrictionModel;
 use super::parameters::DriveParameters;
+use crate::stiction::StictionParameters;
 
 /// `N` drives that move together.
 #[derive(Debug, Clone)]
@@ -31,6 +32,17 @@ impl<const N: usize> Drives<N> {
             ticks,
             tick_s: cycle_s / f64::from(ticks),
         }
+    }
+
+    /// The drives with stiction compensation, those that have it.
+    #[must_use]
+    pub fn with_stiction(mut self, parameters: [Option<&StictionParameters>; N]) -> Self {
+        for (drive, parameters) in self.axes.iter_mut().zip(parameters) {
+            if let Some(parameters) = parameters {
+                *drive = drive.clone().with_stiction(parameters);
+            }
+        }
+        self
     }
 
     /// One CNC cycle from its setpoints on, which the fine interpolation continues linearly. `take`

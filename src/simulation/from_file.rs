@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use super::clock::STEP_S;
+use super::clock::{POSITION_LOOP_S, STEP_S};
 use super::friction::GmsElement;
 use super::parameters::DriveParameters;
 use super::plant::{Plant, Preset, UnknownPreset};
-use crate::config::{ConfigError, DriveTable, PlantFile, Quantity};
+use crate::config::{ConfigError, DriveTable, PlantFile, Quantity, StictionKey, StictionTable};
 use crate::diagnostic::Advice;
 use crate::lists::Given;
+use crate::stiction::StictionParameters;
 use crate::text::SourceFile;
 
 impl Plant {
@@ -80,8 +81,39 @@ fn overridden(drive: &DriveParameters, table: &DriveTable) -> Result<DriveParame
         };
         drive.friction.elements = elements.iter().map(element).collect();
     }
+    if let Some(stiction) = &table.stiction {
+        drive.stiction = Some(compensated(drive.stiction.unwrap_or_default(), stiction)?);
+    }
     check(&drive, table)?;
     Ok(drive)
+}
+
+/// Stiction compensation with the values of a table in place of those that it had.
+fn compensated(
+    mut parameters: StictionParameters,
+    table: &StictionTable,
+) -> Result<StictionParameters, ConfigError> {
+    for (key, given) in table.numbers() {
+        let number = given.value;
+        match key {
+            StictionKey::Factor => parameters.mp1511_us = number,
+            StictionKey::Limit => parameters.mp1512 = number,
+            StictionKey::GratingPeriod => parameters.gp_um = number,
+            StictionKey::Feed => parameters.mp1513_m_per_min = Some(number),
+            StictionKey::Cycle => {
+                parameters.tc_us = number;
+                let cycles = number * 1e-6 / POSITION_LOOP_S;
+                if (cycles - cycles.round()).abs() > 1e-6 {
+                    let message = format!(
+                        "`tc` is {number} µs; it must be a multiple of 250 µs, the cycle of the \
+                         position loop"
+                    );
+                    return Err(ConfigError::at(given, message));
+                }
+            }
+        }
+    }
+    Ok(parameters)
 }
 
 /// The parameter that a number is; `None` where others follow from it or it has another unit.

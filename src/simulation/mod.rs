@@ -16,6 +16,7 @@ mod from_file;
 mod parameters;
 mod plant;
 mod plant_list;
+mod stiction;
 
 pub use clock::{POSITION_LOOP_S, SPEED_LOOP_S, STEP_S};
 pub use drive::{Drive, Setpoint};

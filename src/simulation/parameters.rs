@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::friction::{Friction, GmsElement};
+use crate::stiction::StictionParameters;
 
 /// The rated force of the default axis; the rules leave it open.
 pub const RATED_FORCE_N: f64 = 5000.0;
@@ -49,6 +50,8 @@ pub struct DriveParameters {
     pub backlash_m: f64,
     /// The friction of the guideway.
     pub friction: Friction,
+    /// Stiction compensation by the control, where it has that (R8.6).
+    pub stiction: Option<StictionParameters>,
 }
 
 /// What a plant file changes.
@@ -105,6 +108,7 @@ impl DriveParameters {
                 elements: elements(stiffness),
                 attraction_n_per_s: 1e6,
             },
+            stiction: None,
         }
     }
 }

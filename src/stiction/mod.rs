@@ -2,12 +2,17 @@
 //! parameters MP1511 to MP1513, solved for any of their terms.
 //!
 //! The control adds to the commanded feed what the servo lag changed over one control loop cycle, times
-//! a factor. [`solve`] takes the quantities that are known and computes those that follow.
+//! a factor. [`solve`] takes the quantities that are known and computes those that follow;
+//! [`StictionParameters`] is what a simulated drive needs of them.
 
 mod formula;
+mod guideline;
+mod parameters;
 mod quantity;
 mod solve;
 
 pub use formula::{FORMULAS, Formula};
+pub use guideline::{Guideline, MP1511_GUIDELINE_US, MP1511_RANGE_US, MP1512_GUIDELINE};
+pub use parameters::StictionParameters;
 pub use quantity::{Quantity, UnitError};
-pub use solve::{Effect, Guideline, Solution, Solved, StictionError, solve};
+pub use solve::{Effect, Solution, Solved, StictionError, solve};

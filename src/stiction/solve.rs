@@ -6,19 +6,11 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::formula::{FORMULAS, Formula};
+use super::guideline::{Guideline, MP1511_RANGE_US, not_kept};
 use super::quantity::Quantity;
 
 /// Values that a formula gives and that are given may differ by so much of them.
 const TOLERANCE: f64 = 1e-6;
-
-/// MP1511 as the control takes it, in µs (R8.3).
-const MP1511_RANGE: std::ops::RangeInclusive<f64> = 0.0..=16_777_215.0;
-
-/// MP1511 as the manual recommends it, in µs (R8.3).
-const MP1511_GUIDELINE: std::ops::RangeInclusive<f64> = 5000.0..=10_000.0;
-
-/// MP1512 stays below this, or the axis oscillates at standstill (R8.3).
-const MP1512_GUIDELINE: f64 = 50.0;
 
 /// The value of a quantity and where it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -42,17 +34,6 @@ pub enum Effect {
     TooFast,
     /// The feed or MP1513 is not known.
     Unknown,
-}
-
-/// A guideline of the manual that a value does not keep (R8.3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Guideline {
-    /// MP1511 is outside 5000 to 10 000 µs.
-    Mp1511,
-    /// MP1512 is 50 or more: the axis may oscillate at standstill.
-    Mp1512,
 }
 
 /// What follows from the quantities that were given.
@@ -265,19 +246,7 @@ impl State {
     }
 
     fn solution(self) -> Solution {
-        let mut guidelines = Vec::new();
-        if self
-            .get(Quantity::Mp1511)
-            .is_some_and(|it| !MP1511_GUIDELINE.contains(&it))
-        {
-            guidelines.push(Guideline::Mp1511);
-        }
-        if self
-            .get(Quantity::Mp1512)
-            .is_some_and(|it| it >= MP1512_GUIDELINE)
-        {
-            guidelines.push(Guideline::Mp1512);
-        }
+        let guidelines = not_kept(self.get(Quantity::Mp1511), self.get(Quantity::Mp1512));
         let effect = match (self.get(Quantity::Feed), self.get(Quantity::Mp1513)) {
             (Some(feed), Some(most)) if feed.abs() <= most => Effect::Acts,
             (Some(_), Some(_)) => Effect::TooFast,
@@ -304,7 +273,7 @@ fn check_ranges(values: &BTreeMap<Quantity, f64>) -> Result<(), StictionError> {
             Quantity::DeltaSa | Quantity::FAdd | Quantity::VAdd | Quantity::Feed => {
                 (value.is_finite(), "a number")
             }
-            Quantity::Mp1511 => (MP1511_RANGE.contains(&value), "from 0 to 16777215 µs"),
+            Quantity::Mp1511 => (MP1511_RANGE_US.contains(&value), "from 0 to 16777215 µs"),
             Quantity::Mp1512 | Quantity::DeltaSaLimit | Quantity::Mp1513 => {
                 (value >= 0.0, "0 or more")
             }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use frictcomp::comp::CncBuild;
 use frictcomp::lists::{
-    Conditions, Entries, FrictionDraft, FrictionList, Points, TablePoint, Verdict, write_value_list,
+    Conditions, Entries, FrictionDraft, FrictionList, ListHead, Points, TablePoint, Verdict,
+    write_value_list,
 };
 use frictcomp::text::SourceFile;
 use proptest::prelude::*;
@@ -61,9 +62,14 @@ proptest! {
     #[test]
     fn a_written_list_reads_back(list in lists(), real in any::<bool>(), remark in ".{0,40}") {
         let points = if real { Points::Real } else { Points::Whole };
-        let text = write_value_list(&list, points, &[&remark, "second\nline"]);
+        let head = ListHead {
+            remarks: &[&remark, "second\nline"],
+            number: Some(3),
+            name: Some("X2"),
+        };
+        let text = write_value_list(&list, points, &head);
         let found = read(&text);
-        prop_assert_eq!(write_value_list(&found, points, &[&remark, "second\nline"]), text);
+        prop_assert_eq!(write_value_list(&found, points, &head), text);
         let without_table = |list: &FrictionList| FrictionList { table: Vec::new(), ..list.clone() };
         prop_assert_eq!(without_table(&found), without_table(&list));
         if points == Points::Real {
@@ -105,7 +111,7 @@ fn a_written_zero_has_no_sign_and_near_velocities_are_one_point() {
         table: vec![point(0.0, -0.0001), point(0.4, 3.0), point(1.2, -0.3)],
     };
     let outputs = |points: Points| -> Vec<String> {
-        let text = write_value_list(&list, points, &[]);
+        let text = write_value_list(&list, points, &ListHead::default());
         let lines = text.lines().filter(|line| line.contains("].out"));
         lines
             .map(|line| line.split_whitespace().nth(1).expect("a value").to_owned())
@@ -113,4 +119,37 @@ fn a_written_zero_has_no_sign_and_near_velocities_are_one_point() {
     };
     assert_eq!(outputs(Points::Whole), ["0", "0"]);
     assert_eq!(outputs(Points::Real), ["0.000", "3.000", "-0.300"]);
+}
+
+#[test]
+fn the_axis_of_a_written_list_stands_in_its_head() {
+    // P-COMP-00001, P-COMP-00002
+    let list = FrictionList {
+        position_delay: 0,
+        reversal_lookahead: 0,
+        scaling_factor: 1000,
+        delay_cycles: 0,
+        max_points: 20,
+        table: Vec::new(),
+    };
+    let head = |number, name| {
+        let head = ListHead {
+            remarks: &["a remark"],
+            number,
+            name,
+        };
+        let text = write_value_list(&list, Points::Whole, &head);
+        let lines = text.lines().filter(|line| line.starts_with("kopf."));
+        let words = lines.map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
+        words.collect::<Vec<_>>()
+    };
+    assert_eq!(
+        head(Some(2), Some("Y")),
+        ["kopf.achs_nr 2", "kopf.log_achs_name Y"]
+    );
+    assert_eq!(head(None, Some("Z1")), ["kopf.log_achs_name Z1"]);
+    // What a list could not hold, or would be read as something else, is left out.
+    for name in ["", "a b", "X#", "X(", "\n", "\u{201c}"] {
+        assert_eq!(head(None, Some(name)), [""; 0], "{name:?}");
+    }
 }

@@ -1,4 +1,5 @@
-//! Tuning: the value lists that leave the smallest glitch (R5.25).
+//! Tuning: the value lists, or the parameters of stiction compensation, that leave the smallest
+//! glitch (R5.25, R8.6).
 //!
 //! The friction curve of the plant is the table of a list. First four parameters are searched, then
 //! the shape of the table below 1 mm/s. The axes do not know of each other: each is tuned at a
@@ -8,13 +9,16 @@
 mod candidate;
 mod evolution;
 mod heights;
+mod ranges;
 mod reversal;
 mod search;
 mod shape;
+mod space;
 mod task;
 mod tuned;
 
-pub use candidate::{Candidate, Ranges};
+pub use candidate::Candidate;
 pub use heights::Heights;
+pub use ranges::{FreeParameter, Ranges};
 pub use task::{Shaping, Task};
 pub use tuned::{FeedResult, Simulations, Tuned, TunedAxis, tune, tune_with};

@@ -4,11 +4,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::super::crossing::PlaneAxis;
 use super::super::direction::Direction;
+use super::super::method::Method;
 use super::super::profile::UM_PER_M;
 use super::super::reference::{Circle, CircleError, Stretch};
 use super::super::simulate::{AxisRun, Run};
 use crate::current::Reading;
-use crate::lists::FrictionList;
 use crate::simulation::{DriveParameters, FrictionModel};
 
 /// Half the least window of the glitch (R5.22), in radians.
@@ -49,16 +49,16 @@ fn reversal(axis: PlaneAxis) -> f64 {
 }
 
 impl AxisAlone<'_> {
-    /// The glitch in µm at a reversal, with a value list or without compensation, peak to peak, less the straight line from
-    /// one end of the window to the other. The cycles are those of a whole run, so that the reversal
-    /// falls at the same place within its cycle.
+    /// The glitch in µm at a reversal, with or without compensation, peak to peak, less the straight
+    /// line from one end of the window to the other. The cycles are those of a whole run, so that the
+    /// reversal falls at the same place within its cycle.
     ///
     /// # Errors
     /// A drive that is unstable.
     pub(super) fn glitch_um(
         &self,
         circle: Circle,
-        list: Option<&FrictionList>,
+        compensation: Option<&Method>,
     ) -> Result<f64, CircleError> {
         let window = Window::of(&circle, self.axis);
         let quarter = circle.cycles(FRAC_PI_2);
@@ -79,7 +79,7 @@ impl AxisAlone<'_> {
             axes: [AxisRun {
                 axis: self.axis,
                 drive: self.drive,
-                list,
+                compensation,
             }],
         };
         let mut path = Path {

@@ -6,9 +6,10 @@
 //! `delay_cycles`, since a bent contact still pushes the old way, `position_delay` and
 //! `reversal_lookahead`.
 
-use super::candidate::{Candidate, Ranges};
+use super::candidate::Candidate;
 use super::evolution::Evolution;
 use super::heights::Heights;
+use super::ranges::Ranges;
 use crate::lists::{FrictionList, Points, TablePoint};
 use crate::simulation::{DriveParameters, plant_list_at};
 
@@ -68,7 +69,7 @@ pub(super) struct ShapeSearch {
     curve: FrictionList,
     points: Points,
     asked: Vec<Vec<f64>>,
-    best: Option<(f64, Shaped)>,
+    best: Option<(f64, FrictionList)>,
     generations: usize,
     idle: usize,
     goal: f64,
@@ -79,13 +80,6 @@ pub(super) struct ShapeSearch {
 struct Run {
     evolution: Evolution,
     least: f64,
-}
-
-/// A list with its own shape.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Shaped {
-    pub(super) candidate: Candidate,
-    pub(super) list: FrictionList,
 }
 
 impl ShapeSearch {
@@ -132,7 +126,7 @@ impl ShapeSearch {
             self.current = best.unwrap_or_default();
         }
         self.asked = self.runs[self.current].evolution.ask();
-        let lists = self.asked.iter().map(|point| self.shaped(point).list);
+        let lists = self.asked.iter().map(|point| self.shaped(point));
         Some(lists.collect())
     }
 
@@ -166,12 +160,12 @@ impl ShapeSearch {
     }
 
     /// The best list that was tried.
-    pub(super) fn best(self) -> Option<Shaped> {
-        self.best.map(|(_, shaped)| shaped)
+    pub(super) fn best(self) -> Option<FrictionList> {
+        self.best.map(|(_, list)| list)
     }
 
     /// The list of a point of the search, within all bounds.
-    fn shaped(&self, point: &[f64]) -> Shaped {
+    fn shaped(&self, point: &[f64]) -> FrictionList {
         let candidate = self.candidate(point);
         let factors = point.iter().take(FREE);
         let bent = self
@@ -187,10 +181,7 @@ impl ShapeSearch {
             table: bent.collect(),
             ..self.curve.clone()
         };
-        Shaped {
-            list: candidate.with_table(&list, self.points),
-            candidate,
-        }
+        candidate.with_table(&list, self.points)
     }
 
     /// The parameters of a point of the search, within their ranges.

@@ -4,13 +4,14 @@ use super::super::compare::Comparison;
 use super::super::crossing::PlaneAxis;
 use super::super::direction::Direction;
 use super::super::lap::Job;
+use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::super::test::CircularTest;
-use super::candidate::Ranges;
 use super::heights::Heights;
+use super::ranges::Ranges;
 use super::reversal::AxisAlone;
 use crate::current::{Reading, Switched};
-use crate::lists::{FrictionList, Points};
+use crate::lists::Points;
 use crate::simulation::{DriveParameters, FrictionModel, Plant};
 
 /// What is tuned.
@@ -104,12 +105,12 @@ impl Task {
         }
     }
 
-    /// What a list leaves at reversals of axes by themselves, on each circle. As soon as one reaches
-    /// `bound_um` the list has lost.
+    /// What a compensation leaves at reversals of axes by themselves, on each circle. As soon as one
+    /// reaches `bound_um` it has lost.
     pub(super) fn heights(
         &self,
         axes: &[PlaneAxis],
-        list: &FrictionList,
+        compensation: &Method,
         bound_um: f64,
     ) -> Result<Heights, CircleError> {
         let mut heights = vec![0.0; self.circles.len()];
@@ -118,7 +119,7 @@ impl Task {
         let feed = |at: &usize| self.circles[*at].feed_mm_per_min;
         order.sort_by(|one, other| feed(other).total_cmp(&feed(one)));
         for at in order {
-            heights[at] = self.glitch_um(axes, self.circles[at], Some(list))?;
+            heights[at] = self.glitch_um(axes, self.circles[at], Some(compensation))?;
             if heights[at] >= bound_um {
                 return Ok(Heights::lost());
             }
@@ -126,7 +127,7 @@ impl Task {
         Ok(Heights(heights))
     }
 
-    /// The largest glitch at a reversal of axes by themselves, with a list or without compensation.
+    /// The largest glitch at a reversal of axes by themselves, with or without compensation.
     ///
     /// Equal axes differ only in where within a CNC cycle they reverse, which is looked at where it
     /// matters.
@@ -134,7 +135,7 @@ impl Task {
         &self,
         axes: &[PlaneAxis],
         circle: Circle,
-        list: Option<&FrictionList>,
+        compensation: Option<&Method>,
     ) -> Result<f64, CircleError> {
         let change = circle.acceleration_mm_per_s2() * circle.cycle_time_s;
         let count = if change > ABRUPT_MM_PER_S {
@@ -149,7 +150,7 @@ impl Task {
                 model: self.model,
                 reading: self.reading,
             };
-            alone.glitch_um(circle, list)
+            alone.glitch_um(circle, compensation)
         });
         glitches
             .into_iter()
@@ -172,15 +173,15 @@ impl Task {
         is_possible.then_some(circle)
     }
 
-    /// The largest glitch of a whole circle with the lists of X and Y. The way round makes no
+    /// The largest glitch of a whole circle with what compensates X and Y. The way round makes no
     /// difference: a clockwise circle is the mirror image of a counter-clockwise one.
     pub(super) fn whole_um(
         &self,
         circle: Circle,
-        lists: &[FrictionList; 2],
+        compensation: &[Option<Method>; 2],
         variant: Variant,
     ) -> Result<f64, CircleError> {
-        let compensation = match variant {
+        let switched = match variant {
             Variant::Off => Switched::Off,
             Variant::On | Variant::Minus20 | Variant::Plus20 => Switched::On,
         };
@@ -188,15 +189,15 @@ impl Task {
             circle,
             plant: self.plant.with_friction(variant.friction()),
             model: self.model,
-            lists: lists.clone(),
+            compensation: compensation.clone(),
             reading: self.reading,
         };
         let job = Job {
-            compensation,
+            compensation: switched,
             direction: Direction::Ccw,
         };
         let comparison = Comparison::of([test.run(job)?]);
-        let figures = match compensation {
+        let figures = match switched {
             Switched::Off => comparison.off.figures,
             Switched::On => comparison.on.figures,
         };

@@ -3,13 +3,16 @@
 use serde::Serialize;
 
 use super::super::crossing::PlaneAxis;
+use super::super::method::Method;
 use super::super::reference::{Circle, CircleError};
 use super::candidate::Candidate;
 use super::heights::Heights;
 use super::search::Search;
 use super::shape::ShapeSearch;
+use super::space::{Lists, Space, Stictions};
 use super::task::{Shaping, Task, Variant};
 use crate::lists::FrictionList;
+use crate::stiction::StictionParameters;
 
 /// The largest glitches on one circle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -44,15 +47,26 @@ impl FeedResult {
     }
 }
 
-/// The value list that was found for an axis.
-#[derive(Debug, Clone, PartialEq)]
+/// What was found for an axis.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct TunedAxis {
-    /// The best parameters.
-    pub candidate: Candidate,
-    /// The value list that has them, as it is written.
-    pub list: FrictionList,
-    /// Whether the points below 1 mm/s have a shape of their own.
+    /// The best compensation: a value list as it is written, or stiction compensation; none for an
+    /// axis without it beside one that has it.
+    pub compensation: Option<Method>,
+    /// Whether the points of the list below 1 mm/s have a shape of their own.
     pub is_shaped: bool,
+}
+
+impl TunedAxis {
+    /// The value list, where there is one.
+    pub fn list(&self) -> Option<&FrictionList> {
+        self.compensation.as_ref()?.list()
+    }
+
+    /// The parameters of stiction compensation, where it is that.
+    pub fn stiction(&self) -> Option<&StictionParameters> {
+        self.compensation.as_ref()?.stiction()
+    }
 }
 
 /// The result of a tuning.
@@ -62,11 +76,16 @@ pub struct Tuned {
     pub axes: [TunedAxis; 2],
     /// What the lists leave on each circle.
     pub feeds: Vec<FeedResult>,
-    /// How many lists were tried.
+    /// How many lists, or sets of parameters, were tried.
     pub trials: usize,
 }
 
 impl Tuned {
+    /// Whether it is stiction compensation that was tuned.
+    pub fn is_stiction(&self) -> bool {
+        self.axes.iter().any(|axis| axis.stiction().is_some())
+    }
+
     /// The largest glitch with compensation.
     pub fn worst_um(&self) -> f64 {
         self.feeds
@@ -131,19 +150,19 @@ pub fn tune_with(task: &Task, simulations: &dyn Simulations) -> Result<Tuned, Ci
     let tuning = Tuning { task, simulations };
     let mut trials = 0;
     let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
+    let [of_x, of_y] = Method::of_plant(&task.plant);
     for axes in task.groups() {
         let Some(&first) = axes.first() else { continue };
-        let search = tuning.parameters(&axes)?;
-        trials += search.trials();
-        let candidate = search.result();
-        let plain = TunedAxis {
-            candidate,
-            list: candidate.list(task.drive(first), task.points),
-            is_shaped: false,
+        let own = match first {
+            PlaneAxis::X => &of_x,
+            PlaneAxis::Y => &of_y,
         };
-        let shaped = match task.shaping {
-            Shaping::Allowed => tuning.shape(&axes, candidate, &mut trials)?,
-            Shaping::None => None,
+        let (plain, shaped) = match own {
+            Some(Method::Current(_)) => tuning.list(&axes, &mut trials)?,
+            Some(Method::Stiction(stiction)) => {
+                (tuning.stiction(&axes, stiction, &mut trials)?, None)
+            }
+            None => (TunedAxis::default(), None),
         };
         found.extend(
             axes.iter()
@@ -205,11 +224,7 @@ const MOSTLY: f64 = 0.2;
 const MORE: f64 = 1.5;
 
 impl Reserve {
-    fn of(
-        task: &Task,
-        axes: &[PlaneAxis],
-        plain: &FrictionList,
-    ) -> Result<Option<Self>, CircleError> {
+    fn of(task: &Task, axes: &[PlaneAxis], plain: &Method) -> Result<Option<Self>, CircleError> {
         let Some(circle) = task.beyond() else {
             return Ok(None);
         };
@@ -233,15 +248,66 @@ struct Tuning<'a> {
 }
 
 impl Tuning<'_> {
-    /// The search for the parameters of axes with the friction curve as the table.
-    fn parameters(&self, axes: &[PlaneAxis]) -> Result<Search, CircleError> {
-        let drive = self.task.drive(axes[0]);
-        let mut search = Search::new(&self.task.ranges);
+    /// The best value list of axes whose table is their friction curve, and the best with a shape.
+    fn list(
+        &self,
+        axes: &[PlaneAxis],
+        trials: &mut usize,
+    ) -> Result<(TunedAxis, Option<TunedAxis>), CircleError> {
+        let task = self.task;
+        let drive = task.drive(axes[0]);
+        let of = |candidate: Candidate| Method::from(candidate.list(drive, task.points));
+        let search = self.search(axes, Lists(task.ranges.clone()), &of)?;
+        *trials += search.trials();
+        let candidate = search.result();
+        let plain = TunedAxis {
+            compensation: Some(of(candidate)),
+            is_shaped: false,
+        };
+        let shaped = match task.shaping {
+            Shaping::Allowed => self.shape(axes, candidate, trials)?,
+            Shaping::None => None,
+        };
+        Ok((plain, shaped))
+    }
+
+    /// The best MP1511 and MP1512 of axes whose other parameters are given (R8.6).
+    fn stiction(
+        &self,
+        axes: &[PlaneAxis],
+        given: &StictionParameters,
+        trials: &mut usize,
+    ) -> Result<TunedAxis, CircleError> {
+        let of = |(factor, limit): (u32, u32)| {
+            Method::from(StictionParameters {
+                mp1511_us: f64::from(factor),
+                mp1512: f64::from(limit),
+                ..*given
+            })
+        };
+        let search = self.search(axes, Stictions(self.task.ranges.clone()), &of)?;
+        *trials += search.trials();
+        Ok(TunedAxis {
+            compensation: Some(of(search.result())),
+            is_shaped: false,
+        })
+    }
+
+    /// The search for the parameters of axes in a space, each candidate of which is a compensation.
+    fn search<S: Space>(
+        &self,
+        axes: &[PlaneAxis],
+        space: S,
+        of: &(dyn Fn(S::Candidate) -> Method + Sync),
+    ) -> Result<Search<S>, CircleError>
+    where
+        S::Candidate: Sync,
+    {
+        let mut search = Search::new(space);
         while let Some(trials) = search.next_trials() {
             let bound = search.bound();
             let heights = self.simulations.make(trials.len(), &|at| {
-                let list = trials[at].list(drive, self.task.points);
-                self.task.heights(axes, &list, bound)
+                self.task.heights(axes, &of(trials[at]), bound)
             })?;
             search.take(&trials, &heights);
         }
@@ -256,10 +322,13 @@ impl Tuning<'_> {
         trials: &mut usize,
     ) -> Result<Option<TunedAxis>, CircleError> {
         let task = self.task;
-        let reserve = Reserve::of(task, axes, &start.list(task.drive(axes[0]), task.points))?;
-        let mut search = ShapeSearch::new(task.drive(axes[0]), start, &task.ranges, task.points);
+        let drive = task.drive(axes[0]);
+        let plain = start.list(drive, task.points).into();
+        let reserve = Reserve::of(task, axes, &plain)?;
+        let mut search = ShapeSearch::new(drive, start, &task.ranges, task.points);
         while let Some(lists) = search.next_trials() {
             *trials += lists.len();
+            let lists: Vec<Method> = lists.into_iter().map(Method::from).collect();
             let heights = self.simulations.make(lists.len(), &|at| {
                 let list = &lists[at];
                 let mut heights = task.heights(axes, list, f64::INFINITY)?;
@@ -271,28 +340,27 @@ impl Tuning<'_> {
             })?;
             search.take(&heights);
         }
-        Ok(search.best().map(|shaped| TunedAxis {
-            candidate: shaped.candidate,
-            list: shaped.list,
+        Ok(search.best().map(|list| TunedAxis {
+            compensation: Some(list.into()),
             is_shaped: true,
         }))
     }
 
-    /// The glitches of whole circles with the lists: for each circle one a variant.
+    /// The glitches of whole circles with what was found: for each circle one a variant.
     fn wholes(
         &self,
         axes: &[TunedAxis; 2],
         variants: &[Variant],
     ) -> Result<Vec<Vec<f64>>, CircleError> {
-        let lists = axes.each_ref().map(|axis| axis.list.clone());
+        let compensation = axes.each_ref().map(|axis| axis.compensation.clone());
         let circles = &self.task.circles;
         let glitches = self
             .simulations
             .make(circles.len() * variants.len(), &|at| {
                 let (circle, variant) = (at / variants.len(), at % variants.len());
-                let glitch = self
-                    .task
-                    .whole_um(circles[circle], &lists, variants[variant])?;
+                let glitch =
+                    self.task
+                        .whole_um(circles[circle], &compensation, variants[variant])?;
                 Ok(Heights(vec![glitch]))
             })?;
         let values: Vec<f64> = glitches.iter().map(Heights::worst_um).collect();

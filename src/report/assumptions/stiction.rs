@@ -2,10 +2,26 @@
 
 use super::assumption::Assumption;
 
-pub(super) const ASSUMED: &[Assumption] = &[Assumption {
-    rule: "R8.2",
-    sentence: "stiction is compensated at a commanded feed of exactly MP1513, and at every lower one",
-    changes: "whether it acts",
-    shows: "the last line of `frictcomp stiction`",
-    when: &[],
-}];
+pub(super) const ASSUMED: &[Assumption] = &[
+    Assumption {
+        rule: "R8.2",
+        sentence: "stiction is compensated at a commanded feed of exactly MP1513, and at every lower one",
+        changes: "whether it acts",
+        shows: "the last line of `frictcomp stiction`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R8.6",
+        sentence: "what is added stays as it is until the servo lag is looked at again, and a change that was cut is lost",
+        changes: "the glitch of a simulated circle, by little while t_C is short",
+        shows: "`t_C` in the report of `frictcomp circle`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R8.6",
+        sentence: "without keys in `[stiction]` MP1511 is 0, MP1512 49, the grating period 20 µm, t_C 3 ms, and MP1513 above every feed",
+        changes: "the glitch of a simulated circle",
+        shows: "the values in the report of `frictcomp circle`",
+        when: &[],
+    },
+];

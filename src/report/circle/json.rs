@@ -4,7 +4,10 @@ use serde::Serialize;
 
 use super::super::strings::to_pretty;
 use super::subject::{CircleReport, NamedSide, Subject, TREATMENT, TooFast, round};
-use crate::circle::{AxisShape, Crossing, Diagnosis, Glitch, PathCentre, PathFigures};
+use crate::circle::{
+    AxisShape, CircularTest, Crossing, Diagnosis, Glitch, Method, PathCentre, PathFigures,
+};
+use crate::stiction::StictionParameters;
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -33,6 +36,8 @@ struct Conditions<'a> {
     model: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     value_list: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stiction: Option<ByAxis<Option<StictionParameters>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reading: Option<String>,
     centre: &'static str,
@@ -198,6 +203,13 @@ impl SideRecord {
     }
 }
 
+/// Stiction compensation of both axes.
+fn stiction(test: &CircularTest) -> ByAxis<Option<StictionParameters>> {
+    let of = |axis: &Option<Method>| axis.as_ref()?.stiction().copied();
+    let [x, y] = &test.compensation;
+    ByAxis { x: of(x), y: of(y) }
+}
+
 /// The report for machines, all lengths in µm unless the key says otherwise.
 pub fn render_json(report: &CircleReport) -> String {
     let side = |name: &str| {
@@ -216,7 +228,8 @@ pub fn render_json(report: &CircleReport) -> String {
             cycle_time_s: Some(test.circle.cycle_time_s),
             plant: Some(&test.plant.name),
             model: Some(test.model.as_str()),
-            value_list: Some(origin.name()),
+            value_list: (!test.is_stiction()).then(|| origin.name()),
+            stiction: test.is_stiction().then(|| stiction(test)),
             reading: Some(test.reading.to_string()),
             centre: "commanded",
             data: TREATMENT,
@@ -231,6 +244,7 @@ pub fn render_json(report: &CircleReport) -> String {
             plant: None,
             model: None,
             value_list: None,
+            stiction: None,
             reading: None,
             centre: "least-squares",
             data: TREATMENT,

@@ -8,5 +8,5 @@ mod text;
 pub use csv::render_csv;
 pub use json::render_json;
 pub use subject::{CircleReport, ListOrigin, NamedSide, Subject};
-pub(super) use text::{advice_lines, conditions, table};
+pub(super) use text::{advice_lines, conditions, stiction_line, table};
 pub use text::{render_text, words};

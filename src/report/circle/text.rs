@@ -2,12 +2,14 @@
 
 use std::fmt::Write as _;
 
+use super::super::stiction::guideline;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, Direction, Figures, Finding, FoundAt, LeftOut,
-    PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
+    Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
 };
 use crate::diagnostic::Shown;
+use crate::stiction::StictionParameters;
 
 /// The report for people.
 pub fn render_text(report: &CircleReport) -> String {
@@ -29,7 +31,7 @@ pub fn render_text(report: &CircleReport) -> String {
         let _ = writeln!(out, "{line}");
     }
     for side in &report.sides {
-        let lines = advice_lines(side);
+        let lines = advice_lines(report, side);
         if !lines.is_empty() {
             let _ = writeln!(out);
         }
@@ -178,12 +180,34 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
             unit_force(test)
         ),
     ];
-    let [x, y] = &test.lists;
+    lines.extend(if test.is_stiction() {
+        stiction_conditions(test)
+    } else {
+        list_conditions(test, origin)
+    });
+    lines.push(format!("reading: {}", test.reading));
+    lines.push(format!(
+        "centre: the commanded one for F and D; {TREATMENT}"
+    ));
+    if saturated > 0 {
+        lines.push(format!(
+            "the drives reached their largest force in {saturated} cycles of the speed loop"
+        ));
+    }
+    lines
+}
+
+/// The value lists, which differ between the axes or do not.
+fn list_conditions(test: &CircularTest, origin: &ListOrigin) -> Vec<String> {
+    let lists = test.compensation.each_ref();
+    let [Some(x), Some(y)] = lists.map(|it| it.as_ref().and_then(Method::list)) else {
+        return Vec::new();
+    };
     let list = match origin {
         ListOrigin::Plant => "the plant's own friction curve".to_owned(),
         ListOrigin::File(_) | ListOrigin::EachAxis(_) => origin.name(),
     };
-    lines.push(format!("value list: {list}, {} points", x.table.len()));
+    let mut lines = vec![format!("value list: {list}, {} points", x.table.len())];
     let each = if x == y {
         vec![("", x)]
     } else {
@@ -195,16 +219,51 @@ fn simulated_conditions(test: &CircularTest, origin: &ListOrigin, saturated: u64
             list.position_delay, list.reversal_lookahead, list.delay_cycles, list.scaling_factor
         ));
     }
-    lines.push(format!("reading: {}", test.reading));
-    lines.push(format!(
-        "centre: the commanded one for F and D; {TREATMENT}"
-    ));
-    if saturated > 0 {
-        lines.push(format!(
-            "the drives reached their largest force in {saturated} cycles of the speed loop"
-        ));
+    lines
+}
+
+/// Stiction compensation of the axes, where it does not act, and which guidelines it does not keep
+/// (R8.2, R8.3).
+fn stiction_conditions(test: &CircularTest) -> Vec<String> {
+    let mut lines = vec!["stiction compensation, as the plant file says".to_owned()];
+    let drives = [&test.plant.x, &test.plant.y];
+    let feed = test.circle.feed_mm_per_min / 1000.0;
+    let axes = PlaneAxis::ALL.into_iter().zip(&test.compensation);
+    for ((axis, compensation), drive) in axes.zip(drives) {
+        let Some(stiction) = compensation.as_ref().and_then(Method::stiction) else {
+            lines.push(format!("  {axis}: none"));
+            continue;
+        };
+        lines.push(format!("  {axis}: {}", stiction_line(stiction)));
+        if !stiction.acts_at(feed) {
+            lines.push(format!(
+                "  {axis}: the feed is above MP1513, nothing is added"
+            ));
+        }
+        if drive.velocity_forward <= 0.0 {
+            lines.push(format!(
+                "  {axis}: without feed forward, `k_ff`, nothing is added"
+            ));
+        }
+        let kept = stiction.guidelines().into_iter().map(guideline);
+        lines.extend(kept.map(|it| format!("  {axis}: {it}")));
     }
     lines
+}
+
+/// The parameters of stiction compensation in one line.
+pub(in crate::report) fn stiction_line(stiction: &StictionParameters) -> String {
+    let feed = stiction.mp1513_m_per_min.map_or(String::new(), |feed| {
+        format!(", MP1513 {} m/min", Shown(feed))
+    });
+    format!(
+        "MP1511 {} µs, MP1512 {} (Δs_a at most {} µm), GP {} µm, t_C {} µs{feed}",
+        Shown(stiction.mp1511_us),
+        Shown(stiction.mp1512),
+        Shown(round(stiction.limit_um())),
+        Shown(stiction.gp_um),
+        Shown(stiction.tc_us)
+    )
 }
 
 fn unit_force(test: &CircularTest) -> String {
@@ -350,7 +409,11 @@ impl Row {
 }
 
 /// What the shapes suggest: the same finding at several crossings is said once.
-pub(in crate::report) fn advice_lines(side: &NamedSide) -> Vec<String> {
+pub(in crate::report) fn advice_lines(report: &CircleReport, side: &NamedSide) -> Vec<String> {
+    let words = match &report.subject {
+        Subject::Simulated { test, .. } if test.is_stiction() => words_of_stiction,
+        _ => words,
+    };
     let mut said: Vec<(Finding, Vec<&Diagnosis>)> = Vec::new();
     for advice in &side.advice {
         match said
@@ -387,6 +450,18 @@ pub(in crate::report) fn advice_lines(side: &NamedSide) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// The same where the compensation is that of stiction.
+fn words_of_stiction(finding: Finding) -> &'static str {
+    match finding {
+        Finding::TooWeak => "a peak outwards remains: raise MP1511, or MP1512 where it limits",
+        Finding::WrongSign => "larger than without compensation: lower MP1511",
+        Finding::TooStrong | Finding::TooEarly | Finding::TooLate => {
+            "a cut inwards: it adds too much, lower MP1511 or MP1512"
+        }
+        other => words(other),
+    }
 }
 
 /// What a finding means and what to do.

@@ -6,6 +6,7 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, figure};
+use crate::circle::Method;
 use crate::lists::{AxisType, FrictionList};
 use crate::machine::AcceptedList;
 use crate::report::circle::{CircleReport, Subject, advice_lines, conditions, table};
@@ -62,7 +63,8 @@ fn figures(report: &CircleReport) -> Markup {
 }
 
 fn advice(report: &CircleReport) -> Markup {
-    let lines: Vec<String> = report.sides.iter().flat_map(advice_lines).collect();
+    let sides = report.sides.iter();
+    let lines: Vec<String> = sides.flat_map(|side| advice_lines(report, side)).collect();
     html! {
         @if lines.is_empty() {
             p { "The shapes suggest nothing." }
@@ -91,7 +93,10 @@ fn lists(report: &CircleReport) -> Vec<AcceptedList> {
         axis_type: AxisType::Linear,
         list: list.clone(),
     };
-    let [x, y] = &test.lists;
+    let lists = test.compensation.each_ref();
+    let [Some(x), Some(y)] = lists.map(|it| it.as_ref().and_then(Method::list)) else {
+        return Vec::new();
+    };
     if x == y {
         vec![accepted("X and Y", x)]
     } else {

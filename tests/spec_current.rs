@@ -2,7 +2,8 @@
 
 use frictcomp::comp::State;
 use frictcomp::current::{
-    AdditiveCurrent, Below, Commanded, Delay, Followers, Reading, Standstill, Start, Switched,
+    AdditiveCurrent, Below, Commanded, CommandedTrace, CyclesError, DeadBand, Delay, Followers,
+    Reading, Resampling, Standstill, Start, Switched, TraceColumns, TraceOptions,
 };
 use frictcomp::lists::{FrictionList, TablePoint};
 
@@ -393,4 +394,185 @@ fn every_start_builds_up_where_the_documents_are_read_so() {
     let slower = [1000.0, 1000.0, 1000.0, 1.0, 1000.0];
     let held = currents(&list, every, &slower);
     close(&held, &[0.0, 5.0, 10.0, 12.0, 10.0]);
+}
+
+/// Columns with times in ms and positions of 1 unit a ms.
+fn columns(times_ms: &[f64]) -> TraceColumns {
+    TraceColumns {
+        times_s: Some(times_ms.iter().map(|time| time / 1000.0).collect()),
+        positions: Some(times_ms.to_vec()),
+        velocities: None,
+        switched: vec![Switched::On; times_ms.len()],
+    }
+}
+
+/// What is wrong with times in ms, and at which row.
+fn refused(times_ms: &[f64], cycle_ms: Option<f64>) -> Option<String> {
+    let options = TraceOptions::default().with_cycle_s(cycle_ms.map(|cycle| cycle / 1000.0));
+    let trace = CommandedTrace::new(columns(times_ms), options);
+    trace.err().map(|error| error.to_string())
+}
+
+#[test]
+fn rows_are_cnc_cycles_within_a_hundredth() {
+    // R4.5: what is counted in cycles has to be cycles.
+    assert_eq!(refused(&[0.0, 1.0, 2.0, 3.0], None), None);
+    assert_eq!(refused(&[0.0, 1.0, 2.009, 3.0], None), None);
+    assert_eq!(refused(&[7.0, 7.25, 7.5], Some(0.25)), None);
+    for (times, cycle, said) in [
+        (
+            &[0.0, 1.0, 2.02, 3.0][..],
+            None,
+            "row 3, at 0.00202 s, comes 1.02 ms after the row above; a CNC cycle has 1 ms",
+        ),
+        (
+            &[0.0, 1.0, 2.0, 9.0, 10.0],
+            None,
+            "a gap of 7 ms before row 4, at 0.009 s; a CNC cycle has 1 ms",
+        ),
+        (
+            &[0.0, 1.0, 2.0, 1.0, 2.0],
+            None,
+            "the time jumps back at row 4, from 0.002 to 0.001 s",
+        ),
+        (
+            &[0.0, 1.0, 1.0, 2.0],
+            None,
+            "row 3 has the time of the row above, 0.001 s",
+        ),
+        (
+            &[0.0, 2.0, 4.0],
+            Some(1.0),
+            "a gap of 2 ms before row 2, at 0.002 s; a CNC cycle has 1 ms",
+        ),
+        (
+            &[0.0, 0.5, 1.0],
+            Some(1.0),
+            "row 2, at 0.0005 s, comes 0.5 ms after the row above; a CNC cycle has 1 ms",
+        ),
+        (
+            &[0.0, f64::NAN],
+            Some(1.0),
+            "the time of row 2 is not a number",
+        ),
+    ] {
+        assert_eq!(refused(times, cycle).as_deref(), Some(said));
+    }
+    let error = CommandedTrace::new(
+        columns(&[0.0, 1.0]),
+        TraceOptions::default().with_cycle_s(Some(0.0)),
+    );
+    assert!(matches!(error, Err(CyclesError::Cycle(_))));
+}
+
+/// Times in ms and positions of a trace that is resampled to cycles of 1 ms, and what is said.
+fn resampled(columns: TraceColumns) -> (Vec<[f64; 3]>, Vec<String>) {
+    let options = TraceOptions::default()
+        .with_cycle_s(Some(0.001))
+        .with_resampling(Resampling::Done);
+    let trace = CommandedTrace::new(columns, options).expect("a trace");
+    let rows = trace.rows();
+    let rows = rows.map(|row| [row.time_s * 1000.0, row.position, row.velocity]);
+    let rounded = rows.map(|row| row.map(|value| (value * 1e6).round() / 1e6));
+    (rounded.collect(), trace.remarks().to_vec())
+}
+
+#[test]
+fn resampling_makes_cycles_of_any_rows() {
+    // R4.5: 4 ms to 1 ms, on straight lines; 1 unit a ms are 100 µm/s.
+    let (rows, said) = resampled(columns(&[0.0, 4.0, 8.0]));
+    let expected: Vec<[f64; 3]> = (0..9)
+        .map(|at| {
+            [
+                f64::from(at),
+                f64::from(at),
+                if at == 0 { 0.0 } else { 100.0 },
+            ]
+        })
+        .collect();
+    assert_eq!(rows, expected);
+    assert_eq!(said, ["3 rows are resampled to 9 cycles of 1 ms"]);
+    // A gap, a row again and a jump back.
+    let (rows, said) = resampled(columns(&[0.0, 1.0, 2.0, 2.0, 1.5, 3.0, 7.0, 8.0]));
+    assert_eq!(rows, expected);
+    assert_eq!(
+        said,
+        [
+            "8 rows are resampled to 9 cycles of 1 ms",
+            "2 rows whose time is not after every time above are left out",
+            "a gap of 4 ms before row 7 is bridged by a straight line",
+        ]
+    );
+    // What were cycles stay what they were, to the last bit.
+    let times: Vec<f64> = (0..5000).map(|at| f64::from(at) * 1.0).collect();
+    let mut own = columns(&times);
+    own.positions = Some(times.iter().map(|time| (time * 0.37).sin()).collect());
+    own.velocities = Some(times.iter().map(|time| time.sqrt()).collect());
+    let plain = CommandedTrace::new(own.clone(), TraceOptions::default()).expect("a trace");
+    let again = TraceOptions::default().with_resampling(Resampling::Done);
+    let again = CommandedTrace::new(own, again).expect("a trace");
+    assert!(plain.rows().eq(again.rows()));
+    // Compensation switches with its row.
+    let mut switching = columns(&[0.0, 2.0, 4.0]);
+    switching.switched[1] = Switched::Off;
+    let options = TraceOptions::default()
+        .with_cycle_s(Some(0.001))
+        .with_resampling(Resampling::Done);
+    let trace = CommandedTrace::new(switching, options).expect("a trace");
+    let states: Vec<Switched> = trace.rows().map(|row| row.switched).collect();
+    let (on, off) = (Switched::On, Switched::Off);
+    assert_eq!(states, [on, on, off, off, on]);
+    // Nobody wants more cycles than a day has.
+    let options = TraceOptions::default()
+        .with_cycle_s(Some(0.001))
+        .with_resampling(Resampling::Done);
+    let error = CommandedTrace::new(columns(&[0.0, 1e12]), options);
+    assert!(matches!(error, Err(CyclesError::TooLong { .. })));
+}
+
+#[test]
+fn toggling_around_zero_is_one_standstill() {
+    // R4.6: without it each of these cycles would be a reversal.
+    let velocities = [1000.0, 1000.0, -2.0, 2.0, -2.0, 2.0, 1000.0, 1000.0];
+    let columns = || TraceColumns {
+        times_s: None,
+        positions: None,
+        velocities: Some(velocities.to_vec()),
+        switched: vec![Switched::On; velocities.len()],
+    };
+    let currents = |options: TraceOptions| {
+        let trace = CommandedTrace::new(columns(), options).expect("a trace");
+        let mut current = AdditiveCurrent::new(&list(), Reading::default());
+        let added = trace.currents(&mut current);
+        let currents: Vec<f64> = added.map(|(_, added)| added.current_units).collect();
+        (currents, trace.remarks().to_vec(), current.at_rest())
+    };
+    let (found, said, at_rest) = currents(TraceOptions::default());
+    close(&found, &[10.0, 10.0, 12.0, 12.0, 12.0, 12.0, 10.0, 10.0]);
+    assert_eq!(
+        said,
+        ["1 stretch in which the velocity only toggles around zero, 3 cycles, count as standstill"]
+    );
+    assert_eq!(at_rest, 3);
+    let off = TraceOptions::default().with_dead_band(DeadBand::Below(0.0));
+    let (found, said, at_rest) = currents(off);
+    close(&found, &[10.0, 10.0, -12.0, 12.0, -12.0, 12.0, 10.0, 10.0]);
+    assert_eq!((said.len(), at_rest), (0, 0));
+    let wide = TraceOptions::default().with_dead_band(DeadBand::Below(2000.0));
+    close(&currents(wide).0, &[0.0; 8]);
+}
+
+#[test]
+fn cycles_in_which_the_reading_of_standstill_matters_are_counted() {
+    // R4.6: C11
+    let v = [0.0, 1000.0, 0.0, 0.0, -1000.0, 0.0];
+    for reading in ["standstill=hold", "standstill=zero"] {
+        let reading: Reading = reading.parse().expect("a reading");
+        let mut current = AdditiveCurrent::new(&list(), reading);
+        current.trace(&positions(&v), &v);
+        assert_eq!(current.at_rest(), 3, "{reading}");
+        current.switch(Switched::Off);
+        current.trace(&positions(&v), &v);
+        assert_eq!(current.at_rest(), 3, "{reading}");
+    }
 }

@@ -87,6 +87,10 @@ fn options_for(error: &HostError) -> Option<String> {
         HostError::NotAStartupList { .. } => {
             "`--startup` takes the list that names all others, `hochlauf.lis`"
         }
+        HostError::Trace(TraceError::Cycles { .. } | TraceError::SeveralClocks(_)) => {
+            "record one row per CNC cycle, give the cycle with `--cycle-time-ms`, or make cycles of \
+             the rows with `--resample`"
+        }
         HostError::AxisName(_) => "write `--enable X,Y`",
         HostError::NoPlant(_) => {
             return Some(format!(

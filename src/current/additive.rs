@@ -72,6 +72,7 @@ pub struct AdditiveCurrent {
     /// By what the output is multiplied on its way to the drive.
     torque_scale: f64,
     saturated: u64,
+    at_rest: u64,
 }
 
 /// The build-up after a reversal.
@@ -105,6 +106,7 @@ impl AdditiveCurrent {
             positions: VecDeque::with_capacity(delay_cycles + 1),
             torque_scale: 1.0,
             saturated: 0,
+            at_rest: 0,
         }
     }
 
@@ -125,11 +127,17 @@ impl AdditiveCurrent {
         self.saturated
     }
 
+    /// In how many cycles so far the axis stood still and the readings of R4.6 differ: held, there is
+    /// a current; zero, there is none (C11).
+    pub fn at_rest(&self) -> u64 {
+        self.at_rest
+    }
+
     /// Becomes what `fresh` is, except that the outputs that were cut so far still count.
     pub(super) fn restart_as(&mut self, fresh: &Self) {
-        let saturated = self.saturated;
+        let (saturated, at_rest) = (self.saturated, self.at_rest);
         self.clone_from(fresh);
-        self.saturated = saturated;
+        (self.saturated, self.at_rest) = (saturated, at_rest);
     }
 
     /// Switches as `COMP ON FRICT` and `COMP OFF FRICT` do: off, the output is 0 at once and the
@@ -198,13 +206,14 @@ impl AdditiveCurrent {
         self.is_standing = velocity == 0.0;
         let w_after = self.weight_after(position);
         let w_before = self.weight_before(reversal);
-        let held = velocity != 0.0 || self.reading.standstill == Standstill::Hold;
-        let value = if held {
-            self.friction(velocity.abs())
-        } else {
-            0.0
-        };
-        let raw = self.direction * value * self.scaling * w_before.min(w_after);
+        let mut raw =
+            self.direction * self.friction(velocity.abs()) * self.scaling * w_before.min(w_after);
+        if self.is_standing && raw != 0.0 && self.active {
+            self.at_rest += 1;
+        }
+        if self.is_standing && self.reading.standstill == Standstill::Zero {
+            raw = 0.0;
+        }
         // No negative zero.
         let current = self.delayed(raw) + 0.0;
         Added {

@@ -91,6 +91,11 @@ impl Followers {
         }
     }
 
+    /// In how many cycles each axis stood still and R4.6 matters, see [`AdditiveCurrent::at_rest`].
+    pub fn at_rest(&self) -> impl Iterator<Item = u64> {
+        self.axes.iter().map(|axis| axis.current.at_rest())
+    }
+
     /// How many outputs of each axis were cut to 16 bit so far (R4.11).
     pub fn saturated(&self) -> impl Iterator<Item = u64> {
         self.axes.iter().map(|axis| axis.current.saturated())

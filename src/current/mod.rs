@@ -6,17 +6,23 @@
 //! units, a thousandth of the rated current of the drive.
 
 mod additive;
+mod columns;
+mod cycles;
 mod followers;
 mod program;
 mod reading;
 mod recorded;
+mod standstill;
 mod units;
 
 pub use additive::{Added, AdditiveCurrent, Switched};
+pub use columns::TraceColumns;
+pub use cycles::{CyclesError, Resampling};
 pub use followers::{Commanded, CurrentSample, Followers};
 pub use program::{
     CurrentCycle, CurrentOptions, CurrentSink, FollowError, ProgramCurrents, axes_to_follow,
 };
 pub use reading::{Below, Delay, Reading, Standstill, Start, UnknownReading};
-pub use recorded::{CommandedRow, CommandedTrace, TraceColumns};
+pub use recorded::{CommandedRow, CommandedTrace, TraceOptions};
+pub use standstill::{DeadBand, Standstills};
 pub use units::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};

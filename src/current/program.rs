@@ -184,6 +184,11 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.cycles.followers.saturated()
     }
 
+    /// In how many cycles each axis stood still and R4.6 matters, see [`AdditiveCurrent::at_rest`].
+    pub fn at_rest(&self) -> impl Iterator<Item = u64> {
+        self.cycles.followers.at_rest()
+    }
+
     /// Who received the currents.
     pub fn sink(&mut self) -> &mut S {
         &mut self.cycles.sink

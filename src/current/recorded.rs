@@ -1,30 +1,16 @@
 //! Commanded traces of one axis that were recorded or made up (chapter 4 of the rules).
 
 use super::additive::{Added, AdditiveCurrent, Switched};
+use super::columns::TraceColumns;
+use super::cycles::{CyclesError, Resampling, check, cycle_of, resample};
+use super::standstill::DeadBand;
 use super::units::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};
-use crate::motion::{CycleError, check_cycle};
 
 /// Units of position that one unit of velocity covers in a second.
 const POSITION_PER_VELOCITY: f64 = POSITION_UNITS_PER_MM / VELOCITY_UNITS_PER_MM_PER_S;
 
 /// Units of velocity that cover one unit of position in a second.
 const VELOCITY_PER_POSITION: f64 = VELOCITY_UNITS_PER_MM_PER_S / POSITION_UNITS_PER_MM;
-
-/// The cycle of a trace that says nothing about time.
-const DEFAULT_CYCLE_S: f64 = 0.001;
-
-/// The columns of a recorded trace, a CNC cycle a row. Positions or velocities must be there.
-#[derive(Debug, Clone, Default)]
-pub struct TraceColumns {
-    /// The time of each cycle.
-    pub times_s: Option<Vec<f64>>,
-    /// In 0.1 µm or 0.0001°.
-    pub positions: Option<Vec<f64>>,
-    /// In µm/s or 0.001°/s.
-    pub velocities: Option<Vec<f64>>,
-    /// Whether the compensation is on, for every cycle.
-    pub switched: Vec<Switched>,
-}
 
 /// A commanded trace of one axis.
 #[derive(Debug, Clone)]
@@ -33,6 +19,7 @@ pub struct CommandedTrace {
     positions: Vec<f64>,
     velocities: Vec<f64>,
     switched: Vec<Switched>,
+    remarks: Vec<String>,
 }
 
 /// One cycle of a commanded trace.
@@ -48,30 +35,65 @@ pub struct CommandedRow {
     pub switched: Switched,
 }
 
+/// How the rows of a trace become CNC cycles.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct TraceOptions {
+    /// The CNC cycle; by default the usual step of the times, else 1 ms.
+    pub cycle_s: Option<f64>,
+    /// What is done with times that are not those of cycles.
+    pub resampling: Resampling,
+    /// Which velocities count as standstill.
+    pub dead_band: DeadBand,
+}
+
+impl TraceOptions {
+    /// The same with another value of [`cycle_s`](Self::cycle_s).
+    pub fn with_cycle_s(mut self, cycle_s: Option<f64>) -> Self {
+        self.cycle_s = cycle_s;
+        self
+    }
+
+    /// The same with another value of [`resampling`](Self::resampling).
+    pub fn with_resampling(mut self, resampling: Resampling) -> Self {
+        self.resampling = resampling;
+        self
+    }
+
+    /// The same with another value of [`dead_band`](Self::dead_band).
+    pub fn with_dead_band(mut self, dead_band: DeadBand) -> Self {
+        self.dead_band = dead_band;
+        self
+    }
+}
+
 impl CommandedTrace {
-    /// A trace with the columns that are missing computed from the others. Without a cycle time, the
-    /// first two times give it.
+    /// A trace with the columns that are missing computed from the others.
     ///
     /// # Errors
-    /// A cycle that no control has.
-    pub fn new(columns: TraceColumns, cycle_s: Option<f64>) -> Result<Self, CycleError> {
+    /// A row that is not a cycle after the one above it, unless the rows are resampled.
+    pub fn new(columns: TraceColumns, options: TraceOptions) -> Result<Self, CyclesError> {
+        let cycle_s = cycle_of(columns.times_s.as_deref(), options.cycle_s)?;
+        let (columns, mut remarks) = match options.resampling {
+            Resampling::Refused => {
+                check(columns.times_s.as_deref().unwrap_or_default(), cycle_s)?;
+                (columns, Vec::new())
+            }
+            Resampling::Done => resample(columns, cycle_s)?,
+        };
         let TraceColumns {
             times_s,
             positions,
             velocities,
             switched,
         } = columns;
-        let cycle_s = check_cycle(cycle_s.unwrap_or_else(|| match times_s.as_deref() {
-            Some([first, second, ..]) if second > first => second - first,
-            _ => DEFAULT_CYCLE_S,
-        }))?;
         #[allow(clippy::cast_precision_loss)] // rows of a file
         let times = || {
             (0..switched.len())
                 .map(|row| row as f64 * cycle_s)
                 .collect()
         };
-        let velocities = velocities.unwrap_or_else(|| {
+        let mut velocities = velocities.unwrap_or_else(|| {
             let steps = positions.as_deref().unwrap_or_default();
             let steps = steps.windows(2).map(|pair| pair[1] - pair[0]);
             let moving = steps.map(|step| VELOCITY_PER_POSITION * step / cycle_s);
@@ -87,12 +109,20 @@ impl CommandedTrace {
             });
             steps.collect()
         });
+        let standstills = options.dead_band.settle(&mut velocities, &positions);
+        remarks.extend(standstills.told(options.dead_band));
         Ok(Self {
             times_s: times_s.unwrap_or_else(times),
             positions,
             velocities,
             switched,
+            remarks,
         })
+    }
+
+    /// What was done to make cycles of the rows, each a sentence in lower case.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
     }
 
     /// The cycles in their order.

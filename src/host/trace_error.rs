@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use crate::circle::RecordedError;
-use crate::motion::CycleError;
+use crate::current::CyclesError;
 use crate::trace::{NotAligned, SelectError, TraceProblem};
 
 /// Why a trace cannot be read.
@@ -31,9 +31,17 @@ pub enum TraceError {
         /// What is wrong with it.
         reason: NotAligned,
     },
-    /// Times that are an hour apart.
-    #[error(transparent)]
-    Cycle(#[from] CycleError),
+    /// Rows that are not CNC cycles.
+    #[error("the trace `{}`: {reason}", .path.display())]
+    Cycles {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with its times.
+        reason: CyclesError,
+    },
+    /// Channels of a commanded trace that were not sampled together.
+    #[error("the trace `{}`: its channels were sampled at different times", .0.display())]
+    SeveralClocks(PathBuf),
     /// Points that make no circle.
     #[error("`{}`: {reason}", .path.display())]
     Circle {
@@ -58,7 +66,8 @@ impl TraceError {
             }
             Self::Apart { reason, .. } => reason.help(),
             Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
-            Self::Cycle(_) => return None,
+            // What helps is said where the option has its name.
+            Self::Cycles { .. } | Self::SeveralClocks(_) => return None,
         };
         Some(help.to_owned())
     }

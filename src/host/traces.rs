@@ -10,11 +10,11 @@ use super::trace_error::TraceError;
 use crate::circle::{
     CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
 };
-use crate::current::{CommandedTrace, Switched, TraceColumns};
+use crate::current::{CommandedTrace, Switched, TraceColumns, TraceOptions};
 use crate::identify::{AxisChannels, AxisRecording};
 use crate::trace::{
-    Channel, ChannelQuantity, ChannelSelection, Choice, Missing, Pick, SelectError, TimeSource,
-    TraceProblem, TraceReader, TraceRecording,
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Missing, Pick, SelectError,
+    TimeSource, TraceProblem, TraceReader, TraceRecording,
 };
 
 /// Rows of a recorded circle at most; they are kept in memory until the circle is evaluated.
@@ -71,14 +71,15 @@ fn read(
 
 /// Reads a commanded trace: positions in 0.1 µm or 0.0001°, or velocities in µm/s or 0.001°/s, or
 /// both; times in s and a column `comp` with `on` and `off` where they are there. Without times, a
-/// row is a CNC cycle of so many seconds.
+/// row is a CNC cycle.
 ///
 /// # Errors
-/// The file cannot be read, or holds something else.
+/// The file cannot be read, holds something else, or its rows are not CNC cycles and are not
+/// resampled.
 pub fn read_commanded(
     path: &Path,
     selection: &ChannelSelection,
-    cycle_s: Option<f64>,
+    options: TraceOptions,
 ) -> Result<CommandedTrace, HostError> {
     let mut found: [Option<Pick>; 3] = [None; 3];
     let mut switch = None;
@@ -109,31 +110,51 @@ pub fn read_commanded(
         Ok(choice)
     })?;
     let [_, position, velocity] = found;
-    let column = |pick: Option<Pick>| {
-        pick.map(|pick| numbers(path, &recording, &pick))
-            .transpose()
-    };
+    let columns = commanded_columns(path, &recording, ([position, velocity], switch))?;
+    let trace = CommandedTrace::new(columns, options);
+    trace.map_err(|reason| {
+        let path = path.to_owned();
+        TraceError::Cycles { path, reason }.into()
+    })
+}
+
+/// The columns of a commanded trace, which were sampled together.
+fn commanded_columns(
+    path: &Path,
+    recording: &TraceRecording,
+    ([position, velocity], switch): ([Option<Pick>; 2], Option<ChannelIndex>),
+) -> Result<TraceColumns, TraceError> {
+    let channels = [position, velocity].into_iter().flatten();
+    let channels: Vec<ChannelIndex> = channels.map(|pick| pick.channel).chain(switch).collect();
+    let clocks = |index: &ChannelIndex| recording.clock(*index);
+    if channels
+        .windows(2)
+        .any(|pair| clocks(&pair[0]) != clocks(&pair[1]))
+    {
+        return Err(TraceError::SeveralClocks(path.to_owned()));
+    }
+    let column = |pick: Option<Pick>| pick.map(|pick| numbers(path, recording, &pick)).transpose();
     let [positions, velocities] = [column(position)?, column(velocity)?];
     let rows = positions
         .as_ref()
         .or(velocities.as_ref())
         .map_or(0, Vec::len);
-    let states = switch.map(|channel| recording.values(channel));
+    let states = switch
+        .map(|channel| numbers_of(path, recording, channel))
+        .transpose()?;
     let switched = |row: usize| match states.and_then(|states| states.get(row)) {
         Some(0.0) => Switched::Off,
         _ => Switched::On,
     };
-    let times = position
-        .or(velocity)
-        .and_then(|pick| recording.times_s(pick.channel));
-    let columns = TraceColumns {
+    let times = channels
+        .first()
+        .and_then(|channel| recording.times_s(*channel));
+    Ok(TraceColumns {
         times_s: times.map(<[f64]>::to_vec),
+        switched: (0..rows).map(switched).collect(),
         positions,
         velocities,
-        switched: (0..rows).map(switched).collect(),
-    };
-    let trace = CommandedTrace::new(columns, cycle_s);
-    trace.map_err(|error| TraceError::Cycle(error).into())
+    })
 }
 
 /// Reads one recorded circle, or one of each direction, in one file or two: columns `x` and `y` of
@@ -296,19 +317,28 @@ fn millimetres(mut pick: Pick, wanted: &CircleChannels) -> Pick {
 
 /// The samples of a channel in the unit that is wanted, each of them a number.
 fn numbers(path: &Path, recording: &TraceRecording, pick: &Pick) -> Result<Vec<f64>, TraceError> {
-    let Missing { count, line, text } = recording.missing(pick.channel);
+    let values = numbers_of(path, recording, pick.channel)?.iter();
+    Ok(values.map(|value| value * pick.unit.factor).collect())
+}
+
+/// The samples of a channel as the file has them, each of them a number.
+fn numbers_of<'a>(
+    path: &Path,
+    recording: &'a TraceRecording,
+    channel: ChannelIndex,
+) -> Result<&'a [f64], TraceError> {
+    let Missing { count, line, text } = recording.missing(channel);
     if count > 0 {
         return Err(TraceError::Problem {
             path: path.to_owned(),
             problem: TraceProblem::Number {
                 line,
-                column: recording.channels()[pick.channel.get()].name.clone(),
+                column: recording.channels()[channel.get()].name.clone(),
                 text,
             },
         });
     }
-    let values = recording.values(pick.channel).iter();
-    Ok(values.map(|value| value * pick.unit.factor).collect())
+    Ok(recording.values(channel))
 }
 
 fn lacks(channels: &[Channel], lacks: &str, help: &str) -> SelectError {
@@ -380,7 +410,7 @@ mod tests {
             let error = read_commanded(
                 file(text.as_bytes()).path(),
                 &ChannelSelection::default(),
-                None,
+                TraceOptions::default(),
             )
             .unwrap_err();
             error.to_string()
@@ -391,7 +421,7 @@ mod tests {
         assert!(said("x,v\n1\n").contains("cannot be read"));
         // The number of the line counts blank lines too.
         assert!(said("x\n1\n\n\none\n").contains(":5: column `x`"));
-        assert!(said("t,x\n0,1\n5000,2\n").starts_with("a CNC cycle of 5000000 ms"));
+        assert!(said("t,x\n0,1\n5000,2\n").contains("a CNC cycle of 5000000 ms"));
     }
 
     #[test]
@@ -400,7 +430,7 @@ mod tests {
             let trace = read_commanded(
                 file(text.as_bytes()).path(),
                 &ChannelSelection::default(),
-                Some(0.002),
+                TraceOptions::default().with_cycle_s(Some(0.002)),
             )
             .unwrap();
             let rows = trace.rows();

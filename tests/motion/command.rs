@@ -227,3 +227,97 @@ fn a_torque_that_is_scaled_is_said() {
     let scaled = |row: &Vec<String>| (number(&row[5]), number(&row[6])) == (40.0, 60.0);
     assert!(rows(&output)[1..].iter().any(scaled), "{said}");
 }
+
+#[test]
+fn rows_that_are_no_cycles_are_refused_or_resampled() {
+    // R4.5 R4.6 R4.9: `--resample`, `--dead-band`, and what the result depends on.
+    let folder = tempfile::tempdir().expect("a folder");
+    let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].in 0\nfrict_comp.table[0].out 12\nEnde\n";
+    std::fs::write(folder.path().join("v.lis"), list).expect("a list");
+    let run = |trace: &str, more: &[&str]| {
+        std::fs::write(folder.path().join("t.csv"), trace).expect("a trace");
+        let arguments = ["--trace", "t.csv", "--value-list", "v.lis"];
+        let output = current(folder.path(), &[&arguments, more].concat());
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), rows(&output), said)
+    };
+    let gap = "t,v,comp\n0,1000,on\n0.001,1000,on\n0.004,1000,off\n0.005,0,on\n";
+    let (status, _, said) = run(gap, &[]);
+    assert_eq!(status, Some(2));
+    assert!(
+        said.contains("the trace `t.csv`: a gap of 3 ms before row 3, at 0.004 s")
+            && said.contains("`--resample`"),
+        "{said}"
+    );
+    let (status, found, said) = run(gap, &["--resample"]);
+    assert_eq!((status, found.len()), (Some(0), 7));
+    let outputs: Vec<&str> = found[1..].iter().map(|row| row[6].as_str()).collect();
+    assert_eq!(outputs, ["12", "12", "12", "12", "0", "0"], "{said}");
+    for line in [
+        "4 rows are resampled to 6 cycles of 1 ms",
+        "a gap of 3 ms before row 3 is bridged",
+        "C12: `out` is taken to have the sign",
+    ] {
+        assert!(said.contains(line), "{line}: {said}");
+    }
+    let rest = "t,v\n0,1000\n0.001,3\n0.002,-3\n0.003,0\n0.004,0\n";
+    let (_, _, said) = run(rest, &["--dead-band", "5"]);
+    assert!(
+        said.contains("1 stretch with a velocity up to 5, 2 cycles, count as standstill")
+            && said.contains("C11: in 4 cycles at standstill the current is held"),
+        "{said}"
+    );
+    let (_, _, said) = run(rest, &["--dead-band", "5", "--reading", "standstill=zero"]);
+    assert!(said.contains("is 0; with `--reading standstill=hold` it is held"));
+    for (trace, more, wanted) in [
+        (
+            rest,
+            &["--dead-band", "-1"][..],
+            "a dead band is a velocity from 0 on",
+        ),
+        (rest, &["--start", "X0"], "--start"),
+        ("t,v,comp\n0,1,on\n0.001,1,\n", &[], "comp"),
+        ("t,v,comp\n0,1,on\n0.001,1,maybe\n", &[], "`maybe`"),
+    ] {
+        let (status, _, said) = run(trace, more);
+        assert_eq!(status, Some(2), "{said}");
+        assert!(said.contains(wanted), "{said}");
+    }
+    // They have no meaning for a program (R9.71).
+    let output = current(folder.path(), &["a.nc", "--axis", "X", "--resample"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn a_start_is_given_and_proposed() {
+    // R5.1 R9.74
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |arguments: &[&str]| {
+        let output = current(folder.path(), arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), rows(&output), said)
+    };
+    let (status, without, said) = run(&["a.nc", "--axis", "X"]);
+    assert_eq!(status, Some(0));
+    assert!(
+        said.contains("info[FC906]") && said.contains("`--start X0,Y0`"),
+        "{said}"
+    );
+    let (status, with, said) = run(&["a.nc", "--axis", "X", "--start", "X-3,Y=0"]);
+    assert_eq!((status, with[1][1].as_str()), (Some(0), "-30000"));
+    assert!(
+        with.len() > without.len() && !said.contains("FC906"),
+        "{said}"
+    );
+    for (start, wanted) in [
+        ("Q0", "the machine has no axis `Q`"),
+        ("X0,X1", "says twice where axis `X` stands"),
+        ("X", "write axes with their positions"),
+    ] {
+        let (status, _, said) = run(&["a.nc", "--axis", "X", "--start", start]);
+        assert_eq!(status, Some(2), "{said}");
+        assert!(said.contains(wanted), "{said}");
+    }
+    let (_, simplified, _) = run(&["a.nc", "--axis", "X", "--columns", "simplified"]);
+    assert_eq!(simplified[0][7], "simplified");
+}

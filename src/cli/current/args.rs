@@ -7,9 +7,10 @@ use clap::{Args, ValueEnum};
 use super::super::channels::MotionChannels;
 use super::super::cycle::CycleArgs;
 use super::super::execution::ExecutionArgs;
+use super::super::failure::Failure;
 use super::super::machine::MachineArgs;
 use super::super::start::StartArgs;
-use crate::current::Reading;
+use crate::current::{DeadBand, Reading, Resampling, TraceOptions};
 use crate::motion::PlannerOptions;
 
 /// Compute the additive current of a program or a recorded trace, cycle by cycle
@@ -47,7 +48,17 @@ pub(in crate::cli) struct CurrentArgs {
     pub(super) channels: MotionChannels,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
-    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    /// Make CNC cycles of the rows of a trace: times that do not rise by the cycle are refused
+    /// otherwise
+    #[arg(long, requires = "trace")]
+    pub(super) resample: bool,
+    /// Velocities of a trace up to V, in µm/s or 0.001°/s, are standstill; by default those that
+    /// only toggle around zero
+    #[arg(long, value_name = "V", requires = "trace", value_parser = parse_dead_band)]
+    #[arg(allow_negative_numbers = true)]
+    pub(super) dead_band: Option<DeadBand>,
+    /// Where the documents leave something open: `standstill=zero`, `below=origin`,
+    /// `delay=reversal`, `start=every`, with commas between them
     #[arg(long, value_name = "READING", default_value = "")]
     pub(super) reading: Reading,
     /// The format of the result
@@ -97,6 +108,30 @@ const OF_PROGRAMS: [&str; 15] = [
     "max_work",
     "max_values",
 ];
+
+impl CurrentArgs {
+    /// How the rows of a trace become cycles.
+    pub(super) fn trace_options(&self) -> Result<TraceOptions, Failure> {
+        let resampling = if self.resample {
+            Resampling::Done
+        } else {
+            Resampling::Refused
+        };
+        Ok(TraceOptions::default()
+            .with_cycle_s(self.cycle.seconds()?)
+            .with_resampling(resampling)
+            .with_dead_band(self.dead_band.unwrap_or_default()))
+    }
+}
+
+/// A velocity from 0 on.
+fn parse_dead_band(text: &str) -> Result<DeadBand, String> {
+    let limit = text.trim().parse().ok();
+    let limit = limit.filter(|limit: &f64| limit.is_finite() && *limit >= 0.0);
+    limit
+        .map(DeadBand::Below)
+        .ok_or_else(|| "a dead band is a velocity from 0 on, in µm/s or 0.001°/s".to_owned())
+}
 
 /// A format of the currents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

@@ -5,7 +5,9 @@ use std::path::Path;
 use super::super::console::Console;
 use super::super::failure::Failure;
 use super::super::outputs::{Outputs, write_text};
+use crate::current::{Reading, Standstill};
 use crate::host::OutputFile;
+use crate::lists::FrictionList;
 use crate::report::pictures::{AxisPlot, CurrentPlot};
 use crate::report::svg::Frame;
 
@@ -32,6 +34,30 @@ impl Plot {
     /// Writes the picture.
     pub(super) fn finish(mut self) -> Result<(), Failure> {
         write_text(&mut self.file, &self.traces.chart().render(Frame::Alone))
+    }
+}
+
+/// Says where it matters what is added at standstill (C11).
+pub(super) fn say_at_rest((axis, reading): (&str, Reading), cycles: u64) {
+    if cycles == 0 {
+        return;
+    }
+    let (now, other) = match reading.standstill {
+        Standstill::Zero => ("0", "with `--reading standstill=hold` it is held"),
+        _ => ("held", "with `--reading standstill=zero` it is 0"),
+    };
+    Console::talk(&format!(
+        "C11: in {cycles} cycles at standstill the current{axis} is {now}; {other}"
+    ));
+}
+
+/// Says on which reading of the documents the sign of the currents depends (C12).
+pub(super) fn say_sign(list: &FrictionList) {
+    if list.table.iter().any(|point| point.output != 0.0) {
+        Console::talk(
+            "C12: `out` is taken to have the sign of the torque at positive velocity; check the \
+             sign on the machine first, `frictcomp explain P-COMP-00047` says how",
+        );
     }
 }
 

@@ -9,14 +9,14 @@ use super::super::failure::Failure;
 use super::super::machine::{remark, value_list};
 use super::super::outputs::Outputs;
 use super::args::CurrentArgs;
-use super::plot::{Plot, say_saturated};
+use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use super::table::{Table, TableOptions};
 use crate::comp::{AxisIndex, State};
 use crate::current::{CurrentOptions, ProgramCurrents, axes_to_follow};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::drive_interface::TorqueScale;
 use crate::host::{Alone, Axes, Input, Ledger, LoadedMachine, Naming, run_alone};
-use crate::machine::AxisType;
+use crate::machine::{AxisType, Parameterisation};
 use crate::motion::{AxisLimits, PlannerOptions, check_cycle};
 use crate::report::pictures::AxisPlot;
 use crate::session::{Motions, StopPolicy};
@@ -91,6 +91,15 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     Console::talk(&format!("reading: {}", args.reading));
     for (name, cycles) in names.iter().zip(currents.saturated()) {
         say_saturated(&format!(" of axis {name}"), cycles);
+    }
+    for (name, cycles) in names.iter().zip(currents.at_rest()) {
+        say_at_rest((&format!(" of axis {name}"), args.reading), cycles);
+    }
+    for axis in &followed {
+        if let Parameterisation::Accepted(list) = &loaded.machine.axis(*axis).friction {
+            say_sign(list);
+            break;
+        }
     }
     args.machine.say_unread(&ledger, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);

@@ -9,7 +9,7 @@ use super::super::failure::Failure;
 use super::super::machine::value_list;
 use super::super::outputs::Outputs;
 use super::args::CurrentArgs;
-use super::plot::{Plot, say_saturated};
+use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use crate::comp::State;
 use crate::current::{Added, AdditiveCurrent, CommandedTrace, Switched};
 use crate::host::{Ledger, read_commanded};
@@ -29,7 +29,10 @@ pub(super) fn run(
     let axes = vec![AxisPlot::new("", None)];
     let mut plot = Plot::create(args.plot.as_deref(), &mut outputs, axes)?;
     outputs.check()?;
-    let trace = read_commanded(trace, &args.channels.selection(), args.cycle.seconds()?)?;
+    let trace = read_commanded(trace, &args.channels.selection(), args.trace_options()?)?;
+    for remark in trace.remarks() {
+        Console::talk(remark);
+    }
     let mut current = AdditiveCurrent::new(&list, args.reading);
     let written = write_csv(&mut writer, &trace, (&mut current, plot.as_mut()));
     if let Some(plot) = plot {
@@ -42,6 +45,8 @@ pub(super) fn run(
     outputs.finish()?;
     Console::talk(&format!("reading: {}", args.reading));
     say_saturated("", current.saturated());
+    say_at_rest(("", args.reading), current.at_rest());
+    say_sign(&list);
     Ok(exit::CLEAN)
 }
 

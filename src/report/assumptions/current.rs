@@ -32,7 +32,15 @@ pub(super) const ASSUMED: &[Assumption] = &[
         rule: "R4.6, C11",
         sentence: "the current is held at standstill",
         changes: "the current of an axis at standstill",
-        shows: "`--reading standstill=zero`",
+        shows: "C11 on stderr, with the cycles in which it matters; `--reading standstill=zero`",
+        when: &[],
+    },
+    Assumption {
+        rule: "R4.6",
+        sentence: "a recorded velocity that changes its direction twice within 5 cycles and 1 µm stands \
+            still",
+        changes: "how many reversals a recorded trace has",
+        shows: "the count on stderr; `--dead-band`",
         when: &[],
     },
     Assumption {
@@ -53,7 +61,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
         rule: "R4.9, C12",
         sentence: "`out` values have the sign of the torque at positive velocity",
         changes: "the sign of the current",
-        shows: "the column `current`",
+        shows: "C12 on stderr; the column `current`",
         when: &[],
     },
     Assumption {

@@ -1,0 +1,16 @@
+//! The columns of a recorded trace.
+
+use super::additive::Switched;
+
+/// The columns of a recorded trace, a CNC cycle a row. Positions or velocities must be there.
+#[derive(Debug, Clone, Default)]
+pub struct TraceColumns {
+    /// The time of each cycle.
+    pub times_s: Option<Vec<f64>>,
+    /// In 0.1 µm or 0.0001°.
+    pub positions: Option<Vec<f64>>,
+    /// In µm/s or 0.001°/s.
+    pub velocities: Option<Vec<f64>>,
+    /// Whether the compensation is on, for every cycle.
+    pub switched: Vec<Switched>,
+}

@@ -41,11 +41,6 @@ impl Failure {
         self
     }
 
-    /// A file that cannot be read.
-    pub(super) fn reading(path: &Path, error: io::Error) -> Self {
-        HostError::read(path, error).into()
-    }
-
     /// A file that cannot be written.
     pub(super) fn writing(path: &Path, error: io::Error) -> Self {
         HostError::write(path, error).into()
@@ -90,6 +85,10 @@ fn options_for(error: &HostError) -> Option<String> {
         HostError::Trace(TraceError::Cycles { .. } | TraceError::SeveralClocks(_)) => {
             "record one row per CNC cycle, give the cycle with `--cycle-time-ms`, or make cycles of \
              the rows with `--resample`"
+        }
+        HostError::SeveralStartupLists(_) => "say with `--startup LIST` which one the machine has",
+        HostError::AlreadyThere(path) if crate::host::is_configuration(path) => {
+            "`frictcomp config show` shows the machine that it describes"
         }
         HostError::AxisName(_) => "write `--enable X,Y`",
         HostError::NoPlant(_) => {

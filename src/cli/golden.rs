@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use similar::TextDiff;
 
 use super::console::{Console, Printed};
 use super::execution::ExecutionArgs;
@@ -17,10 +16,10 @@ use super::outputs::{Outputs, write_text};
 use super::painted::difference;
 use super::severities::SeverityArgs;
 use crate::host::{
-    Alone, Axes, Input, Ledger, LoadedMachine, Machines, Naming, find_programs, folder, read_bytes,
-    run_alone,
+    AgreedTimelines, Alone, Axes, Input, Ledger, LoadedMachine, Machines, Naming, TimelineDrift,
+    find_programs, folder, run_alone,
 };
-use crate::report::{Report, Text, TextOptions};
+use crate::report::{Report, Text, TextChange, TextOptions, render_unified};
 use crate::session::StopPolicy;
 
 /// The option that writes timelines.
@@ -52,24 +51,12 @@ struct Pair {
     golden: PathBuf,
 }
 
-/// A timeline against the one that was agreed on.
-enum Verdict {
-    AsAgreed,
-    /// There is none yet.
-    Missing(String),
-    Drifted {
-        before: String,
-        now: String,
-    },
-}
-
 /// The programs of one call and what they run on.
 struct Bench<'a> {
     args: &'a GoldenArgs,
     machines: Machines,
     ledger: Ledger,
-    /// The folders that the user named, in which timelines may lie.
-    trees: Vec<PathBuf>,
+    agreed: AgreedTimelines,
     /// What to say of files that are no programs.
     passed_over: String,
 }
@@ -86,7 +73,7 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
         input.note(&ledger);
         match &input {
             Input::File(path) => {
-                let golden = golden_path(path);
+                let golden = AgreedTimelines::path(path);
                 pairs.push(Pair { input, golden });
             }
             Input::Stdin => failures.push(Failure::new(
@@ -96,15 +83,11 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
     }
     let inputs: Vec<Input> = pairs.iter().map(|pair| pair.input.clone()).collect();
     machines.look_ahead(&inputs);
-    let tree = |path: &PathBuf| {
-        let tree = if path.is_dir() { path } else { folder(path) };
-        tree.canonicalize().ok()
-    };
     let mut bench = Bench {
         args,
         machines,
         ledger,
-        trees: args.paths.iter().filter_map(tree).collect(),
+        agreed: AgreedTimelines::of(&args.paths),
         passed_over: passed_over(found.passed_over),
     };
     let status = if args.update {
@@ -126,9 +109,9 @@ impl Bench<'_> {
         let mut output = String::new();
         for pair in pairs {
             let shown = shown(&pair.golden);
-            match self.verdict(pair) {
-                Ok(Verdict::AsAgreed) => {}
-                Ok(Verdict::Missing(_)) => {
+            match self.drift(pair) {
+                Ok(TimelineDrift::AsAgreed) => {}
+                Ok(TimelineDrift::Missing { .. }) => {
                     missing += 1;
                     let _ = writeln!(
                         output,
@@ -136,9 +119,14 @@ impl Bench<'_> {
                         console.fitted(&format!("{shown} is missing\n"))
                     );
                 }
-                Ok(Verdict::Drifted { before, now }) => {
+                Ok(TimelineDrift::Drifted { before, now }) => {
                     drifted += 1;
-                    append_drift(&mut output, &pair.golden, &before, &now);
+                    let (agreed, found) = (format!("{shown} (agreed)"), format!("{shown} (now)"));
+                    let change = TextChange {
+                        before: (&agreed, &before),
+                        after: (&found, &now),
+                    };
+                    let _ = writeln!(output, "{}", render_unified(change));
                 }
                 Err(failure) => failures.push(failure),
             }
@@ -208,9 +196,9 @@ impl Bench<'_> {
         let mut outputs = Outputs::new(&self.ledger, console);
         let (mut written, mut reasons) = (0, Vec::new());
         for pair in pairs {
-            let now = match self.verdict(pair) {
-                Ok(Verdict::AsAgreed) => continue,
-                Ok(Verdict::Missing(now) | Verdict::Drifted { now, .. }) => now,
+            let now = match self.drift(pair) {
+                Ok(TimelineDrift::AsAgreed) => continue,
+                Ok(TimelineDrift::Missing { now } | TimelineDrift::Drifted { now, .. }) => now,
                 Err(reason) => {
                     reasons.push(reason);
                     continue;
@@ -233,30 +221,10 @@ impl Bench<'_> {
         Ok(written)
     }
 
-    fn verdict(&mut self, pair: &Pair) -> Result<Verdict, Failure> {
-        self.stay_in_tree(&pair.golden)?;
+    fn drift(&mut self, pair: &Pair) -> Result<TimelineDrift, Failure> {
         let loaded = self.machines.for_folder(pair.input.folder())?;
         let now = timeline(&pair.input, &loaded, &self.args.execution)?;
-        Ok(match read_golden(&pair.golden)? {
-            None => Verdict::Missing(now),
-            Some(before) if before == now => Verdict::AsAgreed,
-            Some(before) => Verdict::Drifted { before, now },
-        })
-    }
-
-    /// A link may not lead to a file that the user did not hand over: it would be shown in a
-    /// difference, or overwritten.
-    fn stay_in_tree(&self, golden: &Path) -> Result<(), Failure> {
-        let is_link = std::fs::symlink_metadata(golden).is_ok_and(|it| it.is_symlink());
-        let inside = |path: PathBuf| self.trees.iter().any(|tree| path.starts_with(tree));
-        if is_link && !golden.canonicalize().is_ok_and(inside) {
-            let shown = golden.display();
-            return Err(Failure::new(format!(
-                "`{shown}` is a link that leads out of the given folders"
-            ))
-            .with_help("put the timeline itself there, or name its folder"));
-        }
-        Ok(())
+        Ok(self.agreed.compare(&pair.golden, now)?)
     }
 }
 
@@ -289,52 +257,4 @@ fn timeline(
     report.finish().map_err(Failure::output)?;
     drop(report);
     Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
-/// `a.nc.timeline` beside `a.nc`, so that `a.nc` and `a.spf` do not meet.
-fn golden_path(program: &Path) -> PathBuf {
-    let mut name = program.as_os_str().to_owned();
-    name.push(".timeline");
-    name.into()
-}
-
-/// The agreed timeline, `None` when there is none. Line ends may be those of any system.
-fn read_golden(path: &Path) -> Result<Option<String>, Failure> {
-    match read_bytes(path) {
-        Ok(bytes) => {
-            let text = String::from_utf8_lossy(&bytes);
-            Ok(Some(text.replace("\r\n", "\n")))
-        }
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(Failure::reading(path, error)),
-    }
-}
-
-fn append_drift(output: &mut String, golden: &Path, before: &str, now: &str) {
-    let shown = shown(golden);
-    let diff = TextDiff::from_lines(before, now);
-    let agreed = format!("{shown} (agreed)");
-    let found = format!("{shown} (now)");
-    let mut unified = diff.unified_diff();
-    let _ = writeln!(output, "{}", unified.header(&agreed, &found));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn drift_is_shown_as_a_diff() {
-        let mut output = String::new();
-        append_drift(
-            &mut output,
-            Path::new("a.nc.timeline"),
-            "one\ntwo\n",
-            "one\n2\n",
-        );
-        assert_eq!(
-            output,
-            "--- a.nc.timeline (agreed)\n+++ a.nc.timeline (now)\n@@ -1,2 +1,2 @@\n one\n-two\n+2\n\n"
-        );
-    }
 }

@@ -21,8 +21,8 @@ use super::start::StartArgs;
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::host::{
-    AxesAhead, Input, Ledger, LoadedMachine, Naming, StateFile, Surroundings, run_program,
-    switched_axes,
+    AxesAhead, Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile, Surroundings,
+    open_session, run_programs, switched_axes,
 };
 use crate::machine::{AxisSet, Setting};
 use crate::report::html::RunDigest;
@@ -194,14 +194,9 @@ impl RunArgs {
 
 /// What is set up before the first program runs.
 struct Start<'a> {
-    inputs: Vec<Input>,
+    programs: Programs<'a>,
     loaded: &'a LoadedMachine,
     session: Session,
-    /// What the control says about lists that changed since the state was saved.
-    said: Vec<Diagnostic>,
-    state: Option<StateFile>,
-    /// How many programs were left when the session stopped.
-    unrun: usize,
 }
 
 /// Runs the command.
@@ -248,7 +243,6 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     outputs.check()?;
     let state = args.state.as_deref().map(StateFile::lock).transpose()?;
-    let saved = state.as_ref().map(StateFile::load).transpose()?.flatten();
     let mut options = args.execution.options(&loaded, args.stop_policy());
     options.start = args.start.positions(&loaded.machine)?;
     if !loaded.machine.is_described() {
@@ -260,34 +254,30 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
             Console::talk(&remark.in_words(Some(command_line)));
         }
     }
-    let (session, said) = match (saved, &state) {
-        (Some(saved), Some(file)) => Session::resume(loaded.machine.clone(), options, saved)
-            .map_err(|error| file.refused(&error))?,
-        _ => (Session::new(loaded.machine.clone(), options), Vec::new()),
-    };
-    let mut session = session;
+    let (mut session, changed) = open_session(&loaded, options, state.as_ref())?;
     if loaded.machine.axis_set == AxisSet::AsTheyOccur {
         session.expect_axes(AxesAhead::of(&inputs, []).names());
     }
+    let said: Vec<Diagnostic> = loaded.errors().chain(&changed).cloned().collect();
     let mut start = Start {
-        inputs,
+        programs: Programs {
+            inputs: &inputs,
+            said: &said,
+        },
         loaded: &loaded,
         session,
-        said,
-        state,
-        unrun: 0,
     };
     let report = args.report(target);
     let given = args.given(&loaded);
     let (played, hint) = play(&mut start, (report, html.as_mut()))?;
-    if let Played::Unread = played {
+    let Some(played) = played else {
         // The reader has seen enough; a run that was cut short leaves nothing.
         return Ok(super::exit::CLEAN);
-    }
+    };
     if let Some(html) = html {
         html.write(&given, &loaded)?;
     }
-    if let (Played::Whole, Some(file)) = (played, &start.state) {
+    if let (true, Some(file)) = (played.flow.is_continue(), &state) {
         outputs.save(file, &start.session.save())?;
     }
     outputs.finish()?;
@@ -297,25 +287,15 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     }
     let status = args.fail_on.status(start.session.counts());
     // Programs that did not run are no all-clear, whatever kept them from it.
-    let unrun = (start.unrun > 0).then_some(super::exit::FOUND);
+    let unrun = (played.unrun > 0).then_some(super::exit::FOUND);
     Ok(status.max(unrun.unwrap_or_default()))
 }
 
-/// How far the programs were played.
-#[derive(Clone, Copy)]
-enum Played {
-    /// To their end, or to the error that stopped the session.
-    Whole,
-    /// Something ended them before.
-    InPart,
-    /// Nobody read the timeline to its end, and there is no other output.
-    Unread,
-}
-
+/// Runs the programs; `None` where nobody read the timeline to its end, and there is no other output.
 fn play(
     start: &mut Start<'_>,
     (report, html): (Box<dyn Report>, Option<&mut HtmlFile>),
-) -> Result<(Played, Option<Code>), Failure> {
+) -> Result<(Option<Played>, Option<Code>), Failure> {
     let shared = RefCell::new(report);
     let goes_on_alone = html.is_some();
     let mut sink = Listeners {
@@ -324,61 +304,39 @@ fn play(
         weightiest: None,
     };
     // Between two reads of a program no record is on its way.
-    let flow = start.programs(&mut sink, &|| {
+    let before_waiting = || {
         // A writer that takes no more says so at the next record.
         let _ = shared.borrow_mut().flush();
-    });
+    };
+    let surroundings = Surroundings::new(start.loaded, Naming::AsGiven);
+    let surroundings = surroundings.before_waiting(&before_waiting);
+    let session = &mut start.session;
+    let played = run_programs(session, start.programs, &surroundings, &mut sink);
     let said = sink.weightiest.map(|(_, code)| code);
     let mut report = shared.into_inner();
     report.finish().map_err(Failure::output)?;
     if report.is_closed() && !goes_on_alone {
-        return Ok((Played::Unread, None));
+        return Ok((None, None));
     }
-    let played = match flow? {
-        ControlFlow::Continue(()) => Played::Whole,
-        ControlFlow::Break(()) => Played::InPart,
-    };
-    Ok((played, said))
+    let played = played?;
+    if played.unrun > 0 {
+        say_unrun(played.unrun, &start.session);
+    }
+    Ok((Some(played), said))
 }
 
-impl Start<'_> {
-    fn programs(
-        &mut self,
-        sink: &mut dyn Sink,
-        before_waiting: &dyn Fn(),
-    ) -> Result<ControlFlow<()>, Failure> {
-        let lists: Vec<Diagnostic> = self.loaded.errors().chain(&self.said).cloned().collect();
-        let mut flow = self.session.begin(&lists, sink);
-        let surroundings = Surroundings::new(self.loaded, Naming::AsGiven);
-        let surroundings = surroundings.before_waiting(before_waiting);
-        let mut left = self.inputs.len();
-        for input in &self.inputs {
-            if flow.is_break() || self.session.is_stopped() {
-                break;
-            }
-            left -= 1;
-            flow = run_program(&mut self.session, input, &surroundings, sink)?;
-        }
-        if flow.is_continue() {
-            flow = self.session.finish(sink);
-            if left > 0 {
-                let programs = if left == 1 { "program" } else { "programs" };
-                let failed = self.session.counts().contains_key(&Severity::Error);
-                Console::talk(&if failed {
-                    format!(
-                        "the error stopped the session: {left} more {programs} did not run \
-                         (`--keep-going` continues after errors)"
-                    )
-                } else {
-                    format!(
-                        "the last program did not reach its end: {left} more {programs} did not run"
-                    )
-                });
-            }
-            self.unrun = left;
-        }
-        Ok(flow)
-    }
+/// Says why programs did not run.
+fn say_unrun(left: usize, session: &Session) {
+    let programs = if left == 1 { "program" } else { "programs" };
+    let failed = session.counts().contains_key(&Severity::Error);
+    Console::talk(&if failed {
+        format!(
+            "the error stopped the session: {left} more {programs} did not run \
+             (`--keep-going` continues after errors)"
+        )
+    } else {
+        format!("the last program did not reach its end: {left} more {programs} did not run")
+    });
 }
 
 /// The timeline, shared with who flushes it, and the digest for the HTML report.

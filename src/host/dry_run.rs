@@ -10,8 +10,10 @@ use super::error::HostError;
 use super::finder::{ProgramFinder, Reach};
 use super::input::{Input, Naming, Opened};
 use super::ledger::Ledger;
+use super::state_file::StateFile;
 use super::switched_axes::switched_axes;
 use super::watch::{Watch, Watched};
+use crate::diagnostic::Diagnostic;
 use crate::machine::AxisSet;
 use crate::session::{Program, Session, SessionOptions};
 use crate::timeline::Sink;
@@ -83,6 +85,70 @@ pub fn run_program(
         ControlFlow::Break(()) => ControlFlow::Break(()),
         ControlFlow::Continue(_) => ControlFlow::Continue(()),
     })
+}
+
+/// A session that goes on where a saved state ended, or begins at the start of the control, and what
+/// the control says about lists that changed since the state was saved (P-ERR-110641).
+///
+/// # Errors
+/// The state cannot be read, is damaged, or is that of another machine.
+pub fn open_session(
+    loaded: &LoadedMachine,
+    options: SessionOptions,
+    state: Option<&StateFile>,
+) -> Result<(Session, Vec<Diagnostic>), HostError> {
+    let machine = loaded.machine.clone();
+    if let Some(file) = state
+        && let Some(saved) = file.load()?
+    {
+        return Session::resume(machine, options, saved).map_err(|error| file.refused(&error));
+    }
+    Ok((Session::new(machine, options), Vec::new()))
+}
+
+/// Programs that run one after the other.
+#[derive(Debug, Clone, Copy)]
+pub struct Programs<'a> {
+    /// The programs.
+    pub inputs: &'a [Input],
+    /// What is said about the machine before the first of them.
+    pub said: &'a [Diagnostic],
+}
+
+/// How far programs were run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Played {
+    /// `Break` when the sink wanted no more.
+    pub flow: ControlFlow<()>,
+    /// How many programs were left when the session stopped.
+    pub unrun: usize,
+}
+
+/// Runs programs in a session, from its beginning to its summary.
+///
+/// # Errors
+/// A program cannot be read.
+pub fn run_programs(
+    session: &mut Session,
+    programs: Programs<'_>,
+    surroundings: &Surroundings<'_>,
+    sink: &mut dyn Sink,
+) -> Result<Played, HostError> {
+    let mut flow = session.begin(programs.said, sink);
+    let mut unrun = programs.inputs.len();
+    for input in programs.inputs {
+        if flow.is_break() || session.is_stopped() {
+            break;
+        }
+        unrun -= 1;
+        flow = run_program(session, input, surroundings, sink)?;
+    }
+    if flow.is_continue() {
+        flow = session.finish(sink);
+    } else {
+        unrun = 0;
+    }
+    Ok(Played { flow, unrun })
 }
 
 /// How a program runs in a session of its own.

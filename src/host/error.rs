@@ -70,6 +70,18 @@ pub enum HostError {
         /// What it is instead.
         message: String,
     },
+    /// A folder that is not there.
+    #[error("there is no folder `{}`", .0.display())]
+    NoFolder(PathBuf),
+    /// A file that is there already and stays as it is.
+    #[error("`{}` already exists and is not changed", .0.display())]
+    AlreadyThere(PathBuf),
+    /// Start-up lists of which nobody says which one the machine has.
+    #[error("there are several start-up lists: {}", listed(.0))]
+    SeveralStartupLists(Vec<PathBuf>),
+    /// A link to a file that nobody handed over.
+    #[error("`{}` is a link that leads out of the given folders", .0.display())]
+    LeadsOut(PathBuf),
     /// `X[` where the name of an axis is wanted.
     #[error("`{0}` is not an axis name")]
     AxisName(String),
@@ -186,6 +198,8 @@ impl HostError {
                 _ => return None,
             },
             Self::FolderAsList(_) => "name the file in it",
+            Self::NoFolder(_) => "name the folder of the programs",
+            Self::LeadsOut(_) => "put the file itself there, or name its folder",
             Self::NoPrograms { extensions, .. } => {
                 return Some(format!(
                     "programs end in .{}; `[check] extensions` in frictcomp.toml names others",
@@ -209,6 +223,14 @@ impl HostError {
         };
         Some(help.to_owned())
     }
+}
+
+fn listed(paths: &[PathBuf]) -> String {
+    let names: Vec<String> = paths
+        .iter()
+        .map(|path| format!("`{}`", path.display()))
+        .collect();
+    names.join(", ")
 }
 
 fn reading(path: &Path, reason: &io::Error) -> String {

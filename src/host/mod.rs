@@ -15,6 +15,7 @@ mod discovery;
 mod dry_run;
 mod error;
 mod finder;
+mod first_look;
 mod grounds;
 mod input;
 mod interrupt;
@@ -29,6 +30,7 @@ mod simulations;
 mod state_file;
 mod steady;
 mod switched_axes;
+mod timelines;
 mod trace_error;
 mod traces;
 mod unfinished;
@@ -42,9 +44,13 @@ pub use discovery::{
     CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
     relative,
 };
-pub use dry_run::{Alone, Axes, Surroundings, begin, run_alone, run_program};
+pub use dry_run::{
+    Alone, Axes, Played, Programs, Surroundings, begin, open_session, run_alone, run_program,
+    run_programs,
+};
 pub use error::HostError;
 pub use finder::{ProgramFinder, Reach};
+pub use first_look::{outline_of, write_new};
 pub use grounds::{Elsewhere, Grounds, normal};
 pub use input::{Input, Naming, Opened, reopen};
 pub use interrupt::{clean_up_when_stopped, survive_file_size_limit};
@@ -58,6 +64,7 @@ pub use read::{read_bytes, read_text};
 pub use simulations::{compare, tune};
 pub use state_file::StateFile;
 pub use switched_axes::switched_axes;
+pub use timelines::{AgreedTimelines, TimelineDrift};
 pub use trace_error::TraceError;
 pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace};
 pub use unfinished::{UnfinishedFile, take_away_left};

@@ -7,6 +7,8 @@ mod advice;
 pub mod assumptions;
 pub mod circle;
 mod concise;
+#[cfg(feature = "toml")]
+pub mod configuration;
 mod csv;
 mod diagnostics;
 pub mod drives;
@@ -29,6 +31,7 @@ pub mod svg;
 mod text;
 pub mod trace;
 pub mod tune;
+mod unified;
 pub mod verify;
 pub mod versions;
 mod view;
@@ -44,6 +47,7 @@ pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;
 pub use text::{Runs, Text, TextOptions};
+pub use unified::{TextChange, render_unified};
 pub use view::{Blocks, View};
 #[cfg(feature = "cli")]
 pub(crate) use visible::{leading, visible, visible_line};

@@ -1,0 +1,127 @@
+//! What a folder tells about the machine of its programs before it has a configuration (R9.73).
+
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use ignore::WalkBuilder;
+
+use super::discovery::relative;
+use super::error::HostError;
+use super::grounds::normal;
+use super::input::Input;
+use super::list_files::{ListsOnDisk, read_list};
+use super::read::read_text;
+use super::unfinished::{UnfinishedFile, take_away_left};
+use super::walk::find_programs;
+use crate::diagnostic::Code;
+use crate::lists::ListKind;
+use crate::machine::{Configuration, NoLists, Outline, check_list};
+
+/// How deep below the folder a start-up list is looked for.
+const DEPTH: usize = 4;
+
+/// What a folder tells about its machine: the start-up list that is given or lies there, otherwise
+/// the axes of the programs.
+///
+/// # Errors
+/// There is no such folder, several start-up lists lie there, or the given one is none.
+pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, HostError> {
+    if !folder.is_dir() {
+        return Err(HostError::NoFolder(folder.to_owned()));
+    }
+    let startup = match startup {
+        Some(path) => Some(path.to_owned()),
+        None => find_startup(folder)?,
+    };
+    let Some(path) = startup else {
+        return Ok(Outline::of_programs(programs(folder)));
+    };
+    check_startup(&path)?;
+    Ok(Outline::Startup(slashed(&seen_from(folder, &path)?)))
+}
+
+/// Creates a file as a whole; one that is there stays.
+///
+/// # Errors
+/// There is such a file, or it cannot be written.
+pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
+    let written = UnfinishedFile::begin(target).and_then(|mut file| {
+        take_away_left(&file, &mut BTreeSet::new());
+        file.write_all(text.as_bytes())?;
+        file.take_free_place()
+    });
+    written.map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => HostError::AlreadyThere(target.to_owned()),
+        _ => HostError::write(target, error),
+    })
+}
+
+/// The start-up list below a folder, recognised by its content.
+fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
+    let mut found: Vec<PathBuf> = Vec::new();
+    let walk = WalkBuilder::new(folder)
+        .max_depth(Some(DEPTH))
+        .sort_by_file_name(std::ffi::OsStr::cmp)
+        .build();
+    for entry in walk.filter_map(Result::ok) {
+        let path = entry.path();
+        let is_list = path
+            .extension()
+            .is_some_and(|it| it.eq_ignore_ascii_case("lis"));
+        if is_list
+            && let Ok(list) = read_list(path)
+            && check_list(list, None, &mut NoLists).kind == Some(ListKind::Startup)
+        {
+            found.push(path.strip_prefix(".").unwrap_or(path).to_owned());
+        }
+    }
+    if found.len() > 1 {
+        return Err(HostError::SeveralStartupLists(found));
+    }
+    Ok(found.pop())
+}
+
+/// Says what is there instead of a start-up list.
+fn check_startup(path: &Path) -> Result<(), HostError> {
+    let configuration = Configuration::from_startup(read_list(path)?, &mut ListsOnDisk);
+    let wrong = configuration
+        .diagnostics
+        .iter()
+        .find(|said| said.code == Code::Fc125 && *said.place.file == *path.display().to_string());
+    match wrong {
+        Some(wrong) if configuration.files.len() == 1 => Err(HostError::NotAStartupList {
+            path: path.to_owned(),
+            message: wrong.message.clone(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A path as a configuration in the folder writes it.
+fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, HostError> {
+    let absolute = |path: &Path| {
+        let found = std::path::absolute(path).map(|path| normal(&path));
+        found.map_err(|error| HostError::read(path, error))
+    };
+    Ok(relative(&absolute(path)?, &absolute(folder)?))
+}
+
+/// The texts of the programs below a folder. What cannot be read is no program to learn from.
+fn programs(folder: &Path) -> impl Iterator<Item = String> {
+    let inputs = find_programs(&[folder.to_owned()], |_| None).inputs;
+    inputs.into_iter().filter_map(|input| match input {
+        Input::File(path) => read_text(&path).ok(),
+        Input::Stdin => None,
+    })
+}
+
+/// A path with `/` between its parts.
+fn slashed(path: &Path) -> String {
+    let shown = path.to_string_lossy();
+    if cfg!(windows) {
+        shown.replace('\\', "/")
+    } else {
+        shown.into_owned()
+    }
+}

@@ -3,12 +3,15 @@
 
 mod support;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use frictcomp::diagnostic::{Diagnostic, Fix, Fixed, Safety};
-use frictcomp::machine::{Machine, NoLists, check_list};
+use frictcomp::diagnostic::{Code, Diagnostic, Fix, Fixed, Safety, Severity};
+use frictcomp::machine::{
+    Configuration, ListFiles, Machine, NoList, NoLists, check_configuration, check_list,
+};
 use frictcomp::session::{
     NoFiles, Options, Program, Session, SessionOptions, StopPolicy, allow_here,
 };
@@ -46,8 +49,11 @@ impl Sink for Run {
 }
 
 fn run(programs: &[(&str, &str)]) -> Run {
+    run_on(Machine::from_toml(MACHINE).expect("a machine"), programs)
+}
+
+fn run_on(machine: Machine, programs: &[(&str, &str)]) -> Run {
     let options = SessionOptions::from(Options::default().with_stop(StopPolicy::CheckAll));
-    let machine = Machine::from_toml(MACHINE).expect("a machine");
     let mut session = Session::new(machine, options);
     let mut run = Run::default();
     for (name, text) in programs {
@@ -332,6 +338,245 @@ fn a_key_of_the_configuration_becomes_the_near_one() {
         }
         assert_eq!(Fixed::new(&source, &fixes).text, text.replace(found, near));
     }
+}
+
+/// Lists by their paths.
+struct Lists<'a>(Vec<(&'a str, &'a str)>);
+
+impl ListFiles for Lists<'_> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let found = self.0.iter().find(|(name, _)| *name == path);
+        let (name, text) = found.ok_or(NoList::Missing)?;
+        Ok(SourceFile::new(*name, *text))
+    }
+}
+
+const VALUES: &str = "kopf.achs_nr 1\nfrict_comp.mode 3\nfrict_comp.table_entries 1\n\
+    frict_comp.table[0].in 0\nfrict_comp.table[0].out 12\nEnde\n";
+
+/// The machine of a start-up list with one axis and a list of defaults.
+fn machine_of(axis: &str, default: &str) -> Configuration {
+    let startup = "default_achs_mds d.lis\nachs_mds[0] x.lis\nachs_kw[0] v.lis\nEnde\n";
+    let lists = vec![("d.lis", default), ("x.lis", axis), ("v.lis", VALUES)];
+    Configuration::from_startup(SourceFile::new("h.lis", startup), &mut Lists(lists))
+}
+
+#[test]
+fn a_list_sets_what_friction_compensation_needs() {
+    // R12.5: P-AXIS-00522 in the list of the axis, with its line ends and columns.
+    let head = "kopf.achs_nr          1\r\nkopf.log_achs_name    X\r\nkenngr.achs_typ 1\r\n";
+    let cases = [
+        (
+            "lr_param.frict_comp   0   # \u{fc}ber\r\nEnde\r\n",
+            "",
+            "lr_param.frict_comp   1   # \u{fc}ber\r\nEnde\r\n",
+        ),
+        (
+            "lr_param.frict_comp FALSE\r\nEnde",
+            "",
+            "lr_param.frict_comp TRUE\r\nEnde",
+        ),
+        (
+            "lr_param.frict_comp 0\r\nlr_param.frict_comp 0x0",
+            "",
+            "lr_param.frict_comp 0\r\nlr_param.frict_comp 1",
+        ),
+        (
+            "kopf.x                2 (two)\r\nEnde\r\n",
+            "",
+            "kopf.x                2 (two)\r\nlr_param.frict_comp   1\r\nEnde\r\n",
+        ),
+        ("a 2", "", "a 2\r\nlr_param.frict_comp 1"),
+        // The list of defaults speaks of all axes and stays.
+        (
+            "Ende",
+            "lr_param.frict_comp 0\n",
+            "lr_param.frict_comp 1\r\nEnde",
+        ),
+    ];
+    for (rest, default, expected) in cases {
+        let axis = format!("{head}{rest}");
+        let machine = machine_of(&axis, &format!("{default}Ende\n")).machine;
+        let program = [(
+            "a.nc",
+            "X[COMP ON FRICT]\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30",
+        )];
+        let said = run_on(machine, &program).said;
+        let said = said
+            .iter()
+            .find(|said| said.code == Code::PErr70495)
+            .expect("a refusal");
+        let [fix] = &said.fixes[..] else {
+            panic!("{said:?}");
+        };
+        assert_eq!((&*fix.place.file, fix.safety), ("x.lis", Safety::Unsafe));
+        let list = SourceFile::new("x.lis", axis.as_str());
+        let fixed = Fixed::new(&list, [fix]).text;
+        assert_eq!(fixed, format!("{head}{expected}"));
+        let mended = machine_of(&fixed, &format!("{default}Ende\n"));
+        let after = run_on(mended.machine, &program).said;
+        assert!(
+            after.iter().all(|said| said.code != Code::PErr70495),
+            "{after:?}"
+        );
+        let before = machine_of(&axis, &format!("{default}Ende\n")).diagnostics;
+        let (was, is) = (counted(&before), counted(&mended.diagnostics));
+        assert!(was.contains_key(&Code::Fc135), "{was:?}");
+        assert!(!is.contains_key(&Code::Fc135), "{is:?}");
+        let new = is.iter().find(|(code, times)| was.get(code) < Some(times));
+        assert_eq!(new, None, "{rest}");
+    }
+}
+
+#[test]
+fn the_configuration_sets_what_it_has_set_to_false() {
+    // R12.5
+    let text = "[[axis]]\nname = \"X\"\nfrict_comp = false # not yet\n";
+    let machine = Machine::from_toml(text).expect("a machine");
+    let said = run_on(machine, &[("a.nc", "X[COMP ON FRICT]\nM30")]).said;
+    let fixes = &said.first().expect("a refusal").fixes;
+    let mended = Fixed::new(&SourceFile::new("frictcomp.toml", text), fixes);
+    assert_eq!(mended.text, text.replace("false", "true"));
+    // Nothing of the axis stands in a list.
+    let machine = Machine::from_toml("[[axis]]\nname = \"X\"\n").expect("a machine");
+    let said = run_on(machine, &[("a.nc", "X[COMP ON FRICT]\nM30")]).said;
+    assert!(said.first().expect("a refusal").fixes.is_empty());
+}
+
+/// How often each code is said.
+fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
+    let mut counts = BTreeMap::new();
+    for diagnostic in said {
+        *counts.entry(diagnostic.code).or_default() += 1;
+    }
+    counts
+}
+
+#[test]
+fn every_fix_takes_its_message_away_and_brings_no_other() {
+    // R12.5, for every code that has a fix and every program with a mistake.
+    let mut paths = Vec::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    programs(&root.join("programs/err"), &mut paths);
+    paths.sort();
+    let mut fixed: BTreeMap<Code, usize> = BTreeMap::new();
+    for path in paths {
+        let Ok(text) = fs::read_to_string(&path) else {
+            continue;
+        };
+        let before = run(&[("a.nc", &text)]).said;
+        let source = SourceFile::new("a.nc", text.as_str());
+        for said in &before {
+            for fix in &said.fixes {
+                let mended = Fixed::new(&source, [fix]).text;
+                let after = run(&[("a.nc", &mended)]).said;
+                let (was, is) = (counted(&before), counted(&after));
+                let shown = path.display();
+                assert!(
+                    is.get(&said.code) < was.get(&said.code),
+                    "{shown}: {mended}"
+                );
+                for (code, times) in &is {
+                    let more = *times > was.get(code).copied().unwrap_or_default();
+                    // A command that works now may leave a state that nothing brings home, and a
+                    // comment that is read now may silence nothing.
+                    let follows =
+                        fix.safety == Safety::Unsafe && matches!(code, Code::Fc401 | Code::Fc490);
+                    assert!(!more || follows, "{shown}: {code} after {fix:?}\n{mended}");
+                }
+                *fixed.entry(said.code).or_default() += 1;
+            }
+        }
+    }
+    let codes: Vec<&str> = fixed.keys().map(|code| code.as_str()).collect();
+    let expected = [
+        "P-ERR-21301",
+        "FC202",
+        "FC205",
+        "FC401",
+        "FC404",
+        "FC407",
+        "FC490",
+        "FC491",
+    ];
+    assert_eq!(codes, expected);
+}
+
+/// Lists in a folder, one of them with another text.
+struct Folder<'a> {
+    root: &'a Path,
+    changed: Option<(&'a str, &'a str)>,
+}
+
+impl<'a> Folder<'a> {
+    fn new(root: &'a Path, changed: Option<(&'a str, &'a str)>) -> Self {
+        Self { root, changed }
+    }
+}
+
+impl ListFiles for Folder<'_> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let changed = self.changed.filter(|(name, _)| *name == path);
+        let text = match changed {
+            Some((_, text)) => text.to_owned(),
+            None => fs::read_to_string(self.root.join(path)).map_err(|_| NoList::Missing)?,
+        };
+        Ok(SourceFile::new(path, text))
+    }
+}
+
+fn extension(name: &str) -> &str {
+    name.rsplit('.').next().unwrap_or_default()
+}
+
+/// What is said about a list or a configuration with all that it names.
+fn said_of(name: &str, mut files: Folder<'_>) -> Vec<Diagnostic> {
+    let source = files.read(name).expect("a list");
+    if extension(name) == "toml" {
+        check_configuration(source, &mut files).diagnostics
+    } else {
+        check_list(source, None, &mut files).diagnostics
+    }
+}
+
+#[test]
+fn every_fix_of_a_list_takes_its_message_away_and_brings_no_other() {
+    // R12.5, for every list with a mistake.
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("programs/machines/err");
+    let names = fs::read_dir(&root).expect("lists").map(|entry| {
+        let name = entry.expect("an entry").file_name();
+        name.into_string().expect("a name")
+    });
+    let is_list = |name: &String| ["lis", "toml"].contains(&extension(name));
+    let mut names: Vec<String> = names.filter(is_list).collect();
+    names.sort();
+    let mut fixed = BTreeMap::new();
+    for name in names {
+        let before = said_of(&name, Folder::new(&root, None));
+        for said in &before {
+            for fix in &said.fixes {
+                let file = &*fix.place.file;
+                let source = Folder::new(&root, None)
+                    .read(file)
+                    .expect("the list of the fix");
+                let mended = Fixed::new(&source, [fix]);
+                assert_eq!(mended.applied, 1, "{name}: {fix:?}");
+                let after = said_of(&name, Folder::new(&root, Some((file, &mended.text))));
+                let (was, is) = (counted(&before), counted(&after));
+                assert!(is.get(&said.code) < was.get(&said.code), "{name}: {fix:?}");
+                // A configuration that is read now may say more.
+                let follows =
+                    |code: &Code| said.code == Code::Fc110 && code.severity() != Severity::Error;
+                let new = is
+                    .iter()
+                    .find(|(code, times)| was.get(code) < Some(times) && !follows(code));
+                assert_eq!(new, None, "{name}: {fix:?}");
+                *fixed.entry(said.code.as_str()).or_insert(0) += 1;
+            }
+        }
+    }
+    let codes: Vec<&str> = fixed.into_keys().collect();
+    assert_eq!(codes, ["FC110", "FC122"]);
 }
 
 fn programs(folder: &Path, found: &mut Vec<PathBuf>) {

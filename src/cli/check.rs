@@ -15,6 +15,7 @@ use super::failure::Failure;
 use super::failures::Failures;
 use super::listing::{Lister, ListingArgs, of_records, passed_over, total};
 use super::machine::{MachineArgs, remark, undescribed_remark};
+use super::mend::{Bench, FixArgs};
 use super::notes::{self, Note};
 use super::outputs::Outputs;
 use crate::diagnostic::Severity;
@@ -41,6 +42,8 @@ pub(super) struct CheckArgs {
     #[arg(long, short, value_name = "N")]
     jobs: Option<NonZeroUsize>,
     #[command(flatten)]
+    fixes: FixArgs,
+    #[command(flatten)]
     listing: ListingArgs,
     #[command(flatten)]
     machine: MachineArgs,
@@ -62,6 +65,22 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     machines.look_ahead(&inputs);
     let mut outputs = Outputs::new(&ledger, console);
     let mut target = outputs.result(args.listing.output.as_deref())?;
+    let mut bench = Bench {
+        inputs: &inputs,
+        machines: &mut machines,
+        execution: &args.execution,
+        workers: args.jobs,
+    };
+    if args.fixes.diff {
+        outputs.check()?;
+        let status = bench.diff(&mut target, console)?;
+        outputs.finish()?;
+        return failures.status(console, status);
+    }
+    if args.fixes.fix {
+        outputs.check()?;
+        failures.extend(bench.fix(console)?);
+    }
     // Every list is known before anything runs.
     let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
     let jobs: Vec<Job> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();

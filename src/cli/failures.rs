@@ -22,6 +22,11 @@ impl Failures {
         }
     }
 
+    /// Those of another part of the work.
+    pub(super) fn extend(&mut self, others: Self) {
+        others.0.into_iter().for_each(|it| self.push(it));
+    }
+
     /// Whether everything was done.
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -26,6 +26,7 @@ mod listing;
 mod lists;
 mod machine;
 mod man;
+mod mend;
 mod named_lists;
 mod notes;
 mod outputs;

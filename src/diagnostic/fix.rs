@@ -1,7 +1,5 @@
 //! Changes to a text that do what a diagnostic advises.
 
-use std::ops::Range;
-
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -108,31 +106,62 @@ impl Fixed {
     /// Applies fixes to a file, from its start to its end. Lines that a fix brings end as the
     /// first line of the file does.
     pub fn new<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) -> Self {
-        let text = source.text();
-        let mut placed: Vec<(Range<usize>, &str)> = fixes
-            .into_iter()
-            .filter_map(|fix| Some((source.find(&fix.place)?.range(), fix.text.as_str())))
-            .collect();
-        placed.sort_by_key(|(range, _)| (range.start, range.end));
-        placed.dedup();
-        let line_end = line_end(text);
-        let mut result = Self {
-            text: String::with_capacity(text.len()),
-            applied: 0,
-        };
-        let mut copied = 0;
-        for (range, replacement) in placed {
-            if range.start < copied {
-                continue;
-            }
-            result.text.push_str(&text[copied..range.start]);
-            result.text.push_str(&replacement.replace('\n', line_end));
-            copied = range.end;
-            result.applied += 1;
+        let edits = edits(source, fixes);
+        Self {
+            text: edited(source.text(), &edits),
+            applied: edits.len(),
         }
-        result.text.push_str(&text[copied..]);
-        result
     }
+}
+
+/// A change of one text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Edit {
+    /// What is replaced.
+    pub span: Span,
+    /// What stands there afterwards, with the line ends of the text.
+    pub text: String,
+}
+
+/// The changes of a file that fixes come to, from its start to its end. A fix that overlaps an earlier
+/// one, and one whose place is not in the text, comes to nothing.
+pub fn edits<'a>(source: &SourceFile, fixes: impl IntoIterator<Item = &'a Fix>) -> Vec<Edit> {
+    let line_end = line_end(source.text());
+    let placed = fixes.into_iter().filter_map(|fix| {
+        Some(Edit {
+            span: source.find(&fix.place)?,
+            text: fix.text.replace('\n', line_end),
+        })
+    });
+    let mut edits: Vec<Edit> = placed.collect();
+    edits.sort_by(|one, other| {
+        let key = |it: &Edit| (it.span.start, it.span.end);
+        (key(one), &one.text).cmp(&(key(other), &other.text))
+    });
+    edits.dedup();
+    let mut end = 0;
+    edits.retain(|edit| {
+        let is_free = edit.span.start >= end;
+        if is_free {
+            end = edit.span.end;
+        }
+        is_free
+    });
+    edits
+}
+
+/// A text after changes from its start to its end.
+pub fn edited(text: &str, edits: &[Edit]) -> String {
+    let mut result = String::with_capacity(text.len());
+    let mut copied = 0;
+    for edit in edits {
+        let range = edit.span.range();
+        result.push_str(&text[copied..range.start]);
+        result.push_str(&edit.text);
+        copied = range.end;
+    }
+    result.push_str(&text[copied..]);
+    result
 }
 
 /// How the first line of a text ends.

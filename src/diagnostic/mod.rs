@@ -16,7 +16,7 @@ pub use advice::{Advice, Budget, Wording};
 pub use codes::{Code, UnknownCode};
 pub use collected::{Collected, MAX_MESSAGES};
 pub use filter::CodeFilter;
-pub use fix::{Fix, Fixed, Safety};
+pub use fix::{Edit, Fix, Fixed, Safety, edited, edits};
 pub use levels::Levels;
 pub use message::{Diagnostic, Label};
 pub(crate) use number::Shown;

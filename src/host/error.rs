@@ -29,6 +29,14 @@ pub enum HostError {
         /// What the system says.
         reason: io::Error,
     },
+    /// A change that the code page of a file cannot write.
+    #[error("`{}` cannot be changed: {reason}", .path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// A full disk.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),

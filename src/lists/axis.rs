@@ -7,7 +7,7 @@ use super::line::{Entries, Entry};
 use super::parameter::{AxisType, Origin, Parameter};
 use super::value::{Given, Number};
 use crate::comp::{Kind, KindSet};
-use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, Fix, did_you_mean};
 
 /// P-AXIS-00465: the kinds without which the axis must not move (R1.36).
 const REQUIRED: &str = "lr_param.prog_movement_requires_compensations";
@@ -29,6 +29,9 @@ pub struct AxisValues {
     pub required: Option<Given<KindSet>>,
     /// The entries of the drive by their keys: `antr.*`, its type and its torque offset.
     pub drive: BTreeMap<String, Entry>,
+    /// The end of the last entry, after which another one could stand, and how many columns the key
+    /// takes there.
+    pub end: Option<Given<usize>>,
 }
 
 /// Whether a name can stand in a program: a letter, then letters, digits or `_`, 16 at most (R2.20).
@@ -59,7 +62,10 @@ fn is_drive_key(pattern: &str) -> bool {
 impl AxisValues {
     /// Gathers the values; all keys that are not named in R3.10 and R3.11 are passed over.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let mut values = Self::default();
+        let mut values = Self {
+            end: list.entries.last().map(Entry::end),
+            ..Self::default()
+        };
         for entry in &list.entries {
             match entry.pattern.as_str() {
                 "kopf.achs_nr" => values.number = axis_number(entry, diagnostics),
@@ -86,11 +92,26 @@ impl AxisValues {
         self.manual.extend(other.manual);
         self.required = other.required.or(self.required.take());
         self.drive.extend(other.drive);
+        self.end = other.end.or(self.end.take());
     }
 
     /// Whether P-AXIS-00522 is set, and where; `None` when no list sets it.
     pub fn frict_comp(&self) -> Option<&Given<bool>> {
         self.selectors.get(&Kind::Frict)
+    }
+
+    /// The change of the list that sets P-AXIS-00522: in the line that sets it to 0, unless that
+    /// stands in the list `shared` by all axes, or else in a line of its own. `None` where it is set,
+    /// or where no list speaks of the axis alone.
+    pub(crate) fn configuring(&self, shared: Option<&str>) -> Option<Fix> {
+        let own = |given: &&Given<bool>| shared != Some(given.file());
+        match self.frict_comp() {
+            Some(given) if given.value => None,
+            given => match given.filter(own) {
+                Some(given) => Some(given.made_true()),
+                None => self.end.as_ref().map(added),
+            },
+        }
     }
 
     /// The rows of the table of effective parameters. P-AXIS-00522 is always among them, other
@@ -163,6 +184,17 @@ impl AxisValues {
             return;
         }
     }
+}
+
+/// The line that sets P-AXIS-00522, after the last entry of a list.
+fn added(end: &Given<usize>) -> Fix {
+    let (key, columns) = (Kind::Frict.facts().selector, end.value);
+    let line = if columns > key.len() {
+        format!("\n{key:<columns$}1")
+    } else {
+        format!("\n{key} 1")
+    };
+    Fix::guess(end.place(), line)
 }
 
 /// FC130 for a value that is none of the values in `expected`; the value is not used.

@@ -58,6 +58,17 @@ impl Entry {
         self.source.place(self.key_span)
     }
 
+    /// The end of its line, and how many columns its key takes with the blanks after it.
+    pub(super) fn end(&self) -> Given<usize> {
+        let (source, start) = (&self.source, self.key_span.start);
+        let line = source
+            .lines()
+            .line_span(source.text(), source.lines().line(start));
+        let end = line.range().end;
+        let columns = self.value_span.range().start - self.key_span.range().start;
+        Given::new(columns, source, Span::new(end, end))
+    }
+
     /// The value as one word, as numbers and truth values are written: it ends at a blank or at
     /// the start of a comment (R3.2).
     pub fn word(&self) -> Given<&str> {

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::diagnostic::Fix;
 use crate::text::{Place, SourceFile, Span};
 
 /// A number as a list or `frictcomp.toml` writes it.
@@ -124,6 +125,19 @@ impl<T> Given<T> {
     /// The line that gave it, from 1.
     pub fn line(&self) -> u32 {
         self.source.lines().line(self.span.start)
+    }
+}
+
+impl Given<bool> {
+    /// The change of the file that makes it true.
+    pub(crate) fn made_true(&self) -> Fix {
+        let place = self.place();
+        let word = match place.span.of(&place.text) {
+            "false" => "true",
+            word if word.eq_ignore_ascii_case("FALSE") => "TRUE",
+            _ => "1",
+        };
+        Fix::guess(place, word)
     }
 }
 

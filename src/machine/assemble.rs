@@ -2,6 +2,7 @@
 //! that need the axis list and the value list side by side (R3.14, R3.27, R3.30).
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -67,6 +68,8 @@ pub(super) struct AxisDraft {
     pub(super) dynamics: Dynamics,
     /// Whether compensation is assumed, as by [`Axis::enable`].
     pub(super) enabled: bool,
+    /// The list of defaults for all axes.
+    pub(super) shared: Option<Arc<str>>,
 }
 
 impl AxisDraft {
@@ -80,6 +83,7 @@ impl AxisDraft {
             value_list: ValueList::default(),
             dynamics: Dynamics::default(),
             enabled: false,
+            shared: None,
         }
     }
 
@@ -139,6 +143,7 @@ impl AxisDraft {
             number: self.values.number.as_ref().map(|number| number.value),
             axis_type,
             configured: set(&self.values.selectors),
+            configuring: self.values.configuring(self.shared.as_deref()),
             frict_comp_origin: self
                 .values
                 .frict_comp()
@@ -287,7 +292,8 @@ impl AxisDraft {
             "axis `{}` has friction values, but P-AXIS-00522 is 0: they have no effect",
             axis.name
         );
-        let diagnostic = Diagnostic::new(Code::Fc135, anchor?.place(), message);
+        let mut diagnostic = Diagnostic::new(Code::Fc135, anchor?.place(), message);
+        diagnostic.fixes.extend(axis.configuring.clone());
         Some(match selector {
             Some(given) => diagnostic
                 .with_label(given.place(), "set to 0 here")

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{Kind, KindSet};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::drive_interface::TorqueScale;
 use crate::lists::{AxisType, DEFAULT_MAX_POINTS, FrictionList, Origin};
 use crate::text::Place;
@@ -43,6 +43,8 @@ pub struct Axis {
     pub configured: KindSet,
     /// Where P-AXIS-00522 came from.
     pub frict_comp_origin: Origin,
+    /// The change of the list of the axis that sets P-AXIS-00522, where it has one and it is not set.
+    pub configuring: Option<Fix>,
     /// The kinds that only the program activates and that fall off at program end (R1.40).
     pub manual: KindSet,
     /// The kinds that must be active while the axis moves, P-AXIS-00465 (R1.36).
@@ -72,6 +74,7 @@ impl Axis {
             axis_type: AxisType::Linear,
             configured: KindSet::NONE,
             frict_comp_origin: Origin::Default,
+            configuring: None,
             manual: KindSet::NONE,
             required: KindSet::NONE,
             friction: Parameterisation::Missing,

@@ -19,6 +19,7 @@ impl Loader<'_> {
         self.startup_folder = Some(folder(list.source().name()).to_owned());
         let startup = StartupList::from_entries(list, &mut self.diagnostics);
         let default = self.default_values(&startup);
+        let shared = default.frict_comp().map(|given| given.file().into());
         let mut listed: Vec<(Given<String>, AxisDraft)> = Vec::new();
         for asked in startup.axis_lists.iter().take(MAX_AXES) {
             if let Some(own) = self.axis_list(asked) {
@@ -48,6 +49,9 @@ impl Loader<'_> {
         }
         self.drop_nameless(&mut axes);
         self.drop_repeated(&mut axes);
+        for axis in &mut axes {
+            axis.shared.clone_from(&shared);
+        }
         for named in startup.value_lists.iter().take(MAX_AXES) {
             self.attach(named, &mut axes);
         }
@@ -122,6 +126,7 @@ impl Loader<'_> {
             .unwrap_or_default();
         default.number = None;
         default.name = None;
+        default.end = None;
         default
     }
 

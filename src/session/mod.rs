@@ -5,6 +5,7 @@
 mod allow;
 mod findings;
 mod recorder;
+mod safe_fixes;
 mod said;
 mod saved;
 mod undescribed;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 
 pub use allow::allow_here;
 pub use findings::Findings;
+pub use safe_fixes::{ProposedFixes, SafeFixes};
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 pub use undescribed::undescribed;
 

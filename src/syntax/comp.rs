@@ -1,8 +1,9 @@
 //! The words of a COMP bracket: which kinds, switched how (R1.1 to R1.6).
 
 use super::fault::Fault;
+use super::upper_case::in_upper_case;
 use crate::comp::{CompCommand, Kind, KindSet, Selection};
-use crate::diagnostic::{Code, Fix, did_you_mean};
+use crate::diagnostic::{Code, did_you_mean};
 use crate::text::Span;
 
 /// The words that may stand in a COMP bracket after `COMP`.
@@ -106,20 +107,21 @@ impl CompWords<'_> {
             word.eq_ignore_ascii_case("COMP")
                 || KEYWORDS.iter().any(|k| k.eq_ignore_ascii_case(word))
         };
-        let lower = self.words.iter().copied().find(|span| {
+        let lower = self.words.iter().copied().filter(|span| {
             let word = span.of(self.text);
             known(word) && word.bytes().any(|byte| byte.is_ascii_lowercase())
         });
-        if let Some(span) = lower {
+        let lower: Vec<Span> = lower.collect();
+        if let (Some(span), Some(fix)) = (lower.first(), in_upper_case(self.text, &lower)) {
             let word = span.of(self.text);
             faults.push(
                 Fault::new(
                     Code::Fc404,
-                    span,
+                    *span,
                     format!("keyword `{word}` is not in upper case"),
                 )
                 .with_help(format!("write `{}`", word.to_ascii_uppercase()))
-                .with_fix(Fix::safe(span, word.to_ascii_uppercase())),
+                .with_fix(fix),
             );
         }
     }

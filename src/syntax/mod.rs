@@ -27,6 +27,7 @@ mod mask;
 mod parse;
 mod raw;
 mod unread;
+mod upper_case;
 
 pub use axes::{AxisUse, axis_uses};
 pub use brackets::MAX_BRACKETS;

@@ -34,6 +34,14 @@ fn decode_wide(bytes: &[u8]) -> Option<String> {
     })
 }
 
+/// A line in UTF-8; `None` where it is one of code page 1252.
+pub(super) fn utf8_line<'a>(line: &'a [u8], legacy: &mut bool) -> Option<&'a str> {
+    let utf8 = std::str::from_utf8(line).ok();
+    let utf8 = utf8.filter(|line| !*legacy || line.is_ascii());
+    *legacy |= utf8.is_none();
+    utf8
+}
+
 /// Appends whole lines in UTF-8. The first line that is none is taken as code page 1252, and so is
 /// every later one that is not ASCII.
 pub(crate) fn decode_lines(bytes: &[u8], legacy: &mut bool, text: &mut String) {
@@ -41,13 +49,11 @@ pub(crate) fn decode_lines(bytes: &[u8], legacy: &mut bool, text: &mut String) {
         Ok(all) if !*legacy || all.is_ascii() => text.push_str(all),
         _ => {
             for line in bytes.split_inclusive(|byte| matches!(byte, b'\n' | b'\r')) {
-                match std::str::from_utf8(line) {
-                    Ok(line) if !*legacy || line.is_ascii() => text.push_str(line),
-                    _ => {
-                        *legacy = true;
-                        let (line, _) = WINDOWS_1252.decode_without_bom_handling(line);
-                        text.push_str(&line);
-                    }
+                if let Some(line) = utf8_line(line, legacy) {
+                    text.push_str(line);
+                } else {
+                    let (line, _) = WINDOWS_1252.decode_without_bom_handling(line);
+                    text.push_str(&line);
                 }
             }
         }

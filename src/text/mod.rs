@@ -6,6 +6,8 @@
 
 #[cfg(any(feature = "report", feature = "host"))]
 mod decode;
+#[cfg(any(feature = "report", feature = "host"))]
+mod encoded;
 mod file;
 #[cfg(any(feature = "report", feature = "host"))]
 mod hidden;
@@ -18,6 +20,8 @@ mod span;
 pub use decode::decode;
 #[cfg(feature = "host")]
 pub(crate) use decode::decode_lines;
+#[cfg(any(feature = "report", feature = "host"))]
+pub use encoded::{EncodedText, NotEncodable};
 pub use file::SourceFile;
 #[cfg(feature = "report")]
 pub(crate) use hidden::is_hidden;

@@ -195,6 +195,9 @@ impl Interpreter {
                 if described {
                     diagnostic = diagnostic.with_help(Advice::Enable(vec![name.clone()]));
                 }
+                diagnostic
+                    .fixes
+                    .extend(axis.and_then(|axis| axis.configuring.clone()));
             }
             CompensationError::UnknownAxis { .. } => {
                 diagnostic = self.advise_on_axis(diagnostic, name);

@@ -36,7 +36,7 @@ pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
         block,
         unclosed,
         unknown: None,
-        lower_case: None,
+        lower_case: Vec::new(),
     };
     if let Some(pair) = pairs.next() {
         match pair.as_rule() {

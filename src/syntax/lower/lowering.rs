@@ -2,11 +2,12 @@
 
 use pest::iterators::Pair;
 
-use crate::diagnostic::{Code, Fix};
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Assignment, Block, Effect, Item, Target};
 use crate::syntax::fault::Fault;
 use crate::syntax::grammar::Rule;
 use crate::syntax::mask::is_blank;
+use crate::syntax::upper_case::in_upper_case;
 use crate::syntax::{expression, unread::not_known};
 use crate::text::Span;
 
@@ -18,8 +19,8 @@ pub(super) struct Lowering<'a> {
     pub(super) unclosed: Option<usize>,
     /// Tokens that no rule understood, so far.
     pub(super) unknown: Option<Span>,
-    /// The first address or keyword in lower case.
-    pub(super) lower_case: Option<Span>,
+    /// The addresses and keywords in lower case.
+    pub(super) lower_case: Vec<Span>,
 }
 
 impl Lowering<'_> {
@@ -40,12 +41,13 @@ impl Lowering<'_> {
 
     pub(super) fn finish(&mut self) {
         self.flush_unknown();
-        if let Some(span) = self.lower_case {
+        let words = &self.lower_case;
+        if let (Some(span), Some(fix)) = (words.first(), in_upper_case(self.code, words)) {
             let word = span.of(self.code);
             self.block.faults.push(
-                Fault::new(Code::Fc404, span, format!("`{word}` is not in upper case"))
+                Fault::new(Code::Fc404, *span, format!("`{word}` is not in upper case"))
                     .with_help(format!("write `{}`", word.to_ascii_uppercase()))
-                    .with_fix(Fix::safe(span, word.to_ascii_uppercase())),
+                    .with_fix(fix),
             );
         }
     }
@@ -67,8 +69,8 @@ impl Lowering<'_> {
             .of(self.code)
             .bytes()
             .any(|byte| byte.is_ascii_lowercase());
-        if lower && self.lower_case.is_none() {
-            self.lower_case = Some(span);
+        if lower {
+            self.lower_case.push(span);
         }
     }
 

@@ -86,6 +86,11 @@ fn current() -> LineChart {
             3.0.. => State::Unknown,
             _ => State::Active,
         };
+        if time == 0.0 {
+            plot.block(time, Some(10), 1);
+        } else if (time - 2.0).abs() < 1e-9 {
+            plot.block(time, None, 3);
+        }
         plot.push(time, [(velocity, state, cycle)]);
     }
     plot.chart()
@@ -300,10 +305,52 @@ fn a_value_list_shows_its_points_and_held_ends() {
         });
         count.count()
     };
-    assert_eq!(with("fc-m0"), 5 + 1, "five points and the legend");
-    assert_eq!(with("fc-m1"), 5 + 1, "the scaled points, of another shape");
+    assert_eq!(with("fc-m0"), 5, "five points");
+    assert_eq!(with("fc-m1"), 5, "the scaled points, of another shape");
     assert_eq!(with("fc-held"), 2);
-    assert!(texts(&document).contains(&"scaled by 90 %"));
+    let texts = texts(&document);
+    for text in [
+        "scaled by 90 %",
+        // Velocities also as feeds, from 0 to beyond the last point; values from 0 on.
+        "velocity in \u{b5}m/s, logarithmic from 1800 on",
+        "velocity in mm/min",
+        "1800",
+        "108",
+        "2000",
+        "0",
+        "held above 50\u{202f}000",
+    ] {
+        assert!(texts.contains(&text), "{text}: {texts:?}");
+    }
+    // A tenth of the axis shows the slow points apart from each other.
+    let places: Vec<f64> = document
+        .descendants()
+        .filter(|node| node.attribute("class") == Some("fc-m0"))
+        .map(|node| node.attribute("cx").unwrap().parse().unwrap())
+        .collect();
+    assert!(places[2] - places[0] > 200.0, "{places:?}");
+}
+
+#[test]
+fn a_list_without_a_point_at_standstill_says_what_is_held() {
+    // R4.7
+    let mut list = list();
+    list.table.remove(0);
+    let svg = value_curve(&AcceptedList {
+        axis: "C".to_owned(),
+        axis_type: AxisType::Rotary,
+        list,
+    })
+    .render(Frame::Alone);
+    let document = parse(&svg);
+    let texts = texts(&document);
+    for text in [
+        "held below 1800",
+        "held above 50\u{202f}000",
+        "velocity in \u{b0}/min",
+    ] {
+        assert!(texts.contains(&text), "{text}: {texts:?}");
+    }
 }
 
 #[test]
@@ -321,10 +368,58 @@ fn value_lists_of_several_axes_share_a_picture() {
     let document = parse(&svg);
     let texts = texts(&document);
     assert!(
-        texts.contains(&"velocity in \u{b5}m/s or 0.001\u{b0}/s"),
+        texts.contains(&"velocity in \u{b5}m/s or 0.001\u{b0}/s, logarithmic from 1800 on"),
         "{texts:?}"
     );
     assert!(texts.iter().any(|text| text.starts_with("axis C: ")));
+}
+
+#[test]
+fn currents_are_steps_and_blocks_stand_along_the_time() {
+    // R4.2 R4.3
+    let chart = current();
+    assert_eq!(chart.panels.len(), 4);
+    let drawn: Vec<Drawn> = (chart.panels.iter())
+        .map(|panel| panel.series[0].drawn)
+        .collect();
+    let (steps, weight) = (Drawn::Steps, Drawn::Notches);
+    assert_eq!(drawn, [steps, Drawn::Line, weight, weight]);
+    let svg = chart.render(Frame::Alone);
+    let document = parse(&svg);
+    let seen = texts(&document);
+    for text in ["N10", "line 3", "time in s, and where blocks begin"] {
+        assert!(seen.contains(&text), "{text}: {seen:?}");
+    }
+    // A step is drawn level, then upright.
+    let line = document
+        .descendants()
+        .find(|node| node.attribute("class") == Some("fc-curve fc-s0 fc-steps"));
+    let path = line.and_then(|node| node.attribute("d")).unwrap();
+    let places: Vec<(&str, &str)> = path
+        .split(['M', 'L'])
+        .filter_map(|place| place.split_once(' '))
+        .collect();
+    assert!(
+        places
+            .windows(2)
+            .all(|pair| pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1)
+    );
+    assert_eq!(
+        document
+            .descendants()
+            .filter(|node| node.attribute("class") == Some("fc-f0"))
+            .count(),
+        2
+    );
+    // More blocks than there is room for are thinned out.
+    let mut plot = CurrentPlot::new(vec![AxisPlot::new("X", None)]);
+    for block in 0..100_000_u32 {
+        plot.block(f64::from(block), Some(i64::from(block)), 1);
+    }
+    let marks = plot.chart().marks;
+    assert!(marks.len() <= 2000, "{}", marks.len());
+    assert!(marks.is_sorted_by(|one, other| one.at < other.at));
+    assert!(marks.last().unwrap().at > 99_000.0);
 }
 
 #[test]
@@ -334,7 +429,6 @@ fn a_million_cycles_are_a_picture_of_bounded_size() {
         title: "long".to_owned(),
         description: "A million cycles.".to_owned(),
         x: ChartAxis::linear("time in s"),
-        bands: Vec::new(),
         panels: vec![Panel {
             y: ChartAxis::linear("value"),
             series: vec![Series {
@@ -342,7 +436,9 @@ fn a_million_cycles_are_a_picture_of_bounded_size() {
                 points: points.collect(),
                 drawn: Drawn::Line,
             }],
+            ..Panel::default()
         }],
+        ..LineChart::default()
     };
     let svg = chart.render(Frame::Alone);
     assert!(svg.len() < 100_000, "{} bytes", svg.len());
@@ -387,7 +483,6 @@ fn odd_values_make_no_odd_picture() {
                 title: "<script>alert(1)</script>\0\u{202e}\u{ffff}".to_owned(),
                 description: "--> \u{b} \" '".to_owned(),
                 x,
-                bands: Vec::new(),
                 panels: vec![Panel {
                     y: ChartAxis::linear("y"),
                     series: vec![Series {
@@ -395,7 +490,9 @@ fn odd_values_make_no_odd_picture() {
                         points: points.clone(),
                         drawn: Drawn::Marked,
                     }],
+                    ..Panel::default()
                 }],
+                ..LineChart::default()
             };
             assert_sound(&chart.render(Frame::Alone));
         }

@@ -106,14 +106,25 @@ fn toggling(velocities: &[f64], positions: &[f64]) -> Vec<(usize, usize)> {
         to - from <= CYCLES && high - low < DISTANCE
     };
     let short: Vec<bool> = changes.windows(2).map(is_short).collect();
+    let fastest = |at: usize| {
+        let stretch = &velocities[changes[at]..changes[at + 1]];
+        stretch.iter().fold(0.0_f64, |most, v| most.max(v.abs()))
+    };
     let last = short.len().saturating_sub(1);
+    let is_inner = |at: usize| at > 0 && at < last && short[at];
+    // The first and the last stretch have one change of direction only: they toggle where they are
+    // no faster than what toggles beside them.
+    let is_like = |at: usize, beside: usize| {
+        short[at] && is_inner(beside) && fastest(at) <= 2.0 * fastest(beside)
+    };
     let mut found: Vec<(usize, usize)> = Vec::new();
     for (at, pair) in changes.windows(2).enumerate() {
-        // The first and the last stretch have one change of direction only: they belong to what is
-        // beside them.
-        let is_inner = |at: usize| at > 0 && at < last && short[at];
-        let beside = (at > 0 && is_inner(at - 1)) || is_inner(at + 1);
-        if !(is_inner(at) || short[at] && beside) {
+        let toggles = match at {
+            0 => is_like(0, 1),
+            at if at == last => is_like(at, at - 1),
+            at => is_inner(at),
+        };
+        if !toggles {
             continue;
         }
         match found.last_mut() {

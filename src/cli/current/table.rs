@@ -37,6 +37,8 @@ pub(super) struct Table {
     /// The states that each axis was in, other than active.
     seen: Vec<Vec<State>>,
     plot: Option<Plot>,
+    /// The block that is followed: program and executed block.
+    block: Option<(u32, u64)>,
 }
 
 impl Table {
@@ -57,6 +59,7 @@ impl Table {
             begins: Vec::new(),
             seen: vec![Vec::new(); options.names.len()],
             plot,
+            block: None,
         };
         table.header(options.names);
         table
@@ -132,6 +135,10 @@ impl CurrentSink for Table {
             self.written = write_row(&mut self.writer, &self.columns, cycle);
         }
         if let Some(plot) = &mut self.plot {
+            let (cause, block) = (cycle.cause, (cycle.cause.program, cycle.cause.seq));
+            if self.block.replace(block) != Some(block) {
+                plot.traces.block(cycle.time_s, cause.number, cause.line);
+            }
             let axes = cycle.axes.iter();
             plot.traces.push(
                 cycle.time_s,

@@ -4,7 +4,8 @@ use crate::comp::State;
 use crate::current::Added;
 use crate::lists::AxisType;
 use crate::report::svg::{
-    Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, Series, Standing,
+    Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PanelHeight, Series,
+    Standing, XMark,
 };
 
 use super::units::velocity_unit;
@@ -12,12 +13,21 @@ use super::units::velocity_unit;
 /// More states over time are not kept apart.
 const MAX_BANDS: usize = 20_000;
 
+/// More blocks are not named: there is no room for them.
+const MAX_BLOCKS: usize = 2000;
+
 /// The traces of several axes while they come in, in memory that does not grow with their length.
 #[derive(Debug, Default)]
 pub struct CurrentPlot {
     axes: Vec<AxisPlot>,
     cycles: u64,
     length: f64,
+    /// Where blocks begin.
+    blocks: Vec<XMark>,
+    /// Of so many blocks one is kept.
+    every: u64,
+    /// How many blocks began.
+    begun: u64,
 }
 
 /// The trace of one axis.
@@ -91,34 +101,45 @@ impl AxisPlot {
         }
     }
 
-    fn panels(&self, of_axis: &str) -> [Panel; 3] {
-        let curve = |name: &str, curve: &Curve| Series {
-            name: format!("{name}{of_axis}"),
-            points: curve.points(),
-            drawn: Drawn::Line,
+    fn panels(&self, several: bool) -> [Panel; 4] {
+        let panel = |label: &str, (curve, drawn): (&Curve, Drawn), height| {
+            let label = if several {
+                format!("axis {}: {label}", self.name)
+            } else {
+                label.to_owned()
+            };
+            Panel {
+                y: ChartAxis::linear(&label),
+                series: vec![Series {
+                    name: label,
+                    points: curve.points(),
+                    drawn,
+                }],
+                height,
+                ..Panel::default()
+            }
         };
-        let panel = |label: &str, series| Panel {
-            y: ChartAxis::linear(match of_axis {
-                "" => label.to_owned(),
-                _ => format!("axis {}: {label}", self.name),
-            }),
-            series,
-        };
+        let (full, low) = (PanelHeight::Full, PanelHeight::Low);
         [
             panel(
                 "additive current in drive units",
-                vec![curve("current", &self.current)],
+                (&self.current, Drawn::Steps),
+                full,
             ),
             panel(
                 &format!("velocity in {}", self.unit),
-                vec![curve("velocity", &self.velocity)],
+                (&self.velocity, Drawn::Line),
+                full,
             ),
             panel(
-                "weights",
-                vec![
-                    curve("weight before a reversal", &self.before),
-                    curve("weight after a reversal", &self.after),
-                ],
+                "weight before a reversal, 1 where it has no effect",
+                (&self.before, Drawn::Notches),
+                low,
+            ),
+            panel(
+                "weight after a reversal, 1 where it has no effect",
+                (&self.after, Drawn::Notches),
+                low,
             ),
         ]
     }
@@ -129,7 +150,28 @@ impl CurrentPlot {
     pub fn new(axes: Vec<AxisPlot>) -> Self {
         Self {
             axes,
+            every: 1,
             ..Self::default()
+        }
+    }
+
+    /// A block begins at a time: its number, or the line without one.
+    pub fn block(&mut self, time: f64, number: Option<i64>, line: u32) {
+        if self.begun.is_multiple_of(self.every) {
+            let name = match number {
+                Some(number) => format!("N{number}"),
+                None => format!("line {line}"),
+            };
+            self.blocks.push(XMark { at: time, name });
+        }
+        self.begun += 1;
+        if self.blocks.len() > MAX_BLOCKS {
+            let mut keep = false;
+            self.blocks.retain(|_| {
+                keep = !keep;
+                keep
+            });
+            self.every *= 2;
         }
     }
 
@@ -165,10 +207,6 @@ impl CurrentPlot {
     /// of compensation.
     pub fn chart(&self) -> LineChart {
         let several = self.axes.len() > 1;
-        let named = |axis: &AxisPlot| match axis.name.as_str() {
-            name if several => format!(" of {name}"),
-            _ => String::new(),
-        };
         let told: Vec<String> = (self.axes.iter())
             .map(|axis| {
                 let name = &axis.name;
@@ -190,12 +228,17 @@ impl CurrentPlot {
             },
             description: format!(
                 "{} CNC cycles in {} s; {}. Below each current the commanded velocity and the \
-                 weights before and after a reversal, above all whether compensation is active.",
+                 weights before and after a reversal, above all whether compensation is active; \
+                 along the time the numbers of the blocks.",
                 self.cycles,
                 self.length,
                 told.join("; ")
             ),
-            x: ChartAxis::linear("time in s"),
+            x: ChartAxis::linear(if self.blocks.is_empty() {
+                "time in s"
+            } else {
+                "time in s, and where blocks begin"
+            }),
             bands: (self.axes.iter())
                 .map(|axis| BandRow {
                     label: axis.name.clone(),
@@ -203,8 +246,9 @@ impl CurrentPlot {
                 })
                 .collect(),
             panels: (self.axes.iter())
-                .flat_map(|axis| axis.panels(&named(axis)))
+                .flat_map(|axis| axis.panels(several))
                 .collect(),
+            marks: self.blocks.clone(),
         }
     }
 }

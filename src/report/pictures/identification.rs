@@ -57,7 +57,6 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
             found.points.len()
         ),
         x: ChartAxis::logarithmic("speed in mm/s, logarithmic"),
-        bands: Vec::new(),
         panels: vec![
             Panel {
                 y: ChartAxis::linear(format!("friction in {unit}, bars are standard errors")),
@@ -71,6 +70,7 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
                     ),
                     series("points of the value list", listed.collect(), Drawn::Marked),
                 ],
+                ..Panel::default()
             },
             Panel {
                 y: ChartAxis::linear(format!("residual in {unit}")),
@@ -82,8 +82,10 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
                         Drawn::Held,
                     ),
                 ],
+                ..Panel::default()
             },
         ],
+        ..LineChart::default()
     }
 }
 
@@ -99,14 +101,15 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
              repeats here is no friction."
         ),
         x: ChartAxis::linear("position in mm"),
-        bands: Vec::new(),
         panels: vec![Panel {
             y: ChartAxis::linear(format!("residual in {unit}")),
             series: vec![
                 series("all samples", points.clone(), Drawn::Line),
                 series("mean of neighbours", smoothed(&points), Drawn::Line),
             ],
+            ..Panel::default()
         }],
+        ..LineChart::default()
     }
 }
 
@@ -154,6 +157,7 @@ pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
             series(&label, over_time(values, factor), Drawn::Line),
             series(&format!("{label}, used"), used(values, factor), Drawn::Line),
         ],
+        ..Panel::default()
     };
     LineChart {
         title: title(report, "Segments of constant speed"),
@@ -162,11 +166,11 @@ pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
             report.identified.segments.len()
         ),
         x: ChartAxis::linear("time in s"),
-        bands: Vec::new(),
         panels: vec![
             panel(label.to_owned(), motion, factor),
             panel(format!("torque in {}", report.unit()), &track.torques, 1.0),
         ],
+        ..LineChart::default()
     }
 }
 

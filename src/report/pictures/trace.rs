@@ -36,6 +36,7 @@ pub fn channels(report: &TraceReport<'_>) -> LineChart {
                     points,
                     drawn: Drawn::Line,
                 }],
+                ..Panel::default()
             }
         })
         .collect();
@@ -51,7 +52,7 @@ pub fn channels(report: &TraceReport<'_>) -> LineChart {
         title: format!("Channels of {}", report.name),
         description: format!("{} recorded channels over time.{more}", panels.len()),
         x: ChartAxis::linear(if is_timed { "time in s" } else { "row" }),
-        bands: Vec::new(),
         panels,
+        ..LineChart::default()
     }
 }

@@ -21,11 +21,11 @@ pub fn tuning(reports: &[TuneReport]) -> LineChart {
         x: ChartAxis::logarithmic(
             "acceleration v\u{b2}/R at the reversal in mm/s\u{b2}, logarithmic",
         ),
-        bands: Vec::new(),
         panels: reports
             .iter()
             .flat_map(|report| panels(report, reports.len()))
             .collect(),
+        ..LineChart::default()
     }
 }
 
@@ -64,6 +64,7 @@ fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
             _ => format!("plant {}: {quantity}", report.plant),
         }),
         series,
+        ..Panel::default()
     };
     // Without points, so that the others look as they do above.
     let unseen = Series {

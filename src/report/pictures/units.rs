@@ -9,3 +9,11 @@ pub(super) fn velocity_unit(axis_type: AxisType) -> &'static str {
         AxisType::Rotary | AxisType::Spindle => "0.001\u{b0}/s",
     }
 }
+
+/// The unit of feeds.
+pub(super) fn minute_unit(axis_type: AxisType) -> &'static str {
+    match axis_type {
+        AxisType::Linear => "mm/min",
+        AxisType::Rotary | AxisType::Spindle => "\u{b0}/min",
+    }
+}

@@ -4,7 +4,7 @@ use super::bands::{self, BandRow, Rows, draw_legend, draw_ticks};
 use super::canvas::{Anchor, Area, Canvas, Head, Legend, Marks, Role, SERIES, WIDTH, text_width};
 use super::frame::Frame;
 use super::reduce::reduce;
-use super::scale::{ChartAxis, Ends, Scale};
+use super::scale::{ChartAxis, Ends, Scale, SecondUnit};
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,6 +15,13 @@ pub enum Drawn {
     Line,
     /// A line with a marker at each point.
     Marked,
+    /// A marker at each point and no line. It has no row in the legend of its own and the colour of
+    /// the series before it.
+    Points,
+    /// A value that holds until the next one.
+    Steps,
+    /// The same, with the ground above it filled: short notches are seen on long curves.
+    Notches,
     /// A thin broken line, for what is assumed to go on. It has no row in the legend of its own
     /// and the colour of the series before it.
     Held,
@@ -31,6 +38,26 @@ pub struct Series {
     pub drawn: Drawn,
 }
 
+/// How high a panel is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum PanelHeight {
+    /// As high as there is room.
+    #[default]
+    Full,
+    /// As high as a curve needs that only goes up and down.
+    Low,
+}
+
+/// Words beside a place of a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveNote {
+    /// The place.
+    pub at: [f64; 2],
+    /// The words, which stand above it, or below where there is no room.
+    pub text: String,
+}
+
 /// Curves that share a y axis.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel {
@@ -38,6 +65,19 @@ pub struct Panel {
     pub y: ChartAxis,
     /// The curves.
     pub series: Vec<Series>,
+    /// Words in the panel.
+    pub notes: Vec<CurveNote>,
+    /// How high it is.
+    pub height: PanelHeight,
+}
+
+/// A name at a place of the x axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct XMark {
+    /// The place.
+    pub at: f64,
+    /// The name.
+    pub name: String,
 }
 
 /// Panels, and states above them, over one x axis.
@@ -53,10 +93,18 @@ pub struct LineChart {
     pub bands: Vec<BandRow>,
     /// The panels from top to bottom.
     pub panels: Vec<Panel>,
+    /// Names along the x axis, below its values.
+    pub marks: Vec<XMark>,
 }
 
 /// The least room left of the panels.
 const MIN_LEFT: f64 = 60.0;
+
+/// The room that the second unit of the x axis needs above the first panel.
+const SECOND_ROOM: f64 = 34.0;
+
+/// The room between the names along the x axis.
+const MARK_ROOM: f64 = 8.0;
 
 impl LineChart {
     /// The picture, 860 units wide. More points than can be seen are reduced to the least and the
@@ -103,9 +151,17 @@ impl LineChart {
         let mut above = false;
         for (panel, scale) in self.panels.iter().zip(&y) {
             area.y += if above { 36.0 } else { 26.0 };
-            above = true;
-            area.height = if self.panels.len() > 1 { 130.0 } else { 300.0 };
+            area.height = match panel.height {
+                PanelHeight::Low => 44.0,
+                PanelHeight::Full if self.panels.len() > 1 => 130.0,
+                PanelHeight::Full => 300.0,
+            };
             canvas.text("", (16.0, area.y - 9.0), Anchor::Start, &panel.y.label);
+            if let Some(second) = self.x.second.as_ref().filter(|_| !above) {
+                area.y += SECOND_ROOM;
+                draw_second(&mut canvas, &x, second, area);
+            }
+            above = true;
             let axes = Axes {
                 x: &x,
                 y: scale,
@@ -115,7 +171,12 @@ impl LineChart {
             panel.draw(&mut canvas, &axes);
             area.y = area.bottom();
         }
-        let mut floor = draw_ticks(&mut canvas, &x, area, &self.x.label) + 6.0;
+        let mut floor = if self.marks.is_empty() {
+            draw_ticks(&mut canvas, &x, area, &self.x.label)
+        } else {
+            self.draw_marks(&mut canvas, &x, area)
+        };
+        floor += 6.0;
         floor += draw_legend(&mut canvas, &states, (16.0, floor));
         floor += self.legend().draw(&mut canvas, (16.0, floor));
         canvas.finish(
@@ -129,6 +190,30 @@ impl LineChart {
         )
     }
 
+    /// The x axis with names below its values. Names without room are left out, ticks are not.
+    fn draw_marks(&self, canvas: &mut Canvas, x: &Scale, area: Area) -> f64 {
+        draw_ticks(canvas, x, area, "");
+        let (above, row) = (area.y + 24.0, area.y + 40.0);
+        let mut free = f64::NEG_INFINITY;
+        let mut column = f64::NEG_INFINITY;
+        for mark in &self.marks {
+            let place = area.x + x.share(mark.at) * area.width;
+            if !place.is_finite() || place < column + 1.0 {
+                continue;
+            }
+            column = place;
+            canvas.line("fc-axis", (place, above), (place, above + 5.0));
+            let width = text_width(&mark.name);
+            if place > free && place + width < WIDTH - 4.0 {
+                canvas.text("fc-quiet", (place, row), Anchor::Start, &mark.name);
+                free = place + width + MARK_ROOM;
+            }
+        }
+        let middle = area.x + area.width / 2.0;
+        canvas.text("", (middle, row + 20.0), Anchor::Middle, &self.x.label);
+        row + 26.0
+    }
+
     fn ticks(&self) -> u32 {
         if self.panels.len() > 1 { 4 } else { 7 }
     }
@@ -138,7 +223,7 @@ impl LineChart {
     fn legend(&self) -> Legend<'_> {
         let named = |panel: &&Panel| panel.numbered().any(|(number, _)| number > 0);
         let all = self.panels.iter().filter(named).flat_map(Panel::numbered);
-        let drawn = all.filter(|(_, series)| series.drawn != Drawn::Held);
+        let drawn = all.filter(|(_, series)| !series.drawn.belongs_to_another());
         let mut items: Vec<(usize, &str, Marks)> = Vec::new();
         for (number, series) in drawn {
             let name = series.name.as_str();
@@ -154,6 +239,11 @@ impl LineChart {
 }
 
 impl Drawn {
+    /// Whether it has the look of the series before it.
+    fn belongs_to_another(self) -> bool {
+        matches!(self, Self::Held | Self::Points)
+    }
+
     fn marks(self) -> Marks {
         if self == Self::Marked {
             Marks::With
@@ -166,19 +256,20 @@ impl Drawn {
 impl Panel {
     fn scale(&self, ticks: u32) -> Scale {
         let values = self.series.iter().flat_map(|series| &series.points);
+        let zero = self.y.from_zero.then_some(0.0);
         Scale::over(
-            values.map(|point| point[1]),
+            values.map(|point| point[1]).chain(zero),
             self.y.spacing,
             Ends::Round,
             ticks,
         )
     }
 
-    /// The series with the numbers of their looks; a held one has that of the one before it.
+    /// The series with the numbers of their looks.
     fn numbered(&self) -> impl Iterator<Item = (usize, &Series)> {
         let mut next: usize = 0;
         self.series.iter().map(move |series| {
-            if series.drawn != Drawn::Held {
+            if !series.drawn.belongs_to_another() {
                 next += 1;
             }
             (next.saturating_sub(1), series)
@@ -190,18 +281,90 @@ impl Panel {
             let number = number % SERIES;
             let class = match series.drawn {
                 Drawn::Held => format!("fc-curve fc-s{number} fc-held"),
-                Drawn::Line | Drawn::Marked => format!("fc-curve fc-s{number}"),
+                Drawn::Steps | Drawn::Notches => format!("fc-curve fc-s{number} fc-steps"),
+                _ => format!("fc-curve fc-s{number}"),
             };
             let kept = reduce(&series.points, |point| axes.place(point).0);
-            canvas.path(&class, kept.iter().map(|&point| axes.place(point)));
-            if series.drawn == Drawn::Marked {
-                let seen = kept.iter().map(|&point| axes.place(point));
-                for place in seen.filter(|(x, y)| x.is_finite() && y.is_finite()) {
-                    canvas.marker(number, place);
+            let places: Vec<(f64, f64)> = kept.iter().map(|&point| axes.place(point)).collect();
+            match series.drawn {
+                Drawn::Points => {}
+                Drawn::Steps => canvas.path(&class, steps(&places)),
+                Drawn::Notches => {
+                    for piece in places.split(|place| !place.0.is_finite() || !place.1.is_finite())
+                    {
+                        canvas.path(&format!("fc-f{number}"), below(axes.area.y, piece));
+                    }
+                    canvas.path(&class, steps(&places));
+                }
+                _ => canvas.path(&class, places.iter().copied()),
+            }
+            if matches!(series.drawn, Drawn::Marked | Drawn::Points) {
+                let seen = places
+                    .iter()
+                    .filter(|(x, y)| x.is_finite() && y.is_finite());
+                for place in seen {
+                    canvas.marker(number, *place);
                 }
             }
         }
+        for note in &self.notes {
+            let (x, y) = axes.place(note.at);
+            let half = text_width(&note.text) / 2.0;
+            // It stays inside the panel.
+            let inside = (axes.area.x + half + 6.0).min(axes.area.right());
+            let middle = x.clamp(inside, (axes.area.right() - half - 4.0).max(inside));
+            // Where there is no room above the curve, below it.
+            let fits = y - 20.0 > axes.area.y;
+            let y = if fits { y - 8.0 } else { y + 17.0 };
+            canvas.text("fc-quiet", (middle, y), Anchor::Middle, &note.text);
+        }
     }
+}
+
+/// A line that holds each value until the next one.
+fn steps(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut line = Vec::with_capacity(places.len() * 2);
+    let mut before: Option<(f64, f64)> = None;
+    for &place in places {
+        if let Some((_, y)) = before.filter(|(x, y)| x.is_finite() && y.is_finite())
+            && place.0.is_finite()
+        {
+            line.push((place.0, y));
+        }
+        line.push(place);
+        before = Some(place);
+    }
+    line
+}
+
+/// The ground between a top and a line that holds each value until the next one.
+fn below(top: f64, places: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let (Some(first), Some(last)) = (places.first(), places.last()) else {
+        return Vec::new();
+    };
+    let mut ground = vec![(first.0, top)];
+    ground.extend(steps(places));
+    ground.push((last.0, top));
+    ground
+}
+
+/// The x axis in its other unit, above the first panel.
+fn draw_second(canvas: &mut Canvas, x: &Scale, second: &SecondUnit, area: Area) {
+    let scale = x.in_unit(second.factor);
+    let mut free = f64::NEG_INFINITY;
+    for (value, text) in &scale.ticks {
+        let place = area.x + scale.share(*value) * area.width;
+        canvas.line("fc-axis", (place, area.y - 5.0), (place, area.y));
+        let half = text_width(text) / 2.0;
+        let middle = place.min(WIDTH - half - 4.0);
+        if middle - half > free {
+            canvas.text("fc-quiet", (middle, area.y - 9.0), Anchor::Middle, text);
+            free = middle + half + 6.0;
+        }
+    }
+    canvas.line("fc-axis", (area.x, area.y), (area.right(), area.y));
+    let end = (area.right(), area.y - SECOND_ROOM + 9.0);
+    canvas.text("", end, Anchor::End, &second.label);
 }
 
 /// The axes of one panel.

@@ -21,7 +21,8 @@ mod scale;
 
 pub use bands::{Band, BandChart, BandRow, BandState, Standing};
 pub use frame::{Frame, STYLE};
-pub use line::{Drawn, LineChart, Panel, Series};
+pub use line::{CurveNote, Drawn, LineChart, Panel, PanelHeight, Series, XMark};
 pub use polar::{PolarChart, PolarPanel, PolarSeries};
 pub use reduce::Curve;
-pub use scale::{ChartAxis, Spacing};
+pub(super) use scale::number;
+pub use scale::{ChartAxis, SecondUnit, Spacing};

@@ -80,6 +80,7 @@
 //! threads. The command line, the feature `cli`, is on by default. What the feature `unstable` shows
 //! may change with every version.
 
+pub mod audit;
 pub mod circle;
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 24] = [
+const ROOMS: [(&str, &[&str]); 25] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -31,6 +31,17 @@ const ROOMS: [(&str, &[&str]); 24] = [
     (
         "interpreter",
         &["text", "diagnostic", "comp", "syntax", "lists", "machine"],
+    ),
+    (
+        "audit",
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "syntax",
+            "machine",
+            "interpreter",
+        ],
     ),
     (
         "lint",
@@ -111,6 +122,7 @@ const ROOMS: [(&str, &[&str]); 24] = [
     (
         "report",
         &[
+            "audit",
             "text",
             "diagnostic",
             "comp",
@@ -132,6 +144,8 @@ const ROOMS: [(&str, &[&str]); 24] = [
     (
         "host",
         &[
+            "audit",
+            "interpreter",
             "text",
             "diagnostic",
             "comp",
@@ -151,6 +165,7 @@ const ROOMS: [(&str, &[&str]); 24] = [
     (
         "cli",
         &[
+            "audit",
             "text",
             "diagnostic",
             "comp",

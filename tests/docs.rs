@@ -104,7 +104,7 @@ fn rules(text: &str) -> BTreeSet<String> {
         let rest = &text[at + 1..];
         let chapter = number(rest);
         let rule = number(rest.get(chapter..)?.strip_prefix('.')?);
-        let whole = !preceded && chapter == 1 && rule > 0;
+        let whole = !preceded && (1..=2).contains(&chapter) && rule > 0;
         whole.then(|| text[at..=at + chapter + 1 + rule].to_owned())
     });
     found.collect()

@@ -429,6 +429,7 @@ fn every_help_ends_with_two_examples_that_work() {
     let commands = [
         "run",
         "check",
+        "audit",
         "golden",
         "diff",
         "lists",

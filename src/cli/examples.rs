@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 20] = [
+static EXAMPLES: [Examples; 21] = [
     examples(
         &["run"],
         [
@@ -25,6 +25,13 @@ static EXAMPLES: [Examples; 20] = [
         [
             "frictcomp check programs",
             "frictcomp check --format sarif -o findings.sarif programs",
+        ],
+    ),
+    examples(
+        &["audit"],
+        [
+            "frictcomp audit programs",
+            "frictcomp audit --fix smaller programs",
         ],
     ),
     examples(

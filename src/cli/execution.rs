@@ -41,8 +41,8 @@ pub(super) struct ExecutionArgs {
 }
 
 impl ExecutionArgs {
-    /// The options of a session on a machine.
-    pub(super) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
+    /// How programs run.
+    pub(super) fn run(&self, stop: StopPolicy) -> Options {
         let limits = Limits {
             blocks: self.max_blocks,
             work: self.max_work,
@@ -51,12 +51,16 @@ impl ExecutionArgs {
             nesting: self.max_nesting,
             macros: self.max_macros,
         };
-        let run = Options::default()
+        Options::default()
             .with_stop(stop)
             .with_skip(self.skip.unwrap_or_default().0)
-            .with_limits(limits);
+            .with_limits(limits)
+    }
+
+    /// The options of a session on a machine.
+    pub(super) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
         SessionOptions {
-            run,
+            run: self.run(stop),
             levels: loaded.levels.clone(),
             settings: loaded.settings.clone(),
             wording: Some(command_line),

@@ -27,6 +27,14 @@ impl Failures {
         others.0.into_iter().for_each(|it| self.push(it));
     }
 
+    /// What could be done, without the rest, which is kept.
+    pub(super) fn keep<T>(&mut self, (done, errors): (T, Vec<HostError>)) -> T {
+        for error in errors {
+            self.push(error.into());
+        }
+        done
+    }
+
     /// Whether everything was done.
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -42,7 +42,7 @@ impl HtmlFile {
 }
 
 /// The programs on the disk. What can be read only once, a pipe, is not read again.
-struct Files;
+pub(super) struct Files;
 
 impl Sources for Files {
     fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>> {

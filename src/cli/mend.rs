@@ -1,7 +1,6 @@
 //! What `check --fix` changes and `check --diff` shows (R9.82).
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -16,8 +15,8 @@ use super::failure::{Failure, shown};
 use super::failures::Failures;
 use super::painted::difference;
 use crate::host::{
-    Alone, Axes, HostError, Input, Ledger, LoadedMachine, Machines, MendedFile, Naming,
-    OutputFiles, in_order, mend, processors, run_alone,
+    Alone, Axes, HostError, Input, LoadedMachine, Machines, MendedFile, Naming, in_order, mend,
+    processors, run_alone, write_mended,
 };
 use crate::report::{TextChange, render_unified};
 use crate::session::{ProposedFixes, SafeFixes, StopPolicy};
@@ -56,7 +55,7 @@ impl Bench<'_> {
             }
             for file in mended {
                 let (path, count) = (shown(&file.path), changes(file.changes));
-                match replace(&file) {
+                match write_mended([&file]) {
                     Ok(()) => console.remark(&format!("fixed `{path}`: {count}")),
                     Err(error) => failures.push(error.into()),
                 }
@@ -73,17 +72,7 @@ impl Bench<'_> {
         self.only_files("--diff")?;
         let mut failures = Failures::default();
         let mended = self.mended(&mut failures);
-        let mut output = String::new();
-        for file in &mended {
-            let name = shown(&file.path);
-            let [before, after] = [&file.before, &file.after].map(|text| with_line_feeds(text));
-            let change = TextChange {
-                before: (&name, &before),
-                after: (&name, &after),
-            };
-            let _ = write!(output, "{}", render_unified(change));
-        }
-        if target.painted(&output, difference)? == Printed::Unread {
+        if target.painted(&differences(&mended), difference)? == Printed::Unread {
             return Ok(exit::CLEAN);
         }
         if mended.is_empty() {
@@ -165,19 +154,26 @@ impl Bench<'_> {
     }
 }
 
-/// The changed file takes the place of the other one at once.
-fn replace(file: &MendedFile) -> Result<(), HostError> {
-    let mut files = OutputFiles::new(&Ledger::default());
-    let mut output = files.create("--fix", &file.path)?;
-    output.write_all(&file.bytes).map_err(HostError::Output)?;
-    files.finish(|_| ())
-}
-
 fn changes(count: usize) -> String {
     match count {
         1 => "1 change".to_owned(),
         _ => format!("{count} changes"),
     }
+}
+
+/// What changes make of files, as a unified diff.
+pub(super) fn differences<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> String {
+    let mut output = String::new();
+    for file in files {
+        let name = shown(&file.path);
+        let [before, after] = [&file.before, &file.after].map(|text| with_line_feeds(text));
+        let change = TextChange {
+            before: (&name, &before),
+            after: (&name, &after),
+        };
+        let _ = write!(output, "{}", render_unified(change));
+    }
+    output
 }
 
 /// A text whose lines end as those of a difference do.

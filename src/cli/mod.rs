@@ -1,5 +1,6 @@
 //! The command line: files, arguments, exit status. One file a command.
 
+mod audit;
 mod channels;
 mod check;
 mod circle;
@@ -75,6 +76,7 @@ struct Arguments {
 enum Command {
     Run(run::RunArgs),
     Check(check::CheckArgs),
+    Audit(audit::AuditArgs),
     Golden(golden::GoldenArgs),
     Diff(diff::DiffArgs),
     Lists(lists::ListsArgs),
@@ -150,6 +152,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
     match command {
         Command::Run(args) => run::run(args, console),
         Command::Check(args) => check::run(args, console),
+        Command::Audit(args) => audit::run(args, console),
         Command::Golden(args) => golden::run(args, console),
         Command::Diff(args) => diff::run(args, console),
         Command::Lists(args) => lists::run(args, console),

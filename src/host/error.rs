@@ -37,6 +37,9 @@ pub enum HostError {
         /// Why.
         reason: String,
     },
+    /// A file that somebody else changed while it was worked on.
+    #[error("`{}` has changed since it was read; nothing was written", .0.display())]
+    ChangedMeanwhile(PathBuf),
     /// A full disk.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),

@@ -10,6 +10,7 @@
 //! Nothing here prints or knows an option: who watches long work gives a [`Watcher`], and what cannot
 //! be done is a [`HostError`].
 
+mod audits;
 mod axes_ahead;
 mod discovery;
 mod dry_run;
@@ -40,6 +41,7 @@ mod walk;
 mod watch;
 mod workers;
 
+pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
 pub use axes_ahead::AxesAhead;
 pub use discovery::{
     CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
@@ -59,7 +61,7 @@ pub use ledger::{Claim, Ledger, folder};
 pub use lines::LineReader;
 pub use list_files::{ListsOnDisk, read_list};
 pub use memory::memory_for_simulation;
-pub use mend::{MendedFile, mend};
+pub use mend::{MendedFile, mend, write_mended};
 pub use outputs::{OutputFile, OutputFiles};
 pub use parameter_files::{check_list_file, find_plant, is_configuration, read_value_list};
 pub use read::{read_bytes, read_text};

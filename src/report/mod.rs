@@ -5,6 +5,7 @@
 
 mod advice;
 pub mod assumptions;
+pub mod audit;
 pub mod circle;
 mod concise;
 #[cfg(feature = "toml")]

@@ -83,6 +83,7 @@ impl Interpreter {
     /// An implicit call without a program (R2.82): it may have moved axes.
     pub(in crate::interpreter) fn pass_over_implicit(&mut self, number: u32) {
         self.state.modal.forget_positions();
+        self.perhaps_move_all();
         self.state.modal.note_transformed(&format!("G{number}"));
     }
 

@@ -23,6 +23,7 @@ impl Interpreter {
         }
         if !keeps.positions {
             self.state.modal.forget_positions();
+            self.perhaps_move_all();
             self.state.modal.note_transformed(name);
         }
     }

@@ -33,8 +33,18 @@ impl Interpreter {
         self.forget_memory(cause);
         self.state.memory.forget_macros(cause, |_, _| false);
         self.state.modal.forget_words();
+        self.perhaps_move_all();
         self.doubt_couplings();
         self.forget_compensation();
+    }
+
+    /// It is not known whether any axis moves.
+    pub(in crate::interpreter) fn perhaps_move_all(&mut self) {
+        let count = self.machine.axes.len();
+        if self.work.perhaps_moved.len() < count {
+            let axes = (0..count).map(AxisIndex::new);
+            self.work.perhaps_moved.extend(axes);
+        }
     }
 
     /// Every parameter and variable becomes unknown.

@@ -46,15 +46,7 @@ impl Interpreter {
                 self.check_required(intent.axis_words, at);
             }
         }
-        if !self.pending.is_empty() {
-            self.forget_called(finder);
-        }
-        if !self.work.doubted.is_empty() {
-            self.name_doubted();
-        }
-        if !self.departing.is_empty() {
-            self.depart(finder, at);
-        }
+        self.doubt_ways(at, finder);
         let calls = if intent.calls.is_empty() {
             Vec::new()
         } else {
@@ -105,6 +97,7 @@ impl Interpreter {
             changes: &self.work.changes,
             doubted: &self.work.doubted,
             moved: if stopped { &[] } else { &self.work.moved },
+            perhaps_moved: &self.work.perhaps_moved,
             motion: self.work.motion.as_ref(),
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
@@ -124,6 +117,20 @@ impl Interpreter {
             }
             None => ControlFlow::Continue(()),
             Some(step) => ControlFlow::Break(Departure::Step(step)),
+        }
+    }
+
+    /// What the block makes unknown, because it may call, or leave for, something else.
+    #[inline]
+    fn doubt_ways(&mut self, at: &At<'_>, finder: &mut dyn Finder) {
+        if !self.pending.is_empty() {
+            self.forget_called(finder);
+        }
+        if !self.work.doubted.is_empty() {
+            self.name_doubted();
+        }
+        if !self.departing.is_empty() {
+            self.depart(finder, at);
         }
     }
 

@@ -122,6 +122,9 @@ pub struct Executed<'a> {
     pub doubted: &'a [(AxisIndex, KindSet)],
     /// The axes that it moves.
     pub moved: &'a [AxisWord],
+    /// The axes that may be moved by what it calls or contains and is not executed here: it is not
+    /// known offline whether it is (R2.51, R2.52).
+    pub perhaps_moved: &'a [AxisIndex],
     /// What it makes the machine do, where motions are taken.
     pub motion: Option<&'a Motion>,
     /// The notes on it, where they are taken.

@@ -25,6 +25,8 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) changes: Vec<Change>,
     /// What may or may not have been switched.
     pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
+    /// The axes that it may or may not move.
+    pub(in crate::interpreter) perhaps_moved: Vec<AxisIndex>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
     /// The axes that have a word, and those that may have another, a bit each.
@@ -63,6 +65,7 @@ impl Work {
         self.outcomes.clear();
         self.changes.clear();
         self.doubted.clear();
+        self.perhaps_moved.clear();
         self.moved.clear();
         self.seen = 0;
         self.again = 0;

@@ -140,9 +140,13 @@ impl Interpreter {
             Effect::Radius => modal.radius = None,
             Effect::Position(axis) => {
                 modal.forget_position(*axis);
+                self.work.perhaps_moved.push(*axis);
                 self.see(*axis);
             }
-            Effect::Positions => modal.forget_positions(),
+            Effect::Positions => {
+                modal.forget_positions();
+                self.perhaps_move_all();
+            }
             Effect::Reference(axis) => {
                 modal.forget_reference(*axis);
                 self.see(*axis);

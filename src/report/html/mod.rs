@@ -7,6 +7,7 @@
 //! active.
 
 mod assumptions;
+mod audit;
 mod circle;
 mod digest;
 mod given;
@@ -21,6 +22,7 @@ mod states;
 mod track;
 mod versions;
 
+pub use audit::render_audit;
 pub use circle::render_circle;
 pub use digest::RunDigest;
 pub use given::RunInputs;

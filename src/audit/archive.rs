@@ -1,0 +1,142 @@
+//! The programs of one machine together: who leaves an axis away from home, and who inherits it.
+
+use std::collections::BTreeMap;
+
+use super::cure::{Cure, Mending};
+use super::program::{AxisAudit, ProgramAudit};
+use crate::comp::Kind;
+
+/// The programs of one machine.
+#[derive(Debug, Clone, Default)]
+pub struct Archive {
+    programs: Vec<ProgramAudit>,
+}
+
+/// Which end of the hazards is mended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MendedEnd {
+    /// The programs that leave an axis away from home.
+    Leavers,
+    /// The programs that inherit it.
+    Inheritors,
+    /// For each axis whichever are fewer.
+    Smaller,
+}
+
+/// What the programs do to one kind of compensation of one axis. Programs are named by their
+/// position in [`Archive::programs`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct AxisFinding {
+    /// The axis.
+    pub axis: String,
+    /// The kind.
+    pub kind: Kind,
+    /// Whether it is selected at the start of the control.
+    pub on_at_home: bool,
+    /// The position of the axis and kind in [`ProgramAudit::axes`].
+    pub at: usize,
+    /// The programs that leave it away from home.
+    pub leavers: Vec<usize>,
+    /// The programs that move the axis in the state that they find.
+    pub inheritors: Vec<usize>,
+    /// The programs of both lists: the second run of each differs from its first (R1.53).
+    pub both: Vec<usize>,
+    /// The programs of which that is not known offline: any of them may leave it away from home.
+    pub unknown: Vec<usize>,
+}
+
+impl AxisFinding {
+    /// The ordered pairs of a program that leaves the axis away from home and one that inherits it
+    /// (R10.2).
+    pub fn hazards(&self) -> u64 {
+        let count = |list: &[usize]| u64::try_from(list.len()).unwrap_or(u64::MAX);
+        count(&self.leavers).saturating_mul(count(&self.inheritors))
+    }
+
+    /// The shorter of both lists.
+    pub fn cure(&self) -> Cure {
+        match (self.leavers.len(), self.inheritors.len()) {
+            (0, _) | (_, 0) => Cure::None,
+            (leavers, inheritors) if leavers <= inheritors => Cure::Leavers,
+            _ => Cure::Inheritors,
+        }
+    }
+
+    /// Whether programs may leave it away from home, or do, and others inherit that.
+    pub fn is_worth_a_warning(&self) -> bool {
+        self.hazards() > 0 || !(self.unknown.is_empty() || self.inheritors.is_empty())
+    }
+}
+
+impl Archive {
+    /// One more program.
+    pub fn push(&mut self, program: ProgramAudit) {
+        self.programs.push(program);
+    }
+
+    /// The programs, in the order in which they came.
+    pub fn programs(&self) -> &[ProgramAudit] {
+        &self.programs
+    }
+
+    /// What they do together, for each axis and kind in the machine's order.
+    pub fn findings(&self) -> Vec<AxisFinding> {
+        let first = self.programs.first().map_or(&[][..], |first| &first.axes);
+        first
+            .iter()
+            .enumerate()
+            .map(|(at, axis)| self.finding(at, axis))
+            .collect()
+    }
+
+    fn finding(&self, at: usize, axis: &AxisAudit) -> AxisFinding {
+        let those = |are: fn(&AxisAudit) -> bool| {
+            let programs = self.programs.iter().enumerate();
+            let those = programs.filter(|(_, program)| are(&program.axes[at]));
+            those.map(|(position, _)| position).collect()
+        };
+        AxisFinding {
+            axis: axis.axis.clone(),
+            kind: axis.kind,
+            on_at_home: axis.on_at_home,
+            at,
+            leavers: those(AxisAudit::leaves_away),
+            inheritors: those(AxisAudit::is_inheritor),
+            both: those(|axis| axis.leaves_away() && axis.is_inheritor()),
+            unknown: those(AxisAudit::is_unknown),
+        }
+    }
+
+    /// What is to be mended of each program, by its position, so that no hazard is left. A program
+    /// that may leave an axis away from home, depending on a value of the machine, is a leaver here;
+    /// one that an error or a budget stops has to be mended by hand first.
+    pub fn to_mend(&self, end: MendedEnd) -> BTreeMap<usize, Vec<Mending>> {
+        let mut wanted: BTreeMap<usize, Vec<Mending>> = BTreeMap::new();
+        for finding in self.findings() {
+            if !finding.is_worth_a_warning() {
+                continue;
+            }
+            let cure = match end {
+                MendedEnd::Inheritors => Cure::Inheritors,
+                MendedEnd::Smaller if finding.cure() == Cure::Inheritors => Cure::Inheritors,
+                MendedEnd::Leavers | MendedEnd::Smaller => Cure::Leavers,
+            };
+            let programs: Vec<usize> = if cure == Cure::Inheritors {
+                finding.inheritors.clone()
+            } else {
+                let unknown = finding.unknown.iter().filter(|&&program| {
+                    self.programs[program].axes[finding.at].depends_on_the_machine()
+                });
+                finding.leavers.iter().chain(unknown).copied().collect()
+            };
+            let at = finding.at;
+            for program in programs {
+                let mendings = wanted.entry(program).or_default();
+                mendings.push(Mending { at, cure });
+            }
+        }
+        wanted
+    }
+}

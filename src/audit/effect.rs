@@ -1,0 +1,139 @@
+//! What a program does to the state of an axis.
+
+use std::fmt;
+use std::sync::Arc;
+
+use serde::{Serialize, Serializer};
+
+use crate::diagnostic::Code;
+
+/// A line of a program.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
+pub struct Site {
+    /// The file, as the user named it.
+    pub file: Arc<str>,
+    /// The line, from 1.
+    pub line: u32,
+}
+
+/// What a program makes of a selection (R1.23), whatever the parameterisation (R10.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum ProgramEffect {
+    /// The program ends with the selection that it found.
+    Keeps,
+    /// It ends selected, whatever it found.
+    LeavesOn,
+    /// It ends deselected, whatever it found.
+    LeavesOff,
+    /// It depends on what is not known offline.
+    Unknown,
+}
+
+impl ProgramEffect {
+    /// The words of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Keeps => "keeps",
+            Self::LeavesOn => "leaves on",
+            Self::LeavesOff => "leaves off",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+impl fmt::Display for ProgramEffect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+impl Serialize for ProgramEffect {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.as_str())
+    }
+}
+
+/// How fast a motion is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Pace {
+    /// G00.
+    Rapid,
+    /// G01, G02, G03 and what interpolates at the path feed.
+    Feed,
+    /// Not known offline.
+    Unknown,
+}
+
+impl Pace {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Rapid => "rapid",
+            Self::Feed => "feed",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// The first motion of an axis in a state that the program did not set.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
+pub struct FirstMotion {
+    /// Where the motion word stands.
+    #[serde(flatten)]
+    pub site: Site,
+    /// Rapid or feed.
+    pub motion: Pace,
+    /// Whether it may not come to the motion, or may come to it in a state of its own: that is not
+    /// known offline. Records name it only then.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub perhaps: bool,
+}
+
+/// Whether a program moves an axis in the state that it finds (R10.1).
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Inherits {
+    /// It does not: the axis does not move, or a command comes first.
+    No,
+    /// The first motion word before any command of the program.
+    Motion(FirstMotion),
+    /// The program stopped before it came to either.
+    Unknown,
+}
+
+impl Inherits {
+    /// The motion, where there is one.
+    pub fn motion(&self) -> Option<&FirstMotion> {
+        match self {
+            Self::Motion(motion) => Some(motion),
+            Self::No | Self::Unknown => None,
+        }
+    }
+}
+
+impl Serialize for Inherits {
+    /// The motion, or `"no"` or `"unknown"`.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::No => serializer.serialize_str("no"),
+            Self::Motion(motion) => motion.serialize(serializer),
+            Self::Unknown => serializer.serialize_str("unknown"),
+        }
+    }
+}
+
+/// Why something is unknown.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct WhyUnknown {
+    /// The code of the message that says so, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub code: Option<Code>,
+    /// The reason in words.
+    pub message: String,
+    /// Where it arose.
+    #[serde(flatten)]
+    pub site: Option<Site>,
+}

@@ -1,0 +1,31 @@
+//! What the order of programs does (chapter 10 of the rules).
+//!
+//! The state of compensation outlives a program, so an archive is more than its programs: what one
+//! leaves, another finds. Each program is taken as a function from the states that it finds to the
+//! states that it leaves. Two dry runs give it, one with every configured axis at home and one with
+//! every one away from home: a [`ProgramAudit`]. An [`Archive`] puts the programs of one machine
+//! together and finds who leaves an axis away from home and who would inherit that, without ever
+//! looking at pairs. [`Mending`] finds the block that ends it, and [`Step`] tells what happens in one
+//! given order.
+//!
+//! Nothing here opens a file: whoever has the programs runs them on the interpreter that an [`Auditor`]
+//! hands out.
+
+mod archive;
+mod cure;
+mod effect;
+mod insertion;
+mod mending;
+mod numbering;
+mod observation;
+mod program;
+mod sequence;
+
+pub use archive::{Archive, AxisFinding, MendedEnd};
+pub use cure::{Cure, Mending};
+pub use effect::{FirstMotion, Inherits, Pace, ProgramEffect, Site, WhyUnknown};
+pub use insertion::{Insertion, insertions};
+pub use mending::Mended;
+pub use observation::{AuditedKind, Scope, Selected};
+pub use program::{Auditor, AxisAudit, Ending, ProgramAudit};
+pub use sequence::{Sequence, Step, StepAxis};

@@ -1,0 +1,173 @@
+//! Block numbers: one that is free, written as the program writes its own.
+
+use std::collections::BTreeSet;
+
+/// Numbers of more digits are not made.
+const MOST: u64 = 999_999_999;
+
+/// Where no two numbers say how far they lie apart.
+const USUAL_STEP: u64 = 10;
+
+/// How a line of a program is numbered.
+#[derive(Debug, Clone, Copy)]
+struct Number<'a> {
+    /// What stands before the digits: blanks and `N`.
+    before: &'a str,
+    /// With leading zeros.
+    digits: &'a str,
+    value: u64,
+}
+
+/// The lines of a program and their numbers.
+pub(super) struct Numbering<'a> {
+    lines: Vec<&'a str>,
+    taken: BTreeSet<u64>,
+}
+
+impl<'a> Numbering<'a> {
+    pub(super) fn of(text: &'a str) -> Self {
+        let lines: Vec<&str> = lines(text).collect();
+        let numbers = lines.iter().filter_map(|line| number(line));
+        Self {
+            taken: numbers.map(|number| number.value).collect(),
+            lines,
+        }
+    }
+
+    /// The lines of the program, without their ends.
+    pub(super) fn lines(&self) -> &[&'a str] {
+        &self.lines
+    }
+
+    /// The number of a block is not free any more.
+    pub(super) fn take(&mut self, block: &str) {
+        self.taken.extend(number(block).map(|number| number.value));
+    }
+
+    /// A command as a block before a line, from 1, with a number that is taken from then on.
+    pub(super) fn block(&mut self, line: u32, command: &str) -> String {
+        let at = usize::try_from(line.saturating_sub(1)).unwrap_or(usize::MAX);
+        let at = at.min(self.lines.len());
+        let (before, after) = self.lines.split_at(at);
+        let last = before.iter().rev().find_map(|line| number(line));
+        let next = after.first().and_then(|line| number(line));
+        let above = || before.iter().rev().find(|line| !line.trim().is_empty());
+        let pattern = match (next, after.first()) {
+            (Some(next), _) => next,
+            // At the end the last block is the pattern.
+            (None, None) => match above().and_then(|line| number(line)) {
+                Some(last) => last,
+                None => return command.to_owned(),
+            },
+            (None, Some(line)) => {
+                let blanks = line.len() - line.trim_start().len();
+                let is_last = line.trim().is_empty();
+                match above().and_then(|line| number(line)) {
+                    Some(last) if is_last => last,
+                    _ => return format!("{}{command}", &line[..blanks]),
+                }
+            }
+        };
+        let bounds = (last.map(|it| it.value), next.map(|it| it.value));
+        let Some(free) = self.free(bounds) else {
+            return command.to_owned();
+        };
+        self.taken.insert(free);
+        let width = pattern.digits.len();
+        let zeros = if pattern.digits.starts_with('0') {
+            width
+        } else {
+            0
+        };
+        format!("{}{free:0zeros$} {command}", pattern.before)
+    }
+
+    /// A free number between two, or else above all.
+    fn free(&self, (last, next): (Option<u64>, Option<u64>)) -> Option<u64> {
+        let (from, to) = match (last, next) {
+            (Some(last), Some(next)) if next > last + 1 => (last + 1, next),
+            (None, Some(next)) if next > 0 => (0, next),
+            _ => return self.above_all(last, next),
+        };
+        let middle = from + (to - from) / 2;
+        let free = |number: &u64| !self.taken.contains(number);
+        (middle..to)
+            .find(free)
+            .or_else(|| (from..middle).rev().find(free))
+            .or_else(|| self.above_all(last, next))
+    }
+
+    fn above_all(&self, last: Option<u64>, next: Option<u64>) -> Option<u64> {
+        let highest = *self.taken.last()?;
+        let step = match (last, next) {
+            (Some(last), Some(next)) if next > last => next - last,
+            (Some(last), None) => {
+                let earlier = self.taken.range(..last).next_back();
+                earlier.map_or(USUAL_STEP, |earlier| last - earlier)
+            }
+            _ => USUAL_STEP,
+        };
+        let step = step.clamp(1, 1000);
+        Some(highest + step).filter(|number| *number <= MOST)
+    }
+}
+
+/// The block number at the start of a line.
+fn number(line: &str) -> Option<Number<'_>> {
+    let blanks = line.len() - line.trim_start().len();
+    let rest = line[blanks..].strip_prefix(['N', 'n'])?;
+    let length = rest.bytes().take_while(u8::is_ascii_digit).count();
+    let digits = &rest[..length];
+    Some(Number {
+        before: &line[..=blanks],
+        digits,
+        value: digits.parse().ok().filter(|value| *value <= MOST)?,
+    })
+}
+
+/// The lines of a text, which end with LF, CR LF or CR.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.find(['\r', '\n']).unwrap_or(rest.len());
+        let (line, after) = rest.split_at(end);
+        let skip = if after.starts_with("\r\n") { 2 } else { 1 };
+        rest = after.get(skip..).unwrap_or_default();
+        Some(line)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn made(text: &str, line: u32) -> String {
+        Numbering::of(text).block(line, "X[COMP ON FRICT]")
+    }
+
+    #[test]
+    fn a_number_is_free_and_written_like_its_neighbours() {
+        // R10.3
+        for (text, line, wanted) in [
+            ("N10 X1\nN20 M30\n", 2, "N15 "),
+            ("  n0010 X1\r\n  n0020 M30\r\n", 2, "  n0015 "),
+            ("N1 X1\nN2 M30\n", 2, "N3 "),
+            ("N10 X1\nN20 M30\nN15 X2\n", 2, "N16 "),
+            ("N10 X1\nN12 M30\nN11 X2\n", 2, "N14 "),
+            ("X1\nM30\n", 2, ""),
+            ("  X1\n  M30\n", 2, "  "),
+            ("N10 X1\nM30\n", 2, ""),
+            ("N10 X1\nN20 X2", 3, "N30 "),
+            ("N10 X1\nN20 X2\n\n", 3, "N30 "),
+            ("N10 X1\n", 1, "N5 "),
+            ("N999999999 M30", 2, ""),
+            ("", 1, ""),
+        ] {
+            let command = "X[COMP ON FRICT]";
+            assert_eq!(made(text, line), format!("{wanted}{command}"), "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What happens when programs run in a given order (R10.6).
+
+use std::ops::ControlFlow;
+
+use serde::Serialize;
+
+use super::effect::{FirstMotion, Site, WhyUnknown};
+use super::observation::{Deed, Observation, Selected};
+use super::program::Auditor;
+use crate::comp::Kind;
+use crate::interpreter::{EndedBy, Event, Interpreter, Observer};
+
+/// The programs of an order, one after another on one machine.
+pub struct Sequence<'a> {
+    auditor: &'a Auditor,
+    interpreter: Interpreter,
+    /// Who left each subject as it is, where it is not at home.
+    left_by: Vec<Option<String>>,
+}
+
+/// What one program of the order did.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct Step {
+    /// The file, as the order names it.
+    pub file: String,
+    /// What stopped it before its end; the next program starts with what it left.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<WhyUnknown>,
+    /// What happened to each axis and kind.
+    #[serde(skip)]
+    pub axes: Vec<StepAxis>,
+}
+
+/// What happened to an axis.
+#[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
+pub struct StepAxis {
+    /// The axis.
+    #[serde(skip)]
+    pub axis: String,
+    /// The kind.
+    #[serde(skip)]
+    pub kind: Kind,
+    /// The selection at its start: `on`, `off` or `unknown`.
+    pub start: Selected,
+    /// The selection at its end.
+    pub end: Selected,
+    /// Whether it is selected at the start of the control.
+    #[serde(skip)]
+    pub home: Selected,
+    /// The last command that made it what it is at the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<Site>,
+    /// The first motion of the axis away from home.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub away: Option<FirstMotion>,
+    /// The program that left it so, where the motion comes before any command of this one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_by: Option<String>,
+}
+
+impl<'a> Sequence<'a> {
+    /// Right after the start of the control.
+    pub fn new(auditor: &'a Auditor) -> Self {
+        let scope = auditor.scope();
+        Self {
+            interpreter: auditor.interpreter(scope.home().clone()),
+            left_by: vec![None; scope.subjects().len()],
+            auditor,
+        }
+    }
+
+    /// Runs the next program. One that an error stops leaves what it has done so far; a reset does
+    /// not change that (R1.28).
+    ///
+    /// # Errors
+    /// Those of `run`.
+    pub fn step<E>(
+        &mut self,
+        file: &str,
+        mut run: impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
+    ) -> Result<Step, E> {
+        let scope = self.auditor.scope();
+        let start = self.interpreter.compensation().clone();
+        let mut observation = Observation::new(scope);
+        run(&mut self.interpreter, &mut |event: Event<'_>| {
+            observation.event(scope, event);
+            ControlFlow::Continue(())
+        })?;
+        let mut axes = Vec::with_capacity(scope.subjects().len());
+        for (at, subject) in scope.subjects().iter().enumerate() {
+            let observed = &observation.observed[at];
+            let home = Selected::of(scope.home(), *subject);
+            let end = observation.left[at];
+            let inherits = observed.inherited.as_ref().map(|moved| moved.seq);
+            let away = observed.astray.as_ref();
+            let is_found = away.is_some_and(|away| Some(away.seq) == inherits);
+            axes.push(StepAxis {
+                axis: self.auditor.name(*subject).to_owned(),
+                kind: subject.kind,
+                start: Selected::of(&start, *subject),
+                end,
+                home,
+                by: match &observed.last {
+                    Some(Deed::Command(site)) => Some(site.clone()),
+                    _ => None,
+                },
+                away: away.map(|moved| moved.motion.clone()),
+                left_by: self.left_by[at].clone().filter(|_| is_found),
+            });
+            if end == home {
+                self.left_by[at] = None;
+            } else if observed.last.is_some() || Selected::of(&start, *subject) != end {
+                self.left_by[at] = Some(file.to_owned());
+            }
+        }
+        let has_failed = matches!(observation.by, Some(EndedBy::Error | EndedBy::Budget));
+        Ok(Step {
+            file: file.to_owned(),
+            stopped: observation.stopped.filter(|_| has_failed),
+            axes,
+        })
+    }
+}

@@ -1,0 +1,14 @@
+//! What the order of programs does, in every format (R10.5).
+
+mod csv;
+mod records;
+mod sequence;
+mod subject;
+mod text;
+
+pub use csv::render_csv;
+pub use records::records;
+pub use sequence::{sequence_records, step_line};
+pub use subject::{AuditReport, MachineAudit};
+pub(super) use subject::{Word, axis_name, is_shown};
+pub use text::{Length, render_text};

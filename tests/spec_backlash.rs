@@ -110,6 +110,32 @@ fn shows_none(plant: &Plant, radii: &[f64], feeds: &[f64]) {
 }
 
 #[test]
+fn steep_friction_is_no_mismatch() {
+    // R5.24: peaks that still bend the path where the ellipse is looked for.
+    let plant = plant("Fs = 1500\nvs = 0.0005\n[y]\nFc = 1000\nFs = 1200\nm = 3000\n");
+    for radius in [5.0, 9.0] {
+        for advice in advice(&test(plant.clone(), radius, 250.0)) {
+            let ellipse = advice.iter().find(|it| it.place == FoundAt::Whole);
+            assert_eq!(ellipse, None, "{radius}: {advice:?}");
+        }
+    }
+}
+
+#[test]
+fn circles_that_are_over_before_the_drives_have_settled_are_driven() {
+    // R5.20: the path closes later than the commanded one; nothing is unstable.
+    let slow = plant("Kv = 8\nTi = 0.05\nbase = \"soft\"\n");
+    let lagging = plant("k_ff = 0\nbase = \"mid\"\n");
+    for plant in [slow, lagging] {
+        for (radius, feed) in [(5.0, 20_000.0), (9.0, 20_000.0), (5.0, 14_000.0)] {
+            let figures = alone(&test(plant.clone(), radius, feed)).map(|it| it.off.figures);
+            let ccw = figures.expect("a circle").ccw.expect("a path");
+            assert!(ccw.g_mz_um.is_finite() && ccw.shape.is_none(), "{ccw:?}");
+        }
+    }
+}
+
+#[test]
 fn a_plant_without_backlash_shows_none() {
     // R5.24: the short form of the grid below.
     for preset in Preset::ALL {

@@ -112,7 +112,12 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
         }));
     }
     if let [ccw, cw] = paths[..] {
-        advice.extend(ellipses(ccw.ellipse_um, cw.ellipse_um));
+        let unsettled = paths.iter().flat_map(|shape| &shape.axes);
+        let unsettled = unsettled.filter(|axis| !axis.is_settled);
+        let in_doubt = unsettled.map(|axis| axis.step_um.abs()).fold(0.0, f64::max);
+        advice.extend(
+            ellipses(ccw.ellipse_um, cw.ellipse_um).filter(|it| it.size_um >= 2.0 * in_doubt),
+        );
     }
     advice
 }
@@ -180,6 +185,9 @@ fn step(paths: &[&AxisShape]) -> Option<(Finding, f64)> {
     ))
 }
 
+/// A path that peaks still bend where the steps are looked for is fitted by steps and by an ellipse
+/// alike: an ellipse that is not larger than such a step is one of neither.
+///
 /// A circle that lags more on one axis becomes an ellipse at 45° whose long axis turns with the
 /// direction of travel; one of axes that are not square keeps it. Both need both directions.
 fn ellipses(ccw: [f64; 2], cw: [f64; 2]) -> impl Iterator<Item = Diagnosis> {

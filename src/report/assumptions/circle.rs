@@ -74,6 +74,13 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R5.24",
+        sentence: "an ellipse is named if it is larger than the step of an axis whose peak has not decayed",
+        changes: "whether axes that do not match are named beside friction that lasts long",
+        shows: "rows `step that stays` of the report",
+        when: &[],
+    },
+    Assumption {
+        rule: "R5.24",
         sentence: "glitches below 1 µm get no advice; a bulge of less than a quarter of the other is \
             ignored",
         changes: "whether advice is given",

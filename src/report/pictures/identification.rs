@@ -89,11 +89,12 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     }
 }
 
-/// What the torque differs from the mean of its segment, over the position.
+/// What the torque differs from the mean of its segment, over the position: its mean in pieces of the
+/// way, and between what values nine tenths of the samples are. All of them would be a block of colour.
 pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     let unit = report.unit();
-    let mut points = report.identified.residuals.clone();
-    points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    let pieces = Piece::of_way(&report.identified.residuals);
+    let over = |value: fn(&Piece) -> f64| pieces.iter().map(|it| [it.place, value(it)]).collect();
     LineChart {
         title: title(report, "Residual torque over the position"),
         description: format!(
@@ -104,8 +105,9 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
         panels: vec![Panel {
             y: ChartAxis::linear(format!("residual in {unit}")),
             series: vec![
-                series("all samples", points.clone(), Drawn::Line),
-                series("mean of neighbours", smoothed(&points), Drawn::Line),
+                series("mean", over(|it| it.mean), Drawn::Line),
+                series("5 % are lower", over(|it| it.low), Drawn::Line),
+                series("5 % are higher", over(|it| it.high), Drawn::Line),
             ],
             ..Panel::default()
         }],
@@ -113,17 +115,56 @@ pub fn residuals_over_position(report: &IdentifyReport) -> LineChart {
     }
 }
 
-/// Means of neighbours, some four hundred over the way.
-fn smoothed(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let chunk = (points.len() / 400).max(1);
-    let mean = |values: &[[f64; 2]], at: usize| {
-        let sum: f64 = values.iter().map(|it| it[at]).sum();
-        sum / f64::from(u32::try_from(values.len()).unwrap_or(u32::MAX))
-    };
-    points
-        .chunks(chunk)
-        .map(|it| [mean(it, 0), mean(it, 1)])
-        .collect()
+/// The residuals in a piece of the way.
+struct Piece {
+    /// Its middle.
+    place: f64,
+    mean: f64,
+    low: f64,
+    high: f64,
+}
+
+/// Pieces of the way.
+const PIECES: u32 = 200;
+
+impl Piece {
+    /// Pieces of equal length, those without samples left out.
+    fn of_way(residuals: &[[f64; 2]]) -> Vec<Self> {
+        let mut points = residuals.to_vec();
+        points.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        let (Some([first, _]), Some([last, _])) = (points.first(), points.last()) else {
+            return Vec::new();
+        };
+        let length = (last - first) / f64::from(PIECES);
+        let mut rest = &points[..];
+        let pieces = (1..=PIECES).filter_map(|number| {
+            let end = first + length * f64::from(number);
+            let count = if number == PIECES {
+                rest.len()
+            } else {
+                rest.partition_point(|point| point[0] < end)
+            };
+            let (piece, later) = rest.split_at(count);
+            rest = later;
+            Self::of(piece, end - length / 2.0)
+        });
+        pieces.collect()
+    }
+
+    fn of(points: &[[f64; 2]], place: f64) -> Option<Self> {
+        let mut values: Vec<f64> = points.iter().map(|point| point[1]).collect();
+        values.sort_by(f64::total_cmp);
+        let twentieth = values.len() / 20;
+        let low = *values.get(twentieth)?;
+        let high = *values.get(values.len() - 1 - twentieth)?;
+        let count = f64::from(u32::try_from(values.len()).unwrap_or(u32::MAX));
+        Some(Self {
+            place,
+            mean: values.iter().sum::<f64>() / count,
+            low,
+            high,
+        })
+    }
 }
 
 /// Velocity and torque over time, the samples that are used drawn over all others.

@@ -19,6 +19,8 @@ pub use filter::CodeFilter;
 pub use fix::{Edit, Fix, Fixed, Safety, edited, edits};
 pub use levels::Levels;
 pub use message::{Diagnostic, Label};
+#[cfg(feature = "report")]
+pub(crate) use number::Rounded;
 pub(crate) use number::Shown;
 pub use severity::Severity;
 pub(crate) use spelling::did_you_mean;

@@ -11,14 +11,39 @@ impl fmt::Display for Shown {
         if size != 0.0 && size.is_finite() && !(1e-9..1e12).contains(&size) {
             write!(f, "{:e}", self.0)
         } else {
-            write!(f, "{}", self.0)
+            // No negative zero.
+            write!(f, "{}", self.0 + 0.0)
         }
+    }
+}
+
+/// A number with so many decimals; what is rounded to zero has no sign.
+#[cfg(feature = "report")]
+pub(crate) struct Rounded(pub(crate) f64, pub(crate) usize);
+
+#[cfg(feature = "report")]
+impl fmt::Display for Rounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = format!("{:.*}", self.1, self.0);
+        let is_zero = |digits: &&str| digits.bytes().all(|it| matches!(it, b'0' | b'.'));
+        let unsigned = text.strip_prefix('-').filter(is_zero);
+        f.pad(unsigned.unwrap_or(&text))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(feature = "report")]
+    #[test]
+    fn what_is_rounded_to_zero_has_no_sign() {
+        assert_eq!(Rounded(-0.0004, 3).to_string(), "0.000");
+        assert_eq!(Rounded(-0.0005001, 3).to_string(), "-0.001");
+        assert_eq!(format!("{:>8}", Rounded(-0.4, 0)), "       0");
+        assert_eq!(format!("{:>8}", Rounded(-1.25, 1)), "    -1.2");
+        assert_eq!(Shown(-0.0).to_string(), "0");
+    }
 
     #[test]
     fn numbers_in_messages_stay_short() {

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::diagnostic::Rounded;
 use crate::identify::{AxisRecording, Fit, FrictionCurve, Identified, TraceFinding};
 
 /// A recording and what was identified in it.
@@ -60,8 +61,8 @@ pub fn render_text(report: &IdentifyReport) -> String {
     push_pairs(&mut out, found);
     let _ = writeln!(
         out,
-        "\noffset (weight, asymmetry): {:.3} {}",
-        found.offset,
+        "\noffset (weight, asymmetry): {} {}",
+        Rounded(found.offset, 3),
         report.unit()
     );
     out.push_str(offset_words(found));
@@ -77,7 +78,8 @@ pub fn render_text(report: &IdentifyReport) -> String {
         report.unit()
     );
     for point in &found.points {
-        let _ = writeln!(out, "{:>10} {:>10.3}", point.input, point.output);
+        let output = Rounded(point.output, 3);
+        let _ = writeln!(out, "{:>10} {output:>10}", point.input);
     }
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
@@ -93,17 +95,17 @@ fn push_pairs(out: &mut String, found: &Identified) {
         "speed", "friction", "±", "offset", "residual", "visits", "mm/s"
     );
     for pair in &found.pairs {
-        let offset = pair
-            .offset
-            .map_or("one-sided".to_owned(), |offset| format!("{offset:.3}"));
+        let offset = pair.offset.map_or("one-sided".to_owned(), |offset| {
+            Rounded(offset, 3).to_string()
+        });
         let _ = writeln!(
             out,
-            "{:>10.3} {:>10.3} {:>8.3} {:>10} {:>10.3} {:>7}",
+            "{:>10.3} {:>10} {:>8.3} {:>10} {:>10} {:>7}",
             pair.speed,
-            pair.friction,
+            Rounded(pair.friction, 3),
             pair.error,
             offset,
-            pair.friction - found.curve.at(pair.speed),
+            Rounded(pair.friction - found.curve.at(pair.speed), 3),
             pair.visits.len()
         );
     }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::diagnostic::Rounded;
 use crate::identify::{AxisRecording, OnCircles, TraceFinding};
 
 /// Recorded circles and the friction that was found on them.
@@ -68,12 +69,13 @@ pub fn render_text(report: &OnCirclesReport) -> String {
         report.unit()
     );
     for [speed, friction] in &found.points {
-        let _ = writeln!(out, "{speed:>10.3} {friction:>12.3}");
+        let _ = writeln!(out, "{speed:>10.3} {:>12}", Rounded(*friction, 3));
     }
     let _ = writeln!(
         out,
-        "\noffset {:.3}, inertia {:.6} per mm/s²",
-        found.offset, found.inertia
+        "\noffset {}, inertia {} per mm/s²",
+        Rounded(found.offset, 3),
+        Rounded(found.inertia, 6)
     );
     if !found.left_out.is_empty() {
         let speeds: Vec<String> = found.left_out.iter().map(|it| format!("{it:.2}")).collect();

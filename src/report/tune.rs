@@ -26,7 +26,8 @@ pub struct TuneReport {
 
 /// A number as it is written in reports: no more digits than mean anything.
 pub(crate) fn round(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
+    // No negative zero.
+    (value * 1e6).round() / 1e6 + 0.0
 }
 
 /// For which accelerations lists were tuned.

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
+use crate::diagnostic::Rounded;
 use crate::identify::{AxisRecording, TraceFinding, Verified};
 
 /// A recording and how a value list fits it.
@@ -47,15 +48,20 @@ pub fn render_text(report: &VerifyReport) -> String {
     for range in &verified.ranges {
         let _ = writeln!(
             out,
-            "{:>12.2} {:>12.2} {:>20.3}",
-            range.from, range.to, range.scale
+            "{:>12.2} {:>12.2} {:>20}",
+            range.from,
+            range.to,
+            Rounded(range.scale, 3)
         );
     }
     let lag = verified.lag.map_or("-".to_owned(), |lag| lag.to_string());
     let _ = writeln!(
         out,
-        "\nall speeds {:.3}, offset {:.3}, inertia {:.6} per mm/s², lag {lag} samples, residual {:.3}",
-        verified.scale, verified.offset, verified.inertia, verified.residual
+        "\nall speeds {}, offset {}, inertia {} per mm/s², lag {lag} samples, residual {:.3}",
+        Rounded(verified.scale, 3),
+        Rounded(verified.offset, 3),
+        Rounded(verified.inertia, 6),
+        verified.residual
     );
     if !verified.reversals.is_empty() {
         const SHOWN: usize = 20;
@@ -67,8 +73,10 @@ pub fn render_text(report: &VerifyReport) -> String {
         for turn in verified.reversals.iter().take(SHOWN) {
             let _ = writeln!(
                 out,
-                "{:>12.3} {:>12.3} {:>12.3}",
-                turn.time_s, turn.recorded, turn.predicted
+                "{:>12.3} {:>12} {:>12}",
+                turn.time_s,
+                Rounded(turn.recorded, 3),
+                Rounded(turn.predicted, 3)
             );
         }
         let more = verified.reversals.len().saturating_sub(SHOWN);

@@ -61,7 +61,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R6.20",
-        sentence: "the recorded torque is the predicted friction times a factor, inertia and offset",
+        sentence: "the recorded torque is the additive current of the list times a factor, inertia and offset; without a CNC cycle the time between two samples is one",
         changes: "the verdict of `verify`",
         shows: "the column `recorded/predicted`",
         when: &[],

@@ -155,5 +155,6 @@ pub(super) struct TooFast {
 
 /// A number of µm as it is written for machines.
 pub(super) fn round(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
+    // No negative zero.
+    (value * 1e6).round() / 1e6 + 0.0
 }

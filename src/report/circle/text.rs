@@ -8,7 +8,7 @@ use crate::circle::{
     AxisShape, CircularTest, Crossing, Diagnosis, Direction, Figures, Finding, FoundAt, LeftOut,
     Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
 };
-use crate::diagnostic::Shown;
+use crate::diagnostic::{Rounded, Shown};
 use crate::stiction::StictionParameters;
 
 /// The report for people.
@@ -117,7 +117,7 @@ fn bidirectional_condition(report: &CircleReport) -> Option<String> {
     let figures = report.sides.iter().map(|side| &side.side.figures);
     let distances: Vec<String> = figures
         .filter_map(|it| it.centre_distance_um)
-        .map(|distance| format!("{distance:.3} µm"))
+        .map(|distance| format!("{} µm", Rounded(distance, 3)))
         .collect();
     let centre = report.sides.first()?.side.figures.centre;
     (!distances.is_empty()).then(|| {
@@ -288,10 +288,12 @@ fn recorded_conditions(recording: &Recording) -> Vec<String> {
             .feed_mm_per_min()
             .map_or(String::new(), |feed| format!(", feed {feed:.0} mm/min"));
         lines.push(format!(
-            "{}: {} points of a turn, least-squares centre ({x:.4}, {y:.4}) mm, diameter {:.4} \
+            "{}: {} points of a turn, least-squares centre ({}, {}) mm, diameter {:.4} \
              mm{feed}",
             circle.direction,
             circle.points,
+            Rounded(x, 4),
+            Rounded(y, 4),
             2.0 * circle.radius_mm
         ));
         lines.push(left_out(circle));
@@ -401,7 +403,9 @@ impl Row {
     fn append(&self, out: &mut String) {
         let mut line = format!("{:<33}", self.name);
         for value in &self.values {
-            let text = value.map(|value| format!("{value:.3}")).unwrap_or_default();
+            let text = value
+                .map(|value| Rounded(value, 3).to_string())
+                .unwrap_or_default();
             let _ = write!(line, "{text:>13}");
         }
         let _ = writeln!(out, "{}", line.trim_end());

@@ -7,6 +7,7 @@ use maud::{Markup, html};
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, figure};
 use crate::circle::Method;
+use crate::diagnostic::Rounded;
 use crate::lists::{AxisType, FrictionList};
 use crate::machine::AcceptedList;
 use crate::report::circle::{CircleReport, Subject, advice_lines, conditions, table};
@@ -54,7 +55,7 @@ fn figures(report: &CircleReport) -> Markup {
     };
     table.render(figures.rows.iter().map(|row| {
         let values = row.values.iter();
-        let shown = values.map(|value| value.map(|value| format!("{value:.3}")));
+        let shown = values.map(|value| value.map(|value| Rounded(value, 3).to_string()));
         let cells: Vec<Markup> = shown
             .map(|value| html! { @if let Some(it) = value { (it) } })
             .collect();

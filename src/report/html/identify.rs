@@ -6,6 +6,7 @@ use maud::html;
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, figure};
+use crate::diagnostic::Rounded;
 use crate::report::identify::{IdentifyReport, render_text};
 use crate::report::pictures::{
     channels, friction_curve, residuals_over_position, segments_on_trace,
@@ -50,8 +51,9 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
             pair.offset,
             Some(pair.friction - found.curve.at(pair.speed)),
         ];
-        let shown =
-            |number: Option<f64>| number.map_or("one-sided".to_owned(), |it| format!("{it:.3}"));
+        let shown = |number: Option<f64>| {
+            number.map_or("one-sided".to_owned(), |it| Rounded(it, 3).to_string())
+        };
         let cells = numbers.map(|number| html! { (shown(number)) });
         Row::new(&format!("{:.3}", pair.speed), cells.to_vec())
     });

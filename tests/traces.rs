@@ -335,6 +335,22 @@ fn blanks_between_cells_need_names_without_blanks_or_single_channels() {
     assert_eq!(values(&recording, "other"), [2.0, 4.0]);
     let text = "Name test space other\n\n0 1 2\n1 3 4\n";
     assert_eq!(problem(text), TraceProblem::Divided);
+    // Rows without blanks in their cells tell how many channels there are, and name them.
+    let text = "Name Axis 1 Velo Axis 1 Torque\nData-Type INT32 INT16\n\
+                SymbolName Axes.Velo Axes.Torque\n\n0 1 2\n1 3 4\n";
+    let recording = read(text).expect("a recording");
+    assert_eq!(values(&recording, "Axes.Velo"), [1.0, 3.0]);
+    assert_eq!(values(&recording, "Axes.Torque"), [2.0, 4.0]);
+}
+
+#[test]
+fn aligned_columns_may_have_names_with_blanks() {
+    // R6.2
+    let text = "Name   Axis 1 Velo   Axis 1 Torque\nUnit   mm/s          %\n\n   0   1.5  -12\n   1  -3.5 -140\n";
+    let recording = read(text).expect("a recording");
+    assert_eq!(values(&recording, "Axis 1 Velo"), [1.5, -3.5]);
+    assert_eq!(values(&recording, "Axis 1 Torque"), [-12.0, -140.0]);
+    assert_eq!(torque(&recording, "Axis 1 Torque").unit.factor, 10.0);
 }
 
 #[test]

@@ -12,16 +12,18 @@ use super::failure::Failure;
 use super::machine::value_list;
 use super::outputs::Outputs;
 use super::result::{Format, ResultArgs};
+use crate::current::Reading;
 use crate::host::{Ledger, read_axis};
-use crate::identify::verify;
+use crate::identify::{Predictor, verify};
 use crate::report::fitted;
 use crate::report::verify::{VerifyReport, render_json, render_text};
 
 /// Compare a recorded torque with what a value list predicts
 ///
-/// Says whether the list is too low or too high, by speed, whether its sign is inverted, and by how many
-/// cycles it is late at reversals. The channels are named as for `identify`; record without the
-/// compensation, or the torque that the drive measures.
+/// Predicted is the additive current that the control computes from the list. Says whether the list is
+/// too low or too high, by speed, whether its sign is inverted, and by how many cycles it is late at
+/// reversals. The channels are named as for `identify`; record without the compensation, or the torque
+/// that the drive measures.
 #[derive(Debug, Args)]
 pub(super) struct VerifyArgs {
     /// The recorded trace
@@ -33,6 +35,9 @@ pub(super) struct VerifyArgs {
     channels: AxisChannels,
     #[command(flatten)]
     cycle: CycleArgs,
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    #[arg(long, value_name = "READING", default_value = "")]
+    reading: Reading,
     #[command(flatten)]
     result: ResultArgs,
 }
@@ -45,12 +50,14 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let mut result = outputs.result(args.result.output.as_deref())?;
     let list = value_list(&args.value_list, &ledger)?;
     outputs.check()?;
-    let recording = read_axis(
-        &args.trace,
-        &args.channels.selection(),
-        args.cycle.seconds()?,
-    )?;
-    let verified = verify(&recording.track, &list)?;
+    let cycle_s = args.cycle.seconds()?;
+    let recording = read_axis(&args.trace, &args.channels.selection(), cycle_s)?;
+    let predictor = Predictor {
+        list: &list,
+        reading: args.reading,
+        cycle_s,
+    };
+    let verified = verify(&recording.track, &predictor)?;
     let report = VerifyReport {
         trace: args.trace.display().to_string(),
         list: args.value_list.display().to_string(),

@@ -30,4 +30,4 @@ pub use segment::Segment;
 pub use speeds::identify;
 pub use support::Wanted;
 pub use track::{Track, TrackError};
-pub use verify::{Reversal, ScaleRange, Verified, verify};
+pub use verify::{Predictor, Reversal, ScaleRange, Verified, verify};

@@ -48,27 +48,66 @@ struct Mean {
     error: f64,
 }
 
-/// The pairs of a recording, slowest first, and the offset of all.
-pub(super) fn pairs(samples: &Samples, segments: &[Segment]) -> (Vec<Pair>, f64) {
-    let groups = by_speed(segments);
-    let step = resolution(&samples.torques);
-    let measure = Measure { samples, step };
-    let mut pairs: Vec<Pair> = groups
-        .iter()
-        .map(|group| measure.pair(segments, group))
-        .collect();
-    let offsets: Vec<f64> = pairs.iter().filter_map(|pair| pair.offset).collect();
-    // Not weighted: ripple makes small errors at high speeds, not right ones.
-    let offset = median(&offsets).unwrap_or(0.0);
-    for pair in pairs.iter_mut().filter(|pair| pair.offset.is_none()) {
-        // Only one direction: what its torque is without the offset of the others.
-        let sign = segments[pair.segments[0]].velocity.signum();
-        pair.friction = sign * (pair.friction - offset);
-        for visit in &mut pair.visits {
-            visit.friction = sign * (visit.friction - offset);
+/// The speeds of a recording.
+#[derive(Debug)]
+pub(super) struct Paired {
+    /// Slowest first.
+    pub(super) pairs: Vec<Pair>,
+    /// What is the same in both directions at all speeds.
+    pub(super) offset: f64,
+    /// How friction changed over the recording.
+    pub(super) drift: Option<Drift>,
+}
+
+impl Paired {
+    /// The pairs of a recording of so many seconds, with their offset and their drift.
+    pub(super) fn of(samples: &Samples, segments: &[Segment], duration_s: f64) -> Self {
+        let groups = by_speed(segments);
+        let step = resolution(&samples.torques);
+        let measure = Measure { samples, step };
+        let mut pairs: Vec<Pair> = groups
+            .iter()
+            .map(|group| measure.pair(segments, group))
+            .collect();
+        let drift = drift(&pairs, duration_s);
+        if let Some(Drift { part, .. }) = drift.filter(|it| it.is_seen) {
+            for pair in &mut pairs {
+                pair.take_drift(segments, part / duration_s);
+            }
+        }
+        let offsets: Vec<f64> = pairs.iter().filter_map(|pair| pair.offset).collect();
+        // Not weighted: ripple makes small errors at high speeds, not right ones.
+        let offset = median(&offsets).unwrap_or(0.0);
+        for pair in pairs.iter_mut().filter(|pair| pair.offset.is_none()) {
+            // Only one direction: what its torque is without the offset of the others.
+            let sign = segments[pair.segments[0]].velocity.signum();
+            pair.friction = sign * (pair.friction - offset);
+            for visit in &mut pair.visits {
+                visit.friction = sign * (visit.friction - offset);
+            }
+        }
+        Self {
+            pairs,
+            offset,
+            drift,
         }
     }
-    (pairs, offset)
+}
+
+impl Pair {
+    /// Takes out of the offset what friction changed from one direction to the other, while it rises
+    /// by a part of it each second.
+    fn take_drift(&mut self, segments: &[Segment], rate: f64) {
+        let couples = couples(segments, &self.segments);
+        let Some(offset) = &mut self.offset else {
+            return;
+        };
+        let later = |&(forth, back): &(usize, usize)| {
+            segments[forth].middle_s() - segments[back].middle_s()
+        };
+        let later = couples.iter().map(later).sum::<f64>() / count(couples.len().max(1));
+        *offset -= self.friction * rate * later / 2.0;
+    }
 }
 
 /// Segments with one speed, slowest first.
@@ -120,7 +159,7 @@ impl Measure<'_> {
             visits.extend(group.iter().map(|&it| {
                 let mean = self.mean(segments[it].samples.clone());
                 Visit {
-                    time_s: f64::midpoint(segments[it].from_s, segments[it].to_s),
+                    time_s: segments[it].middle_s(),
                     friction: mean.value,
                     error: mean.error,
                 }
@@ -191,7 +230,7 @@ fn couples(segments: &[Segment], group: &[usize]) -> Vec<(usize, usize)> {
         let is_so = |it: &&usize| segments[**it].velocity * sign > 0.0;
         group.iter().filter(is_so).copied().collect()
     });
-    let middle = |it: usize| f64::midpoint(segments[it].from_s, segments[it].to_s);
+    let middle = |it: usize| segments[it].middle_s();
     let mut couples = Vec::new();
     for &one in &forth {
         let apart = |other: usize| (middle(other) - middle(one)).abs();
@@ -213,11 +252,13 @@ pub struct Drift {
 }
 
 /// The drift of all speeds that were visited more than once; `None` where there are too few.
-pub(super) fn drift(pairs: &[Pair], duration_s: f64) -> Option<Drift> {
+fn drift(pairs: &[Pair], duration_s: f64) -> Option<Drift> {
     /// So many standard errors are no accident.
     const SIGNIFICANT: f64 = 4.0;
     let (mut product, mut square) = (0.0, 0.0);
-    for pair in pairs.iter().filter(|pair| pair.visits.len() > 1) {
+    // Of a speed in one direction, friction is not known yet.
+    let paired = pairs.iter().filter(|pair| pair.offset.is_some());
+    for pair in paired.filter(|pair| pair.visits.len() > 1) {
         let visits = count(pair.visits.len());
         let time = pair.visits.iter().map(|it| it.time_s).sum::<f64>() / visits;
         for visit in &pair.visits {

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use super::curve::solve_linear;
 use super::segment::Segment;
 use super::statistics::{count, trimmed_mean};
 use super::track::Samples;
@@ -25,8 +26,67 @@ const FREQUENCIES: usize = 1500;
 /// The shortest period in mm.
 const SHORTEST: f64 = 0.4;
 
+/// A ripple with its place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wave {
+    /// Periods in a mm or degree.
+    frequency: f64,
+    /// Parts of its cosine and its sine, in drive units.
+    parts: [f64; 2],
+}
+
+impl Wave {
+    /// Period and amplitude.
+    pub(super) fn ripple(&self) -> Ripple {
+        let [cosine, sine] = self.parts;
+        Ripple {
+            period: 1.0 / self.frequency,
+            amplitude: cosine.hypot(sine),
+        }
+    }
+
+    /// The torque at a position in mm or degrees.
+    pub(super) fn at(&self, position: f64) -> f64 {
+        let (sine, cosine) = (TAU * self.frequency * position).sin_cos();
+        self.parts[0] * cosine + self.parts[1] * sine
+    }
+
+    /// The wave of a frequency that fits best where every segment has a mean of its own: a segment
+    /// that is shorter than a period says little of it.
+    fn fitted(samples: &Samples, segments: &[Segment], frequency: f64) -> Option<Self> {
+        let mut sums = [[0.0; 3]; 2];
+        for segment in segments {
+            let range = segment.samples.clone();
+            let length = count(range.len());
+            let rows = || {
+                range.clone().map(|at| {
+                    let turns = frequency * samples.positions[at];
+                    let (sine, cosine) = (TAU * turns).sin_cos();
+                    [cosine, sine, samples.torques[at]]
+                })
+            };
+            let means = rows().fold([0.0; 3], |means, row| {
+                std::array::from_fn(|at| means[at] + row[at] / length)
+            });
+            for row in rows() {
+                let row: [f64; 3] = std::array::from_fn(|at| row[at] - means[at]);
+                for (sums, factor) in sums.iter_mut().zip(row) {
+                    for (sum, value) in sums.iter_mut().zip(row) {
+                        *sum += factor * value;
+                    }
+                }
+            }
+        }
+        let found = solve_linear(sums.map(|row| row.to_vec()).to_vec())?;
+        Some(Self {
+            frequency,
+            parts: [*found.first()?, *found.get(1)?],
+        })
+    }
+}
+
 /// The largest ripple of the segments, if it stands out of the noise.
-pub(super) fn ripple(samples: &Samples, segments: &[Segment]) -> Option<Ripple> {
+pub(super) fn wave(samples: &Samples, segments: &[Segment]) -> Option<Wave> {
     let residuals = residuals(samples, segments);
     let positions = residuals.iter().map(|it| it[0]);
     let (low, high) = positions.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), it| {
@@ -47,10 +107,7 @@ pub(super) fn ripple(samples: &Samples, segments: &[Segment]) -> Option<Ripple> 
     let frequency = sharpened(&residuals, frequency, step);
     // The greatest of many amplitudes of noise.
     let by_chance = spread * (4.0 * count(FREQUENCIES).ln() / count(residuals.len())).sqrt();
-    (amplitude > 2.0 * by_chance).then_some(Ripple {
-        period: 1.0 / frequency,
-        amplitude,
-    })
+    (amplitude > 2.0 * by_chance).then(|| Wave::fitted(samples, segments, frequency))?
 }
 
 /// The frequency between its neighbours at which the amplitude is greatest.

@@ -48,6 +48,11 @@ pub struct Segment {
 const SAME: f64 = 0.05;
 
 impl Segment {
+    /// The time in its middle, in s.
+    pub(super) fn middle_s(&self) -> f64 {
+        f64::midpoint(self.from_s, self.to_s)
+    }
+
     /// Whether two segments have one speed, in whatever direction, as far as noise lets it be seen.
     pub(super) fn is_as_fast_as(&self, other: &Self) -> bool {
         let [one, another] = [self.velocity.abs(), other.velocity.abs()];
@@ -82,6 +87,8 @@ struct Speeds {
     averaged: Vec<f64>,
     /// The standard deviation of the averaged noise.
     noise: f64,
+    /// The standard deviation of the noise on the positions, where the speeds come from them.
+    of_positions: Option<f64>,
     /// Speeds of single samples, and their noise.
     single: Vec<f64>,
     single_noise: f64,
@@ -101,6 +108,7 @@ impl Speeds {
             return Self {
                 averaged: slopes(samples, width),
                 noise: of_positions,
+                of_positions: Some(noise_of(&samples.positions)),
                 single_noise: noise_of(&single),
                 single,
                 shortest,
@@ -109,6 +117,7 @@ impl Speeds {
         Self {
             averaged: moving_average(&samples.velocities, width),
             noise: averaged_noise,
+            of_positions: None,
             single: samples.velocities.clone(),
             single_noise: recorded,
             shortest,
@@ -129,15 +138,21 @@ impl Speeds {
     }
 
     fn segment(&self, samples: &Samples, kept: Range<usize>) -> Option<Segment> {
-        let velocities = &samples.velocities[kept.clone()];
+        let velocities = &self.single[kept.clone()];
         let middle = median(velocities)?;
         let velocity = velocities.iter().sum::<f64>() / count(kept.len());
         let is_moving = middle.abs().min(velocity.abs()) >= SLOWEST;
-        is_moving.then(|| Segment {
-            from_s: samples.times_s[kept.start],
-            to_s: samples.times_s[kept.end - 1],
+        let [from_s, to_s] = [samples.times_s[kept.start], samples.times_s[kept.end - 1]];
+        // Of positions only those at both ends count.
+        let velocity_error = match self.of_positions {
+            Some(noise) => noise * 2.0_f64.sqrt() / (to_s - from_s).max(samples.step_s),
+            None => self.single_noise / count(kept.len()).sqrt(),
+        };
+        is_moving.then_some(Segment {
+            from_s,
+            to_s,
             velocity,
-            velocity_error: self.single_noise / count(kept.len()).sqrt(),
+            velocity_error,
             samples: kept,
         })
     }

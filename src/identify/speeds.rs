@@ -2,8 +2,8 @@
 
 use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
 use super::identified::{Identified, IdentifyError, IdentifyOptions};
-use super::pair::{Pair, drift, pairs};
-use super::ripple::{residuals, ripple};
+use super::pair::{Pair, Paired};
+use super::ripple::{residuals, wave};
 use super::segment::segments;
 use super::statistics::count;
 use super::support::{Speeds, support};
@@ -16,7 +16,7 @@ use crate::lists::TablePoint;
 /// # Errors
 /// The recording cannot be used for that.
 pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, IdentifyError> {
-    let samples = Samples::new(track)?;
+    let mut samples = Samples::new(track)?;
     let segments = segments(&samples);
     if segments.is_empty() {
         return Err(IdentifyError::NoSegments);
@@ -25,12 +25,22 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     if !(directions(1.0) && directions(-1.0)) {
         return Err(IdentifyError::OneDirection);
     }
-    let (pairs, offset) = pairs(&samples, &segments);
+    let duration_s = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);
+    let residuals = residuals(&samples, &segments);
+    let wave = wave(&samples, &segments);
+    if let Some(wave) = wave {
+        // What repeats along the way is neither friction nor weight.
+        samples.take_away(|position| wave.at(position));
+    }
+    let Paired {
+        pairs,
+        offset,
+        drift,
+    } = Paired::of(&samples, &segments, duration_s);
     if pairs.iter().all(|pair| pair.offset.is_none()) {
         return Err(IdentifyError::OneDirection);
     }
     check_friction(&pairs)?;
-    let duration_s = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);
     let fit = fit(&pairs);
     let curve = match fit {
         Some(fit) if fit.chi_square <= WORST_CHI_SQUARE => FrictionCurve::Fit(fit),
@@ -53,9 +63,9 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     let mut identified = Identified {
         points: points.collect(),
         point_error: support.error,
-        ripple: ripple(&samples, &segments),
-        drift: drift(&pairs, duration_s),
-        residuals: residuals(&samples, &segments),
+        ripple: wave.map(|wave| wave.ripple()),
+        drift,
+        residuals,
         findings: Vec::new(),
         segments,
         pairs,

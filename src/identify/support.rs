@@ -52,13 +52,14 @@ pub(super) fn support(curve: &FrictionCurve, speeds: Speeds, wanted: Wanted) -> 
     };
     let chosen = (1..most).find(|&lines| enough(lines)).unwrap_or(most - 1);
     let (error, places) = &best[chosen];
-    Support {
+    let on_curve = Support {
         points: places
             .iter()
             .map(|&at| [table.speeds[at], table.values[at]])
             .collect(),
         error: *error,
-    }
+    };
+    table.balanced(on_curve)
 }
 
 struct Table {
@@ -102,16 +103,54 @@ impl Table {
         }
     }
 
-    /// The largest error of a line between two places.
-    fn error(&self, from: usize, to: usize) -> f64 {
-        let [x0, x1] = [self.speeds[from], self.speeds[to]];
-        let [y0, y1] = [self.values[from], self.values[to]];
+    /// The same points beside the curve, where that makes the largest error smaller: lines between
+    /// points of a bent curve are all on one side of it. The first point stays, since the value at
+    /// standstill is known.
+    fn balanced(&self, on_curve: Support) -> Support {
+        /// By then nothing changes any more.
+        const ROUNDS: usize = 60;
+        let mut best = on_curve.clone();
+        let mut points = on_curve.points;
+        for _ in 0..ROUNDS {
+            let spans: Vec<[f64; 2]> = points
+                .windows(2)
+                .map(|line| self.beside([line[0], line[1]]))
+                .collect();
+            let ends = |span: &[f64; 2]| span.map(f64::abs).into_iter().fold(0.0, f64::max);
+            let error = spans.iter().map(ends).fold(0.0, f64::max);
+            if error < best.error {
+                best = Support {
+                    points: points.clone(),
+                    error,
+                };
+            }
+            for at in 1..points.len() {
+                let around = &spans[at - 1..spans.len().min(at + 1)];
+                let [low, high] = around.iter().fold([0.0_f64; 2], |[low, high], span| {
+                    [low.min(span[0]), high.max(span[1])]
+                });
+                points[at][1] -= f64::midpoint(low, high) / 2.0;
+            }
+        }
+        best
+    }
+
+    /// How far a line is below and above the curve.
+    fn beside(&self, [[x0, y0], [x1, y1]]: [[f64; 2]; 2]) -> [f64; 2] {
         let slope = (y1 - y0) / (x1 - x0);
         let first = self.looked.partition_point(|it| it[0] < x0);
         let within = self.looked[first..].iter().take_while(|it| it[0] <= x1);
-        within
-            .map(|[x, y]| (y0 + slope * (x - x0) - y).abs())
-            .fold(0.0, f64::max)
+        within.fold([0.0; 2], |[low, high], [x, y]| {
+            let error = y0 + slope * (x - x0) - y;
+            [low.min(error), high.max(error)]
+        })
+    }
+
+    /// The largest error of a line between two places.
+    fn error(&self, from: usize, to: usize) -> f64 {
+        let place = |at: usize| [self.speeds[at], self.values[at]];
+        let [below, above] = self.beside([place(from), place(to)]);
+        above.max(-below)
     }
 
     /// For every number of lines up to one less than `most` points, the smallest largest error and

@@ -148,6 +148,13 @@ impl Samples {
         Ok(samples)
     }
 
+    /// Takes a part of the torque away that depends on the position.
+    pub(super) fn take_away(&mut self, part: impl Fn(f64) -> f64) {
+        for (torque, &position) in self.torques.iter_mut().zip(&self.positions) {
+            *torque -= part(position);
+        }
+    }
+
     /// Whether the position goes where the velocity says.
     fn check_motion(&self) -> Result<(), TrackError> {
         /// Distances in mm below which nothing is said.

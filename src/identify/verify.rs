@@ -1,9 +1,12 @@
 //! A recorded torque against what a value list predicts (R6.20).
 
-use super::curve::{along, solve_linear};
+use super::curve::solve_linear;
 use super::identified::IdentifyError;
-use super::statistics::{count, moving_average, samples_in};
+use super::statistics::{count, moving_average, noise_of, samples_in};
 use super::track::{Samples, Track};
+use crate::current::{
+    AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
+};
 use crate::lists::FrictionList;
 
 /// How a value list fits a recording.
@@ -22,6 +25,8 @@ pub struct Verified {
     pub lag: Option<i32>,
     /// The time between two samples.
     pub step_s: f64,
+    /// The CNC cycle, in which the control computes the additive current.
+    pub cycle_s: f64,
     /// The standard deviation of what is left over, in drive units.
     pub residual: f64,
     /// The reversals of the recording.
@@ -68,13 +73,25 @@ const MOST_LAG: i32 = 30;
 /// A range with fewer samples has no scale.
 const FEWEST: f64 = 100.0;
 
-/// Compares a recording with a value list.
+/// A list on a control.
+#[derive(Debug, Clone, Copy)]
+pub struct Predictor<'a> {
+    /// The value list.
+    pub list: &'a FrictionList,
+    /// How the documents are read.
+    pub reading: Reading,
+    /// The CNC cycle in s; without it the time between two samples.
+    pub cycle_s: Option<f64>,
+}
+
+/// Compares a recording with the additive current that a control computes from a value list
+/// (chapter 4 of the rules).
 ///
 /// # Errors
 /// The recording cannot be used, or the axis moves in one direction only.
-pub fn verify(track: &Track, list: &FrictionList) -> Result<Verified, IdentifyError> {
+pub fn verify(track: &Track, predictor: &Predictor<'_>) -> Result<Verified, IdentifyError> {
     let samples = Samples::new(track)?;
-    let motion = Motion::of(&samples, list);
+    let motion = Motion::of(&samples, predictor);
     let directions = |sign: f64| motion.signs.iter().any(|it| it * sign > 0.0);
     if !(directions(1.0) && directions(-1.0)) {
         return Err(IdentifyError::OneDirection);
@@ -114,12 +131,68 @@ pub fn verify(track: &Track, list: &FrictionList) -> Result<Verified, IdentifyEr
         inertia: whole.inertia,
         lag: motion.lag(&rest, &at_once),
         step_s: samples.step_s,
+        cycle_s: predictor.cycle_s.unwrap_or(samples.step_s),
         residual: (squares / count(used.len())).sqrt(),
         reversals: turns
             .iter()
             .filter_map(|&at| motion.reversal(&samples, &rest, at))
             .collect(),
     })
+}
+
+/// Cycles between two samples, at most.
+const MOST_CYCLES: f64 = 100.0;
+
+impl Predictor<'_> {
+    /// The additive current at each sample, of an axis with these velocities in mm/s.
+    fn currents(&self, samples: &Samples, velocities: &[f64]) -> Vec<f64> {
+        let mut current = AdditiveCurrent::new(self.list, self.reading);
+        let cycle_s = self.cycle_s.unwrap_or(samples.step_s);
+        let cycle_s = cycle_s.max(samples.step_s / MOST_CYCLES);
+        // A commanded velocity has no noise, and turns where it changes its sign.
+        let rest = REST.min(5.0 * noise_of(&samples.velocities));
+        let moving = |velocity: f64| {
+            let is_moving = velocity.abs() > rest;
+            if is_moving {
+                velocity * VELOCITY_UNITS_PER_MM_PER_S
+            } else {
+                0.0
+            }
+        };
+        let times = &samples.times_s;
+        let (first, last) = (times[0], times[times.len() - 1]);
+        let mut after = 0;
+        let [mut positions, mut speeds, mut reached] = [const { Vec::new() }; 3];
+        let mut time = first;
+        // The motion at each cycle, linear between samples.
+        while time <= last + 0.5 * cycle_s {
+            while after + 1 < times.len() && times[after] < time {
+                after += 1;
+            }
+            let before = after.saturating_sub(1);
+            let length = times[after] - times[before];
+            let share = if length > 0.0 {
+                ((time - times[before]) / length).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            let between =
+                |values: &[f64]| values[before] + share * (values[after] - values[before]);
+            positions.push(between(&samples.positions) * POSITION_UNITS_PER_MM);
+            speeds.push(moving(between(velocities)));
+            reached.push(time);
+            time += cycle_s;
+        }
+        let added = current.trace(&positions, &speeds);
+        let mut at = 0;
+        let of_sample = |&time: &f64| {
+            while at + 1 < reached.len() && reached[at + 1] <= time + 1e-3 * cycle_s {
+                at += 1;
+            }
+            added[at].current_units
+        };
+        times.iter().map(of_sample).collect()
+    }
 }
 
 /// The motion of an axis, and the friction that the list predicts.
@@ -132,15 +205,9 @@ struct Motion {
 }
 
 impl Motion {
-    fn of(samples: &Samples, list: &FrictionList) -> Self {
+    fn of(samples: &Samples, predictor: &Predictor<'_>) -> Self {
         let velocities =
             moving_average(&samples.velocities, samples_in(AVERAGED_S, samples.step_s));
-        let table = list
-            .table
-            .iter()
-            .map(|point| [point.input / 1000.0, point.output]);
-        let table: Vec<[f64; 2]> = table.collect();
-        let factor = f64::from(list.scaling_factor) / 1000.0;
         let mut direction = 0.0;
         let signs: Vec<f64> = velocities
             .iter()
@@ -151,8 +218,6 @@ impl Motion {
                 direction
             })
             .collect();
-        let of_list =
-            |(velocity, sign): (&f64, &f64)| sign * factor * along(&table, velocity.abs());
         let end = velocities.len() - 1;
         let slope = |at: usize| {
             let (from, to) = (at.saturating_sub(2), (at + 2).min(end));
@@ -160,7 +225,7 @@ impl Motion {
         };
         Self {
             accelerations: (0..=end).map(slope).collect(),
-            predicted: velocities.iter().zip(&signs).map(of_list).collect(),
+            predicted: predictor.currents(samples, &velocities),
             signs,
             velocities,
         }
@@ -325,11 +390,14 @@ impl Verified {
                 range.to
             ));
         }
-        if let Some(lag) = self.lag.filter(|lag| lag.abs() > 1) {
-            let word = if lag > 0 { "early" } else { "late" };
+        let cycles = self
+            .lag
+            .map(|lag| (f64::from(lag) * self.step_s / self.cycle_s).round());
+        if let Some(cycles) = cycles.filter(|cycles| cycles.abs() > 1.0) {
+            let word = if cycles > 0.0 { "early" } else { "late" };
             said.push(format!(
                 "the list is {} cycles {word} at reversals",
-                lag.abs()
+                cycles.abs()
             ));
         }
         said

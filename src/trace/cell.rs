@@ -7,15 +7,26 @@ pub(super) enum Separator {
     Byte(u8),
     /// Any number of blanks, as in tables that are aligned.
     Blanks,
+    /// Two blanks or more, as in the header of such a table: a single one belongs to a name.
+    Gaps,
 }
 
 impl Separator {
+    /// What stands between the numbers below a header with this separator: of aligned columns some
+    /// have only one blank between them.
+    pub(super) fn of_numbers(self) -> Self {
+        match self {
+            Self::Gaps => Self::Blanks,
+            other => other,
+        }
+    }
+
     /// The cells of a row without quotes.
     pub(super) fn cells(self, row: &[u8]) -> Cells<'_> {
         Cells {
             rest: match self {
                 Self::Byte(_) => Some(row),
-                Self::Blanks => Some(row.trim_ascii()).filter(|row| !row.is_empty()),
+                Self::Blanks | Self::Gaps => Some(row.trim_ascii()).filter(|row| !row.is_empty()),
             },
             separator: self,
         }
@@ -78,6 +89,7 @@ impl<'a> Iterator for Cells<'a> {
         let end = match self.separator {
             Separator::Byte(byte) => memchr::memchr(byte, row),
             Separator::Blanks => row.iter().position(|byte| matches!(byte, b' ' | b'\t')),
+            Separator::Gaps => row.windows(2).position(|pair| pair == b"  "),
         };
         let Some(end) = end else {
             self.rest = None;
@@ -86,7 +98,7 @@ impl<'a> Iterator for Cells<'a> {
         let after = &row[end + 1..];
         self.rest = Some(match self.separator {
             Separator::Byte(_) => after,
-            Separator::Blanks => after.trim_ascii_start(),
+            Separator::Blanks | Separator::Gaps => after.trim_ascii_start(),
         });
         Some(&row[..end])
     }
@@ -239,10 +251,23 @@ pub(super) fn is_data(line: &[u8], separator: Option<Separator>) -> bool {
 pub(super) fn text(cell: &[u8]) -> String {
     let text = match std::str::from_utf8(cell) {
         Ok(text) => text.to_owned(),
-        // Old systems write one byte a letter; Latin-1 is what they share.
-        Err(_) => cell.iter().map(|&byte| char::from(byte)).collect(),
+        Err(_) => of_old_systems(cell),
     };
     text.trim().to_owned()
+}
+
+/// Letters of one byte, as old systems write them: code page 1252.
+#[cfg(feature = "report")]
+pub(super) fn of_old_systems(bytes: &[u8]) -> String {
+    let (text, _) = encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes);
+    text.into_owned()
+}
+
+/// Letters of one byte. Without the code pages they are taken as Latin-1, which differs from code page
+/// 1252 in 27 signs.
+#[cfg(not(feature = "report"))]
+fn of_old_systems(bytes: &[u8]) -> String {
+    bytes.iter().map(|&byte| char::from(byte)).collect()
 }
 
 #[cfg(test)]
@@ -268,6 +293,17 @@ mod tests {
             assert_eq!(value(cell.as_bytes()).0, Value::Other, "{cell}");
         }
         assert_eq!(value(&[b'1'; 500]).0, Value::Other);
+    }
+
+    #[cfg(feature = "report")]
+    #[test]
+    fn headers_of_old_systems_are_in_their_code_page() {
+        // R6.1: as in lists and programs.
+        assert_eq!(
+            text(b"Kraft \x80 \x96 \xb5m"),
+            "Kraft \u{20ac} \u{2013} \u{b5}m"
+        );
+        assert_eq!(text("Kraft €".as_bytes()), "Kraft €");
     }
 
     #[test]

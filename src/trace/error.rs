@@ -182,6 +182,22 @@ fn listed(names: &[String]) -> String {
 }
 
 impl SelectError {
+    /// The same, with another guess where nothing is spelled like what was asked for.
+    pub(super) fn or_guess(self, guess: impl FnOnce() -> Option<String>) -> Self {
+        match self {
+            Self::None {
+                wanted,
+                found,
+                guess: None,
+            } => Self::None {
+                wanted,
+                found,
+                guess: guess(),
+            },
+            other => other,
+        }
+    }
+
     /// What to do about it.
     pub fn help(&self) -> Option<String> {
         match self {

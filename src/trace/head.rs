@@ -95,7 +95,10 @@ impl Head {
         } else if self.has_header() {
             plain::columns(&self.above, first)?
         } else {
-            plain::headless(&self.rows, scope::separator_of(&self.above))
+            plain::headless(
+                &self.rows,
+                scope::separator_of(&self.above).map(Separator::of_numbers),
+            )
         };
         if columns.count > MOST_COLUMNS {
             return Err(TraceProblem::Long {

@@ -70,9 +70,15 @@ pub(super) fn separator_of(above: &[Line]) -> Option<Separator> {
     let first = above
         .iter()
         .find(|line| !line.bytes.trim_ascii().is_empty())?;
-    let keyed = |line: &Line| key_of(&line.bytes).and_then(|(_, separator)| separator);
     key_of(&first.bytes)?;
-    above.iter().find_map(keyed).map(Separator::Byte)
+    above.iter().find_map(|line| {
+        let (key, separator) = key_of(&line.bytes)?;
+        let after = line.bytes.get(key.len()..).unwrap_or_default();
+        match separator? {
+            b' ' if after.starts_with(b"  ") => Some(Separator::Gaps),
+            byte => Some(Separator::Byte(byte)),
+        }
+    })
 }
 
 /// The rows of attributes, without those about the file.
@@ -182,15 +188,21 @@ impl OpenRow {
 /// The columns of an export with rows of attributes.
 pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProblem> {
     let separator = separator_of(above).unwrap_or(Separator::Byte(b'\t'));
-    let in_row = width(&separator.quoted_cells(&first.bytes));
+    let of_numbers = separator.of_numbers();
+    let in_row = width(&of_numbers.quoted_cells(&first.bytes));
     let rows: Vec<Row> = attributes(above)
         .map(|(key, line)| Row {
             key,
             cells: separator.quoted_cells(&line.bytes),
         })
         .collect();
-    let mut lead = ["Name", "SymbolName"].into_iter();
-    let lead = lead.find_map(|key| rows.iter().find(|row| row.key == key));
+    // Between blanks, what names the channels may have too many cells, but symbols and types have not.
+    let whole = rows.iter().filter(|row| width(&row.cells) == in_row);
+    let lead = whole
+        .filter(|_| separator == BLANK)
+        .find(|row| row.key != "SymbolComment");
+    let mut keys = ["Name", "SymbolName"].into_iter();
+    let lead = lead.or_else(|| keys.find_map(|key| rows.iter().find(|row| row.key == key)));
     let lead = lead.or_else(|| rows.iter().find(|row| row.key != "SymbolComment"));
     let lead = lead.or(rows.first()).ok_or(TraceProblem::NoRows)?;
     let divided = Division::of(lead, &rows, (separator, in_row))?;
@@ -199,7 +211,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
     let is_timed = in_row > count - divided.starts.len() || in_row == 0;
     let mut columns = Columns {
         layout: Layout::Scope,
-        separator,
+        separator: of_numbers,
         count: if is_timed {
             count
         } else {
@@ -284,7 +296,12 @@ struct Division {
     count: usize,
     /// Names may contain the separator: each group is one channel, whatever its cells.
     is_joined: bool,
+    /// Cells are parted by single blanks.
+    is_blank: bool,
 }
+
+/// A blank between two cells.
+const BLANK: Separator = Separator::Byte(b' ');
 
 impl Division {
     /// By the leading row, and by the others where they are as wide: a channel may be called `Name`.
@@ -308,12 +325,13 @@ impl Division {
             starts.insert(0, 0);
         }
         let fits = in_row <= own;
-        if separator != Separator::Byte(b' ') || in_row == own {
+        if separator != BLANK || in_row == own {
             return Ok(Self {
                 starts,
                 // The last channel of a group may have no name.
                 count: own.max(if fits { in_row } else { 0 }).max(2),
                 is_joined: false,
+                is_blank: separator == BLANK,
             });
         }
         let groups = starts.len();
@@ -322,6 +340,7 @@ impl Division {
                 starts,
                 count: in_row,
                 is_joined: true,
+                is_blank: true,
             });
         }
         Err(TraceProblem::Divided)
@@ -370,6 +389,10 @@ impl Division {
                 if width == 1 {
                     let between = if self.is_joined { " " } else { "," };
                     return vec![cells.join(between)];
+                }
+                if self.is_blank && cells.len() > width {
+                    // Nothing tells which words are one name.
+                    return Vec::new();
                 }
                 if cells.len() == 2 * width {
                     return cells.chunks(2).map(|pair| pair.join(",")).collect();

@@ -94,7 +94,10 @@ impl ChannelSelection {
         channels: &[Channel],
     ) -> Result<Option<Pick>, SelectError> {
         let found = match self.asked(quantity) {
-            Some(wanted) => Some(self.named(wanted, channels)?),
+            Some(wanted) => Some(self.named(wanted, channels).map_err(|error| {
+                // Nothing is spelled like it, but something may be meant.
+                error.or_guess(|| guess(quantity, channels))
+            })?),
             None => Self::taken(quantity, channels),
         };
         Ok(found.map(|channel| self.pick(channel, quantity, channels)))

@@ -8,7 +8,7 @@ use quick_xml::Reader;
 use quick_xml::escape::unescape;
 use quick_xml::events::{BytesStart, Event};
 
-use super::cell::{Value, value};
+use super::cell::{Value, of_old_systems, value};
 use super::channel::Channel;
 use super::choice::{Demand, TimeSource};
 use super::error::TraceProblem;
@@ -93,13 +93,13 @@ impl Xml {
                 return;
             };
             self.is_legacy = true;
-            let rest = latin(&bytes[valid..]);
+            let rest = of_old_systems(&bytes[valid..]);
             bytes.truncate(valid);
             bytes.extend(rest.as_bytes());
             return;
         }
         bytes.truncate(from);
-        bytes.extend(latin(piece).as_bytes());
+        bytes.extend(of_old_systems(piece).as_bytes());
     }
 
     /// Takes every whole element; gives how many bytes they are.
@@ -332,9 +332,4 @@ impl Xml {
             ..Channel::default()
         }
     }
-}
-
-/// Letters of one byte, as old systems write them.
-fn latin(bytes: &[u8]) -> String {
-    bytes.iter().map(|&byte| char::from(byte)).collect()
 }

@@ -211,6 +211,7 @@ sent! {
     identify::IdentifyOptions,
     identify::OnCircles,
     identify::Pair,
+    identify::Predictor,
     identify::Reversal,
     identify::Ripple,
     identify::ScaleRange,

@@ -11,10 +11,10 @@ use super::followers::{Commanded, CurrentSample, Followers};
 use super::reading::Reading;
 use super::units::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};
 use crate::comp::AxisIndex;
-use crate::diagnostic::{Diagnostic, Severity, UnknownName};
+use crate::diagnostic::{Diagnostic, UnknownName};
 use crate::lists::FrictionList;
 use crate::machine::{Machine, Parameterisation};
-use crate::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
+use crate::motion::{Cause, PlannerOptions, ProgramTrace, Sample, TraceSink};
 use crate::timeline::{Record, Sink};
 
 /// The additive currents of several axes in one CNC cycle.
@@ -115,10 +115,7 @@ pub fn axes_to_follow(
 /// Makes currents of the rows of a session, which must say what their blocks move
 /// ([`Motions::Taken`](crate::session::Motions::Taken)).
 pub struct ProgramCurrents<S> {
-    planner: TrajectoryPlanner,
-    cycles: Cycles<S>,
-    errors: Vec<Diagnostic>,
-    over: ControlFlow<()>,
+    trace: ProgramTrace<Cycles<S>>,
 }
 
 /// The cycles of a trace on their way to a sink.
@@ -143,75 +140,58 @@ impl<S: CurrentSink> ProgramCurrents<S> {
             let list = values(&axis.friction);
             AdditiveCurrent::new(&list, options.reading).scaled(axis.torque_scale.factor())
         };
+        let cycles = Cycles {
+            followers: Followers::new(followed.iter().map(current).collect()),
+            waiting: VecDeque::new(),
+            count: 0,
+            sink,
+        };
         Self {
-            planner: TrajectoryPlanner::new(machine, followed, options.planner),
-            cycles: Cycles {
-                followers: Followers::new(followed.iter().map(current).collect()),
-                waiting: VecDeque::new(),
-                count: 0,
-                sink,
-            },
-            errors: Vec::new(),
-            over: ControlFlow::Continue(()),
+            trace: ProgramTrace::new(machine, followed, options.planner, cycles),
         }
     }
 
     /// The session is over: the rest of the trace goes out.
     pub fn finish(&mut self) {
-        if self.over.is_continue() && self.planner.finish(&mut self.cycles).is_continue() {
-            let _ = self.cycles.drain();
+        if self.trace.finish().is_continue() {
+            let _ = self.trace.sink().drain();
         }
-        self.over = ControlFlow::Break(());
     }
 
     /// The errors that the session reported, then what there is to say about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
-        (&self.errors, self.planner.diagnostics())
+        self.trace.diagnostics()
     }
 
     /// How many motions the trace leaves out.
     pub fn left_out(&self) -> u64 {
-        self.planner.left_out()
+        self.trace.left_out()
     }
 
     /// How many cycles the trace has.
-    pub fn cycles(&self) -> u64 {
-        self.cycles.count
+    pub fn cycles(&mut self) -> u64 {
+        self.trace.sink().count
     }
 
     /// In how many cycles the output of each axis was cut to 16 bit.
-    pub fn saturated(&self) -> impl Iterator<Item = u64> {
-        self.cycles.followers.saturated()
+    pub fn saturated(&mut self) -> impl Iterator<Item = u64> {
+        self.trace.sink().followers.saturated()
     }
 
     /// In how many cycles each axis stood still and R4.6 matters, see [`AdditiveCurrent::at_rest`].
-    pub fn at_rest(&self) -> impl Iterator<Item = u64> {
-        self.cycles.followers.at_rest()
+    pub fn at_rest(&mut self) -> impl Iterator<Item = u64> {
+        self.trace.sink().followers.at_rest()
     }
 
     /// Who received the currents.
     pub fn sink(&mut self) -> &mut S {
-        &mut self.cycles.sink
+        &mut self.trace.sink().sink
     }
 }
 
 impl<S: CurrentSink> Sink for ProgramCurrents<S> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        let error = |said: &&Diagnostic| said.severity == Severity::Error;
-        match *record {
-            Record::Machine(said) => self.errors.extend(Some(said).filter(error).cloned()),
-            Record::Block(ref row) => {
-                self.errors
-                    .extend(row.diagnostics.iter().filter(error).cloned());
-                self.over = self.planner.block(row, &mut self.cycles);
-            }
-            Record::End(ref end) => {
-                let notes = end.notes.iter().map(|note| &note.diagnostic);
-                self.errors.extend(notes.filter(error).cloned());
-            }
-            _ => {}
-        }
-        self.over
+        self.trace.record(record)
     }
 }
 

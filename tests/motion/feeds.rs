@@ -311,6 +311,29 @@ fn an_axis_that_moved_by_itself_is_anywhere() {
 }
 
 #[test]
+fn an_axis_that_follows_another_one_is_anywhere() {
+    // R5.1 R2.50
+    let couple = "#SET AX LINK [1, Y=X]\n#ENABLE AX LINK [1]";
+    let program =
+        format!("G01 X0 Y0 F1000\nX10 Y10\n{couple}\nX20\n#DISABLE AX LINK [1]\nX30\nY0\nY5\nM30");
+    let found = trace(&program, &["X", "Y"]);
+    let lines: Vec<u32> = found.left_out.iter().map(|(line, _)| *line).collect();
+    assert_eq!(lines, [1, 5, 7, 8], "{:?}", found.said);
+    let of_x = trace(&program, &["X"]);
+    let lines: Vec<u32> = of_x.left_out.iter().map(|(line, _)| *line).collect();
+    assert_eq!(lines, [1, 8]);
+    assert!(
+        of_x.said.contains(&("FC907".to_owned(), 5)),
+        "{:?}",
+        of_x.said
+    );
+    let coupled = of_x.lines.iter().zip(&of_x.causes);
+    for (line, cause) in coupled {
+        assert_eq!(!cause.simplified.is_empty(), *line == 5, "line {line}");
+    }
+}
+
+#[test]
 fn a_spindle_is_no_axis_of_the_path() {
     // R5.1
     let machine = format!("{MACHINE}\n[[axis]]\nname = \"S\"\ntype = \"S\"\n");

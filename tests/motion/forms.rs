@@ -84,6 +84,8 @@ fn arcs_are_given_by_centres_and_by_radii() {
         ("G91 G03 X-10 Y10 I-10", [0.0, 0.0], 10.0),
         ("G92 X5 Y5\nG161 G03 X-5 Y5 I-5 J-5", [0.0, 0.0], 10.0),
         ("G03 R10\nX0 Y10", [0.0, 0.0], 10.0),
+        ("G03 X0 Y10 G163=10", [0.0, 0.0], 10.0),
+        ("P1=-10\nG163=P1\nG03 X0 Y10", [10.0, 10.0], 10.0),
         ("G70 G03 X0 Y[10/25.4] I[-10/25.4]", [0.0, 0.0], 10.0),
         // A centre a little beside is moved to where both ends allow.
         (

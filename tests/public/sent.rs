@@ -2,8 +2,10 @@
 //! is missing.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use frictcomp::current::CurrentCycle;
+use frictcomp::motion::{Cause, Sample, TraceSink};
 use frictcomp::{
     audit, circle, comp, current, diagnostic, drive_interface, host, identify, interpreter, lists,
     machine, motion, report, session, simulation, stiction, syntax, text, timeline, trace,
@@ -12,6 +14,19 @@ use frictcomp::{
 
 /// A sink of currents, for the types that are made over one.
 type Ignored = fn(&CurrentCycle<'_>) -> ControlFlow<()>;
+
+/// A sink of traces, for the types that are made over one.
+struct Nowhere;
+
+impl TraceSink for Nowhere {
+    fn begin(&mut self, _: f64, _: &Arc<Cause>) -> ControlFlow<()> {
+        ControlFlow::Break(())
+    }
+
+    fn sample(&mut self, _: &Sample<'_>) -> ControlFlow<()> {
+        ControlFlow::Break(())
+    }
+}
 
 fn is_send<T: Send + ?Sized>() {}
 
@@ -320,6 +335,7 @@ sent! {
     motion::Movement,
     motion::PlannerOptions,
     motion::PositionFrame,
+    motion::ProgramTrace<Nowhere>,
     motion::Sample<'_>,
     motion::Simplification,
     motion::Simplifications,

@@ -25,6 +25,16 @@ impl Interpreter {
         }
     }
 
+    /// `G163=50`: the radius of circles, as R (R2.45). Whether there is a value.
+    pub(in crate::interpreter) fn radius_word(&mut self, span: Span, at: &At<'_>) -> bool {
+        let Some((_, value)) = span.of(at.text).split_once('=') else {
+            return false;
+        };
+        let radius = self.number_in(value.trim(), at);
+        self.circle_word(b'R', radius, span);
+        true
+    }
+
     /// `G129=70` (PM/206578955)
     pub(in crate::interpreter) fn weigh_rapid(&mut self, span: Span, at: &At<'_>) {
         let value = span.of(at.text).split_once('=').map(|(_, value)| value);

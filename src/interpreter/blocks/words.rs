@@ -339,6 +339,7 @@ impl Interpreter {
             (None, 60) => self.geometry().end = BlockEnd::ExactStop,
             // PM/206744331
             (None, 166) => self.geometry().at_full_speed = true,
+            (None, 163) if self.radius_word(span, at) => intent.radius = Some(at.in_block(span)),
             (None, 129) => {
                 self.weigh_rapid(span, at);
                 self.pass_over("G129", span, at);

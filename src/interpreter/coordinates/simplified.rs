@@ -41,10 +41,12 @@ pub enum Simplification {
     IndependentAxis,
     /// `X[DYNAMIC …]`: the dynamics of an axis are weighted.
     AxisDynamics,
+    /// `#AX LINK ON`: an axis follows another one (PM/207133579).
+    Coupling,
 }
 
 impl Simplification {
-    const ALL: [Self; 16] = [
+    const ALL: [Self; 17] = [
         Self::Contouring,
         Self::HighSpeed,
         Self::Slope,
@@ -61,6 +63,7 @@ impl Simplification {
         Self::ForeignFeed,
         Self::IndependentAxis,
         Self::AxisDynamics,
+        Self::Coupling,
     ];
 
     /// What puts it into force.
@@ -82,6 +85,7 @@ impl Simplification {
             Self::ForeignFeed => "#GEO FEED ADAPT",
             Self::IndependentAxis => "INDP",
             Self::AxisDynamics => "DYNAMIC",
+            Self::Coupling => "#AX LINK",
         }
     }
 
@@ -122,6 +126,7 @@ impl Simplification {
             Self::AxisDynamics => {
                 "keeps the dynamics of the axes, which the program weights (`DYNAMIC`)"
             }
+            Self::Coupling => "leaves out axes that follow others (`#AX LINK ON`)",
         }
     }
 }
@@ -129,7 +134,7 @@ impl Simplification {
 /// A set of simplifications, a bit each; serialised as the list of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(into = "Vec<Simplification>", from = "Vec<Simplification>")]
-pub struct Simplifications(u16);
+pub struct Simplifications(u32);
 
 impl Simplifications {
     /// Whether there is none.
@@ -140,7 +145,7 @@ impl Simplifications {
     /// Those of the set.
     pub fn iter(self) -> impl Iterator<Item = Simplification> {
         let all = Simplification::ALL.into_iter();
-        all.filter(move |it| self.0 & 1 << *it as u16 != 0)
+        all.filter(move |it| self.0 & 1 << *it as u32 != 0)
     }
 
     /// Those of either set.
@@ -156,7 +161,7 @@ impl Simplifications {
 
 impl From<Simplification> for Simplifications {
     fn from(one: Simplification) -> Self {
-        Self(1 << one as u16)
+        Self(1 << one as u32)
     }
 }
 

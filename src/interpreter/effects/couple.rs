@@ -1,6 +1,7 @@
 //! Commands that define, enable and release coupling groups (R2.47).
 
 use crate::comp::AxisIndex;
+use crate::interpreter::coordinates::simplified::{Holds, Simplification};
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::text::Span;
@@ -20,10 +21,23 @@ impl Interpreter {
 
     pub(in crate::interpreter) fn enable_coupling(&mut self, rest: &str, span: Span, at: &At<'_>) {
         let group = self.group_of(rest, at);
-        match self.state.couplings.enable(&group) {
-            Some(changed) => self.mark_coupled(changed),
+        self.simplify((Simplification::Coupling, Holds::On));
+        if let Some(changed) = self.state.couplings.enable(&group) {
+            self.mark_coupled(changed);
+            self.lose_followers(&group);
+        } else {
             // A group of the channel parameters: which axes it couples is not known offline.
-            None => self.pass_over("#ENABLE AX LINK", span, at),
+            self.pass_over("#ENABLE AX LINK", span, at);
+        }
+    }
+
+    /// Axes that follow others are anywhere from here on: `slave=master` (PM/207120267).
+    fn lose_followers(&mut self, group: &str) {
+        let groups = self.state.couplings.groups();
+        let axes = groups.filter(|(name, _)| *name == group);
+        let followers = axes.flat_map(|(_, axes)| axes.iter().step_by(2).copied());
+        for axis in followers.collect::<Vec<_>>() {
+            self.state.modal.forget_position(axis);
         }
     }
 
@@ -36,17 +50,27 @@ impl Interpreter {
             self.state.couplings.release(&group)
         };
         self.mark_coupled(changed);
+        if !self.state.couplings.is_any() {
+            self.simplify((Simplification::Coupling, Holds::Off));
+        }
     }
 
     /// Couplings end with the program unless P-CHAN-00105 says otherwise; their definitions stay.
     pub(in crate::interpreter) fn release_couplings(&mut self) {
         let changed = self.state.couplings.release_all();
         self.mark_coupled(changed);
+        self.simplify((Simplification::Coupling, Holds::Off));
     }
 
     /// Any coupling may be in force, or none.
     pub(in crate::interpreter) fn doubt_couplings(&mut self) {
         let changed = self.state.couplings.doubt();
+        if !changed.is_empty() {
+            self.simplify((Simplification::Coupling, Holds::On));
+        }
+        for axis in &changed {
+            self.state.modal.forget_position(*axis);
+        }
         self.mark_coupled(changed);
     }
 

@@ -37,6 +37,11 @@ struct Group {
 }
 
 impl Couplings {
+    /// Whether a group is in force, or may be.
+    pub(in crate::interpreter) fn is_any(&self) -> bool {
+        self.doubted || !self.enabled.is_empty()
+    }
+
     /// How many groups are defined.
     pub(in crate::interpreter) fn len(&self) -> usize {
         self.groups.len()

@@ -15,7 +15,7 @@ const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
 /// The axes that a look over the text of programs found. The interpreter decides what is one: the
 /// look only says which to expect.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct AxesAhead {
+pub(crate) struct AxesAhead {
     found: Vec<&'static str>,
     /// Names that were asked for, and whether they are there.
     asked: Vec<(String, bool)>,
@@ -27,7 +27,7 @@ pub struct AxesAhead {
 
 impl AxesAhead {
     /// Looks over programs for the usual axes and for further names.
-    pub fn of<'a>(
+    pub(crate) fn of<'a>(
         inputs: impl IntoIterator<Item = &'a Input>,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Self {
@@ -50,18 +50,18 @@ impl AxesAhead {
     }
 
     /// The usual axes that occur, in the order of the machine.
-    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+    pub(crate) fn names(&self) -> impl Iterator<Item = &'static str> {
         LETTERS.into_iter().filter(|name| self.found.contains(name))
     }
 
     /// Other runs name the usual axes, and those of an earlier one.
-    pub fn expect_more(&mut self, left: Vec<String>) {
+    pub(crate) fn expect_more(&mut self, left: Vec<String>) {
         let usual = LETTERS.into_iter().map(str::to_owned);
         self.elsewhere = usual.chain(left).collect();
     }
 
     /// Whether an axis may occur.
-    pub fn may_hold(&self, name: &str) -> bool {
+    pub(crate) fn may_hold(&self, name: &str) -> bool {
         let asked = self
             .asked
             .iter()

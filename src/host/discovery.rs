@@ -390,7 +390,7 @@ pub fn nearest_config(folder: &Path) -> Option<PathBuf> {
 }
 
 /// A path seen from a folder, so that no output holds an absolute path (R9.16).
-pub fn relative(path: &Path, folder: &Path) -> PathBuf {
+pub(super) fn relative(path: &Path, folder: &Path) -> PathBuf {
     let shared = path
         .components()
         .zip(folder.components())

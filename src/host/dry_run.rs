@@ -201,7 +201,7 @@ pub fn run_alone(
 }
 
 /// Says what the session starts with, and what keeps the control from taking its lists.
-pub fn begin(
+pub(super) fn begin(
     session: &mut Session,
     loaded: &LoadedMachine,
     sink: &mut dyn Sink,

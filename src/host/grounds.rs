@@ -11,7 +11,7 @@ pub enum Elsewhere {
     /// Called programs are refused, the text of lists is not shown.
     #[default]
     Kept,
-    /// They are as good as any other: `--allow-outside`.
+    /// They are as good as any other.
     Allowed,
 }
 
@@ -123,7 +123,7 @@ pub(super) fn absolute(path: &Path) -> Option<PathBuf> {
 
 /// The path without `.` and with `..` resolved by name; what goes up from a relative path's start
 /// stays.
-pub fn normal(path: &Path) -> PathBuf {
+pub(super) fn normal(path: &Path) -> PathBuf {
     let mut normal = PathBuf::new();
     for part in path.components() {
         match part {

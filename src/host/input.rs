@@ -43,7 +43,7 @@ pub enum Input {
 }
 
 /// A program that is ready to run.
-pub enum Opened<'a> {
+pub(super) enum Opened<'a> {
     /// A file without flow, or what can be read only once: the lines come one after another.
     Lines(LineReader<Box<dyn Read + 'a>>),
     /// A program with flow.
@@ -121,7 +121,7 @@ impl Input {
     ///
     /// # Errors
     /// It cannot be read.
-    pub fn open<'a>(
+    pub(super) fn open<'a>(
         &self,
         naming: Naming,
         before_waiting: &'a dyn Fn(),

@@ -18,7 +18,7 @@ pub(super) const PROGRAM: &str = "program";
 
 /// A file that is written, and what it is called in errors.
 #[derive(Debug, Clone)]
-pub struct Claim {
+pub(super) struct Claim {
     /// What it is called in errors.
     pub name: &'static str,
     /// The file.
@@ -45,7 +45,7 @@ impl Ledger {
     ///
     /// # Errors
     /// One is.
-    pub fn check(&self, outputs: &[Claim]) -> Result<(), HostError> {
+    pub(super) fn check(&self, outputs: &[Claim]) -> Result<(), HostError> {
         let mut written: HashMap<Identity, &Claim> = HashMap::new();
         for output in outputs {
             let Some(identity) = Identity::of_output(&output.path) else {
@@ -151,7 +151,7 @@ fn key(path: &Path) -> Option<FileKey> {
 }
 
 /// The folder of a file, `.` for a bare name.
-pub fn folder(path: &Path) -> &Path {
+pub(crate) fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -28,7 +28,7 @@ enum LineEnds {
 ///
 /// A line that is not UTF-8 is taken as code page 1252, and so is every later line of the same
 /// file that is not ASCII.
-pub struct LineReader<R> {
+pub(super) struct LineReader<R> {
     reader: R,
     buffer: Vec<u8>,
     /// The bytes that were read and not decoded yet.
@@ -52,14 +52,14 @@ pub struct LineReader<R> {
 
 impl<R: Read> LineReader<R> {
     /// The lines of a reader; a byte order mark at its start is passed over.
-    pub fn new(reader: R) -> Self {
+    pub(super) fn new(reader: R) -> Self {
         Self::with_buffer(reader, BUFFER)
     }
 
     /// The lines of a reader that gives so many bytes. A short one gets a small buffer: big ones that
     /// come and go with each of many files are given back to the system in between, which takes
     /// longer than to read them.
-    pub fn of_length(reader: R, length: u64) -> Self {
+    pub(super) fn of_length(reader: R, length: u64) -> Self {
         let length = usize::try_from(length).unwrap_or(BUFFER);
         Self::with_buffer(reader, length.saturating_add(1).clamp(KEPT, BUFFER))
     }
@@ -89,13 +89,13 @@ impl<R: Read> LineReader<R> {
     }
 
     /// Whether the text begins with a byte order mark of UTF-16.
-    pub fn is_wide(&self) -> bool {
+    pub(super) fn is_wide(&self) -> bool {
         let first = &self.buffer[self.unread.clone()];
         first.starts_with(b"\xff\xfe") || first.starts_with(b"\xfe\xff")
     }
 
     /// The same lines, of which those of a text that cannot be given out as it comes are an error.
-    pub fn narrow(mut self) -> Self {
+    pub(super) fn narrow(mut self) -> Self {
         if self.is_wide() {
             let reason = "it is UTF-16, which is not read from a pipe; save it as UTF-8";
             self.failure = Some(io::Error::other(reason));
@@ -106,12 +106,12 @@ impl<R: Read> LineReader<R> {
     }
 
     /// The reader, wherever it stands.
-    pub fn into_reader(self) -> R {
+    pub(super) fn into_reader(self) -> R {
         self.reader
     }
 
     /// The same lines, of whatever kind the reader is.
-    pub fn boxed<'a>(self) -> LineReader<Box<dyn Read + 'a>>
+    pub(super) fn boxed<'a>(self) -> LineReader<Box<dyn Read + 'a>>
     where
         R: 'a,
     {
@@ -132,7 +132,7 @@ impl<R: Read> LineReader<R> {
     }
 
     /// The error that ended the lines before the end of the file.
-    pub fn take_failure(&mut self) -> Option<io::Error> {
+    pub(super) fn take_failure(&mut self) -> Option<io::Error> {
         self.failure.take()
     }
 
@@ -244,7 +244,7 @@ impl<R: Read + Seek> LineReader<R> {
     ///
     /// # Errors
     /// The file cannot be read.
-    pub fn scan(&mut self) -> io::Result<FlowScan> {
+    pub(super) fn scan(&mut self) -> io::Result<FlowScan> {
         let mut scan = FlowScan::default();
         while self.unread.len() < self.buffer.len() && !self.at_end {
             self.fill();

@@ -42,37 +42,42 @@ mod watch;
 mod workers;
 
 pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
-pub use axes_ahead::AxesAhead;
 pub use discovery::{
     CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
-    relative,
 };
 pub use dry_run::{
-    Alone, Axes, Played, Programs, Surroundings, begin, open_session, run_alone, run_program,
-    run_programs,
+    Alone, Axes, Played, Programs, Surroundings, open_session, run_alone, run_program, run_programs,
 };
 pub use error::HostError;
 pub use finder::{ProgramFinder, Reach};
 pub use first_look::{outline_of, write_new};
-pub use grounds::{Elsewhere, Grounds, normal};
-pub use input::{Input, Naming, Opened, reopen};
+pub use grounds::{Elsewhere, Grounds};
+pub use input::{Input, Naming, reopen};
 pub use interrupt::{clean_up_when_stopped, survive_file_size_limit};
-pub use ledger::{Claim, Ledger, folder};
-pub use lines::LineReader;
+pub use ledger::Ledger;
 pub use list_files::{ListsOnDisk, read_list};
 pub use memory::memory_for_simulation;
 pub use mend::{MendedFile, mend, write_mended};
 pub use outputs::{OutputFile, OutputFiles};
-pub use parameter_files::{check_list_file, find_plant, is_configuration, read_value_list};
-pub use read::{read_bytes, read_text};
+pub use parameter_files::{check_list_file, find_plant, read_value_list};
+pub use read::read_text;
 pub use simulations::{compare, tune};
 pub use state_file::StateFile;
 pub use switched_axes::switched_axes;
 pub use timelines::{AgreedTimelines, TimelineDrift};
 pub use trace_error::TraceError;
 pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace};
-pub use unfinished::{UnfinishedFile, take_away_left};
 pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs};
-pub use watch::{Done, LineTracker, Passes, Progress, Watch, Watcher};
-pub use workers::{in_order, map, processors};
+pub use watch::{Done, Progress, Watch, Watcher};
+
+#[cfg(feature = "cli")]
+pub(crate) use axes_ahead::AxesAhead;
+#[cfg(feature = "cli")]
+pub(crate) use ledger::folder;
+#[cfg(feature = "cli")]
+pub(crate) use parameter_files::is_configuration;
+#[cfg(feature = "cli")]
+pub(crate) use watch::LineTracker;
+#[cfg(feature = "cli")]
+pub(crate) use workers::{in_order, processors};

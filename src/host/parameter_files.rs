@@ -49,7 +49,7 @@ pub fn find_plant(name: &str, ledger: &Ledger) -> Result<Plant, HostError> {
 }
 
 /// Whether a file is a `frictcomp.toml` and no list of the control.
-pub fn is_configuration(path: &Path) -> bool {
+pub(crate) fn is_configuration(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
 }

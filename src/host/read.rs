@@ -42,7 +42,7 @@ pub fn read_text(path: &Path) -> Result<String, HostError> {
 ///
 /// # Errors
 /// It does not exist, cannot be read, is a folder, or is too big to be kept.
-pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+pub(super) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let (file, metadata) = open_regular(path)?;
     read_whole(file, metadata.len())
 }

@@ -49,7 +49,7 @@ impl Drop for Held {
 /// A file that is written beside the old one. Dropped before [`take_place`](Self::take_place), it
 /// leaves the old one as it was.
 #[derive(Debug)]
-pub struct UnfinishedFile {
+pub(super) struct UnfinishedFile {
     stage: Stage,
     target: PathBuf,
 }
@@ -69,7 +69,7 @@ impl UnfinishedFile {
     ///
     /// # Errors
     /// The old file may not be written or is a link to nothing, or there can be no new one.
-    pub fn begin(path: &Path) -> io::Result<Self> {
+    pub(super) fn begin(path: &Path) -> io::Result<Self> {
         let target = target(path)?;
         let file = create(folder(&target))?;
         if let Ok(old) = std::fs::metadata(&target) {
@@ -85,7 +85,7 @@ impl UnfinishedFile {
     ///
     /// # Errors
     /// It cannot be written to the disk.
-    pub fn sync(&mut self) -> io::Result<()> {
+    pub(super) fn sync(&mut self) -> io::Result<()> {
         if let Stage::Open(file) = &mut self.stage {
             file.flush()?;
             file.as_file().sync_all()?;
@@ -104,7 +104,7 @@ impl UnfinishedFile {
     ///
     /// # Errors
     /// It cannot be written, or moved.
-    pub fn take_place(&mut self) -> io::Result<()> {
+    pub(super) fn take_place(&mut self) -> io::Result<()> {
         self.place(|file, target| file.persist(target))
     }
 
@@ -112,7 +112,7 @@ impl UnfinishedFile {
     ///
     /// # Errors
     /// It cannot be written, or the place is taken.
-    pub fn take_free_place(&mut self) -> io::Result<()> {
+    pub(super) fn take_free_place(&mut self) -> io::Result<()> {
         self.place(|file, target| file.persist_noclobber(target))
     }
 
@@ -211,7 +211,7 @@ fn create(folder: &Path) -> io::Result<NamedTempFile> {
 
 /// Takes away what killed runs of the same user left in the folder of a file. An unfinished file of a
 /// run that lives is locked.
-pub fn take_away_left(beside: &UnfinishedFile, seen: &mut BTreeSet<PathBuf>) {
+pub(super) fn take_away_left(beside: &UnfinishedFile, seen: &mut BTreeSet<PathBuf>) {
     let folder = folder(&beside.target);
     let Stage::Open(own) = &beside.stage else {
         return;

@@ -130,7 +130,7 @@ impl Watch {
     }
 
     /// Shows how far a program is: what was done of it, and at which line it stands.
-    pub fn show_program(&self, done: Done, (file, line): (&str, u32), passes: Passes) {
+    pub(crate) fn show_program(&self, done: Done, (file, line): (&str, u32), passes: Passes) {
         let Some(watcher) = self.watcher.as_ref().filter(|it| it.is_due()) else {
             return;
         };
@@ -155,7 +155,7 @@ impl Watch {
 
 /// How often control goes through a program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Passes {
+pub(crate) enum Passes {
     /// From its first line to its last.
     #[default]
     Once,
@@ -165,14 +165,14 @@ pub enum Passes {
 
 /// Whether control goes through the lines of a program once.
 #[derive(Debug, Default)]
-pub struct LineTracker {
+pub(crate) struct LineTracker {
     line: u32,
     passes: Passes,
 }
 
 impl LineTracker {
     /// Control reaches a line.
-    pub fn reach(&mut self, line: u32) -> Passes {
+    pub(crate) fn reach(&mut self, line: u32) -> Passes {
         if line < self.line {
             self.passes = Passes::Repeated;
         }

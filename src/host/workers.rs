@@ -13,13 +13,13 @@ const AHEAD: usize = 16;
 type Job<T, R> = (T, SyncSender<R>);
 
 /// As many workers as there are processors for this process.
-pub fn processors() -> NonZeroUsize {
+pub(crate) fn processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
 /// Does each piece of work once, on all processors. Which of them does it makes no difference to the
 /// results. `done` hears how many results are there.
-pub fn map<T: Sync, R: Send>(
+pub(super) fn map<T: Sync, R: Send>(
     pieces: &[T],
     work: impl Fn(&T) -> R + Sync,
     mut done: impl FnMut(usize),
@@ -38,7 +38,7 @@ pub fn map<T: Sync, R: Send>(
 /// The items are drawn by this thread, and never so fast that more than a bounded number of results
 /// wait. `Break` ends the work. Where the system starts fewer threads, those do the work; without
 /// any, this thread does it.
-pub fn in_order<T: Send, R: Send>(
+pub(crate) fn in_order<T: Send, R: Send>(
     items: impl Iterator<Item = T>,
     workers: NonZeroUsize,
     work: impl Fn(T) -> R + Sync,

@@ -354,6 +354,24 @@ fn a_host_prints_nothing_and_knows_no_option() {
 }
 
 #[test]
+fn the_library_names_no_option() {
+    // What to do is data; the words of the command line are in `report/wording.rs` and in `cli`.
+    let mut found = Vec::new();
+    for file in sources() {
+        if ["cli", "report", "main"].contains(&file.room.as_str()) {
+            continue;
+        }
+        let lines = file.text.lines().enumerate();
+        for (at, line) in lines.take_while(|(_, line)| line.trim() != "#[cfg(test)]") {
+            if line.contains("`--") {
+                found.push(format!("src/{}:{}: {}", file.path, at + 1, line.trim()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
 fn files_stay_short() {
     let long: Vec<String> = sources()
         .iter()

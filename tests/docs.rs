@@ -141,6 +141,36 @@ fn comments(text: &str) -> String {
         .join("\n")
 }
 
+/// The rows of the table of a document that begins with a heading.
+fn rows<'a>(text: &'a str, heading: &str) -> Vec<&'a str> {
+    let (_, table) = text.split_once(heading).expect("the table");
+    let rows = table.lines().skip(2);
+    rows.take_while(|line| line.starts_with('|')).collect()
+}
+
+#[test]
+fn the_architecture_names_rooms_and_files_that_exist() {
+    let text = read(&root().join("ARCHITECTURE.md"));
+    let source = root().join("src");
+    for row in rows(&text, "| room | holds |") {
+        let room = row.split('`').nth(1).expect("a room");
+        let exists = source.join(room).is_dir() || source.join(format!("{room}.rs")).is_file();
+        assert!(exists, "there is no room `{room}`");
+    }
+    let rows = rows(&text, "| new | files |");
+    assert!(rows.len() > 10);
+    for row in rows {
+        let words = row.split('`').skip(1).step_by(2);
+        let mut files = 0;
+        for path in words.filter(|word| word.contains('/')) {
+            let found = source.join(path).exists() || root().join(path).exists();
+            assert!(found, "there is no `{path}`: {row}");
+            files += 1;
+        }
+        assert!(files <= 4, "too many files for one change: {row}");
+    }
+}
+
 #[test]
 fn console_blocks_show_what_the_tool_prints() {
     for path in documents() {

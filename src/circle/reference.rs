@@ -44,20 +44,20 @@ impl Default for Circle {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CircleError {
-    /// `--radius 0`
+    /// A radius of 0 mm.
     #[error("a radius of {} mm is not possible; it must be between 0.1 and 100000 mm", Shown(*.0))]
     Radius(f64),
-    /// `--feed 0`
+    /// A feed of 0 mm/min.
     #[error("a feed of {} mm/min is not possible; it must be between 0.1 and 1000000 mm/min", Shown(*.0))]
     Feed(f64),
-    /// `--cycle-time-ms 0.1`
+    /// A CNC cycle of 0.1 ms.
     #[error(
         "a CNC cycle of {} ms is not possible; it must be a whole multiple of 0.25 ms, the cycle of \
          the position loop, up to 100 ms",
         Shown(.0 * 1000.0)
     )]
     CycleTime(f64),
-    /// `--feed 1`: the circle takes hours.
+    /// A feed of 1 mm/min: the circle takes hours.
     #[error(
         "a circle of {radius_mm} mm at {feed_mm_per_min} mm/min takes {duration_s:.0} s with its run-in, at most \
          {} s are simulated", MAX_STEPS * STEP_S
@@ -70,7 +70,7 @@ pub enum CircleError {
         /// Duration.
         duration_s: f64,
     },
-    /// `--radius 1 --feed 10000`: the circle has hardly a cycle.
+    /// 1 mm at 10000 mm/min: the circle has hardly a cycle.
     #[error(
         "a circle of {radius_mm} mm at {feed_mm_per_min} mm/min has only {cycles:.0} CNC cycles of \
          {} ms, {MIN_CYCLES} are needed",
@@ -86,7 +86,7 @@ pub enum CircleError {
         /// Cycles in a turn.
         cycles: f64,
     },
-    /// `tune --radius 5 --feeds 1000`: the windows reach the next crossings.
+    /// 5 mm at 1000 mm/min: the windows reach the next crossings.
     #[error(
         "a circle of {radius_mm} mm at {feed_mm_per_min} mm/min has no glitch: 0.3 s after a \
          crossing the path is half-way to the next one"

@@ -87,7 +87,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
     outputs.check()?;
     if let Some(kind) = args.notes() {
         let format = of_records(args.listing.format, "this list")?;
-        notes::list(kind, (format, target), |lines| {
+        notes::list(kind, format, target, |lines| {
             for (input, loaded) in jobs {
                 if let Err(failure) = args.take_notes(kind, (input, loaded), lines) {
                     failures.push(failure);
@@ -97,7 +97,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         outputs.finish()?;
         return failures.status(console, super::exit::CLEAN);
     }
-    say_undescribed(args, &jobs, (&mut target, console));
+    say_undescribed(args, &jobs, &mut target, console);
     let mut listing = args.listing.lister(target)?;
     args.check_all(jobs, &mut listing, &mut failures);
     let printed = listing.finish()?;
@@ -118,7 +118,7 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
 }
 
 /// Says above everything else that no machine is described (R1.37).
-fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], (target, console): (&mut Target, Console)) {
+fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], target: &mut Target, console: Console) {
     let undescribed = jobs.iter().filter_map(|(input, loaded)| {
         let described = loaded.as_ref().map_or(true, |it| it.machine.is_described());
         (!described).then_some(*input)

@@ -21,7 +21,8 @@ use crate::machine::ListsReport;
 use crate::report::drives::render_drives;
 use crate::report::{ListingFormat, command_line};
 
-/// Check that the torque of friction compensation reaches the drives, and comes back
+/// Check that the torque of friction compensation reaches the drives, and that the actual torque
+/// comes back
 ///
 /// The axis lists are asked first, then the network information of the master (ENI), then the
 /// device descriptions (ESI).

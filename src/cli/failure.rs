@@ -56,7 +56,7 @@ impl From<HostError> for Failure {
     fn from(error: HostError) -> Self {
         Self {
             message: error.to_string(),
-            help: radius_option(&error)
+            help: circle_option(&error)
                 .map(str::to_owned)
                 .or_else(|| error.help())
                 .or_else(|| options_for(&error))
@@ -102,14 +102,22 @@ fn options_for(error: &HostError) -> Option<String> {
     Some(help.to_owned())
 }
 
-/// The option that gives the radius of a recorded circle, where it does not fit the points.
-fn radius_option(error: &HostError) -> Option<&'static str> {
+/// The option that gives what is wrong about a recorded circle.
+fn circle_option(error: &HostError) -> Option<&'static str> {
     let HostError::Trace(TraceError::Circle { reason, .. } | TraceError::Circles(reason)) = error
     else {
         return None;
     };
-    matches!(reason, RecordedError::Radius { .. })
-        .then_some("check `--radius` and the unit of the columns")
+    match reason {
+        RecordedError::Radius { .. } => Some("check `--radius` and the unit of the columns"),
+        RecordedError::CommandedRadius(_) => Some("write the commanded radius, `--radius 100`"),
+        RecordedError::CommandedFeed(_) => Some("write the commanded feed, `--feed 1000`"),
+        RecordedError::Apart { .. } => Some(
+            "record both directions with the same zero point, or compare the shapes alone with \
+             `--centre own`",
+        ),
+        _ => None,
+    }
 }
 
 impl From<CircleError> for Failure {

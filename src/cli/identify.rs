@@ -97,7 +97,14 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
             .iter()
             .map(read)
             .collect::<Result<Vec<_>, _>>()?;
-        return circles(args, recordings, (list, outputs, console));
+        let report = circles(args, recordings, list)?;
+        let mut target = console.stdout();
+        target.text(&match args.format {
+            Format::Text => fitted(&on_circles::render_text(&report), target.look.width),
+            Format::Json => on_circles::render_json(&report),
+        })?;
+        outputs.finish()?;
+        return Ok(exit::CLEAN);
     }
     let [trace] = &args.traces[..] else {
         let message = format!("{} traces were given", args.traces.len());
@@ -138,12 +145,12 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     Ok(exit::CLEAN)
 }
 
-/// The same for recorded circles.
+/// What recorded circles tell, and their value list.
 fn circles(
     args: &IdentifyArgs,
     recordings: Vec<AxisRecording>,
-    (list, outputs, console): (Option<OutputFile>, Outputs, Console),
-) -> Result<u8, Failure> {
+    list: Option<OutputFile>,
+) -> Result<OnCirclesReport, Failure> {
     let tracks: Vec<Track> = recordings.iter().map(|it| it.track.clone()).collect();
     let report = OnCirclesReport {
         names: args
@@ -163,13 +170,7 @@ fn circles(
         };
         write_text(&mut list, &made.list(&report.found.list(), args.cnc_build))?;
     }
-    let mut target = console.stdout();
-    target.text(&match args.format {
-        Format::Text => fitted(&on_circles::render_text(&report), target.look.width),
-        Format::Json => on_circles::render_json(&report),
-    })?;
-    outputs.finish()?;
-    Ok(exit::CLEAN)
+    Ok(report)
 }
 
 /// What is wanted, by the options.

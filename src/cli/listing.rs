@@ -167,8 +167,9 @@ impl Lister<'_> {
     /// How to read more about what was said, once (R9.79).
     pub(super) fn hint(&self) -> Option<String> {
         let codes = self.counts.keys();
-        let weightiest = codes.max_by_key(|(code, severity)| (*severity, std::cmp::Reverse(*code)));
-        weightiest.map(|(code, _)| explain(*code))
+        let most_severe =
+            codes.max_by_key(|(code, severity)| (*severity, std::cmp::Reverse(*code)));
+        most_severe.map(|(code, _)| explain(*code))
     }
 }
 

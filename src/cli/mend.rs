@@ -24,13 +24,13 @@ use crate::session::{ProposedFixes, SafeFixes, StopPolicy};
 /// How often a change may call for another one.
 const MOST_PASSES: usize = 10;
 
-/// What becomes of messages that a change of the program answers.
+/// Which changes of the programs are applied or shown.
 #[derive(Debug, Clone, Args)]
 pub(super) struct FixArgs {
-    /// Make the changes that leave what the machine does as it is, then print what remains
+    /// Apply the changes that do not affect what the machine does, then print the remaining messages
     #[arg(long, conflicts_with_all = ["unknowns", "opaque"])]
     pub(super) fix: bool,
-    /// Instead of messages, show the changes that `--fix` would make
+    /// Instead of messages, show the changes that `--fix` would apply, as a unified diff
     #[arg(long, conflicts_with_all = ["fix", "unknowns", "opaque", "format", "statistics", "fail_on"])]
     pub(super) diff: bool,
 }
@@ -84,7 +84,7 @@ impl Bench<'_> {
             count => format!("{count} files"),
         };
         console.remark(&format!(
-            "{} in {files} (`--fix` makes them)",
+            "{} in {files} (`--fix` applies them)",
             changes(count)
         ));
         failures.status(console, exit::FOUND)

@@ -43,7 +43,8 @@ impl Note {
 /// Writes the notes that `take` gathers, in the order of their names.
 pub(super) fn list(
     kind: NoteKind,
-    (format, mut target): (ListingFormat, Target),
+    format: ListingFormat,
+    mut target: Target,
     take: impl FnOnce(&mut BTreeSet<Note>),
 ) -> Result<(), Failure> {
     let mut notes = BTreeSet::new();

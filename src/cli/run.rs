@@ -269,7 +269,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     };
     let report = args.report(target);
     let given = args.given(&loaded);
-    let (played, hint) = play(&mut start, (report, html.as_mut()))?;
+    let (played, hint) = play(&mut start, report, html.as_mut())?;
     let Some(played) = played else {
         // The reader has seen enough; a run that was cut short leaves nothing.
         return Ok(super::exit::CLEAN);
@@ -294,14 +294,15 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
 /// Runs the programs; `None` where nobody read the timeline to its end, and there is no other output.
 fn play(
     start: &mut Start<'_>,
-    (report, html): (Box<dyn Report>, Option<&mut HtmlFile>),
+    report: Box<dyn Report>,
+    html: Option<&mut HtmlFile>,
 ) -> Result<(Option<Played>, Option<Code>), Failure> {
     let shared = RefCell::new(report);
     let goes_on_alone = html.is_some();
     let mut sink = Listeners {
         report: &shared,
         html: html.map(HtmlFile::digest),
-        weightiest: None,
+        most_severe: None,
     };
     // Between two reads of a program no record is on its way.
     let before_waiting = || {
@@ -312,7 +313,7 @@ fn play(
     let surroundings = surroundings.before_waiting(&before_waiting);
     let session = &mut start.session;
     let played = run_programs(session, start.programs, &surroundings, &mut sink);
-    let said = sink.weightiest.map(|(_, code)| code);
+    let said = sink.most_severe.map(|(_, code)| code);
     let mut report = shared.into_inner();
     report.finish().map_err(Failure::output)?;
     if report.is_closed() && !goes_on_alone {
@@ -343,18 +344,18 @@ fn say_unrun(left: usize, session: &Session) {
 struct Listeners<'a> {
     report: &'a RefCell<Box<dyn Report>>,
     html: Option<&'a mut RunDigest>,
-    /// The first of the weightiest diagnostics.
-    weightiest: Option<(Severity, Code)>,
+    /// The first of the most severe diagnostics.
+    most_severe: Option<(Severity, Code)>,
 }
 
 impl Listeners<'_> {
     fn weigh<'d>(&mut self, said: impl IntoIterator<Item = &'d Diagnostic>) {
         for diagnostic in said {
             if self
-                .weightiest
+                .most_severe
                 .is_none_or(|(most, _)| diagnostic.severity > most)
             {
-                self.weightiest = Some((diagnostic.severity, diagnostic.code));
+                self.most_severe = Some((diagnostic.severity, diagnostic.code));
             }
         }
     }

@@ -10,7 +10,7 @@ use crate::diagnostic::did_you_mean;
 /// How the documents are read where they are silent (R4.3, R4.5 to R4.7). The default is what is assumed
 /// unless the user says otherwise.
 ///
-/// Its text is that of the option `--reading`, and of reports:
+/// It is written in reports, and can be given, as text:
 ///
 /// ```
 /// use frictcomp::current::{Delay, Reading};

@@ -66,7 +66,7 @@ pub enum Origin {
         /// The line, from 1.
         line: u32,
     },
-    /// The user said so, with `--enable` or `enable = true`.
+    /// The user assumes it, with `enable = true` for instance.
     Assumed,
 }
 

@@ -24,7 +24,7 @@ pub enum Parameterisation {
         /// The code of the first check that it failed.
         code: String,
     },
-    /// The user said `--enable`: a list is assumed, its values are not known.
+    /// The user assumes a list; its values are not known.
     Assumed,
     /// The list was accepted.
     Accepted(FrictionList),
@@ -128,8 +128,7 @@ impl Axis {
         self.axis_type == AxisType::Spindle
     }
 
-    /// Assumes P-AXIS-00522 = 1 and an accepted value list, as `--enable` does. A list that was
-    /// accepted stays.
+    /// Assumes P-AXIS-00522 = 1 and an accepted value list. A list that was accepted stays.
     pub fn enable(&mut self) {
         if !self.configured.contains(Kind::Frict) {
             self.configured.insert(Kind::Frict);

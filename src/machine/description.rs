@@ -88,7 +88,7 @@ impl Machine {
         admitted
     }
 
-    /// Whether a configuration, a list or `--enable` says anything about friction compensation.
+    /// Whether a configuration, a list or an assumption says anything about friction compensation.
     /// Without, every axis has the documented default (R1.37).
     pub fn is_described(&self) -> bool {
         let given = |axis: &Axis| axis.frict_comp_origin != Origin::Default;

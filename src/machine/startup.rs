@@ -28,7 +28,7 @@ impl Loader<'_> {
                 listed.push((asked.clone(), AxisDraft::new(String::new(), values)));
             }
         }
-        let mut axes = self.channels(&startup, (&mut listed, &default));
+        let mut axes = self.channels(&startup, &mut listed, &default);
         for (asked, mut draft) in listed {
             if let Some(name) = &draft.values.name {
                 draft.name.clone_from(&name.value);
@@ -62,7 +62,8 @@ impl Loader<'_> {
     fn channels(
         &mut self,
         startup: &StartupList,
-        (listed, default): (&mut Vec<(Given<String>, AxisDraft)>, &AxisValues),
+        listed: &mut Vec<(Given<String>, AxisDraft)>,
+        default: &AxisValues,
     ) -> Vec<AxisDraft> {
         let mut axes: Vec<AxisDraft> = Vec::new();
         let base = startup.default_channel_list.as_ref();

@@ -154,11 +154,12 @@ struct Document<'a> {
     diagnostics: Vec<&'a TraceFinding>,
 }
 
+/// A point as a value list has it.
 #[derive(Serialize)]
-struct PointRecord {
+pub(super) struct PointRecord {
     #[serde(rename = "in")]
-    input: f64,
-    out: f64,
+    pub(super) input: f64,
+    pub(super) out: f64,
 }
 
 #[derive(Serialize)]

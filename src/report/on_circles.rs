@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::findings::write_findings;
+use super::identify::PointRecord;
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::diagnostic::Rounded;
@@ -98,13 +99,6 @@ struct Document<'a> {
     inertia: f64,
     left_out: Vec<f64>,
     diagnostics: Vec<&'a TraceFinding>,
-}
-
-#[derive(Serialize)]
-struct PointRecord {
-    #[serde(rename = "in")]
-    input: f64,
-    out: f64,
 }
 
 /// The same for machines; speeds in µm/s or 0.001°/s.

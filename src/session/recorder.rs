@@ -233,18 +233,18 @@ impl Recorder<'_> {
         self.here.clear();
         if executed.comments == Comments::Possible && executed.text.contains(allow::MARK) {
             let lines = executed.text.lines().zip(executed.line..);
-            for line in lines.filter(|(text, _)| text.contains(allow::MARK)) {
-                self.note_allow(executed, line);
+            for (text, line) in lines.filter(|(text, _)| text.contains(allow::MARK)) {
+                self.note_allow(executed, text, line);
             }
         }
         if let Some(remark) = executed.remark {
-            for line in remark.lines() {
-                self.note_allow(executed, line);
+            for (text, line) in remark.lines() {
+                self.note_allow(executed, text, line);
             }
         }
     }
 
-    fn note_allow(&mut self, executed: &Executed<'_>, (text, line): (&str, u32)) {
+    fn note_allow(&mut self, executed: &Executed<'_>, text: &str, line: u32) {
         let place = |span| Place {
             file: Arc::clone(executed.file),
             text: text.into(),

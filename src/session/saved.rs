@@ -157,8 +157,8 @@ impl SavedState {
         }
     }
 
-    /// Whether nothing but an assumption about an axis is new: where no machine is described,
-    /// `--enable` names the axes that the programs of each run need.
+    /// Whether nothing but an assumption about an axis is new: where no machine is described, the user
+    /// enables the axes that the programs of each run need.
     pub(super) fn is_assumed_anew(&self, axis: &Axis, machine: &Machine) -> bool {
         machine.axis_set == AxisSet::AsTheyOccur
             && axis.frict_comp_origin == Origin::Assumed

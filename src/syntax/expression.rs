@@ -74,8 +74,9 @@ pub(super) fn unread(span: Span, block: &mut Block) -> Expression {
 
 /// Lowers `target += value` and the like to the sum that is assigned; `operator` stands between.
 pub(super) fn compound(
-    (target, value): (Pair<'_, Rule>, Pair<'_, Rule>),
+    target: Pair<'_, Rule>,
     operator: BinaryOperator,
+    value: Pair<'_, Rule>,
     block: &mut Block,
 ) -> Operand {
     let from = block.nodes.len();

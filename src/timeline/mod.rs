@@ -4,7 +4,7 @@
 //! for each program its beginning, its blocks, its end, and at last the summary. A [`Sink`] takes
 //! them one after another; nothing is kept, so a program of any length streams through.
 //!
-//! Records are [`Serialize`](serde::Serialize): the objects are those of `--format ndjson`. What is
+//! Records are [`Serialize`](serde::Serialize): the objects are the lines of the NDJSON timeline. What is
 //! said about a block or at an end is a record of its own there, see [`Record::diagnostics`].
 
 mod record;

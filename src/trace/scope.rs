@@ -205,7 +205,7 @@ pub(super) fn columns(above: &[Line], first: &Line) -> Result<Columns, TraceProb
     let lead = lead.or_else(|| keys.find_map(|key| rows.iter().find(|row| row.key == key)));
     let lead = lead.or_else(|| rows.iter().find(|row| row.key != "SymbolComment"));
     let lead = lead.or(rows.first()).ok_or(TraceProblem::NoRows)?;
-    let divided = Division::of(lead, &rows, (separator, in_row))?;
+    let divided = Division::of(lead, &rows, separator, in_row)?;
     let count = divided.count.max(divided.starts.len());
     // Without time columns a row of numbers is as much shorter as there are groups.
     let is_timed = in_row > count - divided.starts.len() || in_row == 0;
@@ -308,7 +308,8 @@ impl Division {
     fn of(
         lead: &Row,
         rows: &[Row],
-        (separator, in_row): (Separator, usize),
+        separator: Separator,
+        in_row: usize,
     ) -> Result<Self, TraceProblem> {
         let own = width(&lead.cells);
         let mut starts = Vec::new();

@@ -116,7 +116,7 @@ impl Xml {
                 // An element whose end has not come is no more than the end of a piece.
                 Ok(Event::Eof) | Err(quick_xml::Error::Syntax(_)) => return Ok(done),
                 Ok(Event::Start(element) | Event::Empty(element)) => {
-                    self.element(&element, (&text[..done], demand))?;
+                    self.element(&element, &text[..done], demand)?;
                 }
                 Ok(Event::DocType(_)) => {
                     let line = self.line(&text[..done]);
@@ -147,7 +147,8 @@ impl Xml {
     fn element(
         &mut self,
         element: &BytesStart<'_>,
-        (before, demand): (&str, &Demand<'_>),
+        before: &str,
+        demand: &Demand<'_>,
     ) -> Result<(), TraceProblem> {
         let name = element.local_name();
         match name.as_ref() {

@@ -1,5 +1,6 @@
 //! No circle of imports inside a room: a type that two files need lives in a third. Where the methods
-//! of a type stand in several files, a call of one in another file counts as an import.
+//! of a type stand in several files, a call of one in another file counts as an import, also through
+//! fields: `self.run.step()`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -151,6 +152,45 @@ fn names_after<'a>(text: &'a str, words: &[&str], call: &str) -> BTreeSet<&'a st
     called.map(|(name, _)| name).collect()
 }
 
+/// The fields of the structs of a text: the struct, the field, and the names in its type.
+fn fields(text: &str) -> Vec<(&str, &str, Vec<&str>)> {
+    let structs = text.match_indices("struct ").filter_map(|(at, word)| {
+        let (name, rest) = split_name(&text[at + word.len()..]);
+        let (head, body) = rest.split_once('{')?;
+        let is_plain = !head.contains([';', '(', '}']);
+        let end = body.find("\n}").unwrap_or(body.len());
+        is_plain.then_some((name, &body[..end]))
+    });
+    structs
+        .flat_map(|(name, body)| {
+            body.lines().filter_map(move |line| {
+                let (left, types) = line.split_once(": ")?;
+                let field = left.rsplit(' ').next()?;
+                let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+                let names = types.split(|c| !is_name(c)).filter(|it| !it.is_empty());
+                Some((name, field, names.collect()))
+            })
+        })
+        .collect()
+}
+
+/// The calls in a text that go from `self` through fields: the fields, then the method.
+fn calls_through_fields(text: &str) -> Vec<(Vec<&str>, &str)> {
+    let found = text.match_indices("self").filter_map(|(at, word)| {
+        let is_whole = !text[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
+        let mut rest = &text[at + word.len()..];
+        let mut names = Vec::new();
+        while let Some(after) = rest.trim_start().strip_prefix('.') {
+            let (name, left) = split_name(after);
+            names.push(name);
+            rest = left;
+        }
+        let method = names.pop()?;
+        (is_whole && rest.starts_with('(') && !names.is_empty()).then_some((names, method))
+    });
+    found.collect()
+}
+
 /// The files whose methods of a type those of the same type in another file call.
 fn called<'a>(modules: &Modules<'a>) -> Imports<'a> {
     let texts: Vec<(&Vec<&str>, String)> = modules
@@ -165,9 +205,25 @@ fn called<'a>(modules: &Modules<'a>) -> Imports<'a> {
             }
         }
     }
+    let mut types: BTreeMap<(&str, &str), &Vec<&str>> = BTreeMap::new();
+    let found: Vec<_> = texts.iter().flat_map(|(_, text)| fields(text)).collect();
+    for (subject, field, names) in &found {
+        types.entry((subject, field)).or_insert(names);
+    }
     let mut calls = Imports::new();
     for (path, text) in &texts {
         for (subject, body) in methods(text) {
+            for (through, method) in calls_through_fields(body) {
+                let mut subjects = vec![subject];
+                for field in through {
+                    let types = subjects.iter().filter_map(|it| types.get(&(*it, field)));
+                    subjects = types.flat_map(|names| names.iter().copied()).collect();
+                }
+                let homes = subjects.iter().filter_map(|it| homes.get(&(*it, method)));
+                let others = homes.filter(|home| *home != path);
+                let to: Vec<_> = others.map(|home| (*home).clone()).collect();
+                calls.entry((*path).clone()).or_default().extend(to);
+            }
             for name in names_after(body, &["self.", "self\n            .", "Self::"], "(") {
                 if let Some(home) = homes.get(&(subject, name)).filter(|home| *home != path) {
                     calls
@@ -301,6 +357,10 @@ fn a_call_of_a_method_in_another_file_is_seen() {
             "room/c.rs",
             "use super::kind::Run;\nimpl Run {\n    fn c() {}\n}\nimpl Other {\n    fn a(&self) {\n        self.b();\n    }\n}\n",
         ),
+        file(
+            "room/d.rs",
+            "pub struct Holder<'a> {\n    run: Option<&'a mut Inner>,\n}\nstruct Inner {\n    pub(super) run: Box<Run>,\n}\nimpl Holder<'_> {\n    fn a(&self) {\n        self\n            .run\n            .run\n            .a();\n        self.run.c;\n    }\n}\n",
+        ),
     ];
     let modules: Modules = files.iter().map(|file| (module_path(file), file)).collect();
     let calls = called(&modules);
@@ -312,5 +372,6 @@ fn a_call_of_a_method_in_another_file_is_seen() {
     assert_eq!(of("a"), Some(vec!["b"]));
     assert_eq!(of("b"), Some(vec!["c"]));
     assert_eq!(of("c"), None);
+    assert_eq!(of("d"), Some(vec!["a"]));
     assert!(circles(&modules).is_empty());
 }

@@ -56,12 +56,12 @@ pub enum RecordedError {
     /// Three recordings.
     #[error("{0} recordings were given")]
     Count(usize),
-    /// `--radius 0`
+    /// A radius of 0 mm.
     #[error(
         "a radius of {} mm is not possible; it must be between 0.001 and 1000000 mm", Shown(*.0)
     )]
     CommandedRadius(f64),
-    /// `--feed 0`
+    /// A feed of 0 mm/min.
     #[error(
         "a feed of {} mm/min is not possible; it must be between 0.1 and 1000000 mm/min", Shown(*.0)
     )]
@@ -69,7 +69,7 @@ pub enum RecordedError {
     /// Two counter-clockwise circles.
     #[error("both recordings run {}", .0.as_str())]
     SameDirection(Direction),
-    /// `--radius 50` for a circle of 100 mm.
+    /// A radius of 50 mm that was given for a circle of 100 mm.
     #[error("the recorded circle has a radius of {found_mm:.3} mm, not {commanded_mm} mm")]
     Radius {
         /// The radius that was given.
@@ -89,12 +89,12 @@ impl RecordedError {
             Self::NoCircle => "check that the columns hold the actual positions of two axes",
             Self::NotRound { .. } => "check the columns and their unit, and that both axes moved",
             Self::Apart { .. } => {
-                "record both directions with the same zero point, or compare the shapes alone \
-                 with `--centre own`"
+                "record both directions with the same zero point, or compare the shapes alone, each \
+                 about its own centre"
             }
             Self::Count(_) => "give one of each direction, two at most",
-            Self::CommandedRadius(_) => "write the commanded radius, `--radius 100`",
-            Self::CommandedFeed(_) => "write the commanded feed, `--feed 1000`",
+            Self::CommandedRadius(_) => "give the commanded radius in mm",
+            Self::CommandedFeed(_) => "give the commanded feed in mm/min",
             Self::SameDirection(_) => "give one recording of each direction",
             Self::Radius { .. } => "check the commanded radius and the unit of the columns",
         }

@@ -48,12 +48,12 @@ pub(in crate::cli) struct CurrentArgs {
     pub(super) channels: MotionChannels,
     #[command(flatten)]
     pub(super) cycle: CycleArgs,
-    /// Make CNC cycles of the rows of a trace: times that do not rise by the cycle are refused
-    /// otherwise
+    /// Turn the rows of a trace into CNC cycles; without this option, times that do not increase by
+    /// one cycle are refused
     #[arg(long, requires = "trace")]
     pub(super) resample: bool,
-    /// Velocities of a trace up to V, in µm/s or 0.001°/s, are standstill; by default those that
-    /// only toggle around zero
+    /// Treat velocities of a trace up to V, in µm/s or 0.001°/s, as standstill; by default only those
+    /// that toggle around zero
     #[arg(long, value_name = "V", requires = "trace", value_parser = parse_dead_band)]
     #[arg(allow_negative_numbers = true)]
     pub(super) dead_band: Option<DeadBand>,

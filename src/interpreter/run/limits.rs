@@ -4,18 +4,18 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Limits {
-    /// Executed blocks of a session, `--max-blocks`.
+    /// Executed blocks of a session.
     pub blocks: u64,
-    /// Work beyond what the executed blocks bring with them, `--max-work`.
+    /// Work beyond the text of the executed blocks: macros, strings that grow, regions under an
+    /// unknown condition.
     pub work: u64,
-    /// Values that are held at a time, `--max-values`; a text counts as one more for every 32
-    /// bytes.
+    /// Values that are held at a time; a text counts as one more for every 32 bytes.
     pub values: u32,
-    /// Depth of subprogram calls, `--max-calls`.
+    /// Depth of subprogram calls.
     pub calls: u32,
-    /// Depth of nested `$` blocks, `--max-nesting`.
+    /// Depth of nested `$` blocks.
     pub nesting: u32,
-    /// Depth of macro expansion, `--max-macros`.
+    /// Depth of macro expansion.
     pub macros: u32,
 }
 

@@ -177,7 +177,7 @@ impl RunDigest {
             .collect();
     }
 
-    fn program(&mut self, number: u32, (file, name): (&str, Option<&str>), state: StateView<'_>) {
+    fn program(&mut self, number: u32, file: &str, name: Option<&str>, state: StateView<'_>) {
         let file = self.file(file);
         if self.programs.len() >= MAX_PROGRAMS {
             self.more_programs += 1;
@@ -384,7 +384,7 @@ impl Sink for RunDigest {
                 file,
                 name,
                 state,
-            } => self.program(program, (file, name), state),
+            } => self.program(program, file, name, state),
             Record::Block(ref row) => self.block(row),
             Record::End(ref end) => self.end(end),
             Record::Summary(summary) => self.summary(summary),

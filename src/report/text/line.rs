@@ -130,32 +130,51 @@ struct Cut {
     column: usize,
 }
 
-/// Writes a text over as many lines as its words need within a width, all after an indent.
-pub(super) fn paragraph(
-    out: &mut Vec<u8>,
-    (look, indent): (Look, usize),
-    (style, text): (Style, &str),
-) {
-    let room = look.width.saturating_sub(indent).max(1);
-    let mut line = String::new();
-    let mut lines = Vec::new();
-    for word in visible_line(text).split(' ') {
-        if !line.is_empty() && line.width() + 1 + word.width() > room && !is_command(word) {
-            lines.push(std::mem::take(&mut line));
+/// A text that takes as many lines as its words need within a width, all after an indent.
+pub(super) struct Paragraph<'a> {
+    indent: usize,
+    style: Style,
+    text: &'a str,
+}
+
+impl<'a> Paragraph<'a> {
+    /// A text in a style, without an indent.
+    pub(super) fn new(style: Style, text: &'a str) -> Self {
+        Self {
+            indent: 0,
+            style,
+            text,
         }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
     }
-    lines.push(line);
-    for text in lines {
-        let mut line = Line::new(out, look.paint);
-        if indent > 0 {
-            line.go_to(indent);
+
+    /// The same after an indent.
+    pub(super) fn indented(self, indent: usize) -> Self {
+        Self { indent, ..self }
+    }
+
+    /// Writes the lines.
+    pub(super) fn write(&self, out: &mut Vec<u8>, look: Look) {
+        let room = look.width.saturating_sub(self.indent).max(1);
+        let mut line = String::new();
+        let mut lines = Vec::new();
+        for word in visible_line(self.text).split(' ') {
+            if !line.is_empty() && line.width() + 1 + word.width() > room && !is_command(word) {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
         }
-        line.styled(style, &text);
-        line.end();
+        lines.push(line);
+        for text in lines {
+            let mut line = Line::new(out, look.paint);
+            if self.indent > 0 {
+                line.go_to(self.indent);
+            }
+            line.styled(self.style, &text);
+            line.end();
+        }
     }
 }
 

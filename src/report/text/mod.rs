@@ -17,7 +17,7 @@ use super::output::{Gathered, Output};
 use super::view::{Blocks, View};
 use super::visible::leading;
 use columns::Columns;
-use line::{BOLD, DIM, GUTTER, Line, MARK, grouped, paragraph};
+use line::{BOLD, DIM, GUTTER, Line, MARK, Paragraph, grouped};
 
 /// Below so many columns diagnostics stand further left.
 const NARROW: usize = 60;
@@ -144,8 +144,8 @@ impl<W: Write> Text<W> {
         self.columns.names(&mut line);
         line.end();
         if let Some(legend) = self.columns.legend() {
-            let look = self.options.look;
-            paragraph(&mut self.output.bytes, (look, 2), (DIM, legend));
+            let legend = Paragraph::new(DIM, legend).indented(2);
+            legend.write(&mut self.output.bytes, self.options.look);
         }
     }
 
@@ -306,8 +306,8 @@ impl<W: Write> Text<W> {
             );
             let look = self.options.look;
             let indent = if look.width < NARROW { 2 } else { GUTTER };
-            let plain = anstyle::Style::new();
-            paragraph(&mut self.output.bytes, (look, indent), (plain, &text));
+            let repeated = Paragraph::new(anstyle::Style::new(), &text).indented(indent);
+            repeated.write(&mut self.output.bytes, look);
         }
         self.line().end();
     }

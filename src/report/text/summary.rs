@@ -8,7 +8,7 @@ use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
 use crate::report::diagnostics::Look;
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
-use super::line::{BOLD, DIM, Line, grouped, paragraph, style};
+use super::line::{BOLD, DIM, Line, Paragraph, grouped, style};
 
 /// Columns that what changed an axis must have beside its states, or it stands below them.
 const CHANGED_BY: usize = 24;
@@ -28,7 +28,7 @@ pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedB
         count(summary.count(Severity::Error), "error"),
         count(summary.count(Severity::Warning), "warning"),
     );
-    paragraph(out, (look, 0), (BOLD, &counts));
+    Paragraph::new(BOLD, &counts).write(out, look);
     table(out, summary, look);
     opaque(out, summary, look);
     advice(out, summary, by, look);
@@ -72,7 +72,9 @@ fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
         if !fits && axis.changes > 0 {
             let room = look.width.saturating_sub(4 + CHANGED);
             let text = format!("changed by {}", changed_by(axis, room));
-            paragraph(out, (look, 4), (Style::new(), &text));
+            Paragraph::new(Style::new(), &text)
+                .indented(4)
+                .write(out, look);
         }
     }
 }
@@ -177,13 +179,13 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
         let Some(text) = axis_advice(axis, name) else {
             continue;
         };
-        paragraph(out, (look, 0), (style(axis.end), &format!("{name}{text}")));
+        Paragraph::new(style(axis.end), &format!("{name}{text}")).write(out, look);
     }
     let is_all_home = summary.state.machine.is_described() && summary.axes.iter().all(is_home);
     if let Some(text) = error_advice(summary.count(Severity::Error), by) {
-        paragraph(out, (look, 0), (Style::new(), text));
+        Paragraph::new(Style::new(), text).write(out, look);
     } else if out.len() == bare && is_all_home {
-        paragraph(out, (look, 0), (DIM, all_home(summary.footing)));
+        Paragraph::new(DIM, all_home(summary.footing)).write(out, look);
     }
     if out.len() == bare {
         out.truncate(before);

@@ -80,7 +80,7 @@ impl Lowering<'_> {
             let target = self.target(place.clone());
             let operator = expression::operator(sign.as_str().trim_end_matches('='));
             let value = match operator {
-                Some(operator) => expression::compound((place, value), operator, self.block),
+                Some(operator) => expression::compound(place, operator, value, self.block),
                 None => expression::lower(value, 0, self.block),
             };
             self.block.items.push(Item::Assign(Assignment {

@@ -612,12 +612,12 @@ fn the_lag_of_a_list_is_seen_where_the_axis_turns_at_once() {
 #[test]
 fn eight_points_leave_the_glitch_of_the_true_curve() {
     // R6.17: the written list, on a circle of the machine that was recorded.
-    let text = "Fc = 512.5\nFs = 632.5\nvs = 0.003\nfv = 4000\n";
-    let plant = Plant::from_toml(SourceFile::new("p.toml", text)).expect("a plant");
+    let machine = "Fc = 512.5\nFs = 632.5\nvs = 0.003\nfv = 4000\n";
+    let plant = Plant::from_toml(SourceFile::new("p.toml", machine)).expect("a plant");
     let found = identified(&Bench::default()).list();
     assert_eq!(found.table.len(), 8);
-    let text = write_value_list(&found, Points::Whole, &ListHead::default());
-    let read = FrictionList::read(SourceFile::new("v.lis", text)).expect("a list");
+    let list = write_value_list(&found, Points::Whole, &ListHead::default());
+    let read = FrictionList::read(SourceFile::new("v.lis", list)).expect("a list");
     let tuned = plant_list(&plant.x);
     let written = FrictionList {
         table: read.list.table,

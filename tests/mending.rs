@@ -117,8 +117,17 @@ fn a_difference_shows_the_changes_and_makes_none() {
         status(&bench, &["check", "--diff", "missing.nc"]).0,
         Some(2)
     );
-    let output = bench.call(&["check", "--fix", "-"]);
-    assert_eq!(output.status.code(), Some(2));
+    for (name, shown) in [("-", "standard input"), ("/dev/null", "`/dev/null`")] {
+        if name != "-" && cfg!(windows) {
+            continue;
+        }
+        let (code, _, said) = status(&bench, &["check", "--fix", name]);
+        assert_eq!(code, Some(2));
+        assert!(
+            said.contains(&format!("`--fix` cannot change {shown}")),
+            "{said}"
+        );
+    }
 }
 
 #[test]

@@ -107,9 +107,9 @@ impl CircularTest {
                 turn.take(x, y);
             }
         })?;
-        let turn_s = TAU / self.circle.angular_velocity();
+        let lap_s = TAU / self.circle.angular_velocity();
         let profile = turn
-            .finish(Some(turn_s))
+            .finish(Some(lap_s))
             .map_err(|_| CircleError::Unstable {
                 axis: OPEN,
                 angle_deg: 360.0,

@@ -90,14 +90,20 @@ impl Bench<'_> {
         failures.status(console, exit::FOUND)
     }
 
+    /// Refuses what can be read only once and not be replaced: standard input, pipes, devices.
     fn only_files(&self, option: &str) -> Result<(), Failure> {
-        if self.inputs.contains(&Input::Stdin) {
-            return Err(
-                Failure::new(format!("`{option}` cannot change standard input"))
-                    .with_help("name a file"),
-            );
+        let name = |input: &Input| match input {
+            Input::Stdin => Some("standard input".to_owned()),
+            Input::File(path) if path.exists() && !path.is_file() => {
+                Some(format!("`{}`", path.display()))
+            }
+            Input::File(_) => None,
+        };
+        match self.inputs.iter().find_map(name) {
+            Some(name) => Err(Failure::new(format!("`{option}` cannot change {name}"))
+                .with_help("name a regular file")),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// What the safe changes make of the programs. What a program calls stays as it is, unless it is

@@ -39,7 +39,7 @@ mod tests {
     #[test]
     fn what_is_rounded_to_zero_has_no_sign() {
         assert_eq!(Rounded(-0.0004, 3).to_string(), "0.000");
-        assert_eq!(Rounded(-0.0005001, 3).to_string(), "-0.001");
+        assert_eq!(Rounded(-0.000_500_1, 3).to_string(), "-0.001");
         assert_eq!(format!("{:>8}", Rounded(-0.4, 0)), "       0");
         assert_eq!(format!("{:>8}", Rounded(-1.25, 1)), "    -1.2");
         assert_eq!(Shown(-0.0).to_string(), "0");

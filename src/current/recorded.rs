@@ -120,6 +120,12 @@ impl CommandedTrace {
         })
     }
 
+    /// The same trace after something else was done to its rows.
+    pub fn after(mut self, remarks: Vec<String>) -> Self {
+        self.remarks.splice(0..0, remarks);
+        self
+    }
+
     /// What was done to make cycles of the rows, each a sentence in lower case.
     pub fn remarks(&self) -> &[String] {
         &self.remarks

@@ -10,7 +10,7 @@ use super::trace_error::TraceError;
 use crate::circle::{
     CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
 };
-use crate::current::{CommandedTrace, Switched, TraceColumns, TraceOptions};
+use crate::current::{CommandedTrace, Resampling, Switched, TraceColumns, TraceOptions};
 use crate::identify::{AxisChannels, AxisRecording};
 use crate::trace::{
     Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Missing, Pick, SelectError,
@@ -110,51 +110,112 @@ pub fn read_commanded(
         Ok(choice)
     })?;
     let [_, position, velocity] = found;
-    let columns = commanded_columns(path, &recording, ([position, velocity], switch))?;
-    let trace = CommandedTrace::new(columns, options);
-    trace.map_err(|reason| {
+    let commanded = CommandedChannels {
+        path,
+        recording: &recording,
+        motion: [position, velocity],
+        switch,
+    };
+    let (columns, remarks) = if commanded.have_one_clock() {
+        (commanded.columns()?, Vec::new())
+    } else if options.resampling == Resampling::Done {
+        commanded.aligned(options.cycle_s)?
+    } else {
+        return Err(TraceError::SeveralClocks(path.to_owned()).into());
+    };
+    let trace = CommandedTrace::new(columns, options).map_err(|reason| {
         let path = path.to_owned();
-        TraceError::Cycles { path, reason }.into()
-    })
+        HostError::from(TraceError::Cycles { path, reason })
+    })?;
+    Ok(trace.after(remarks))
 }
 
-/// The columns of a commanded trace, which were sampled together.
-fn commanded_columns(
-    path: &Path,
-    recording: &TraceRecording,
-    ([position, velocity], switch): ([Option<Pick>; 2], Option<ChannelIndex>),
-) -> Result<TraceColumns, TraceError> {
-    let channels = [position, velocity].into_iter().flatten();
-    let channels: Vec<ChannelIndex> = channels.map(|pick| pick.channel).chain(switch).collect();
-    let clocks = |index: &ChannelIndex| recording.clock(*index);
-    if channels
-        .windows(2)
-        .any(|pair| clocks(&pair[0]) != clocks(&pair[1]))
-    {
-        return Err(TraceError::SeveralClocks(path.to_owned()));
+/// The channels of a commanded trace.
+struct CommandedChannels<'a> {
+    path: &'a Path,
+    recording: &'a TraceRecording,
+    /// Position and velocity.
+    motion: [Option<Pick>; 2],
+    /// Whether compensation is on.
+    switch: Option<ChannelIndex>,
+}
+
+impl CommandedChannels<'_> {
+    /// Whether they were sampled together.
+    fn have_one_clock(&self) -> bool {
+        let motion = self.motion.into_iter().flatten();
+        let channels = motion.map(|pick| pick.channel).chain(self.switch);
+        let mut clocks = channels.map(|channel| self.recording.clock(channel));
+        let first = clocks.next();
+        clocks.all(|clock| Some(clock) == first)
     }
-    let column = |pick: Option<Pick>| pick.map(|pick| numbers(path, recording, &pick)).transpose();
-    let [positions, velocities] = [column(position)?, column(velocity)?];
-    let rows = positions
-        .as_ref()
-        .or(velocities.as_ref())
-        .map_or(0, Vec::len);
-    let states = switch
-        .map(|channel| numbers_of(path, recording, channel))
-        .transpose()?;
-    let switched = |row: usize| match states.and_then(|states| states.get(row)) {
-        Some(0.0) => Switched::Off,
-        _ => Switched::On,
-    };
-    let times = channels
-        .first()
-        .and_then(|channel| recording.times_s(*channel));
-    Ok(TraceColumns {
-        times_s: times.map(<[f64]>::to_vec),
-        switched: (0..rows).map(switched).collect(),
-        positions,
-        velocities,
-    })
+
+    /// The columns of channels that were sampled together.
+    fn columns(&self) -> Result<TraceColumns, TraceError> {
+        let column = |pick: Option<Pick>| {
+            pick.map(|pick| numbers(self.path, self.recording, &pick))
+                .transpose()
+        };
+        let [position, velocity] = self.motion;
+        let [positions, velocities] = [column(position)?, column(velocity)?];
+        let rows = positions
+            .as_ref()
+            .or(velocities.as_ref())
+            .map_or(0, Vec::len);
+        let states = self.states()?;
+        let switched = |row: usize| match states.and_then(|states| states.get(row)) {
+            Some(0.0) => Switched::Off,
+            _ => Switched::On,
+        };
+        let times = position
+            .or(velocity)
+            .and_then(|pick| self.recording.times_s(pick.channel));
+        Ok(TraceColumns {
+            times_s: times.map(<[f64]>::to_vec),
+            switched: (0..rows).map(switched).collect(),
+            positions,
+            velocities,
+        })
+    }
+
+    /// The columns of channels that were sampled at different times, brought to those of the
+    /// fastest, and what was done for it.
+    fn aligned(&self, cycle_s: Option<f64>) -> Result<(TraceColumns, Vec<String>), TraceError> {
+        let picks: Vec<Pick> = self.motion.into_iter().flatten().collect();
+        let aligned = self.recording.align(&picks, cycle_s);
+        let aligned = aligned.map_err(|reason| TraceError::Apart {
+            path: self.path.to_owned(),
+            reason,
+        })?;
+        let states = self.states()?.unwrap_or_default();
+        let times = self.switch.and_then(|it| self.recording.times_s(it));
+        let times = times.unwrap_or_default();
+        // It holds from its row on.
+        let switched = |time: &f64| {
+            let after = times.partition_point(|it| it <= time);
+            match states.get(after.saturating_sub(1)) {
+                Some(0.0) => Switched::Off,
+                _ => Switched::On,
+            }
+        };
+        let switched = aligned.times_s.iter().map(switched).collect();
+        let mut columns = aligned.columns.into_iter();
+        let [positions, velocities] = self.motion.map(|pick| pick.and_then(|_| columns.next()));
+        let columns = TraceColumns {
+            times_s: Some(aligned.times_s),
+            positions,
+            velocities,
+            switched,
+        };
+        Ok((columns, aligned.remarks))
+    }
+
+    /// The samples of the switch.
+    fn states(&self) -> Result<Option<&[f64]>, TraceError> {
+        self.switch
+            .map(|channel| numbers_of(self.path, self.recording, channel))
+            .transpose()
+    }
 }
 
 /// Reads one recorded circle, or one of each direction, in one file or two: columns `x` and `y` of

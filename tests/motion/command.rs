@@ -321,3 +321,67 @@ fn a_start_is_given_and_proposed() {
     let (_, simplified, _) = run(&["a.nc", "--axis", "X", "--columns", "simplified"]);
     assert_eq!(simplified[0][7], "simplified");
 }
+
+#[test]
+fn every_demo_has_currents_from_the_start_that_is_proposed() {
+    // R5.1: what FC906 proposes is taken, and then it proposes nothing any more.
+    let demo = Path::new(env!("CARGO_MANIFEST_DIR")).join("programs/demo");
+    let sets = ["--set", "V.E.WARM_UP=1", "--set", "V.E.SERVICE=0"];
+    for (program, axes, more) in [
+        ("friction.nc", "X,Y", &[][..]),
+        ("next.nc", "X,Y", &[]),
+        ("current/reversal.nc", "X", &[]),
+        ("five_axis/milling.nc", "X,Y", &[]),
+        ("five_axis/turning.nc", "X,Z", &[]),
+        ("five_axis/startup.nc", "X", &sets),
+    ] {
+        let run = |more: &[&str]| {
+            let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+                .arg("current")
+                .arg(demo.join(program))
+                .args(["--axis", axes])
+                .args(more)
+                .output()
+                .expect("the tool starts");
+            (
+                String::from_utf8_lossy(&output.stderr).into_owned(),
+                rows(&output).len(),
+            )
+        };
+        let (mut said, mut cycles) = run(more);
+        if let Some((_, proposal)) = said.split_once("--start ") {
+            let start = proposal.split('`').next().expect("a proposal").to_owned();
+            (said, cycles) = run(&[more, &["--start", &start]].concat());
+        }
+        assert!(!said.contains("--start"), "{program}: {said}");
+        assert!(cycles > 50, "{program}: {cycles} rows, {said}");
+    }
+}
+
+#[test]
+fn channels_of_several_rates_are_resampled_or_refused() {
+    // R4.5: an export of Scope with times of its own for each channel, in ms.
+    let folder = tempfile::tempdir().expect("a folder");
+    let list = "frict_comp.mode 3\nfrict_comp.table_entries 1\nfrict_comp.table[0].in 0\nfrict_comp.table[0].out 12\nEnde\n";
+    std::fs::write(folder.path().join("v.lis"), list).expect("a list");
+    let trace = "Name\tx\tName\tv\n\n0\t0\t0\t0\n1\t10\t2\t2000\n2\t20\t4\t4000\n3\t30\n4\t40\n";
+    std::fs::write(folder.path().join("t.csv"), trace).expect("a trace");
+    let run = |more: &[&str]| {
+        let arguments = ["--trace", "t.csv", "--value-list", "v.lis"];
+        let units = ["--unit", "x=0.1um", "--unit", "v=um/s"];
+        let output = current(folder.path(), &[&arguments, &units, more].concat());
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), rows(&output), said)
+    };
+    let (status, _, said) = run(&[]);
+    assert_eq!(status, Some(2));
+    assert!(
+        said.contains("its channels were sampled at different times"),
+        "{said}"
+    );
+    let (status, found, said) = run(&["--resample"]);
+    assert_eq!(status, Some(0), "{said}");
+    let velocities: Vec<&str> = found[1..].iter().map(|row| row[2].as_str()).collect();
+    assert_eq!(velocities, ["0", "1000", "2000", "3000", "4000"], "{said}");
+    assert!(said.contains("by interpolation"), "{said}");
+}

@@ -37,6 +37,14 @@ impl Plot {
     }
 }
 
+/// `1 cycle`, `2 cycles`.
+fn counted(cycles: u64) -> String {
+    match cycles {
+        1 => "1 cycle".to_owned(),
+        more => format!("{more} cycles"),
+    }
+}
+
 /// Says where it matters what is added at standstill (C11).
 pub(super) fn say_at_rest((axis, reading): (&str, Reading), cycles: u64) {
     if cycles == 0 {
@@ -47,7 +55,8 @@ pub(super) fn say_at_rest((axis, reading): (&str, Reading), cycles: u64) {
         _ => ("held", "with `--reading standstill=zero` it is 0"),
     };
     Console::talk(&format!(
-        "C11: in {cycles} cycles at standstill the current{axis} is {now}; {other}"
+        "C11: in {} at standstill the current{axis} is {now}; {other}",
+        counted(cycles)
     ));
 }
 
@@ -65,7 +74,8 @@ pub(super) fn say_sign(list: &FrictionList) {
 pub(super) fn say_saturated(axis: &str, cycles: u64) {
     if cycles > 0 {
         Console::talk(&format!(
-            "FC137: the current of {cycles} cycles{axis} exceeds 16 bits and was limited"
+            "FC137: the current of {}{axis} exceeds 16 bits and was limited",
+            counted(cycles)
         ));
     }
 }

@@ -95,11 +95,15 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     for (name, cycles) in names.iter().zip(currents.at_rest()) {
         say_at_rest((&format!(" of axis {name}"), args.reading), cycles);
     }
-    for axis in &followed {
-        if let Parameterisation::Accepted(list) = &loaded.machine.axis(*axis).friction {
-            say_sign(list);
-            break;
-        }
+    let lists = followed
+        .iter()
+        .map(|axis| &loaded.machine.axis(*axis).friction);
+    let mut lists = lists.filter_map(|friction| match friction {
+        Parameterisation::Accepted(list) if cycles > 0 => Some(list),
+        _ => None,
+    });
+    if let Some(list) = lists.next() {
+        say_sign(list);
     }
     args.machine.say_unread(&ledger, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);

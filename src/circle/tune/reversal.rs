@@ -9,6 +9,7 @@ use super::super::profile::UM_PER_M;
 use super::super::reference::{Circle, CircleError, Stretch};
 use super::super::simulate::{AxisRun, Run};
 use crate::current::Reading;
+use crate::lists::FrictionList;
 use crate::simulation::{DriveParameters, FrictionModel};
 
 /// Half the least window of the glitch (R5.22), in radians.
@@ -26,6 +27,9 @@ const AFTER: f64 = 0.3;
 
 /// And no longer than this: by then the peak has decayed.
 const LONGEST: f64 = 0.5;
+
+/// CNC cycles by which more than enough is enough.
+const SPARE: usize = 4;
 
 /// CNC cycles at both ends of the window through which the undisturbed path runs.
 const ENDS: usize = 20;
@@ -61,10 +65,10 @@ impl AxisAlone<'_> {
         compensation: Option<&Method>,
     ) -> Result<f64, CircleError> {
         let window = Window::of(&circle, self.axis);
-        let quarter = circle.cycles(FRAC_PI_2);
-        // A quarter of a turn earlier the axis was in the middle of its way: the additive current has
-        // long built up when the drives begin.
-        let first = window.begin.saturating_sub(quarter);
+        let lead = compensation
+            .and_then(Method::list)
+            .map_or(0, |list| window.lead(&circle, list));
+        let first = window.begin.saturating_sub(lead);
         let turning = circle.angular_velocity() * circle.cycle_time_s;
         let stretch = Stretch {
             start: real(first) * turning,
@@ -167,6 +171,8 @@ impl Path<'_> {
 
 /// CNC cycles of a whole run around a reversal.
 struct Window {
+    /// The angle in radians from where the drives begin to the reversal.
+    ahead: f64,
     /// Where the drives begin.
     begin: usize,
     /// Where the glitch is looked for.
@@ -186,11 +192,34 @@ impl Window {
         let reversal = reversal(axis) / turning;
         let window = WINDOW / turning;
         let from = cycle(reversal - window.min(BEFORE));
+        let ahead_s = (BEFORE + SETTLING).min(reversal);
         Self {
-            begin: cycle((reversal - BEFORE - SETTLING).max(0.0)),
+            ahead: ahead_s * turning,
+            begin: cycle(reversal - ahead_s),
             from,
             end: cycle(reversal + window.clamp(AFTER, LONGEST)).max(from + 2),
         }
+    }
+}
+
+impl Window {
+    /// CNC cycles before the drives begin from which on the additive current of a list is what it
+    /// would be on a whole run: its dead time has passed, and before that the axis has moved by more
+    /// than its `position_delay`. A quarter of a turn is enough for any list.
+    fn lead(&self, circle: &Circle, list: &FrictionList) -> usize {
+        let quarter = circle.cycles(FRAC_PI_2);
+        let dead = usize::try_from(list.delay_cycles).unwrap_or_default() + SPARE;
+        let turning = circle.angular_velocity() * circle.cycle_time_s;
+        let near = self.ahead + real(dead) * turning;
+        let way = f64::from(list.position_delay.max(0)) * 1e-7;
+        // The axis is at R·cos of the angle before its reversal.
+        let far = near.cos() - way / circle.radius_m();
+        if near >= FRAC_PI_2 || far <= 0.0 {
+            return quarter;
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at most a quarter
+        let moving = ((far.acos() - near) / turning).ceil() as usize;
+        (dead + moving + SPARE).min(quarter)
     }
 }
 
@@ -198,4 +227,47 @@ fn real(cycles: usize) -> f64 {
     #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
     let real = cycles as f64;
     real
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Preset;
+
+    #[test]
+    fn a_short_lead_is_as_good_as_a_quarter_of_a_turn() {
+        // R5.25: what the additive current was long before the drives begin makes no difference.
+        let circle = Circle {
+            feed_mm_per_min: 3000.0,
+            ..Circle::default()
+        };
+        let drive = Preset::Mid.plant().x;
+        for (delay_cycles, position_delay) in [(0, 0), (30, 10), (248, 2000)] {
+            let list = FrictionList {
+                delay_cycles,
+                position_delay,
+                ..crate::simulation::plant_list(&drive)
+            };
+            let window = Window::of(&circle, PlaneAxis::X);
+            let lead = window.lead(&circle, &list);
+            assert!(lead < circle.cycles(FRAC_PI_2) / 3, "{lead}");
+            let currents = |lead: usize| {
+                let turning = circle.angular_velocity() * circle.cycle_time_s;
+                let mut current = crate::current::AdditiveCurrent::new(&list, Reading::default());
+                let mut added = 0.0;
+                for before in (0..lead).rev() {
+                    let angle = window.ahead + real(before) * turning;
+                    let position = circle.radius_m() * 1e7 * angle.cos();
+                    let velocity = 1e3 * circle.feed_mm_per_min / 60.0 * angle.sin();
+                    added = current.step(position, velocity, &[]).current_units;
+                }
+                added
+            };
+            let [short, long] = [lead, circle.cycles(FRAC_PI_2)].map(currents);
+            assert!(
+                (short - long).abs() < 1e-9,
+                "{delay_cycles}: {short} {long}"
+            );
+        }
+    }
 }

@@ -326,3 +326,49 @@ fn the_document_shows_every_shape() {
         .collect();
     assert!(missing.is_empty(), "{missing:?}");
 }
+
+/// A recording of ten channels as TwinCAT Scope exports it.
+fn recording(rows: usize) -> String {
+    let names: Vec<String> = (0..8).map(|at| format!("Unused{at}")).collect();
+    let mut text = format!("Name\tv\ttorque\t{}\n\n", names.join("\t"));
+    for row in 0..rows {
+        let direction = if row / 1000 % 2 == 0 { 1 } else { -1 };
+        let _ = write!(text, "{row}\t{}\t{}", 5000 * direction, 100 * direction);
+        for unused in 0..8 {
+            let _ = write!(text, "\t{}.{unused}", row * 7 % 1000);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+#[test]
+fn a_recording_takes_at_most_three_times_the_columns_that_are_used() {
+    // R6.1 R6.20: read from a file and identified, whatever else stands in it.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("friction.csv");
+    for rows in [100_000, 200_000] {
+        fs::write(&path, recording(rows)).expect("written");
+        // Times, velocities and torques.
+        let used = 3 * 8 * u64::try_from(rows).expect("a few");
+        let selection = frictcomp::trace::ChannelSelection::default();
+        let mut track = None;
+        let read = allocation_counter::measure(|| {
+            let recording = frictcomp::host::read_axis(&path, &selection, None);
+            track = Some(recording.expect("a recording").track);
+        });
+        let track = track.expect("a track");
+        assert_eq!(track.torques.len(), rows);
+        let identified = allocation_counter::measure(|| {
+            let found = frictcomp::identify::identify(&track, &Default::default());
+            assert!(found.is_ok(), "{found:?}");
+        });
+        let held = read.bytes_max.max(used + identified.bytes_max);
+        assert!(
+            held <= 3 * used,
+            "{rows} rows: {} and {} for columns of {used}",
+            read.bytes_max,
+            used + identified.bytes_max
+        );
+    }
+}

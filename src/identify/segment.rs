@@ -1,5 +1,6 @@
 //! Segments of constant speed (R6.10).
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -83,20 +84,20 @@ pub(super) fn segments(samples: &Samples) -> Vec<Segment> {
 }
 
 /// Speeds in which steady ones are looked for, from whatever was recorded with less noise.
-struct Speeds {
+struct Speeds<'a> {
     averaged: Vec<f64>,
     /// The standard deviation of the averaged noise.
     noise: f64,
     /// The standard deviation of the noise on the positions, where the speeds come from them.
     of_positions: Option<f64>,
     /// Speeds of single samples, and their noise.
-    single: Vec<f64>,
+    single: Cow<'a, [f64]>,
     single_noise: f64,
     shortest: usize,
 }
 
-impl Speeds {
-    fn of(samples: &Samples) -> Self {
+impl<'a> Speeds<'a> {
+    fn of(samples: &'a Samples) -> Self {
         let width = samples_in(AVERAGED_S, samples.step_s);
         let recorded = noise_of(&samples.velocities);
         let averaged_noise = recorded / count(width).sqrt();
@@ -110,7 +111,7 @@ impl Speeds {
                 noise: of_positions,
                 of_positions: Some(noise_of(&samples.positions)),
                 single_noise: noise_of(&single),
-                single,
+                single: Cow::Owned(single),
                 shortest,
             };
         }
@@ -118,7 +119,7 @@ impl Speeds {
             averaged: moving_average(&samples.velocities, width),
             noise: averaged_noise,
             of_positions: None,
-            single: samples.velocities.clone(),
+            single: Cow::Borrowed(&samples.velocities),
             single_noise: recorded,
             shortest,
         }

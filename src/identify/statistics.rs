@@ -1,5 +1,7 @@
 //! Means, middles and spreads of samples.
 
+use std::collections::VecDeque;
+
 /// What makes a standard deviation of the median of deviations.
 const NORMAL: f64 = 1.4826;
 
@@ -77,18 +79,20 @@ pub(super) fn count(samples: usize) -> f64 {
 
 /// The mean of the samples around each one.
 pub(super) fn moving_average(values: &[f64], width: usize) -> Vec<f64> {
-    let mut sums = Vec::with_capacity(values.len() + 1);
-    let mut sum = 0.0;
-    sums.push(0.0);
-    for value in values {
-        sum += value;
-        sums.push(sum);
-    }
+    // Sums up to each sample, those that a mean still needs.
+    let mut sums = VecDeque::from([0.0]);
+    let (mut sum, mut first) = (0.0, 0);
     (0..values.len())
         .map(|at| {
             let from = at.saturating_sub(width / 2);
             let to = (from + width).min(values.len());
-            (sums[to] - sums[from]) / count(to - from)
+            for value in &values[first + sums.len() - 1..to] {
+                sum += value;
+                sums.push_back(sum);
+            }
+            sums.drain(..from - first);
+            first = from;
+            (sums[to - first] - sums[0]) / count(to - from)
         })
         .collect()
 }

@@ -1,5 +1,7 @@
 //! Channels of several rates brought to one clock.
 
+use std::borrow::Cow;
+
 use thiserror::Error;
 
 use super::channel::ChannelIndex;
@@ -145,24 +147,29 @@ impl TraceRecording {
         pick: &Pick,
         cycle_s: Option<f64>,
         remarks: &mut Vec<String>,
-    ) -> Result<Track, NotAligned> {
+    ) -> Result<Track<'_>, NotAligned> {
         let channel = pick.channel;
         let values = self.values(channel);
         #[allow(clippy::cast_precision_loss)] // rows of a file
         let counted = |cycle: f64| (0..values.len()).map(|row| row as f64 * cycle).collect();
-        let all: Vec<f64> = match (self.times_s(channel), cycle_s) {
-            (Some(times), _) => times.to_vec(),
-            (None, Some(cycle)) => counted(cycle),
+        let all: Cow<'_, [f64]> = match (self.times_s(channel), cycle_s) {
+            (Some(times), _) => Cow::Borrowed(times),
+            (None, Some(cycle)) => Cow::Owned(counted(cycle)),
             (None, None) => return Err(NotAligned::NoTimes),
         };
-        let pairs = all
-            .iter()
-            .zip(values)
-            .filter(|(_, value)| value.is_finite());
-        let (times_s, values): (Vec<f64>, Vec<f64>) = pairs
-            .map(|(time, value)| (*time, value * pick.unit.factor))
-            .unzip();
-        let missing = all.len() - times_s.len();
+        let rows = all.len();
+        let scaled = |value: &f64| value * pick.unit.factor;
+        let is_whole = rows == values.len() && values.iter().all(|value| value.is_finite());
+        let (times_s, values): (Cow<'_, [f64]>, Vec<f64>) = if is_whole {
+            (all, values.iter().map(scaled).collect())
+        } else {
+            let pairs = all.iter().zip(values);
+            let pairs = pairs.filter(|(_, value)| value.is_finite());
+            let (times, values): (Vec<f64>, Vec<f64>) =
+                pairs.map(|(time, value)| (*time, scaled(value))).unzip();
+            (Cow::Owned(times), values)
+        };
+        let missing = rows - times_s.len();
         if missing > 0 {
             remarks.push(format!(
                 "{missing} samples of `{}` are no numbers and left out",
@@ -198,16 +205,17 @@ fn milliseconds(seconds: f64) -> f64 {
 }
 
 /// A channel with its own times.
-struct Track {
+struct Track<'a> {
     channel: ChannelIndex,
     clock: Option<usize>,
     has_holes: bool,
-    times_s: Vec<f64>,
+    /// Those of the recording where none is left out.
+    times_s: Cow<'a, [f64]>,
     values: Vec<f64>,
     step_s: f64,
 }
 
-impl Track {
+impl Track<'_> {
     fn first(&self) -> f64 {
         self.times_s.first().copied().unwrap_or(f64::INFINITY)
     }

@@ -143,5 +143,17 @@ fn plant(dice: &mut Dice<'_>) -> String {
     if dice.below(3) == 0 {
         number("Kp", between(dice, [0.1, 1e10]));
     }
+    if dice.below(3) == 0 {
+        text.push_str("[stiction]\n");
+        for (key, range) in [
+            ("mp1511", [1.0, 16_777_215.0]),
+            ("mp1512", [0.1, 1e6]),
+            ("gp", [1e-3, 1e4]),
+            ("mp1513", [1e-3, 1000.0]),
+        ] {
+            let _ = writeln!(text, "{key} = {}", between(dice, range));
+        }
+        let _ = writeln!(text, "tc = {}", 250 * [1, 4, 12, 400][dice.below(4)]);
+    }
     text
 }

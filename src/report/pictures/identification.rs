@@ -125,7 +125,7 @@ struct Piece {
 }
 
 /// Pieces of the way.
-const PIECES: u32 = 200;
+const PIECES: u32 = 100;
 
 impl Piece {
     /// Pieces of equal length, those without samples left out.

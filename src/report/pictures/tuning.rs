@@ -77,7 +77,7 @@ fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
             vec![off, pairs, on()],
         ),
         panel(
-            "the same after tuning, with other friction than the list says",
+            "the same after tuning, with less and more friction",
             vec![
                 unseen,
                 on(),

@@ -10,10 +10,13 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use frictcomp::host::read_axis;
+use frictcomp::identify::{IdentifyOptions, identify};
 use frictcomp::machine::{Machine, NoLists, check_list};
 use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
+use frictcomp::trace::ChannelSelection;
 
 /// How much more a program of twice the length may need: the exponent 1.2.
 const TWICE: f64 = 2.3;
@@ -351,16 +354,16 @@ fn a_recording_takes_at_most_three_times_the_columns_that_are_used() {
         fs::write(&path, recording(rows)).expect("written");
         // Times, velocities and torques.
         let used = 3 * 8 * u64::try_from(rows).expect("a few");
-        let selection = frictcomp::trace::ChannelSelection::default();
+        let selection = ChannelSelection::default();
         let mut track = None;
         let read = allocation_counter::measure(|| {
-            let recording = frictcomp::host::read_axis(&path, &selection, None);
+            let recording = read_axis(&path, &selection, None);
             track = Some(recording.expect("a recording").track);
         });
         let track = track.expect("a track");
         assert_eq!(track.torques.len(), rows);
         let identified = allocation_counter::measure(|| {
-            let found = frictcomp::identify::identify(&track, &Default::default());
+            let found = identify(&track, &IdentifyOptions::default());
             assert!(found.is_ok(), "{found:?}");
         });
         let held = read.bytes_max.max(used + identified.bytes_max);

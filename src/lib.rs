@@ -87,6 +87,7 @@ pub mod cli;
 pub mod comp;
 #[cfg(feature = "toml")]
 mod config;
+pub mod contour;
 pub mod current;
 pub mod diagnostic;
 pub mod drive_interface;

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 25] = [
+const ROOMS: [(&str, &[&str]); 26] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -120,8 +120,25 @@ const ROOMS: [(&str, &[&str]); 25] = [
         &["text", "machine", "timeline", "session", "current"],
     ),
     (
+        "contour",
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "lists",
+            "machine",
+            "interpreter",
+            "timeline",
+            "motion",
+            "current",
+            "simulation",
+        ],
+    ),
+    (
         "report",
         &[
+            "motion",
+            "contour",
             "audit",
             "text",
             "diagnostic",
@@ -165,6 +182,7 @@ const ROOMS: [(&str, &[&str]); 25] = [
     (
         "cli",
         &[
+            "contour",
             "audit",
             "text",
             "diagnostic",

@@ -436,6 +436,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "drive",
         "current",
         "circle",
+        "contour",
         "tune",
         "stiction",
         "trace",

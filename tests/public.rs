@@ -142,13 +142,13 @@ fn a_type_has_a_name_of_its_own() {
 /// Whether a public name is that of a trait.
 fn is_trait(name: &str) -> bool {
     const TRAITS: [&str; 12] = [
+        "ContourSink",
         "CurrentSink",
         "Finder",
         "LineSource",
         "ListFiles",
         "Observer",
         "Report",
-        "Simulations",
         "Simulations",
         "Sources",
         "Sink",

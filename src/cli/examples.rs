@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 21] = [
+static EXAMPLES: [Examples; 22] = [
     examples(
         &["run"],
         [
@@ -74,6 +74,13 @@ static EXAMPLES: [Examples; 21] = [
         [
             "frictcomp circle --radius 50 --feed 5000 --svg circle.svg",
             "frictcomp circle --trace ccw.csv --trace cw.csv --radius 50",
+        ],
+    ),
+    examples(
+        &["contour"],
+        [
+            "frictcomp contour mill.nc --start X0,Y0,Z0",
+            "frictcomp contour mill.nc --plant mid --svg contour.svg --fail-above 5",
         ],
     ),
     examples(

@@ -8,6 +8,7 @@ mod codes;
 mod completions;
 mod config;
 mod console;
+mod contour;
 mod current;
 mod cycle;
 mod diff;
@@ -83,6 +84,7 @@ enum Command {
     Drive(drive::DriveArgs),
     Current(current::CurrentArgs),
     Circle(circle::CircleArgs),
+    Contour(contour::ContourArgs),
     Tune(tune::TuneArgs),
     Stiction(stiction::StictionArgs),
     Trace(trace::TraceArgs),
@@ -159,6 +161,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Drive(args) => drive::run(args, console),
         Command::Current(args) => current::run(args, console),
         Command::Circle(args) => circle::run(args, console),
+        Command::Contour(args) => contour::run(args, console),
         Command::Tune(args) => tune::run(args, console),
         Command::Stiction(args) => stiction::run(args, console),
         Command::Trace(args) => trace::run(args, console),

@@ -41,6 +41,17 @@ pub enum Movement {
     Dwell,
 }
 
+impl Movement {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Rapid => "rapid",
+            Self::Feed => "feed",
+            Self::Dwell => "dwell",
+        }
+    }
+}
+
 /// The commanded trace in one CNC cycle (R5.1).
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a> {

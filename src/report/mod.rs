@@ -10,6 +10,7 @@ pub mod circle;
 mod concise;
 #[cfg(feature = "toml")]
 pub mod configuration;
+pub mod contour;
 mod csv;
 mod diagnostics;
 pub mod drives;

@@ -244,8 +244,8 @@ mod tests {
         let drive = Preset::Mid.plant().x;
         for (delay_cycles, position_delay) in [(0, 0), (30, 10), (248, 2000)] {
             let list = FrictionList {
-                delay_cycles,
                 position_delay,
+                delay_cycles,
                 ..crate::simulation::plant_list(&drive)
             };
             let window = Window::of(&circle, PlaneAxis::X);

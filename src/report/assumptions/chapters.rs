@@ -2,7 +2,8 @@
 
 use super::assumption::Assumption;
 use super::{
-    circle, command, current, drives, identification, language, lists, motion, runs, stiction,
+    circle, command, contour, current, drives, identification, language, lists, motion, runs,
+    stiction,
 };
 
 /// A part of the table.
@@ -15,7 +16,7 @@ pub struct Chapter {
 }
 
 /// All assumptions that can change a result.
-pub const CHAPTERS: [Chapter; 10] = [
+pub const CHAPTERS: [Chapter; 11] = [
     Chapter {
         title: "The COMP command",
         assumptions: command::ASSUMED,
@@ -51,6 +52,10 @@ pub const CHAPTERS: [Chapter; 10] = [
     Chapter {
         title: "Identification",
         assumptions: identification::ASSUMED,
+    },
+    Chapter {
+        title: "The contour",
+        assumptions: contour::ASSUMED,
     },
     Chapter {
         title: "Runs",

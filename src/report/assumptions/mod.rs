@@ -6,6 +6,7 @@ mod assumption;
 mod chapters;
 mod circle;
 mod command;
+mod contour;
 mod current;
 mod drives;
 mod identification;

@@ -9,6 +9,7 @@
 mod assumptions;
 mod audit;
 mod circle;
+mod contour;
 mod digest;
 mod given;
 mod identify;
@@ -24,6 +25,7 @@ mod versions;
 
 pub use audit::render_audit;
 pub use circle::render_circle;
+pub use contour::render_contour;
 pub use digest::RunDigest;
 pub use given::RunInputs;
 pub use identify::{render_identification, render_trace};

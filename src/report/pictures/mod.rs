@@ -1,6 +1,7 @@
 //! What the results of the tool look like as charts.
 
 mod circle;
+mod contour;
 mod current;
 mod identification;
 mod lists;
@@ -9,6 +10,7 @@ mod tuning;
 mod units;
 
 pub use circle::circle;
+pub use contour::ContourPicture;
 pub use current::{AxisPlot, CurrentPlot};
 pub use identification::{friction_curve, residuals_over_position, segments_on_trace};
 pub use lists::{value_curve, value_curves};

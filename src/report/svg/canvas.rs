@@ -146,6 +146,19 @@ impl Canvas {
     }
 
     /// The whole picture.
+    /// Another picture of the same width below what was drawn. Returns where it ends.
+    pub(super) fn embed(&mut self, picture: &str, y: f64) -> f64 {
+        let height = picture
+            .split_once(" height=\"")
+            .and_then(|(_, rest)| rest.split_once('"'))
+            .and_then(|(height, _)| height.parse::<f64>().ok());
+        let y_px = px(y);
+        self.raw(&format!(
+            "<g transform=\"translate(0 {y_px})\">\n{picture}</g>\n"
+        ));
+        y + height.unwrap_or_default()
+    }
+
     pub(super) fn finish(self, frame: Frame<'_>, head: &Head<'_>) -> String {
         let (prefix, alone) = match frame {
             Frame::Alone => ("picture", true),

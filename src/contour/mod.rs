@@ -1,0 +1,25 @@
+//! Where on the part compensation is missing (chapter 11 of the rules).
+//!
+//! The path of an executed program is driven by simulated axes three times: with friction
+//! compensation as the program switches it, with all of it on, and with all of it off. A
+//! [`ProgramContour`] takes the records of a session, measures how far the axes are from the path,
+//! and tells a [`ContourSink`] every reversal with the glitch that it leaves.
+//!
+//! Memory does not grow with the length of a program, except for what a sink keeps. Deviations are
+//! in µm, positions in mm, times in s.
+
+mod axes;
+mod figures;
+mod options;
+mod path;
+mod per_run;
+mod program;
+mod reversals;
+mod run;
+
+pub use axes::{MovingAxes, NoContour, parameterise};
+pub use figures::{ContourSummary, Deviations, Worst};
+pub use options::{ContourAxis, ContourOptions, ListSource, MOST_AXES};
+pub use per_run::PerRun;
+pub use program::{ContourPoint, ContourSink, ProgramContour};
+pub use reversals::ContourReversal;

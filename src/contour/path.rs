@@ -1,0 +1,287 @@
+//! The commanded path as points, and how far a place is from it (R11.3).
+
+use std::collections::VecDeque;
+
+use super::options::MOST_AXES;
+
+/// A place of all axes in mm; those that are not driven are 0.
+pub(super) type Places = [f64; MOST_AXES];
+
+/// Points that are closer together are one, in mm.
+const SAME: f64 = 1e-7;
+
+/// Two steps in one direction differ by no more, in rad.
+const STRAIGHT: f64 = 1e-9;
+
+/// A curve turns by no more from point to point, in rad; anything else is a corner.
+const CORNER: f64 = 0.3;
+
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    place: Places,
+    /// The angle by which the path in the plane turns here, to the left.
+    turn: f64,
+    /// Whether the last turn was to the left: 1, or to the right: -1.
+    side: f64,
+}
+
+/// How far a place is from the path.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Distance {
+    /// In the plane, in mm: positive on the outside of the curve.
+    pub(super) plane: f64,
+    /// From the nearest point of the path to the place, by axis.
+    pub(super) error: Places,
+}
+
+/// The commanded path, as far as it matters.
+#[derive(Debug, Clone)]
+pub(super) struct CommandedPath {
+    points: VecDeque<Point>,
+    /// So many points before the commanded one the nearest may be.
+    back: u64,
+    /// The number of the first of the points.
+    first: u64,
+}
+
+fn minus(one: &Places, other: &Places) -> Places {
+    std::array::from_fn(|axis| one[axis] - other[axis])
+}
+
+fn dot(one: &Places, other: &Places) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+impl CommandedPath {
+    /// A path that places follow at most so many cycles later.
+    pub(super) fn new(back: u64) -> Self {
+        Self {
+            points: VecDeque::new(),
+            back,
+            first: 0,
+        }
+    }
+
+    /// Forgets the path: the next point is the first one.
+    pub(super) fn restart(&mut self) {
+        self.first = self.last() + 1;
+        self.points.clear();
+    }
+
+    /// The number of the last point.
+    fn last(&self) -> u64 {
+        let count = u64::try_from(self.points.len()).unwrap_or(u64::MAX);
+        (self.first + count).saturating_sub(1)
+    }
+
+    fn at(&self, number: u64) -> Option<&Point> {
+        let position = number.checked_sub(self.first)?;
+        self.points.get(usize::try_from(position).ok()?)
+    }
+
+    /// Goes on to a place, and returns the number of the point that stands for it.
+    pub(super) fn push(&mut self, place: Places) -> u64 {
+        let Some(last) = self.points.back() else {
+            self.points.push_back(Point {
+                place,
+                turn: 0.0,
+                side: 1.0,
+            });
+            return self.last();
+        };
+        let step = minus(&place, &last.place);
+        if dot(&step, &step) < SAME * SAME {
+            return self.last();
+        }
+        let mut side = last.side;
+        let mut turn = 0.0;
+        if let Some(before) = self.points.len().checked_sub(2).map(|at| &self.points[at]) {
+            let came = minus(&last.place, &before.place);
+            let cross = came[0] * step[1] - came[1] * step[0];
+            turn = cross.atan2(came[0] * step[0] + came[1] * step[1]);
+            if turn.abs() > STRAIGHT && turn.abs() < 3.0 {
+                side = turn.signum();
+            }
+        }
+        if let Some(last) = self.points.back_mut() {
+            last.turn = turn;
+            last.side = side;
+        }
+        self.points.push_back(Point {
+            place,
+            turn: 0.0,
+            side,
+        });
+        self.last()
+    }
+
+    /// Forgets the points long before one.
+    pub(super) fn forget_before(&mut self, number: u64) {
+        while self.points.len() > 2 && self.first + self.back < number {
+            self.points.pop_front();
+            self.first += 1;
+        }
+    }
+
+    /// The distance of a place from the path near the point that was commanded. `near` is the number
+    /// of the nearest point a cycle before, and becomes that of now.
+    pub(super) fn distance(&self, place: &Places, (near, commanded): (&mut u64, u64)) -> Distance {
+        let lowest = self.first;
+        let highest = self.last().saturating_sub(1);
+        if self.points.len() < 2 {
+            let error = self.points.front().map(|only| minus(place, &only.place));
+            return Distance {
+                plane: 0.0,
+                error: error.unwrap_or_default(),
+            };
+        }
+        // It never goes back along the path: where a path returns over itself, the place would be
+        // found on the way that is already behind it. Around a corner the next step may be further
+        // away and the one after it nearer: all that come into question are compared.
+        let from = commanded.saturating_sub(self.back).clamp(lowest, highest);
+        let mut at = (*near).clamp(from, highest);
+        let mut best = self.project(at, place);
+        for number in at + 1..=highest {
+            let next = self.project(number, place);
+            if next.square < best.square {
+                (at, best) = (number, next);
+            }
+        }
+        *near = at;
+        self.signed(at, &best)
+    }
+
+    /// The foot of a place on the step that begins at a point.
+    fn project(&self, number: u64, place: &Places) -> Foot {
+        let (Some(from), Some(to)) = (self.at(number), self.at(number + 1)) else {
+            return Foot::default();
+        };
+        let step = minus(&to.place, &from.place);
+        let length = dot(&step, &step);
+        let offset = minus(place, &from.place);
+        let share = (dot(&offset, &step) / length).clamp(0.0, 1.0);
+        let error: Places = std::array::from_fn(|axis| offset[axis] - share * step[axis]);
+        Foot {
+            square: dot(&error, &error),
+            share,
+            error,
+        }
+    }
+
+    fn signed(&self, number: u64, foot: &Foot) -> Distance {
+        let (Some(from), Some(to)) = (self.at(number), self.at(number + 1)) else {
+            return Distance::default();
+        };
+        let step = minus(&to.place, &from.place);
+        // Where the path ends or turns back, a place beyond its end is no deviation from it.
+        let along = dot(&foot.error, &step) / dot(&step, &step);
+        let error: Places = std::array::from_fn(|axis| foot.error[axis] - along * step[axis]);
+        let length = step[0].hypot(step[1]);
+        if length < SAME {
+            return Distance {
+                plane: error[0].hypot(error[1]),
+                error,
+            };
+        }
+        let mut left = (step[0] * error[1] - step[1] * error[0]) / length;
+        // A curve bulges beyond the chord from point to point.
+        if from.turn.abs() < CORNER && to.turn.abs() < CORNER {
+            let curvature = f64::midpoint(from.turn, to.turn) / length;
+            let (done, rest) = (foot.share * length, (1.0 - foot.share) * length);
+            left += curvature * done * rest / 2.0;
+        }
+        Distance {
+            plane: -left * from.side,
+            error,
+        }
+    }
+}
+
+/// The foot of a place on a step of the path.
+#[derive(Debug, Clone, Copy, Default)]
+struct Foot {
+    square: f64,
+    share: f64,
+    error: Places,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(x: f64, y: f64) -> Places {
+        let mut place = Places::default();
+        (place[0], place[1]) = (x, y);
+        place
+    }
+
+    #[test]
+    fn outside_of_a_circle_is_positive_in_either_sense() {
+        // R11.3
+        for sense in [1.0, -1.0] {
+            let mut path = CommandedPath::new(60);
+            let at =
+                |angle: f64, radius: f64| place(radius * angle.cos(), sense * radius * angle.sin());
+            for step in 0..200 {
+                path.push(at(f64::from(step) * 0.002, 50.0));
+            }
+            for deviation in [0.01, -0.02, 0.0] {
+                let mut near = 0;
+                let found = path.distance(&at(0.1511, 50.0 + deviation), (&mut near, 80));
+                assert!((found.plane - deviation).abs() < 1e-6, "{}", found.plane);
+            }
+        }
+    }
+
+    #[test]
+    fn a_path_that_returns_over_itself_is_followed_in_its_order() {
+        let mut path = CommandedPath::new(60);
+        let out = (0..100).map(|step| place(f64::from(step) * 0.1, 0.0));
+        let back = (0..100).map(|step| place(9.9 - f64::from(step) * 0.1, 0.0));
+        let points: Vec<Places> = out.chain(back).collect();
+        let numbers: Vec<u64> = points.iter().map(|point| path.push(*point)).collect();
+        let mut near = 0;
+        for (point, number) in points.iter().zip(numbers) {
+            let found = path.distance(point, (&mut near, number));
+            assert!(found.plane.abs() < 1e-9);
+        }
+        assert!(near >= 196, "{near}");
+    }
+
+    #[test]
+    fn a_corner_is_passed_however_slowly_the_path_leaves_it() {
+        let mut path = CommandedPath::new(60);
+        let mut points = Vec::new();
+        for step in 0..=100 {
+            let rest = f64::from(100 - step) / 100.0;
+            points.push(place(10.0 - rest * rest * rest, 0.0));
+        }
+        for step in 1..=300 {
+            let gone = f64::from(step) / 300.0;
+            let mut point = place(10.0, 0.0);
+            point[2] = -6.0 * gone * gone * gone;
+            points.push(point);
+        }
+        let numbers: Vec<u64> = points.iter().map(|point| path.push(*point)).collect();
+        let mut near = 0;
+        for (at, number) in numbers.iter().enumerate() {
+            // The axes lag by five cycles and have overshot the corner.
+            let mut actual = points[at.saturating_sub(5)];
+            actual[0] += if at > 100 { 0.0138 } else { 0.0 };
+            let found = path.distance(&actual, (&mut near, *number));
+            assert!(found.error[2].abs() < 1e-6, "{at}: {}", found.error[2]);
+        }
+    }
+
+    #[test]
+    fn the_nearest_point_is_sought_and_not_the_commanded_one() {
+        let mut path = CommandedPath::new(60);
+        for step in 0..100 {
+            path.push(place(f64::from(step) * 0.1, 0.0));
+        }
+        let mut near = 0;
+        let found = path.distance(&place(3.25, -0.004), (&mut near, 60));
+        assert!((found.plane - 0.004).abs() < 1e-9);
+        assert_eq!(near, 32);
+    }
+}

@@ -1,0 +1,28 @@
+//! The three runs side by side (R11.4).
+
+use serde::Serialize;
+
+/// Something of each of the three runs.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct PerRun<T> {
+    /// As the program switches it.
+    pub programmed: T,
+    /// All of it on.
+    pub all_on: T,
+    /// All of it off.
+    pub all_off: T,
+}
+
+impl<T> PerRun<T> {
+    pub(super) fn each_mut(&mut self) -> [&mut T; 3] {
+        [&mut self.programmed, &mut self.all_on, &mut self.all_off]
+    }
+
+    pub(super) fn from_each([programmed, all_on, all_off]: [T; 3]) -> Self {
+        Self {
+            programmed,
+            all_on,
+            all_off,
+        }
+    }
+}

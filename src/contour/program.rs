@@ -1,0 +1,405 @@
+//! From the rows of a session to the contour: program, trace, currents, drives, deviations.
+
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::figures::{ContourSummary, Deviations};
+use super::options::{ContourAxis, ContourOptions, MOST_AXES};
+use super::path::{CommandedPath, Distance, Places};
+use super::per_run::PerRun;
+use super::reversals::{ContourReversal, Measured, Reversals};
+use super::run::Run;
+use crate::comp::{AxisIndex, State};
+use crate::current::{
+    AdditiveCurrent, Commanded, CurrentSample, Followers, POSITION_UNITS_PER_MM,
+    VELOCITY_UNITS_PER_MM_PER_S,
+};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::interpreter::PositionFrame;
+use crate::machine::Machine;
+use crate::motion::{Cause, Movement, Sample, SkippedMotion, TraceSink, TrajectoryPlanner};
+use crate::timeline::{Record, Sink};
+
+const UM_PER_MM: f64 = 1000.0;
+
+/// So many cycles of the path are known beyond the one that is driven.
+const AHEAD: usize = 16;
+
+/// The contour in one CNC cycle.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct ContourPoint<'a> {
+    /// The time of the trace.
+    pub time_s: f64,
+    /// The block that is executed, and what holds in it.
+    pub cause: &'a Arc<Cause>,
+    /// Where the axes are commanded to be, in mm; those of the plane first.
+    pub positions: &'a [f64],
+    /// The signed distance from the path in the plane, positive on the outside of a curve.
+    pub deviation_um: PerRun<f64>,
+    /// From the nearest point of the path to where the axes of the plane are, as programmed, in mm.
+    pub error_mm: [f64; 2],
+    /// Whether it counts: in a feed move, with positions of the machine.
+    pub counts: bool,
+}
+
+/// Who hears of a contour.
+pub trait ContourSink {
+    /// Takes a cycle.
+    fn point(&mut self, point: &ContourPoint<'_>) {
+        let _ = point;
+    }
+
+    /// Takes a reversal, once its window has ended.
+    fn reversal(&mut self, reversal: &ContourReversal) {
+        let _ = reversal;
+    }
+
+    /// Whether it wants no more.
+    fn is_closed(&self) -> bool {
+        false
+    }
+}
+
+/// Makes the contour of the rows of a session, which must say what their blocks move
+/// ([`Motions::Taken`](crate::interpreter::Motions::Taken)).
+pub struct ProgramContour<S> {
+    planner: TrajectoryPlanner,
+    tracer: Tracer<S>,
+    errors: Vec<Diagnostic>,
+    over: ControlFlow<()>,
+}
+
+/// A cycle that is not driven yet.
+struct Cycle {
+    time_s: f64,
+    cause: Arc<Cause>,
+    places: Places,
+    velocities: Places,
+    path_velocity: f64,
+    /// The number of its point of the path.
+    point: u64,
+    /// The additive currents of the programmed run, and of the one with all of it on.
+    added: [Places; 2],
+}
+
+/// The three runs and what is measured of them.
+struct Tracer<S> {
+    options: ContourOptions,
+    path: CommandedPath,
+    programmed: Followers,
+    all_on: Followers,
+    /// Cycles whose currents are not known yet.
+    waiting: VecDeque<Cycle>,
+    /// Cycles whose currents are known.
+    ready: VecDeque<Cycle>,
+    runs: Option<[Run; 3]>,
+    reversals: Reversals,
+    deviations: PerRun<Deviations>,
+    axes: Vec<ContourSummary>,
+    cycles: u64,
+    not_of_the_machine: u64,
+    left_out: u64,
+    is_unstable: bool,
+    sink: S,
+}
+
+impl<S: ContourSink> ProgramContour<S> {
+    /// The contour of a program on a machine.
+    pub fn new(machine: &Machine, options: ContourOptions, sink: S) -> Self {
+        let followed: Vec<AxisIndex> = options.axes.iter().map(|axis| axis.axis).collect();
+        let current = |axis: &ContourAxis| {
+            AdditiveCurrent::new(&axis.list, options.reading).scaled(axis.torque_scale)
+        };
+        let followers = || Followers::new(options.axes.iter().map(current).collect());
+        let names: Vec<String> = options.axes.iter().map(|axis| axis.name.clone()).collect();
+        let summary = |axis: &String| ContourSummary {
+            axis: axis.clone(),
+            ..ContourSummary::default()
+        };
+        Self {
+            planner: TrajectoryPlanner::new(machine, &followed, options.planner),
+            tracer: Tracer {
+                path: CommandedPath::new(lag_cycles(&options)),
+                programmed: followers(),
+                all_on: followers(),
+                waiting: VecDeque::new(),
+                ready: VecDeque::new(),
+                runs: None,
+                axes: names.iter().map(summary).collect(),
+                reversals: Reversals::new(names, options.planner.cycle_s),
+                deviations: PerRun::default(),
+                cycles: 0,
+                not_of_the_machine: 0,
+                left_out: 0,
+                is_unstable: false,
+                options,
+                sink,
+            },
+            errors: Vec::new(),
+            over: ControlFlow::Continue(()),
+        }
+    }
+
+    /// The session is over: the rest of the trace is driven.
+    pub fn finish(&mut self) {
+        if self.over.is_continue() && self.planner.finish(&mut self.tracer).is_continue() {
+            let _ = self.tracer.drain();
+        }
+        self.over = ControlFlow::Break(());
+    }
+
+    /// How far each run was from the path.
+    pub fn deviations(&self) -> &PerRun<Deviations> {
+        &self.tracer.deviations
+    }
+
+    /// The reversals of each axis, those of the plane first.
+    pub fn axes(&self) -> &[ContourSummary] {
+        &self.tracer.axes
+    }
+
+    /// The machine time in s that was driven.
+    pub fn machine_time_s(&self) -> f64 {
+        seconds(self.tracer.cycles, self.tracer.options.planner.cycle_s)
+    }
+
+    /// The machine time in s in which positions were not those of the machine (R11.8).
+    pub fn time_not_of_the_machine_s(&self) -> f64 {
+        let cycles = self.tracer.not_of_the_machine;
+        seconds(cycles, self.tracer.options.planner.cycle_s)
+    }
+
+    /// How many motions are left out, because it is not known where they lead or how fast.
+    pub fn left_out(&self) -> u64 {
+        self.tracer.left_out
+    }
+
+    /// Whether a drive was unstable; the contour ends there.
+    pub fn is_unstable(&self) -> bool {
+        self.tracer.is_unstable
+    }
+
+    /// The axes, their drives and their lists.
+    pub fn options(&self) -> &ContourOptions {
+        &self.tracer.options
+    }
+
+    /// The errors that the session reported, then what there is to say about the trace.
+    pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
+        (&self.errors, self.planner.diagnostics())
+    }
+
+    /// Who heard of the contour.
+    pub fn sink(&mut self) -> &mut S {
+        &mut self.tracer.sink
+    }
+}
+
+/// Cycles by which a drive lags at most: what the feed forward leaves of the lag `v/Kv`, and 20 ms
+/// beside it for the loops and an overshoot.
+fn lag_cycles(options: &ContourOptions) -> u64 {
+    let lags = options.axes.iter().map(|axis| {
+        let drive = &axis.drive;
+        (1.0 - drive.velocity_forward).max(0.0) / drive.position_gain_per_s
+    });
+    let longest_s = lags.fold(0.0, f64::max) * 1.5 + 0.02;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturates
+    let cycles = (longest_s / options.planner.cycle_s).ceil() as u64;
+    cycles.max(4)
+}
+
+#[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
+fn seconds(cycles: u64, each_s: f64) -> f64 {
+    cycles as f64 * each_s
+}
+
+impl<S: ContourSink> Sink for ProgramContour<S> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        let error = |said: &&Diagnostic| said.severity == Severity::Error;
+        match *record {
+            Record::Machine(said) => self.errors.extend(Some(said).filter(error).cloned()),
+            Record::Block(ref row) => {
+                self.errors
+                    .extend(row.diagnostics.iter().filter(error).cloned());
+                self.over = self.planner.block(row, &mut self.tracer);
+            }
+            Record::End(ref end) => {
+                let notes = end.notes.iter().map(|note| &note.diagnostic);
+                self.errors.extend(notes.filter(error).cloned());
+            }
+            _ => {}
+        }
+        self.over
+    }
+}
+
+impl<S: ContourSink> TraceSink for Tracer<S> {
+    fn begin(&mut self, _: f64, _: &Arc<Cause>) -> ControlFlow<()> {
+        self.drain()?;
+        self.restart();
+        ControlFlow::Continue(())
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        let places = widened(sample.positions);
+        let friction = sample.cause.friction.iter();
+        let commanded = |friction: &mut dyn Iterator<Item = State>| -> Vec<Commanded> {
+            let axes = sample.positions.iter().zip(sample.velocities);
+            axes.zip(friction)
+                .map(|((x, v), friction)| Commanded {
+                    position_units: x * POSITION_UNITS_PER_MM,
+                    velocity_units: v * VELOCITY_UNITS_PER_MM_PER_S,
+                    friction,
+                })
+                .collect()
+        };
+        self.waiting.push_back(Cycle {
+            time_s: sample.time_s,
+            cause: Arc::clone(sample.cause),
+            places,
+            velocities: widened(sample.velocities),
+            path_velocity: sample.path_velocity,
+            point: self.path.push(places),
+            added: Default::default(),
+        });
+        let programmed = self.programmed.push(commanded(&mut friction.copied()));
+        let on = commanded(&mut std::iter::repeat(State::Active));
+        if let (Some(programmed), Some(all_on)) = (programmed, self.all_on.push(on))
+            && let Some(mut cycle) = self.waiting.pop_front()
+        {
+            cycle.added = [units(programmed), units(all_on)];
+            self.ready.push_back(cycle);
+        }
+        self.advance(AHEAD)
+    }
+
+    fn left_out(&mut self, _: &SkippedMotion<'_>) {
+        self.left_out += 1;
+    }
+}
+
+impl<S: ContourSink> Tracer<S> {
+    /// Drives the cycles that are ready, but the last so many.
+    fn advance(&mut self, keep: usize) -> ControlFlow<()> {
+        while self.ready.len() > keep.max(1) {
+            let Some(cycle) = self.ready.pop_front() else {
+                break;
+            };
+            let to = self.ready.front().map_or(cycle.places, |next| next.places);
+            self.drive(&cycle, &to)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Drives what is left of the trace.
+    fn drain(&mut self) -> ControlFlow<()> {
+        while let (Some(programmed), Some(all_on)) = (self.programmed.pop(), self.all_on.pop()) {
+            let Some(mut cycle) = self.waiting.pop_front() else {
+                break;
+            };
+            cycle.added = [units(programmed), units(all_on)];
+            self.ready.push_back(cycle);
+        }
+        self.advance(0)?;
+        if let Some(last) = self.ready.pop_front() {
+            let to = last.places;
+            self.drive(&last, &to)?;
+        }
+        let (axes, sink) = (&mut self.axes, &mut self.sink);
+        self.reversals
+            .restart(|reversal| take(axes, sink, &reversal));
+        ControlFlow::Continue(())
+    }
+
+    fn restart(&mut self) {
+        self.programmed.restart();
+        self.all_on.restart();
+        self.waiting.clear();
+        self.ready.clear();
+        self.path.restart();
+        self.runs = None;
+    }
+
+    /// One CNC cycle of all runs.
+    fn drive(&mut self, cycle: &Cycle, to: &Places) -> ControlFlow<()> {
+        let options = &self.options;
+        let runs = self
+            .runs
+            .get_or_insert_with(|| [(); 3].map(|()| Run::at_rest(options, &cycle.places)));
+        let none = Places::default();
+        let [programmed, all_on] = &cycle.added;
+        let mut distances = [Distance::default(); 3];
+        for ((run, added), distance) in runs
+            .iter_mut()
+            .zip([programmed, all_on, &none])
+            .zip(&mut distances)
+        {
+            let places = (&cycle.places, to);
+            let Some(reached) = run.follow(places, added, options.planner.cycle_s) else {
+                self.is_unstable = true;
+                return ControlFlow::Break(());
+            };
+            *distance = self.path.distance(&reached, (&mut run.near, cycle.point));
+        }
+        self.path.forget_before(cycle.point);
+        self.cycles += 1;
+        let count = options.axes.len();
+        let is_of_machine = cycle.cause.frame == PositionFrame::Machine;
+        self.not_of_the_machine += u64::from(!is_of_machine);
+        let counts = is_of_machine && cycle.cause.movement == Movement::Feed;
+        let deviation_um = distances.map(|distance| distance.plane * UM_PER_MM);
+        if counts {
+            let all = self.deviations.each_mut().into_iter().zip(deviation_um);
+            all.for_each(|(deviations, deviation)| deviations.push(deviation));
+        }
+        let (axes, sink) = (&mut self.axes, &mut self.sink);
+        if is_of_machine {
+            let measured = Measured {
+                time_s: cycle.time_s,
+                cause: &cycle.cause,
+                positions: &cycle.places[..count],
+                velocities: &cycle.velocities[..count],
+                path_velocity: cycle.path_velocity,
+                added: &programmed[..count],
+                distances: &distances,
+            };
+            self.reversals
+                .push(&measured, |reversal| take(axes, sink, &reversal));
+        }
+        self.sink.point(&ContourPoint {
+            time_s: cycle.time_s,
+            cause: &cycle.cause,
+            positions: &cycle.places[..count],
+            deviation_um: PerRun::from_each(deviation_um),
+            error_mm: [distances[0].error[0], distances[0].error[1]],
+            counts,
+        });
+        if self.sink.is_closed() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+fn take<S: ContourSink>(axes: &mut [ContourSummary], sink: &mut S, reversal: &ContourReversal) {
+    if let Some(axis) = axes.iter_mut().find(|axis| axis.axis == reversal.axis) {
+        axis.push(reversal);
+    }
+    sink.reversal(reversal);
+}
+
+fn widened(values: &[f64]) -> Places {
+    let mut places = [0.0; MOST_AXES];
+    places[..values.len()].copy_from_slice(values);
+    places
+}
+
+fn units(samples: &[CurrentSample]) -> Places {
+    let mut added = [0.0; MOST_AXES];
+    for (added, sample) in added.iter_mut().zip(samples) {
+        *added = sample.added.current_units;
+    }
+    added
+}

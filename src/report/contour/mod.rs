@@ -1,0 +1,11 @@
+//! A contour in every format (R11.4, R11.6).
+
+mod document;
+mod recorder;
+mod records;
+mod text;
+
+pub use document::{document, summary_record};
+pub use recorder::ContourRecorder;
+pub use records::{CSV_HEADER, csv_row, reversal_record};
+pub use text::{ContourSubject, render_text};

@@ -1,0 +1,89 @@
+//! The report of a contour: picture, figures, reversals.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use maud::{Markup, html};
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, figure};
+use crate::comp::State;
+use crate::contour::{ContourReversal, ProgramContour};
+use crate::report::contour::{ContourRecorder, ContourSubject, render_text};
+use crate::report::svg::{Frame, PlaneChart};
+
+const PICTURE: Part = Part::new("picture", "Path and deviation");
+const FIGURES: Part = Part::new("figures", "Figures");
+const REVERSALS: Part = Part::new("reversals", "Reversals by line");
+
+/// So many lines have a row of their own, those with the worst reversals.
+const LINES: usize = 500;
+
+/// Writes the report of a contour as one page.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_contour(
+    (contour, subject): (&mut ProgramContour<ContourRecorder<'_>>, &ContourSubject),
+    chart: &PlaneChart,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let text = render_text(contour, subject);
+    let (lead, figures) = text.split_once('\n').unwrap_or((&text, ""));
+    let mut page = Page::open(out, &chart.title, lead, &[PICTURE, FIGURES, REVERSALS])?;
+    page.part(PICTURE, &figure(chart.render(Frame::Inside("contour"))))?;
+    page.part(
+        FIGURES,
+        &html! { div.wide tabindex="0" { pre { (figures.trim()) } } },
+    )?;
+    page.part(REVERSALS, &reversals(contour.sink().reversals()))?;
+    page.close()
+}
+
+/// The reversals of each line, the lines with the worst first.
+fn reversals(reversals: &[ContourReversal]) -> Markup {
+    let mut lines: BTreeMap<(&str, u32, &str), Vec<&ContourReversal>> = BTreeMap::new();
+    for reversal in reversals {
+        let key = (&*reversal.file, reversal.line, reversal.axis.as_str());
+        lines.entry(key).or_default().push(reversal);
+    }
+    let worst = |reversals: &[&ContourReversal]| {
+        let glitches = reversals.iter().map(|it| it.glitch_um.programmed);
+        glitches.fold(0.0, f64::max)
+    };
+    let mut lines: Vec<_> = lines.into_iter().collect();
+    lines.sort_by(|one, other| worst(&other.1).total_cmp(&worst(&one.1)));
+    let shown = lines.len().min(LINES);
+    let rows = lines[..shown].iter().map(|((file, line, axis), all)| {
+        let off = all.iter().filter(|it| it.state != State::Active).count();
+        let most = |of: fn(&ContourReversal) -> f64| {
+            let values = all.iter().map(|it| of(it));
+            format!("{:.2}", values.fold(0.0, f64::max))
+        };
+        let cells = [
+            html! { (axis) },
+            html! { (all.len()) },
+            html! { @if off > 0 { span.state.away { (off) } } @else { "0" } },
+            html! { (most(|it| it.glitch_um.programmed)) },
+            html! { (most(|it| it.glitch_um.all_on)) },
+            html! { (most(|it| it.glitch_um.all_off)) },
+        ];
+        Row::new(&format!("{file}:{line}"), cells)
+    });
+    let table = Table {
+        caption: Caption::Shown("Reversals by line and axis; glitches in µm"),
+        columns: &[
+            Column::Text("line"),
+            Column::Text("axis"),
+            Column::Number("reversals"),
+            Column::Number("without compensation"),
+            Column::Number("programmed"),
+            Column::Number("all on"),
+            Column::Number("all off"),
+        ],
+    };
+    html! {
+        (table.render(rows))
+        @if lines.len() > shown { p { "… " (lines.len() - shown) " more lines" } }
+    }
+}

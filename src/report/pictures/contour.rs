@@ -1,0 +1,218 @@
+//! The contour of a program: the path with its deviation, reversals, and both over time.
+
+use crate::comp::State;
+use crate::contour::{ContourPoint, ContourReversal};
+use crate::motion::Movement;
+use crate::report::svg::{
+    Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PanelHeight, PlaneChart,
+    PlaneMark, PlanePoint, Series, Standing, Stroke,
+};
+
+/// More points of the path are joined by two.
+const MOST_POINTS: usize = 12_000;
+
+/// More reversals are not marked, but for worse ones.
+const MOST_MARKS: usize = 20_000;
+
+/// More states over time are not kept apart.
+const MOST_BANDS: usize = 5000;
+
+/// So many of the worst reversals are named.
+const NAMED: usize = 6;
+
+/// A contour while it comes in, in memory that does not grow with the length of the program.
+#[derive(Debug, Clone)]
+pub struct ContourPicture {
+    axes: [String; 2],
+    points: Vec<PlanePoint>,
+    /// So many cycles make a point.
+    every: u64,
+    filled: u64,
+    curves: [Curve; 3],
+    bands: [Vec<Band>; 2],
+    marks: Vec<(PlaneMark, u32)>,
+    more_marks: u64,
+    largest_um: f64,
+}
+
+impl ContourPicture {
+    /// The contour in the plane of two axes, before its first cycle.
+    pub fn new(axes: [String; 2]) -> Self {
+        Self {
+            axes,
+            points: Vec::new(),
+            every: 1,
+            filled: 0,
+            curves: Default::default(),
+            bands: Default::default(),
+            marks: Vec::new(),
+            more_marks: 0,
+            largest_um: 0.0,
+        }
+    }
+
+    /// Takes a cycle.
+    pub fn point(&mut self, point: &ContourPoint<'_>) {
+        let off = point.cause.friction.iter().take(2);
+        let is_on = off.into_iter().all(|state| *state == State::Active);
+        let stroke = match (point.counts, is_on) {
+            (false, _) => Stroke::Unjudged,
+            (true, true) => Stroke::Compensated,
+            (true, false) => Stroke::Uncompensated,
+        };
+        self.keep(PlanePoint {
+            place: [point.positions[0], point.positions[1]],
+            error: point.error_mm,
+            stroke,
+        });
+        let deviation = &point.deviation_um;
+        let each = [deviation.programmed, deviation.all_on, deviation.all_off];
+        for (curve, deviation) in self.curves.iter_mut().zip(each) {
+            if point.counts {
+                curve.push([point.time_s, deviation]);
+            } else {
+                curve.interrupt();
+            }
+        }
+        if point.counts {
+            self.largest_um = self.largest_um.max(each[0].abs());
+        }
+        let names = &self.axes;
+        for ((bands, state), name) in self.bands.iter_mut().zip(&*point.cause.friction).zip(names) {
+            extend(bands, name, (point.time_s, *state));
+        }
+    }
+
+    /// Of the cycles that make a point the one with the largest deviation is kept.
+    fn keep(&mut self, point: PlanePoint) {
+        let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
+        let is_full = self.filled >= self.every;
+        match self.points.last_mut() {
+            Some(last) if !is_full && last.stroke == point.stroke => {
+                if size(&point) > size(last) {
+                    *last = point;
+                }
+                self.filled += 1;
+            }
+            _ => {
+                self.points.push(point);
+                self.filled = 1;
+            }
+        }
+        if self.points.len() >= MOST_POINTS {
+            let pairs = self.points.chunks(2);
+            let joined = pairs.map(|pair| match pair {
+                [one, other] if size(other) > size(one) || other.stroke != one.stroke => *other,
+                _ => pair[0],
+            });
+            self.points = joined.collect();
+            self.every *= 2;
+        }
+    }
+
+    /// Takes a reversal.
+    pub fn reversal(&mut self, reversal: &ContourReversal) {
+        if reversal.movement == Movement::Rapid || !self.axes.contains(&reversal.axis) {
+            return;
+        }
+        let mark = PlaneMark {
+            place: [reversal.positions[0], reversal.positions[1]],
+            ringed: reversal.state != State::Active,
+            weight: reversal.glitch_um.programmed,
+            label: None,
+        };
+        if self.marks.len() < MOST_MARKS {
+            self.marks.push((mark, reversal.line));
+            return;
+        }
+        self.more_marks += 1;
+        let weakest = self
+            .marks
+            .iter_mut()
+            .min_by(|one, other| one.0.weight.total_cmp(&other.0.weight));
+        if let Some(weakest) = weakest.filter(|it| it.0.weight < mark.weight) {
+            *weakest = (mark, reversal.line);
+        }
+    }
+
+    /// The picture: the path above, deviations over time below.
+    pub fn chart(mut self, program: &str) -> PlaneChart {
+        self.marks
+            .sort_by(|one, other| other.0.weight.total_cmp(&one.0.weight));
+        let uncompensated = self.marks.iter().filter(|(mark, _)| mark.ringed).count();
+        for (mark, line) in self.marks.iter_mut().take(NAMED) {
+            mark.label = Some(format!("line {line}: {:.1} µm", mark.weight));
+        }
+        let (count, largest) = (self.marks.len(), self.largest_um);
+        let description = format!(
+            "The commanded path in the plane {}{}, and the simulated one with its deviation \
+             magnified. The largest deviation while cutting is {largest:.1} µm. {count} reversals \
+             are marked, {uncompensated} of them without compensation.",
+            self.axes[0], self.axes[1]
+        );
+        let title = format!("Contour of {program}");
+        PlaneChart {
+            below: Some(self.strip()),
+            title,
+            description,
+            points: self.points,
+            marks: self.marks.into_iter().map(|(mark, _)| mark).collect(),
+            axes: self.axes,
+        }
+    }
+
+    fn strip(&self) -> LineChart {
+        let names = ["as programmed", "all on", "all off"];
+        let series = [0, 1, 2].map(|at: usize| Series {
+            name: names[at].to_owned(),
+            points: self.curves[at].points(),
+            drawn: Drawn::Line,
+        });
+        let rows = self.axes.iter().zip(&self.bands);
+        LineChart {
+            title: "Deviation over time".to_owned(),
+            description: "The signed deviation from the path while cutting, in each of the three \
+                          runs, below the states of both axes."
+                .to_owned(),
+            x: ChartAxis::linear("time in s"),
+            bands: rows
+                .map(|(name, bands)| BandRow {
+                    label: name.clone(),
+                    bands: bands.clone(),
+                })
+                .collect(),
+            panels: vec![Panel {
+                y: ChartAxis::linear("deviation in µm, outside positive"),
+                series: series.into(),
+                height: PanelHeight::Full,
+                ..Panel::default()
+            }],
+            marks: Vec::new(),
+        }
+    }
+}
+
+fn extend(bands: &mut Vec<Band>, name: &str, (time_s, state): (f64, State)) {
+    let is_full = bands.len() >= MOST_BANDS;
+    match bands.last_mut() {
+        Some(last) if last.state == BandState::One(state) => last.to = time_s,
+        Some(last) if is_full => {
+            last.state = BandState::Changing;
+            last.standing = Standing::Home;
+            last.to = time_s;
+        }
+        last => {
+            if let Some(last) = last {
+                last.to = time_s;
+            }
+            bands.push(Band {
+                from: time_s,
+                to: time_s,
+                state: BandState::One(state),
+                standing: Standing::of(state, State::Active),
+                title: format!("{name} {} from {time_s} s", state.as_str()),
+                href: None,
+            });
+        }
+    }
+}

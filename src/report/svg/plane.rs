@@ -1,0 +1,300 @@
+//! A path in a plane with a magnified deviation, and marks on it.
+
+use super::canvas::{Anchor, Area, Canvas, Head, Role, WIDTH};
+use super::frame::Frame;
+use super::line::LineChart;
+use super::scale::{label, round_step};
+
+/// Where the drawing stands.
+const LEFT: f64 = 60.0;
+const TOP: f64 = 64.0;
+const ROOM: Area = Area {
+    x: LEFT,
+    y: TOP,
+    width: WIDTH - LEFT - 40.0,
+    height: 470.0,
+};
+
+/// The largest deviation is drawn so long.
+const LARGEST: f64 = 34.0;
+
+/// Marks in a square of this size are drawn as one.
+const CELL: f64 = 13.0;
+
+/// How a stretch of the path is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Stroke {
+    /// With the deviation, compensated.
+    #[default]
+    Compensated,
+    /// With the deviation, not compensated.
+    Uncompensated,
+    /// Not judged: a rapid motion.
+    Unjudged,
+}
+
+/// A point of the path.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlanePoint {
+    /// Where it is commanded, in mm.
+    pub place: [f64; 2],
+    /// Where it is, from there, in mm.
+    pub error: [f64; 2],
+    /// How the stretch that ends here is drawn.
+    pub stroke: Stroke,
+}
+
+/// A mark on the path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneMark {
+    /// Where it is, in mm.
+    pub place: [f64; 2],
+    /// Whether it has a ring.
+    pub ringed: bool,
+    /// How much it matters; of several in one place the greatest counts.
+    pub weight: f64,
+    /// Words beside it, for the worst ones.
+    pub label: Option<String>,
+}
+
+/// A path in a plane.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlaneChart {
+    /// The heading.
+    pub title: String,
+    /// The picture in a sentence or two, for those who do not see it.
+    pub description: String,
+    /// The names of the axes.
+    pub axes: [String; 2],
+    /// The path in the order of driving.
+    pub points: Vec<PlanePoint>,
+    /// Marks on it.
+    pub marks: Vec<PlaneMark>,
+    /// A chart below it.
+    pub below: Option<LineChart>,
+}
+
+/// From mm to the picture.
+#[derive(Debug, Clone, Copy)]
+struct Fit {
+    from: [f64; 2],
+    scale: f64,
+    origin: (f64, f64),
+    magnification: f64,
+}
+
+impl Fit {
+    fn of(points: &[PlanePoint]) -> Self {
+        let mut least = [f64::INFINITY; 2];
+        let mut most = [f64::NEG_INFINITY; 2];
+        let mut largest: f64 = 0.0;
+        for point in points {
+            for axis in 0..2 {
+                least[axis] = least[axis].min(point.place[axis]);
+                most[axis] = most[axis].max(point.place[axis]);
+            }
+            if point.stroke != Stroke::Unjudged {
+                largest = largest.max(point.error[0].hypot(point.error[1]));
+            }
+        }
+        if points.is_empty() {
+            (least, most) = ([0.0; 2], [1.0; 2]);
+        }
+        let size = |axis: usize| (most[axis] - least[axis]).max(1e-3);
+        let inner = (ROOM.width - 2.0 * LARGEST, ROOM.height - 2.0 * LARGEST);
+        let scale = (inner.0 / size(0)).min(inner.1 / size(1));
+        let width = size(0) * scale;
+        let magnification = if largest > 0.0 {
+            round_step(LARGEST / (largest * scale) / 2.0).max(1.0)
+        } else {
+            1.0
+        };
+        Self {
+            from: least,
+            scale,
+            origin: (
+                ROOM.x + (ROOM.width - width) / 2.0,
+                ROOM.y + LARGEST + size(1) * scale,
+            ),
+            magnification,
+        }
+    }
+
+    fn place(&self, place: [f64; 2]) -> (f64, f64) {
+        (
+            self.origin.0 + (place[0] - self.from[0]) * self.scale,
+            self.origin.1 - (place[1] - self.from[1]) * self.scale,
+        )
+    }
+
+    fn magnified(&self, point: &PlanePoint) -> (f64, f64) {
+        let [x, y] = [0, 1].map(|axis| point.place[axis] + self.magnification * point.error[axis]);
+        self.place([x, y])
+    }
+}
+
+impl PlaneChart {
+    /// The picture, with a bar that says how far the deviation is magnified.
+    pub fn render(&self, frame: Frame<'_>) -> String {
+        let mut canvas = Canvas::default();
+        canvas.text("fc-title", (16.0, 26.0), Anchor::Start, &self.title);
+        let fit = Fit::of(&self.points);
+        self.draw_axes(&mut canvas);
+        self.draw_path(&mut canvas, &fit);
+        self.draw_marks(&mut canvas, &fit);
+        let bottom = Self::draw_legend(&mut canvas, &fit);
+        let mut height = bottom + 18.0;
+        if let Some(below) = &self.below {
+            let inside = match frame {
+                Frame::Alone => "below".to_owned(),
+                Frame::Inside(name) => format!("{name}-below"),
+            };
+            let chart = below.render(Frame::Inside(&inside));
+            height = canvas.embed(&chart, height);
+        }
+        canvas.finish(
+            frame,
+            &Head {
+                title: &self.title,
+                description: &self.description,
+                height,
+                role: Role::Image,
+            },
+        )
+    }
+
+    fn draw_axes(&self, canvas: &mut Canvas) {
+        let (x, y) = (24.0, TOP + 46.0);
+        canvas.line("fc-axis", (x, y), (x + 30.0, y));
+        canvas.line("fc-axis", (x, y), (x, y - 30.0));
+        canvas.text("", (x + 34.0, y + 4.0), Anchor::Start, &self.axes[0]);
+        canvas.text("", (x, y - 36.0), Anchor::Middle, &self.axes[1]);
+    }
+
+    /// The commanded path thin, and the magnified one over it, by stretches of one kind.
+    fn draw_path(&self, canvas: &mut Canvas, fit: &Fit) {
+        for stretch in stretches(&self.points) {
+            let class = match stretch[stretch.len() - 1].stroke {
+                Stroke::Unjudged => "fc-curve fc-grid",
+                _ => "fc-curve fc-axis",
+            };
+            canvas.path(class, stretch.iter().map(|point| fit.place(point.place)));
+        }
+        for stretch in stretches(&self.points) {
+            let class = match stretch[stretch.len() - 1].stroke {
+                Stroke::Unjudged => continue,
+                Stroke::Compensated => "fc-curve fc-s0",
+                Stroke::Uncompensated => "fc-curve fc-s1",
+            };
+            canvas.path(class, stretch.iter().map(|point| fit.magnified(point)));
+        }
+    }
+
+    fn draw_marks(&self, canvas: &mut Canvas, fit: &Fit) {
+        let mut cells: std::collections::BTreeMap<(i64, i64), (&PlaneMark, u32)> =
+            std::collections::BTreeMap::new();
+        for mark in &self.marks {
+            let (x, y) = fit.place(mark.place);
+            #[allow(clippy::cast_possible_truncation)] // within the picture
+            let cell = ((x / CELL) as i64, (y / CELL) as i64);
+            let (worst, count) = cells.entry(cell).or_insert((mark, 0));
+            if mark.weight > worst.weight {
+                *worst = mark;
+            }
+            *count += 1;
+        }
+        for (mark, count) in cells.values() {
+            let at = fit.place(mark.place);
+            let more = f64::from(*count).log2();
+            if mark.ringed {
+                canvas.circle("fc-outline", at, 4.0 + more);
+            }
+            canvas.circle(
+                if mark.ringed { "fc-m1" } else { "fc-m0" },
+                at,
+                2.2 + more / 2.0,
+            );
+        }
+        let mut taken: Vec<Area> = Vec::new();
+        for mark in &self.marks {
+            let Some(text) = &mark.label else {
+                continue;
+            };
+            let (x, y) = fit.place(mark.place);
+            let width = super::canvas::text_width(text);
+            let (anchor, x) = if x + width + 20.0 > WIDTH {
+                (Anchor::End, x - 9.0)
+            } else {
+                (Anchor::Start, x + 9.0)
+            };
+            let area = Area {
+                x: if anchor == Anchor::End { x - width } else { x },
+                y: y - 20.0,
+                width,
+                height: 18.0,
+            };
+            if taken.iter().all(|other| !overlap(*other, area)) {
+                canvas.text("", (x, y - 7.0), anchor, text);
+                taken.push(area);
+            }
+        }
+    }
+
+    fn draw_legend(canvas: &mut Canvas, fit: &Fit) -> f64 {
+        let y = ROOM.bottom() + 20.0;
+        let mut x = 16.0;
+        for (class, text) in [
+            ("fc-curve fc-s0", "compensated"),
+            ("fc-curve fc-s1", "not compensated"),
+            ("fc-curve fc-axis", "commanded"),
+        ] {
+            canvas.path(class, [(x, y), (x + 26.0, y)]);
+            canvas.text("", (x + 32.0, y + 4.0), Anchor::Start, text);
+            x += 56.0 + super::canvas::text_width(text);
+        }
+        canvas.circle("fc-outline", (x + 6.0, y), 4.5);
+        canvas.circle("fc-m1", (x + 6.0, y), 2.2);
+        canvas.text(
+            "",
+            (x + 16.0, y + 4.0),
+            Anchor::Start,
+            "reversal without compensation",
+        );
+        let step = round_step(LARGEST / (fit.scale * fit.magnification) * 1000.0 / 2.0);
+        let length = step / 1000.0 * fit.magnification * fit.scale;
+        let right = WIDTH - 24.0;
+        canvas.line("fc-axis", (right - length, y), (right, y));
+        canvas.line(
+            "fc-axis",
+            (right - length, y - 4.0),
+            (right - length, y + 4.0),
+        );
+        canvas.line("fc-axis", (right, y - 4.0), (right, y + 4.0));
+        let text = format!("{} µm", label(step, step));
+        canvas.text("", (right - length - 6.0, y + 4.0), Anchor::End, &text);
+        y
+    }
+}
+
+fn overlap(one: Area, other: Area) -> bool {
+    let beside = one.right() < other.x || other.right() < one.x;
+    let above = one.bottom() < other.y || other.bottom() < one.y;
+    !(beside || above)
+}
+
+/// The points cut into stretches that are drawn alike; each begins where the one before it ends.
+fn stretches(points: &[PlanePoint]) -> impl Iterator<Item = &[PlanePoint]> {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        if from + 1 >= points.len() {
+            return None;
+        }
+        let stroke = points[from + 1].stroke;
+        let rest = &points[from + 1..];
+        let same = rest.iter().take_while(|it| it.stroke == stroke).count();
+        let stretch = &points[from..=from + same];
+        from += same;
+        Some(stretch)
+    })
+}

@@ -180,7 +180,10 @@ fn blocks(machine: &MachineAudit, finding: &AxisFinding, marks: &Marks) -> Marku
     let shown = programs.len().min(ROWS);
     html! {
         details open[programs.len() <= 10] {
-            summary { "Cure of " (axis_name(&finding.axis, finding.kind)) ": " (programs.len()) " programs" }
+            summary {
+                "Cure of " (axis_name(&finding.axis, finding.kind)) ": "
+                (counted(u64::try_from(programs.len()).unwrap_or(u64::MAX), "program"))
+            }
             ul {
                 @for &program in &programs[..shown] {
                     @let program = &machine.archive.programs()[program];

@@ -54,7 +54,7 @@ impl MovingAxes {
     /// value lists by axis, which take the place of the machine's.
     ///
     /// # Errors
-    /// The plane is none, or the program moves too many axes.
+    /// The two names are not those of a plane, or the program moves too many axes.
     pub fn driven(
         &self,
         machine: &Machine,

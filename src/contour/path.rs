@@ -136,8 +136,8 @@ impl CommandedPath {
             };
         }
         // It never goes back along the path: where a path returns over itself, the place would be
-        // found on the way that is already behind it. Around a corner the next step may be further
-        // away and the one after it nearer: all that come into question are compared.
+        // found on the way that is already behind it. Past a corner the next step may be further
+        // away and the one after it nearer, so every step within the lag is compared.
         let from = commanded.saturating_sub(self.back).clamp(lowest, highest);
         let mut at = (*near).clamp(from, highest);
         let mut best = self.project(at, place);

@@ -15,10 +15,10 @@ use crate::current::{
     AdditiveCurrent, Commanded, CurrentSample, Followers, POSITION_UNITS_PER_MM,
     VELOCITY_UNITS_PER_MM_PER_S,
 };
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
 use crate::interpreter::PositionFrame;
 use crate::machine::Machine;
-use crate::motion::{Cause, Movement, Sample, SkippedMotion, TraceSink, TrajectoryPlanner};
+use crate::motion::{Cause, Movement, ProgramTrace, Sample, TraceSink};
 use crate::timeline::{Record, Sink};
 
 const UM_PER_MM: f64 = 1000.0;
@@ -65,10 +65,7 @@ pub trait ContourSink {
 /// Makes the contour of the rows of a session, which must say what their blocks move
 /// ([`Motions::Taken`](crate::interpreter::Motions::Taken)).
 pub struct ProgramContour<S> {
-    planner: TrajectoryPlanner,
-    tracer: Tracer<S>,
-    errors: Vec<Diagnostic>,
-    over: ControlFlow<()>,
+    trace: ProgramTrace<Tracer<S>>,
 }
 
 /// A cycle that is not driven yet.
@@ -100,7 +97,6 @@ struct Tracer<S> {
     axes: Vec<ContourSummary>,
     cycles: u64,
     not_of_the_machine: u64,
-    left_out: u64,
     is_unstable: bool,
     sink: S,
 }
@@ -118,82 +114,83 @@ impl<S: ContourSink> ProgramContour<S> {
             axis: axis.clone(),
             ..ContourSummary::default()
         };
+        let planner = options.planner;
+        let tracer = Tracer {
+            path: CommandedPath::new(lag_cycles(&options)),
+            programmed: followers(),
+            all_on: followers(),
+            waiting: VecDeque::new(),
+            ready: VecDeque::new(),
+            runs: None,
+            axes: names.iter().map(summary).collect(),
+            reversals: Reversals::new(names, options.planner.cycle_s),
+            deviations: PerRun::default(),
+            cycles: 0,
+            not_of_the_machine: 0,
+            is_unstable: false,
+            options,
+            sink,
+        };
         Self {
-            planner: TrajectoryPlanner::new(machine, &followed, options.planner),
-            tracer: Tracer {
-                path: CommandedPath::new(lag_cycles(&options)),
-                programmed: followers(),
-                all_on: followers(),
-                waiting: VecDeque::new(),
-                ready: VecDeque::new(),
-                runs: None,
-                axes: names.iter().map(summary).collect(),
-                reversals: Reversals::new(names, options.planner.cycle_s),
-                deviations: PerRun::default(),
-                cycles: 0,
-                not_of_the_machine: 0,
-                left_out: 0,
-                is_unstable: false,
-                options,
-                sink,
-            },
-            errors: Vec::new(),
-            over: ControlFlow::Continue(()),
+            trace: ProgramTrace::new(machine, &followed, planner, tracer),
         }
+    }
+
+    fn tracer(&self) -> &Tracer<S> {
+        self.trace.sink_ref()
     }
 
     /// The session is over: the rest of the trace is driven.
     pub fn finish(&mut self) {
-        if self.over.is_continue() && self.planner.finish(&mut self.tracer).is_continue() {
-            let _ = self.tracer.drain();
+        if self.trace.finish().is_continue() {
+            let _ = self.trace.sink().drain();
         }
-        self.over = ControlFlow::Break(());
     }
 
     /// How far each run was from the path.
     pub fn deviations(&self) -> &PerRun<Deviations> {
-        &self.tracer.deviations
+        &self.tracer().deviations
     }
 
     /// The reversals of each axis, those of the plane first.
     pub fn axes(&self) -> &[ContourSummary] {
-        &self.tracer.axes
+        &self.tracer().axes
     }
 
     /// The machine time in s that was driven.
     pub fn machine_time_s(&self) -> f64 {
-        seconds(self.tracer.cycles, self.tracer.options.planner.cycle_s)
+        seconds(self.tracer().cycles, self.tracer().options.planner.cycle_s)
     }
 
     /// The machine time in s in which positions were not those of the machine (R11.8).
     pub fn time_not_of_the_machine_s(&self) -> f64 {
-        let cycles = self.tracer.not_of_the_machine;
-        seconds(cycles, self.tracer.options.planner.cycle_s)
+        let cycles = self.tracer().not_of_the_machine;
+        seconds(cycles, self.tracer().options.planner.cycle_s)
     }
 
     /// How many motions are left out, because it is not known where they lead or how fast.
     pub fn left_out(&self) -> u64 {
-        self.tracer.left_out
+        self.trace.left_out()
     }
 
     /// Whether a drive was unstable; the contour ends there.
     pub fn is_unstable(&self) -> bool {
-        self.tracer.is_unstable
+        self.tracer().is_unstable
     }
 
     /// The axes, their drives and their lists.
     pub fn options(&self) -> &ContourOptions {
-        &self.tracer.options
+        &self.tracer().options
     }
 
     /// The errors that the session reported, then what there is to say about the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
-        (&self.errors, self.planner.diagnostics())
+        self.trace.diagnostics()
     }
 
     /// Who heard of the contour.
     pub fn sink(&mut self) -> &mut S {
-        &mut self.tracer.sink
+        &mut self.trace.sink().sink
     }
 }
 
@@ -217,21 +214,7 @@ fn seconds(cycles: u64, each_s: f64) -> f64 {
 
 impl<S: ContourSink> Sink for ProgramContour<S> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        let error = |said: &&Diagnostic| said.severity == Severity::Error;
-        match *record {
-            Record::Machine(said) => self.errors.extend(Some(said).filter(error).cloned()),
-            Record::Block(ref row) => {
-                self.errors
-                    .extend(row.diagnostics.iter().filter(error).cloned());
-                self.over = self.planner.block(row, &mut self.tracer);
-            }
-            Record::End(ref end) => {
-                let notes = end.notes.iter().map(|note| &note.diagnostic);
-                self.errors.extend(notes.filter(error).cloned());
-            }
-            _ => {}
-        }
-        self.over
+        self.trace.record(record)
     }
 }
 
@@ -273,10 +256,6 @@ impl<S: ContourSink> TraceSink for Tracer<S> {
             self.ready.push_back(cycle);
         }
         self.advance(AHEAD)
-    }
-
-    fn left_out(&mut self, _: &SkippedMotion<'_>) {
-        self.left_out += 1;
     }
 }
 

@@ -127,8 +127,8 @@ impl AdditiveCurrent {
         self.saturated
     }
 
-    /// In how many cycles so far the axis stood still and the readings of R4.6 differ: held, there is
-    /// a current; zero, there is none (C11).
+    /// In how many cycles so far the axis stood still and the readings of R4.6 differ: `hold` adds a
+    /// current there, `zero` adds nothing (C11).
     pub fn at_rest(&self) -> u64 {
         self.at_rest
     }

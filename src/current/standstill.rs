@@ -163,7 +163,7 @@ mod tests {
         let (now, told) = settled(DeadBand::Toggling, &v);
         assert_eq!(now, [500.0, 100.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, -500.0]);
         assert_eq!(told, found(1, 4));
-        // A reversal is none, nor is one of more than five cycles or of a micrometre.
+        // A reversal is no toggling, nor is a change that takes more than five cycles or a micrometre.
         for v in [
             &[500.0, 1.0, -1.0, -500.0][..],
             &[5.0, 5.0, -5.0, -5.0, -5.0, -5.0, -5.0, -5.0, 5.0, 5.0],

@@ -25,7 +25,7 @@ const DEPTH: usize = 4;
 /// the axes of the programs.
 ///
 /// # Errors
-/// There is no such folder, several start-up lists lie there, or the given one is none.
+/// There is no such folder, several start-up lists lie there, or the given list is not a start-up list.
 pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, HostError> {
     if !folder.is_dir() {
         return Err(HostError::NoFolder(folder.to_owned()));

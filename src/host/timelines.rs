@@ -18,7 +18,7 @@ pub struct AgreedTimelines {
 pub enum TimelineDrift {
     /// They are the same.
     AsAgreed,
-    /// There is none yet.
+    /// No timeline has been agreed yet.
     Missing {
         /// The timeline of today.
         now: String,

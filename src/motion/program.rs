@@ -95,6 +95,11 @@ impl<S: TraceSink> ProgramTrace<S> {
         self.planner.left_out()
     }
 
+    /// Who takes the trace, to look at.
+    pub fn sink_ref(&self) -> &S {
+        &self.sink
+    }
+
     /// Who takes the trace.
     pub fn sink(&mut self) -> &mut S {
         &mut self.sink

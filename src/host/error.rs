@@ -93,6 +93,9 @@ pub enum HostError {
     /// A link to a file that nobody handed over.
     #[error("`{}` is a link that leads out of the given folders", .0.display())]
     LeadsOut(PathBuf),
+    /// A program without a place beside it.
+    #[error("standard input has no `.{0}` file beside it")]
+    NothingBeside(&'static str),
     /// `X[` where the name of an axis is wanted.
     #[error("`{0}` is not an axis name")]
     AxisName(String),

@@ -10,6 +10,7 @@
 //! Nothing here prints or knows an option: who watches long work gives a [`Watcher`], and what cannot
 //! be done is a [`HostError`].
 
+mod agreed;
 mod audits;
 mod axes_ahead;
 mod discovery;
@@ -32,7 +33,6 @@ mod simulations;
 mod state_file;
 mod steady;
 mod switched_axes;
-mod timelines;
 mod trace_error;
 mod traces;
 mod unfinished;
@@ -41,6 +41,7 @@ mod walk;
 mod watch;
 mod workers;
 
+pub use agreed::{AgreedDrift, AgreedFile, AgreedKind, AgreedResults, UpdatedFolder};
 pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
 pub use discovery::{
     CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
@@ -64,7 +65,6 @@ pub use read::read_text;
 pub use simulations::{compare, tune};
 pub use state_file::StateFile;
 pub use switched_axes::switched_axes;
-pub use timelines::{AgreedTimelines, TimelineDrift};
 pub use trace_error::TraceError;
 pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace};
 pub use unread::{UnreadVariable, unread_variables};
@@ -73,8 +73,6 @@ pub use watch::{Done, Progress, Watch, Watcher};
 
 #[cfg(feature = "cli")]
 pub(crate) use axes_ahead::AxesAhead;
-#[cfg(feature = "cli")]
-pub(crate) use ledger::folder;
 #[cfg(feature = "cli")]
 pub(crate) use parameter_files::is_configuration;
 #[cfg(feature = "cli")]

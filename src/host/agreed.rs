@@ -1,0 +1,200 @@
+//! Results of programs that were agreed on, each in a file beside its program.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::error::HostError;
+use super::input::Input;
+use super::ledger::{Ledger, folder};
+use super::outputs::OutputFiles;
+use super::read::read_bytes;
+
+/// A kind of result that is agreed on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AgreedKind {
+    /// What the name of the program is followed by, `timeline`.
+    pub extension: &'static str,
+    /// Who writes the files, as it is called in errors.
+    pub writer: &'static str,
+}
+
+/// The results of one kind, in the folders that the user handed over.
+#[derive(Debug, Clone)]
+pub struct AgreedResults {
+    kind: AgreedKind,
+    trees: Vec<PathBuf>,
+}
+
+/// A program with the file that holds what was agreed on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AgreedFile {
+    /// The program.
+    pub program: Input,
+    /// The file beside it.
+    pub path: PathBuf,
+}
+
+/// A result against the one that was agreed on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum AgreedDrift {
+    /// They are the same.
+    AsAgreed,
+    /// Nothing has been agreed on yet.
+    Missing {
+        /// The result of today.
+        now: String,
+    },
+    /// They differ.
+    Drifted {
+        /// The result that was agreed on.
+        before: String,
+        /// The result of today.
+        now: String,
+    },
+}
+
+/// What became of the files of one folder.
+#[derive(Debug)]
+pub struct UpdatedFolder<'a, E> {
+    /// The folder.
+    pub folder: &'a Path,
+    /// How many of its files belong to the programs.
+    pub files: usize,
+    /// The files that drifted and were written.
+    pub written: Vec<PathBuf>,
+    /// Why the folder was left out.
+    pub failures: Vec<E>,
+}
+
+impl AgreedResults {
+    /// The results beside programs, and in folders of programs.
+    pub fn of(kind: AgreedKind, paths: &[PathBuf]) -> Self {
+        let tree = |path: &PathBuf| {
+            let tree = if path.is_dir() { path } else { folder(path) };
+            tree.canonicalize().ok()
+        };
+        Self {
+            kind,
+            trees: paths.iter().filter_map(tree).collect(),
+        }
+    }
+
+    /// The file beside a program: `a.nc.timeline` beside `a.nc`, so that `a.nc` and `a.spf` do not
+    /// meet.
+    ///
+    /// # Errors
+    /// The program is standard input, which has no file beside it.
+    pub fn beside(&self, program: &Input) -> Result<AgreedFile, HostError> {
+        let Input::File(path) = program else {
+            return Err(HostError::NothingBeside(self.kind.extension));
+        };
+        let mut name = path.as_os_str().to_owned();
+        name.push(".");
+        name.push(self.kind.extension);
+        Ok(AgreedFile {
+            program: program.clone(),
+            path: name.into(),
+        })
+    }
+
+    /// Compares the result of today with the one that was agreed on.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is a link that leads out of the folders (R9.77).
+    pub fn compare(&self, agreed: &AgreedFile, now: String) -> Result<AgreedDrift, HostError> {
+        self.stay_inside(&agreed.path)?;
+        Ok(match read_agreed(&agreed.path)? {
+            None => AgreedDrift::Missing { now },
+            Some(before) if before == now => AgreedDrift::AsAgreed,
+            Some(before) => AgreedDrift::Drifted { before, now },
+        })
+    }
+
+    /// Writes the files that drifted, folder by folder as the iterator is asked: all of a folder or
+    /// none (R9.77). `now` gives the result of a program.
+    ///
+    /// # Errors
+    /// A file is one that the work reads.
+    pub fn update<'a, E: From<HostError>>(
+        &'a self,
+        files: &'a [AgreedFile],
+        ledger: &'a Ledger,
+        mut now: impl FnMut(&Input) -> Result<String, E> + 'a,
+    ) -> Result<impl Iterator<Item = UpdatedFolder<'a, E>>, HostError> {
+        let mut all = OutputFiles::new(ledger);
+        for file in files {
+            all.claim(self.kind.writer, &file.path);
+        }
+        all.check()?;
+        let mut folders: Vec<(&Path, Vec<&AgreedFile>)> = Vec::new();
+        for file in files {
+            let folder = folder(&file.path);
+            match folders.iter_mut().find(|(known, _)| *known == folder) {
+                Some((_, files)) => files.push(file),
+                None => folders.push((folder, vec![file])),
+            }
+        }
+        Ok(folders.into_iter().map(move |(folder, files)| {
+            let mut updated = UpdatedFolder {
+                folder,
+                files: files.len(),
+                written: Vec::new(),
+                failures: Vec::new(),
+            };
+            let mut outputs = OutputFiles::new(ledger);
+            for file in files {
+                let done = now(&file.program).and_then(|now| {
+                    self.write(file, now, &mut outputs)?;
+                    Ok(())
+                });
+                updated.failures.extend(done.err());
+            }
+            if updated.failures.is_empty() {
+                let done = outputs.finish(|path| updated.written.push(path.to_owned()));
+                updated.failures.extend(done.err().map(E::from));
+            }
+            updated
+        }))
+    }
+
+    /// Writes one file where it drifted.
+    fn write(
+        &self,
+        file: &AgreedFile,
+        now: String,
+        outputs: &mut OutputFiles,
+    ) -> Result<(), HostError> {
+        let (AgreedDrift::Missing { now } | AgreedDrift::Drifted { now, .. }) =
+            self.compare(file, now)?
+        else {
+            return Ok(());
+        };
+        let mut output = outputs.create(self.kind.writer, &file.path)?;
+        let written = output.write_all(now.as_bytes());
+        written.map_err(HostError::Output)?;
+        output.sync()
+    }
+
+    /// A link may not lead to a file that the user did not hand over: it would be shown in a
+    /// difference, or overwritten.
+    fn stay_inside(&self, agreed: &Path) -> Result<(), HostError> {
+        let is_link = std::fs::symlink_metadata(agreed).is_ok_and(|it| it.is_symlink());
+        let inside = |path: PathBuf| self.trees.iter().any(|tree| path.starts_with(tree));
+        if is_link && !agreed.canonicalize().is_ok_and(inside) {
+            return Err(HostError::LeadsOut(agreed.to_owned()));
+        }
+        Ok(())
+    }
+}
+
+/// The agreed result, `None` when there is none. Line ends may be those of any system.
+fn read_agreed(path: &Path) -> Result<Option<String>, HostError> {
+    match read_bytes(path) {
+        Ok(bytes) => {
+            let text = String::from_utf8_lossy(&bytes);
+            Ok(Some(text.replace("\r\n", "\n")))
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(HostError::read(path, error)),
+    }
+}

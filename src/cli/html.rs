@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::comp::KindSet;
 use crate::host::{LoadedMachine, OutputFile, reopen};
-use crate::report::html::{RunDigest, RunInputs, Sources, render_run};
+use crate::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
 use crate::text::LineSource;
 
 /// A report that is written when the session has ended.
@@ -29,15 +29,15 @@ impl HtmlFile {
     /// Writes the report with what the user gave and the parameters in effect.
     pub(super) fn write(
         mut self,
-        settings: &[(String, String)],
+        given: GivenForRun<'_>,
         loaded: &LoadedMachine,
     ) -> Result<(), Failure> {
-        let given = RunInputs {
-            settings,
+        let inputs = RunInputs {
+            given,
             parameters: &loaded.reports,
             programs: &loaded.programs,
         };
-        render_run(&self.digest, &given, &mut Files, &mut self.file).map_err(Failure::output)
+        render_run(&self.digest, &inputs, &mut Files, &mut self.file).map_err(Failure::output)
     }
 }
 

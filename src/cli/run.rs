@@ -1,7 +1,5 @@
 //! `frictcomp run`: programs one after the other in one session of the control.
 
-use std::cell::RefCell;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -24,13 +22,13 @@ use crate::host::{
     AxesAhead, Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile, Surroundings,
     open_session, run_programs, switched_axes,
 };
-use crate::machine::{AxisSet, Setting};
-use crate::report::html::RunDigest;
+use crate::machine::AxisSet;
+use crate::report::html::GivenForRun;
 use crate::report::{
-    Blocks, Csv, Json, Ndjson, Report, Runs, Text, TextOptions, View, command_line,
+    Blocks, Listeners, Positions, Report, Runs, SharedReport, TextOptions, TimelineFormat,
+    TimelineOptions, View, command_line, concise_line,
 };
 use crate::session::{Session, StopPolicy, undescribed};
-use crate::timeline::{Record, Sink};
 
 /// Run programs one after the other in one session of the control and print the timeline
 ///
@@ -62,7 +60,7 @@ pub(super) struct RunArgs {
     kinds: KindSet,
     /// The format of the timeline
     #[arg(long, default_value = "text")]
-    format: Format,
+    format: TimelineFormat,
     /// Additional columns for the CSV timeline
     #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
     columns: Vec<Column>,
@@ -85,20 +83,6 @@ pub(super) struct RunArgs {
     execution: ExecutionArgs,
 }
 
-/// A format of the timeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
-    /// For people.
-    #[default]
-    Text,
-    /// One JSON object per line.
-    Ndjson,
-    /// One JSON document.
-    Json,
-    /// One row per block.
-    Csv,
-}
-
 /// Columns that a CSV timeline has only where they are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Column {
@@ -108,75 +92,50 @@ enum Column {
 
 impl RunArgs {
     fn report(&self, target: Target) -> Box<dyn Report> {
-        let view = View {
-            kinds: self.kinds,
-            blocks: if self.changes {
-                Blocks::Changed
-            } else {
-                Blocks::All
-            },
-        };
         if self.quiet {
             return Box::new(Quiet::new(target, self.fail_on));
         }
-        let Target { writer, look } = target;
-        match self.format {
-            Format::Text => {
-                let runs = if self.full { Runs::Full } else { Runs::Folded };
-                Box::new(Text::new(writer, TextOptions { view, runs, look }))
-            }
-            Format::Ndjson => Box::new(Ndjson::new(writer, view)),
-            Format::Json => Box::new(Json::new(writer, view)),
-            Format::Csv if self.columns.contains(&Column::Position) => {
-                Box::new(Csv::new(writer, view).with_positions())
-            }
-            Format::Csv => Box::new(Csv::new(writer, view)),
-        }
+        let blocks = if self.changes {
+            Blocks::Changed
+        } else {
+            Blocks::All
+        };
+        let runs = if self.full { Runs::Full } else { Runs::Folded };
+        let positions = if self.columns.contains(&Column::Position) {
+            Positions::Shown
+        } else {
+            Positions::Hidden
+        };
+        let view = View {
+            kinds: self.kinds,
+            blocks,
+        };
+        let look = target.look;
+        let options = TimelineOptions {
+            text: TextOptions { view, runs, look },
+            positions,
+        };
+        self.format.report(target.writer, options)
     }
 
     /// What the user gave for the run, for the HTML report.
-    fn given(&self, loaded: &LoadedMachine) -> Vec<(String, String)> {
-        let mut given = Vec::new();
-        let mut say = |name: &str, value: String| given.push((name.to_owned(), value));
-        match &loaded.origin {
-            Some(path) => say("machine", path.display().to_string()),
-            None => say("machine", "not configured".to_owned()),
+    fn given<'a>(&'a self, loaded: &'a LoadedMachine) -> GivenForRun<'a> {
+        GivenForRun {
+            machine: loaded.origin.as_deref(),
+            enabled: &self.machine.enable,
+            variables: &loaded.settings,
+            state: self.state.as_deref(),
+            start: self.start.given(),
+            stop: self.stop_policy(),
         }
-        if !self.machine.enable.is_empty() {
-            say("--enable", self.machine.enable.join(", "));
-        }
-        for (name, setting) in &loaded.settings {
-            let value = match setting {
-                Setting::Number(number) => number.to_string(),
-                Setting::Text(text) => format!("\"{text}\""),
-            };
-            say("variable", format!("{name} = {value}"));
-        }
-        match &self.state {
-            Some(path) => say("--state", path.display().to_string()),
-            None => say(
-                "state at start",
-                "that of a restart of the control".to_owned(),
-            ),
-        }
-        for (axis, position) in self.start.given() {
-            say("--start", format!("{axis} at {position}"));
-        }
-        let policy = if self.keep_going {
-            "the command is passed over (--keep-going)"
-        } else {
-            "the session stops, as the control does"
-        };
-        say("at an error", policy.to_owned());
-        given
     }
 
     /// Says which options have no effect with the others (R9.71).
     fn check_options(&self) -> Result<(), Failure> {
-        if !self.columns.is_empty() && self.format != Format::Csv {
+        if !self.columns.is_empty() && self.format != TimelineFormat::Csv {
             return Err(Failure::new("`--columns` belongs to `--format csv`"));
         }
-        if self.full && self.format != Format::Text {
+        if self.full && self.format != TimelineFormat::Text {
             return Err(Failure::new("`--full` has no effect with this `--format`")
                 .with_help("only text folds blocks: leave `--full` out"));
         }
@@ -225,17 +184,10 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if let Some(remark) = remark(&loaded) {
         console.remark(&remark);
     }
-    if args.format == Format::Csv {
+    if args.format == TimelineFormat::Csv {
         // A row is a block: the lists have no row.
         for error in loaded.errors() {
-            let place = &error.place;
-            Console::talk(&format!(
-                "{}:{}: error[{}] {}",
-                place.file,
-                place.start(),
-                error.code,
-                error.message
-            ));
+            Console::talk(&concise_line(error));
         }
     }
     if let Some(path) = args.state.as_deref() {
@@ -248,7 +200,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if !loaded.machine.is_described() {
         options.switched = switched_axes(&inputs);
     }
-    if args.format == Format::Csv {
+    if args.format == TimelineFormat::Csv {
         // A row is a block: the remark has no row.
         if let Some(remark) = undescribed(&loaded.machine, &options.switched) {
             Console::talk(&remark.in_words(Some(command_line)));
@@ -268,21 +220,20 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         session,
     };
     let report = args.report(target);
-    let given = args.given(&loaded);
     let (played, hint) = play(&mut start, report, html.as_mut())?;
     let Some(played) = played else {
         // The reader has seen enough; a run that was cut short leaves nothing.
         return Ok(super::exit::CLEAN);
     };
     if let Some(html) = html {
-        html.write(&given, &loaded)?;
+        html.write(args.given(&loaded), &loaded)?;
     }
     if let (true, Some(file)) = (played.flow.is_continue(), &state) {
         outputs.save(file, &start.session.save())?;
     }
     outputs.finish()?;
     args.machine.say_unread(&ledger, console);
-    if let (Format::Text, Some(code)) = (args.format, hint) {
+    if let (TimelineFormat::Text, Some(code)) = (args.format, hint) {
         console.remark(&explain(code));
     }
     let status = args.fail_on.status(start.session.counts());
@@ -297,24 +248,17 @@ fn play(
     report: Box<dyn Report>,
     html: Option<&mut HtmlFile>,
 ) -> Result<(Option<Played>, Option<Code>), Failure> {
-    let shared = RefCell::new(report);
+    let timeline = SharedReport::new(report);
     let goes_on_alone = html.is_some();
-    let mut sink = Listeners {
-        report: &shared,
-        html: html.map(HtmlFile::digest),
-        most_severe: None,
-    };
+    let mut listeners = Listeners::new(&timeline, html.map(HtmlFile::digest));
     // Between two reads of a program no record is on its way.
-    let before_waiting = || {
-        // A writer that takes no more says so at the next record.
-        let _ = shared.borrow_mut().flush();
-    };
+    let before_waiting = || timeline.flush();
     let surroundings = Surroundings::new(start.loaded, Naming::AsGiven);
     let surroundings = surroundings.before_waiting(&before_waiting);
     let session = &mut start.session;
-    let played = run_programs(session, start.programs, &surroundings, &mut sink);
-    let said = sink.most_severe.map(|(_, code)| code);
-    let mut report = shared.into_inner();
+    let played = run_programs(session, start.programs, &surroundings, &mut listeners);
+    let most_severe = listeners.most_severe();
+    let mut report = timeline.into_report();
     report.finish().map_err(Failure::output)?;
     if report.is_closed() && !goes_on_alone {
         return Ok((None, None));
@@ -323,7 +267,7 @@ fn play(
     if played.unrun > 0 {
         say_unrun(played.unrun, &start.session);
     }
-    Ok((Some(played), said))
+    Ok((Some(played), most_severe))
 }
 
 /// Says why programs did not run.
@@ -338,43 +282,4 @@ fn say_unrun(left: usize, session: &Session) {
     } else {
         format!("the last program did not reach its end: {left} more {programs} did not run")
     });
-}
-
-/// The timeline, shared with who flushes it, and the digest for the HTML report.
-struct Listeners<'a> {
-    report: &'a RefCell<Box<dyn Report>>,
-    html: Option<&'a mut RunDigest>,
-    /// The first of the most severe diagnostics.
-    most_severe: Option<(Severity, Code)>,
-}
-
-impl Listeners<'_> {
-    fn weigh<'d>(&mut self, said: impl IntoIterator<Item = &'d Diagnostic>) {
-        for diagnostic in said {
-            if self
-                .most_severe
-                .is_none_or(|(most, _)| diagnostic.severity > most)
-            {
-                self.most_severe = Some((diagnostic.severity, diagnostic.code));
-            }
-        }
-    }
-}
-
-impl Sink for Listeners<'_> {
-    /// A reader of the timeline that has seen enough ends the run, unless there is a report.
-    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        match record {
-            Record::Block(row) => {
-                self.weigh(row.diagnostics);
-            }
-            Record::End(end) => self.weigh(end.notes.iter().map(|note| &note.diagnostic)),
-            _ => {}
-        }
-        let flow = self.report.borrow_mut().record(record);
-        match &mut self.html {
-            Some(digest) => digest.record(record),
-            None => flow,
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
-use crate::report::ListingFormat;
+use crate::report::{ListingFormat, TimelineFormat};
 use crate::simulation::FrictionModel;
 
 impl ValueEnum for FrictionModel {
@@ -17,6 +17,16 @@ impl ValueEnum for FrictionModel {
 }
 
 impl ValueEnum for ListingFormat {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.as_str()).help(self.title()))
+    }
+}
+
+impl ValueEnum for TimelineFormat {
     fn value_variants<'a>() -> &'a [Self] {
         &Self::ALL
     }

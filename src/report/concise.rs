@@ -5,6 +5,14 @@ use crate::diagnostic::Diagnostic;
 use super::strings::integer;
 use super::visible::{leading, visible_line};
 
+/// A diagnostic as one line, without its end.
+#[cfg(feature = "cli")]
+pub(crate) fn concise_line(diagnostic: &Diagnostic) -> String {
+    let mut line = Vec::new();
+    append(&mut line, diagnostic);
+    String::from_utf8_lossy(&line).trim_end().to_owned()
+}
+
 /// Appends a diagnostic as one line.
 pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     let start = diagnostic.place.start();

@@ -33,9 +33,13 @@ pub struct Csv<W> {
 }
 
 /// Whether the rows say where the axes stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Positions {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Positions {
+    /// A column `X_pos` for each axis, in mm or degrees, empty where the position is not known, and
+    /// a column `frame` that says whether positions are those of the `machine` or as `programmed`.
     Shown,
+    /// No such column.
+    #[default]
     Hidden,
 }
 
@@ -53,14 +57,9 @@ impl<W: Write> Csv<W> {
         }
     }
 
-    /// The same with a column `X_pos` for each axis, in mm or degrees, empty where the position is
-    /// not known, and a column `frame` that says whether positions are those of the `machine` or
-    /// as `programmed`.
-    pub fn with_positions(self) -> Self {
-        Self {
-            positions: Positions::Shown,
-            ..self
-        }
+    /// The same with columns of positions, or without.
+    pub fn with_positions(self, positions: Positions) -> Self {
+        Self { positions, ..self }
     }
 
     /// The columns: every axis of the machine, whether it occurred or not.

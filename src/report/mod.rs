@@ -19,6 +19,8 @@ mod github;
 pub mod html;
 pub mod identify;
 mod json;
+#[cfg(feature = "cli")]
+mod listeners;
 mod listing;
 pub mod lists;
 mod ndjson;
@@ -31,6 +33,7 @@ pub mod stiction;
 mod strings;
 pub mod svg;
 mod text;
+mod timeline_format;
 pub mod trace;
 pub mod tune;
 mod unified;
@@ -40,15 +43,20 @@ mod view;
 mod visible;
 mod wording;
 
-pub use csv::Csv;
+#[cfg(feature = "cli")]
+pub(crate) use concise::concise_line;
+pub use csv::{Csv, Positions};
 #[cfg(feature = "cli")]
 pub(crate) use diagnostics::wrap;
 pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
 pub use json::Json;
+#[cfg(feature = "cli")]
+pub(crate) use listeners::{Listeners, SharedReport};
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;
 pub use text::{Runs, Text, TextOptions};
+pub use timeline_format::{TimelineFormat, TimelineOptions};
 pub use unified::{TextChange, render_unified};
 pub use view::{Blocks, View};
 #[cfg(feature = "cli")]

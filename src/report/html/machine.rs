@@ -14,7 +14,7 @@ use crate::report::svg::Frame;
 /// What the user gave and what holds on each axis.
 pub(super) fn render(digest: &RunDigest, given: &RunInputs<'_>) -> Markup {
     html! {
-        @if !given.settings.is_empty() { (settings(given.settings)) }
+        (settings(&given.given.settings()))
         @if digest.axis_set == AxisSet::AsTheyOccur {
             p {
                 "Without a configuration the axes are taken as they occur, with the documented \
@@ -42,7 +42,7 @@ pub(super) fn render_curves(digest: &RunDigest) -> Markup {
     }
 }
 
-fn settings(settings: &[(String, String)]) -> Markup {
+fn settings(settings: &[(&str, String)]) -> Markup {
     let table = Table {
         caption: Caption::Shown("Given for this run"),
         columns: &[Column::Text("setting"), Column::Text("value")],

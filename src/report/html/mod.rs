@@ -27,7 +27,7 @@ pub use audit::render_audit;
 pub use circle::render_circle;
 pub use contour::render_contour;
 pub use digest::RunDigest;
-pub use given::RunInputs;
+pub use given::{GivenForRun, RunInputs};
 pub use identify::{render_identification, render_trace};
 pub use run::render_run;
 pub use source::Sources;

@@ -14,9 +14,6 @@ use crate::current::Switched;
 /// of a second the loops still settle.
 const WIDEST_GAP: f64 = 60.0;
 
-/// The axis of a path that does not close.
-const OPEN: &str = "X or Y";
-
 /// So much longer is a path followed that has not closed by then, in turns.
 const LATER: f64 = 0.5;
 
@@ -64,13 +61,14 @@ impl CircularTest {
     /// from that, and at high feeds it shows in what the compensation leaves.
     ///
     /// # Errors
-    /// A circle that cannot be simulated, or a drive that is unstable.
+    /// A circle that cannot be simulated or that the drives do not follow, or a drive that is
+    /// unstable.
     pub fn run(&self, job: Job) -> Result<Lap, CircleError> {
         self.circle.check()?;
         match self.drive(job, TURNS) {
             // The lag of the drives still grew by much of a turn on a circle that is over before they
             // have settled: their path closes later than the commanded one.
-            Err(CircleError::Unstable { axis: OPEN, .. }) => self.drive(job, TURNS + LATER),
+            Err(CircleError::NotFollowed { .. }) => self.drive(job, TURNS + LATER),
             lap => lap,
         }
     }
@@ -110,9 +108,10 @@ impl CircularTest {
         let lap_s = TAU / self.circle.angular_velocity();
         let profile = turn
             .finish(Some(lap_s))
-            .map_err(|_| CircleError::Unstable {
-                axis: OPEN,
-                angle_deg: 360.0,
+            .map_err(|_| CircleError::NotFollowed {
+                radius_mm: self.circle.radius_mm,
+                feed_mm_per_min: self.circle.feed_mm_per_min,
+                saturated_cycles: remarks.saturated_cycles,
             })?;
         Ok(Lap {
             job,

@@ -107,6 +107,21 @@ pub enum CircleError {
         /// The commanded angle since the start.
         angle_deg: f64,
     },
+    /// A circle of 5 mm at 14 m/min on axes that are too heavy for their force: what they draw is
+    /// not closed around the centre.
+    #[error(
+        "the axes do not follow a circle of {radius_mm} mm at {feed_mm_per_min} mm/min: their path \
+         does not close around the centre, and a force was limited in {saturated_cycles} cycles of \
+         the speed loop"
+    )]
+    NotFollowed {
+        /// Radius.
+        radius_mm: f64,
+        /// Feed.
+        feed_mm_per_min: f64,
+        /// Cycles of the speed loop in which a force was limited, of both axes together.
+        saturated_cycles: u64,
+    },
 }
 
 impl CircleError {
@@ -118,6 +133,9 @@ impl CircleError {
             Self::CycleTime(_) => "give the time of a cycle in ms, 1 for instance",
             Self::TooLong { .. } => "choose a smaller radius or a higher feed",
             Self::NoGlitch { .. } => "choose a larger radius or a lower feed",
+            Self::NotFollowed { .. } => {
+                "choose a larger radius or a lower feed, or check `m` and `rated_force` of the plant"
+            }
             Self::TooFast { .. } => "choose a larger radius, a lower feed or a shorter cycle",
             Self::Unstable { .. } => {
                 "lower `Kv` or `Kp` of the plant, or check the units of its values: they are SI"

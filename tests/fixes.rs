@@ -443,6 +443,120 @@ fn the_configuration_sets_what_it_has_set_to_false() {
     assert!(said.first().expect("a refusal").fixes.is_empty());
 }
 
+#[test]
+fn the_configuration_gets_an_axis_that_a_program_names() {
+    // R12.5 R2.20: in the way in which it lists the others, with its comments and line ends.
+    let cases = [
+        (
+            "[[axis]]\nname = \"X\"",
+            "[[axis]]\nname = \"X\"\n\n[[axis]]\nname = \"C\"",
+        ),
+        (
+            "# mill\r\n[[axis]]\r\nname = \"X\" # first\r\n\r\n# what is checked\r\n[lint]\r\nFC402 = \"off\"\r\n",
+            "# mill\r\n[[axis]]\r\nname = \"X\" # first\r\n\r\n[[axis]]\r\nname = \"C\"\r\n\r\n# what is checked\r\n[lint]\r\nFC402 = \"off\"\r\n",
+        ),
+        // What belongs to the last axis stays with it, wherever it stands.
+        (
+            "[[axis]]\nname = \"X\"\n[axis.value]\nmode = 3\ntable = [\n  [0, 1], # slow\n  [9, 1],\n]\n# max_points = 20\n# not yet\n\n[lint]\n",
+            "[[axis]]\nname = \"X\"\n[axis.value]\nmode = 3\ntable = [\n  [0, 1], # slow\n  [9, 1],\n]\n# max_points = 20\n# not yet\n\n[[axis]]\nname = \"C\"\n\n[lint]\n",
+        ),
+        (
+            "[[axis]]\nname = \"X\"\n[lint]\n[axis.value]\n[variables]\n",
+            "[[axis]]\nname = \"X\"\n[lint]\n[axis.value]\n\n[[axis]]\nname = \"C\"\n[variables]\n",
+        ),
+        (
+            "[[axis]]\nname = \"X\"\n# of the lints\n[lint]\n",
+            "[[axis]]\nname = \"X\"\n\n[[axis]]\nname = \"C\"\n# of the lints\n[lint]\n",
+        ),
+        (
+            "[[axis]]\nname = \"X\"\n# the end",
+            "[[axis]]\nname = \"X\"\n# the end\n\n[[axis]]\nname = \"C\"",
+        ),
+        (
+            "axis = [{ name = \"X\" }]\n[lint]\n",
+            "axis = [{ name = \"X\" }, { name = \"C\" }]\n[lint]\n",
+        ),
+        (
+            "axis = [ {name = \"Y\"}, {name = \"X\"} , ] # two\n",
+            "axis = [ {name = \"Y\"}, {name = \"X\"}, { name = \"C\" } , ] # two\n",
+        ),
+        (
+            "axis = [\r\n\t{ name = \"Y\" },\r\n\t{ name = \"X\" }, # ] last, \r\n]\r\n",
+            "axis = [\r\n\t{ name = \"Y\" },\r\n\t{ name = \"X\" }, # ] last, \r\n\t{ name = \"C\" },\r\n]\r\n",
+        ),
+        (
+            "axis = [\n  { name = \"X\" } # last\n  , # end\n]\n",
+            "axis = [\n  { name = \"X\" }, # last\n  { name = \"C\" }\n  , # end\n]\n",
+        ),
+    ];
+    let program = [("a.nc", "C[COMP OFF LEAD]\nM30")];
+    for (text, expected) in cases {
+        let said = run_on(Machine::from_toml(text).expect(text), &program).said;
+        let said = said.iter().find(|it| it.code == Code::PErr21947);
+        let fixes = &said.expect("a refusal").fixes;
+        let [fix] = &fixes[..] else {
+            panic!("{text}: {fixes:?}");
+        };
+        assert_eq!(
+            (&*fix.place.file, fix.safety),
+            ("frictcomp.toml", Safety::Unsafe)
+        );
+        let mended = Fixed::new(&SourceFile::new("frictcomp.toml", text), [fix]).text;
+        assert_eq!(mended, expected);
+        let machine = Machine::from_toml(&mended).expect("a machine");
+        let names = |machine: &Machine| -> Vec<String> {
+            let axes = machine.axes.iter();
+            axes.map(|axis| axis.name.clone()).collect()
+        };
+        let mut all = names(&Machine::from_toml(text).expect("a machine"));
+        all.push("C".to_owned());
+        assert_eq!(names(&machine), all);
+        let after = run_on(machine, &program).said;
+        assert!(
+            after.iter().all(|it| it.code != Code::PErr21947),
+            "{after:?}"
+        );
+    }
+}
+
+#[test]
+fn an_axis_is_added_only_where_the_configuration_lists_them() {
+    // R2.20: the first axis of a list would end what is assumed without one.
+    let fixes = |machine: Machine, program: &str| {
+        let said = run_on(machine, &[("a.nc", program)]).said;
+        let said = said.into_iter().find(|it| it.code == Code::PErr21947);
+        said.expect("a refusal").fixes
+    };
+    for text in ["", "axis = []", "[lint]\nFC402 = \"off\"\n"] {
+        let machine = Machine::from_toml(text).expect("a machine");
+        assert_eq!(fixes(machine, "X1[COMP ON FRICT]\nM30"), [], "{text}");
+    }
+    // The lists of the control know their axes: the control stops there.
+    let lists = machine_of("kopf.achs_nr 1\nkopf.log_achs_name X\nEnde\n", "Ende\n");
+    assert_eq!(fixes(lists.machine, "C[COMP ON FRICT]\nM30"), []);
+    let startup = "default_achs_mds d.lis\nachs_mds[0] x.lis\nEnde\n";
+    let x = "kopf.achs_nr 1\nkopf.log_achs_name X\nEnde\n";
+    let lists = vec![("h.lis", startup), ("d.lis", "Ende\n"), ("x.lis", x)];
+    let text = "[machine]\nstartup = \"h.lis\"\n[[axis]]\nname = \"X\"\nnumber = 1\n";
+    let file = SourceFile::new("frictcomp.toml", text);
+    let configured = Configuration::from_toml(file, &mut Lists(lists)).expect("a machine");
+    assert_eq!(configured.machine.axes.len(), 1);
+    assert_eq!(fixes(configured.machine, "C[COMP ON FRICT]\nM30"), []);
+    // What is probably meant comes first.
+    let machine = Machine::from_toml("[[axis]]\nname = \"X1\"\n").expect("a machine");
+    let texts: Vec<_> = fixes(machine, "x1[COMP ON FRICT]\nM30")
+        .into_iter()
+        .map(|fix| fix.text)
+        .collect();
+    assert_eq!(texts, ["X1"]);
+    let machine = Machine::from_toml("[[axis]]\nname = \"X1\"\n").expect("a machine");
+    let texts: Vec<_> = fixes(machine, "X2[COMP ON FRICT]\nM30")
+        .into_iter()
+        .map(|fix| fix.text)
+        .collect();
+    assert_eq!(texts, ["X1", "\n\n[[axis]]\nname = \"X2\""]);
+}
+
 /// How often each code is said.
 fn counted(said: &[Diagnostic]) -> BTreeMap<Code, usize> {
     let mut counts = BTreeMap::new();
@@ -468,8 +582,17 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
         let source = SourceFile::new("a.nc", text.as_str());
         for said in &before {
             for fix in &said.fixes {
-                let mended = Fixed::new(&source, [fix]).text;
-                let after = run(&[("a.nc", &mended)]).said;
+                let in_program = &*fix.place.file == "a.nc";
+                let (mended, after) = if in_program {
+                    let mended = Fixed::new(&source, [fix]).text;
+                    let after = run(&[("a.nc", &mended)]).said;
+                    (mended, after)
+                } else {
+                    let configuration = SourceFile::new("frictcomp.toml", MACHINE);
+                    let mended = Fixed::new(&configuration, [fix]).text;
+                    let machine = Machine::from_toml(&mended).expect("a machine");
+                    (mended, run_on(machine, &[("a.nc", &text)]).said)
+                };
                 let (was, is) = (counted(&before), counted(&after));
                 let shown = path.display();
                 assert!(
@@ -479,9 +602,14 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
                 for (code, times) in &is {
                     let more = *times > was.get(code).copied().unwrap_or_default();
                     // A command that works now may leave a state that nothing brings home, and a
-                    // comment that is read now may silence nothing.
-                    let follows =
-                        fix.safety == Safety::Unsafe && matches!(code, Code::Fc401 | Code::Fc490);
+                    // comment that is read now may silence nothing. Nobody has said yet whether an
+                    // axis that was added has friction compensation.
+                    let follows = fix.safety == Safety::Unsafe
+                        && match code {
+                            Code::Fc401 | Code::Fc490 => in_program,
+                            Code::PErr70495 => !in_program,
+                            _ => false,
+                        };
                     assert!(!more || follows, "{shown}: {code} after {fix:?}\n{mended}");
                 }
                 *fixed.entry(said.code).or_default() += 1;
@@ -491,6 +619,7 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
     let codes: Vec<&str> = fixed.keys().map(|code| code.as_str()).collect();
     let expected = [
         "P-ERR-21301",
+        "P-ERR-21947",
         "FC202",
         "FC205",
         "FC401",

@@ -8,8 +8,9 @@ use super::advice::no_toml;
 use super::axis::AxisTable;
 use super::error::ConfigError;
 use super::machine::MachineTable;
+use super::one_more_axis::one_more_axis;
 use super::section::{Section, Shape};
-use crate::diagnostic::{Code, Levels, Severity};
+use crate::diagnostic::{Code, Levels, NamedFix, Severity};
 use crate::lists::{Given, Written};
 use crate::text::SourceFile;
 
@@ -20,6 +21,8 @@ pub(crate) struct ConfigFile {
     pub(crate) machine: MachineTable,
     /// `[[axis]]`.
     pub(crate) axes: Vec<AxisTable>,
+    /// The change that adds an axis.
+    pub(crate) one_more_axis: Option<NamedFix>,
     /// `[variables]`.
     pub(crate) variables: Vec<(String, Variable)>,
     /// `[lint]`.
@@ -70,6 +73,7 @@ impl ConfigFile {
             levels: levels(&root)?,
             extensions: extensions(&root)?,
             axes: AxisTable::read_all(&root)?,
+            one_more_axis: one_more_axis(&root),
         })
     }
 }

@@ -6,6 +6,7 @@ mod axis;
 mod error;
 mod file;
 mod machine;
+mod one_more_axis;
 mod plant;
 mod plant_keys;
 mod section;

@@ -66,6 +66,17 @@ impl<'a> Section<'a> {
         Some(Given::new((), self.source, span(value)))
     }
 
+    /// The file in which the table stands.
+    pub(super) fn source(&self) -> &SourceFile {
+        self.source
+    }
+
+    /// From where the last value of an array begins to where the last thing in it ends.
+    pub(super) fn extent_of_last(&self, key: &str) -> Option<Span> {
+        let last = self.table.get(key)?.get_ref().as_array()?.last()?;
+        Some(Span::new(last.span().start, end(last)))
+    }
+
     /// The keys with their places.
     pub(super) fn names(&self) -> impl Iterator<Item = Given<&'a str>> {
         self.table
@@ -308,6 +319,17 @@ fn shortened(text: &str) -> String {
             line.chars().take(LONGEST).collect::<String>()
         )
     }
+}
+
+/// Where the last thing in a value ends. The span of a table is that of its header.
+fn end(value: &Spanned<DeValue<'_>>) -> usize {
+    let own = value.span().end;
+    let ends = match value.get_ref() {
+        DeValue::Array(values) => values.iter().map(end).max(),
+        DeValue::Table(table) => table.values().map(end).max(),
+        _ => None,
+    };
+    own.max(ends.unwrap_or_default())
 }
 
 fn span<T>(spanned: &Spanned<T>) -> Span {

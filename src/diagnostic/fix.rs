@@ -92,6 +92,25 @@ impl Serialize for Fix {
     }
 }
 
+/// A fix whose text holds a name that is known only where something is said.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct NamedFix {
+    /// What is replaced; text is inserted at an empty place.
+    pub place: Place,
+    /// What stands there afterwards, up to the name.
+    pub before: String,
+    /// The rest, after the name.
+    pub after: String,
+}
+
+impl NamedFix {
+    /// The fix for a name, at which somebody has to look.
+    pub fn guess(&self, name: &str) -> Fix {
+        let Self { before, after, .. } = self;
+        Fix::guess(self.place.clone(), format!("{before}{name}{after}"))
+    }
+}
+
 /// A text after fixes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fixed {

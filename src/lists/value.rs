@@ -117,6 +117,12 @@ impl<T> Given<T> {
         self.source.place(self.span)
     }
 
+    /// What stands there, in the text of its file.
+    #[cfg(feature = "toml")]
+    pub(crate) fn span(&self) -> Span {
+        self.span
+    }
+
     /// The name of the file that gave it.
     pub fn file(&self) -> &str {
         self.source.name()

@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::harmless::HarmlessWords;
 use super::programs::ConfiguredPrograms;
 use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation};
+use crate::diagnostic::NamedFix;
 use crate::lists::{ChannelSettings, Origin};
 
 /// Where the axes of a machine come from.
@@ -24,6 +25,9 @@ pub struct Machine {
     pub axes: Vec<Axis>,
     /// Whether the configuration lists the axes.
     pub axis_set: AxisSet,
+    /// The change of the configuration that adds an axis, where it lists the axes and no list of the
+    /// control does.
+    pub one_more_axis: Option<NamedFix>,
     /// The CNC cycle in milliseconds.
     pub cycle_time_ms: Option<f64>,
     /// The kernel version, where the user gave it.

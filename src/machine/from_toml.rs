@@ -29,6 +29,8 @@ impl Configuration {
             ..Self::default()
         };
         let startup = file.machine.startup.clone();
+        let is_whole = startup.is_none() && file.axes.len() < MAX_AXES;
+        configuration.machine.one_more_axis = file.one_more_axis.filter(|_| is_whole);
         configuration.take_machine(file.machine)?;
         let mut loader = Loader::new(files);
         let mut axes = match startup.and_then(|asked| loader.load(&asked, ListKind::Startup)) {

@@ -44,7 +44,9 @@ pub fn axis_uses(text: &str) -> BTreeMap<String, AxisUse> {
             Item::Bracket { axis, .. } => Some((axis.of(raw.text).to_owned(), AxisUse::Named)),
             _ => None,
         }));
-        for (name, how) in found.into_iter().filter(|(name, _)| is_axis_name(name)) {
+        // A single Q is no axis without a configuration.
+        let found = found.into_iter();
+        for (name, how) in found.filter(|(name, _)| is_axis_name(name) && name != "Q") {
             let known = uses.entry(name).or_insert(how);
             *known = how.max(*known);
         }
@@ -52,12 +54,10 @@ pub fn axis_uses(text: &str) -> BTreeMap<String, AxisUse> {
     uses
 }
 
-/// Whether a name has the form of an axis name (R2.20). A single Q is no axis without a
-/// configuration.
-fn is_axis_name(name: &str) -> bool {
+/// Whether a name has the form of an axis name (R2.20).
+pub(crate) fn is_axis_name(name: &str) -> bool {
     let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    name != "Q"
-        && name.len() <= 16
+    name.len() <= 16
         && name.starts_with(['A', 'B', 'C', 'U', 'V', 'W', 'X', 'Y', 'Z', 'Q'])
         && name.chars().all(letter)
 }

@@ -29,6 +29,7 @@ mod raw;
 mod unread;
 mod upper_case;
 
+pub(crate) use axes::is_axis_name;
 pub use axes::{AxisUse, axis_uses};
 pub use brackets::MAX_BRACKETS;
 pub use fault::Fault;

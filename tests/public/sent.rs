@@ -169,6 +169,7 @@ sent! {
     diagnostic::Fixed,
     diagnostic::Label,
     diagnostic::Levels,
+    diagnostic::NamedFix,
     diagnostic::Safety,
     diagnostic::Severity,
     diagnostic::UnknownCode,

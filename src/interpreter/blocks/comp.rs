@@ -9,7 +9,7 @@ use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::machine::{AxisSet, Origin, Parameterisation};
-use crate::syntax::Fault;
+use crate::syntax::{Fault, is_axis_name};
 use crate::text::Span;
 
 impl Interpreter {
@@ -233,6 +233,9 @@ impl Interpreter {
         if configured {
             let all = known.join(", ");
             diagnostic = diagnostic.with_help(format!("the configuration lists all axes: {all}"));
+            let one_more = self.machine.one_more_axis.as_ref();
+            let added = one_more.filter(|_| is_axis_name(name));
+            diagnostic.fixes.extend(added.map(|fix| fix.guess(name)));
         } else {
             diagnostic.message = format!(
                 "no machine is described, and `{name}` is not one of the axes assumed without one"

@@ -1,0 +1,85 @@
+//! Where `frictcomp.toml` takes one more axis.
+
+use super::section::Section;
+use crate::diagnostic::NamedFix;
+use crate::text::Span;
+
+/// What a change of the file replaces, and with what around the name of the axis.
+struct Change {
+    span: Span,
+    before: String,
+    after: &'static str,
+}
+
+/// The change that adds an axis to the file, in the way in which the file lists the others. `None`
+/// where it lists none: the first axis of a list ends what is assumed without one (R2.20).
+pub(super) fn one_more_axis(root: &Section<'_>) -> Option<NamedFix> {
+    let (source, last) = (root.source(), root.extent_of_last("axis")?);
+    let text = source.text();
+    let change = if last.of(text).starts_with('{') {
+        let array = root.given("axis")?;
+        in_array(text, last, array.span())
+    } else {
+        after_table(text, last)
+    };
+    Some(NamedFix {
+        place: source.place(change.span),
+        before: change.before,
+        after: change.after.to_owned(),
+    })
+}
+
+/// A table `[[axis]]` after the last one, and after comments that close it: those with an empty line
+/// or the end of the file below them.
+fn after_table(text: &str, last: Span) -> Change {
+    let line_end = |from: usize| from + text[from..].lines().next().unwrap_or_default().len();
+    let table_end = line_end(last.end as usize);
+    let (mut end, mut comments_end) = (table_end, table_end);
+    loop {
+        let Some(below) = text[comments_end..].find('\n') else {
+            end = comments_end;
+            break;
+        };
+        let start = comments_end + below + 1;
+        let line = text[start..line_end(start)].trim();
+        if line.is_empty() {
+            end = comments_end;
+        }
+        if !line.starts_with('#') {
+            break;
+        }
+        comments_end = line_end(start);
+    }
+    Change {
+        span: Span::new(end, end),
+        before: "\n\n[[axis]]\nname = \"".to_owned(),
+        after: "\"",
+    }
+}
+
+/// An entry `{ name = "X" }` after the last one of an array: in its line, or below it where the array
+/// has lines.
+fn in_array(text: &str, last: Span, array: Span) -> Change {
+    let (start, end) = (last.start as usize, last.end as usize);
+    let gap = &text[end..array.end as usize - 1];
+    let Some(line_end) = gap.find('\n') else {
+        return Change {
+            span: Span::new(end, end),
+            before: ", { name = \"".to_owned(),
+            after: "\" }",
+        };
+    };
+    let rest = gap[..line_end].trim_end_matches('\r');
+    let (comma, after) = if rest.trim_start().starts_with(',') {
+        ("", "\" },")
+    } else {
+        (",", "\" }")
+    };
+    let line = &text[text[..start].rfind('\n').map_or(0, |at| at + 1)..start];
+    let indent = &line[..line.len() - line.trim_start().len()];
+    Change {
+        span: Span::new(end, end + rest.len()),
+        before: format!("{comma}{rest}\n{indent}{{ name = \""),
+        after,
+    }
+}

@@ -2,7 +2,15 @@
 
 #![cfg(feature = "cli")]
 
+#[path = "contour/driven.rs"]
+mod driven;
 mod folder;
+#[path = "contour/independent.rs"]
+mod independent;
+#[path = "contour/shape.rs"]
+mod shape;
+#[path = "contour/truth.rs"]
+mod truth;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

@@ -7,9 +7,9 @@ use crate::motion::Movement;
 /// How far a run was from the path while it was cutting (R11.3).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deviations {
-    /// The outermost deviation in µm: `F_max` on a circle.
+    /// The outermost deviation in µm: `F_max` on a circle; negative where the whole path is inside.
     pub outermost_um: f64,
-    /// The innermost deviation in µm, as a rule negative: `F_min` on a circle.
+    /// The innermost deviation in µm: `F_min` on a circle; positive where the whole path is outside.
     pub innermost_um: f64,
     squares: f64,
     cycles: f64,
@@ -17,15 +17,20 @@ pub struct Deviations {
 
 impl Deviations {
     pub(super) fn push(&mut self, deviation_um: f64) {
-        self.outermost_um = self.outermost_um.max(deviation_um);
-        self.innermost_um = self.innermost_um.min(deviation_um);
+        let is_first = self.cycles == 0.0;
+        if is_first || deviation_um > self.outermost_um {
+            self.outermost_um = deviation_um;
+        }
+        if is_first || deviation_um < self.innermost_um {
+            self.innermost_um = deviation_um;
+        }
         self.squares += deviation_um * deviation_um;
         self.cycles += 1.0;
     }
 
     /// The largest deviation to either side in µm.
     pub fn max_um(&self) -> f64 {
-        self.outermost_um.max(-self.innermost_um)
+        self.outermost_um.abs().max(self.innermost_um.abs())
     }
 
     /// The root of the mean square in µm.
@@ -56,9 +61,9 @@ pub struct ContourSummary {
     pub rapid: u64,
     /// Reversals in feed moves without active compensation.
     pub uncompensated: u64,
-    /// The largest glitch of those in µm.
+    /// The glitch in µm of the one of those at which compensation would gain the most.
     pub uncompensated_um: f64,
-    /// The largest glitch that the same reversals have with compensation, in µm.
+    /// The glitch that the same reversal has with compensation, in µm.
     pub compensated_um: f64,
     /// The reversal in a feed move with the largest glitch.
     pub worst: Option<Worst>,
@@ -74,8 +79,12 @@ impl ContourSummary {
         let glitch = reversal.glitch_um;
         if reversal.state != State::Active {
             self.uncompensated += 1;
-            self.uncompensated_um = self.uncompensated_um.max(glitch.programmed);
-            self.compensated_um = self.compensated_um.max(glitch.all_on);
+            let gain = glitch.programmed - glitch.all_on;
+            let known = self.uncompensated_um - self.compensated_um;
+            if self.uncompensated == 1 || gain > known {
+                self.uncompensated_um = glitch.programmed;
+                self.compensated_um = glitch.all_on;
+            }
         }
         let worst = self.worst.as_ref();
         let worst = worst.map(|worst| worst.reversal.glitch_um.programmed);

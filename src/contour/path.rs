@@ -16,6 +16,9 @@ const STRAIGHT: f64 = 1e-9;
 /// A curve turns by no more from point to point, in rad; anything else is a corner.
 const CORNER: f64 = 0.3;
 
+/// The cosine of that.
+const CORNER_COSINE: f64 = 0.955;
+
 #[derive(Debug, Clone, Copy)]
 struct Point {
     place: Places,
@@ -23,6 +26,8 @@ struct Point {
     turn: f64,
     /// Whether the last turn was to the left: 1, or to the right: -1.
     side: f64,
+    /// Whether the path has a corner here, in whatever plane.
+    is_corner: bool,
 }
 
 /// How far a place is from the path.
@@ -42,6 +47,9 @@ pub(super) struct CommandedPath {
     back: u64,
     /// The number of the first of the points.
     first: u64,
+    /// The number of the last corner up to the point that was looked at last.
+    corner: u64,
+    looked_at: u64,
 }
 
 fn minus(one: &Places, other: &Places) -> Places {
@@ -59,6 +67,8 @@ impl CommandedPath {
             points: VecDeque::new(),
             back,
             first: 0,
+            corner: 0,
+            looked_at: 0,
         }
     }
 
@@ -86,6 +96,7 @@ impl CommandedPath {
                 place,
                 turn: 0.0,
                 side: 1.0,
+                is_corner: false,
             });
             return self.last();
         };
@@ -95,6 +106,7 @@ impl CommandedPath {
         }
         let mut side = last.side;
         let mut turn = 0.0;
+        let mut is_corner = false;
         if let Some(before) = self.points.len().checked_sub(2).map(|at| &self.points[at]) {
             let came = minus(&last.place, &before.place);
             let cross = came[0] * step[1] - came[1] * step[0];
@@ -102,17 +114,34 @@ impl CommandedPath {
             if turn.abs() > STRAIGHT && turn.abs() < 3.0 {
                 side = turn.signum();
             }
+            let both = (dot(&came, &came) * dot(&step, &step)).sqrt();
+            is_corner = dot(&came, &step) < CORNER_COSINE * both;
         }
         if let Some(last) = self.points.back_mut() {
             last.turn = turn;
             last.side = side;
+            last.is_corner = is_corner;
         }
         self.points.push_back(Point {
             place,
             turn: 0.0,
             side,
+            is_corner: false,
         });
         self.last()
+    }
+
+    /// The number of the last corner up to a point, 0 before the first one.
+    pub(super) fn last_corner(&mut self, number: u64) -> u64 {
+        // Whether the last point is a corner is seen when the path goes on.
+        let known = number.min(self.last().saturating_sub(1));
+        for number in self.looked_at.max(self.first)..=known {
+            if self.at(number).is_some_and(|point| point.is_corner) {
+                self.corner = number;
+            }
+            self.looked_at = number;
+        }
+        self.corner
     }
 
     /// Forgets the points long before one.

@@ -322,6 +322,8 @@ impl<S: ContourSink> Tracer<S> {
             };
             *distance = self.path.distance(&reached, (&mut run.near, cycle.point));
         }
+        let near = runs.each_ref().map(|run| run.near);
+        let corner = self.path.last_corner(cycle.point);
         self.path.forget_before(cycle.point);
         self.cycles += 1;
         let count = options.axes.len();
@@ -343,6 +345,8 @@ impl<S: ContourSink> Tracer<S> {
                 path_velocity: cycle.path_velocity,
                 added: &programmed[..count],
                 distances: &distances,
+                near,
+                corner,
             };
             self.reversals
                 .push(&measured, |reversal| take(axes, sink, &reversal));

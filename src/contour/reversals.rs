@@ -40,7 +40,7 @@ pub struct ContourReversal {
     pub state: State,
     /// The additive current in drive units before the reversal, and at the end of its window.
     pub current_units: [f64; 2],
-    /// The largest change of the normal deviation in µm.
+    /// The largest change of the normal deviation in µm, as far as the path goes without a corner.
     pub glitch_um: PerRun<f64>,
 }
 
@@ -56,12 +56,48 @@ pub(super) struct Measured<'a> {
     /// The additive currents of the programmed run.
     pub(super) added: &'a [f64],
     pub(super) distances: &'a [Distance; 3],
+    /// The number of the point of the path from which each run is that far.
+    pub(super) near: [u64; 3],
+    /// The number of the last corner that was commanded.
+    pub(super) corner: u64,
 }
 
+/// A reversal whose window has not ended.
 struct Open {
     reversal: ContourReversal,
     axis: usize,
-    from: [f64; 3],
+    /// The number of the corner that the path comes from.
+    corner: u64,
+    /// The deviation of each run at the reversal. After a corner it is the first one that is measured
+    /// from the way out of it: the way in has another normal.
+    from: [Option<f64>; 3],
+}
+
+impl Open {
+    /// Follows the deviation of each run.
+    fn follow(&mut self, measured: &Measured<'_>) {
+        let runs = measured.distances.iter().zip(measured.near);
+        let glitches = self.reversal.glitch_um.each_mut().into_iter();
+        for (((distance, near), from), glitch) in runs.zip(&mut self.from).zip(glitches) {
+            let deviation = value(distance, self.axis);
+            if from.is_none() && near >= self.corner {
+                *from = Some(deviation);
+            }
+            if let Some(from) = from {
+                *glitch = glitch.max((deviation - *from).abs() * UM_PER_MM);
+            }
+        }
+        self.reversal.current_units[1] = measured.added[self.axis];
+    }
+
+    /// Whether its window is over: a corner has another normal, and a rapid motion does not cut.
+    fn is_over(&self, measured: &Measured<'_>) -> bool {
+        let age = measured.time_s - self.reversal.time_s;
+        let is_cut = self.reversal.movement != Movement::Rapid;
+        age >= WINDOW_S
+            || measured.corner > self.corner
+            || (is_cut && measured.cause.movement == Movement::Rapid)
+    }
 }
 
 /// Finds reversals and follows each to the end of its window.
@@ -72,6 +108,10 @@ pub(super) struct Reversals {
     directions: Vec<f64>,
     velocities: Vec<f64>,
     added: Vec<f64>,
+    /// How far each run was from the path in the cycle before; `None` where the trace begins.
+    distances: Option<[Distance; 3]>,
+    /// From which points of the path.
+    near: [u64; 3],
     open: Vec<Open>,
 }
 
@@ -84,6 +124,8 @@ impl Reversals {
             directions: vec![0.0; count],
             velocities: vec![0.0; count],
             added: vec![0.0; count],
+            distances: None,
+            near: [0; 3],
             open: Vec::new(),
         }
     }
@@ -94,6 +136,7 @@ impl Reversals {
         self.directions.fill(0.0);
         self.velocities.fill(0.0);
         self.added.fill(0.0);
+        self.distances = None;
     }
 
     /// Takes a cycle, and gives out the reversals whose windows end.
@@ -102,26 +145,22 @@ impl Reversals {
         let turned: Vec<usize> = (0..self.names.len()).filter(reverses).collect();
         let open = std::mem::take(&mut self.open);
         for mut open in open {
-            let glitch = open.reversal.glitch_um.each_mut();
-            for ((glitch, distance), from) in
-                glitch.into_iter().zip(measured.distances).zip(open.from)
-            {
-                *glitch = glitch.max((value(distance, open.axis) - from).abs() * UM_PER_MM);
-            }
-            open.reversal.current_units[1] = measured.added[open.axis];
-            let age = measured.time_s - open.reversal.time_s;
-            if turned.is_empty() && age < WINDOW_S {
+            if turned.is_empty() && !open.is_over(measured) {
+                open.follow(measured);
                 self.open.push(open);
             } else {
                 take(open.reversal);
             }
         }
         for axis in turned {
-            self.open.push(Open {
+            let mut open = Open {
                 reversal: self.reversal(axis, measured),
                 axis,
-                from: measured.distances.map(|distance| value(&distance, axis)),
-            });
+                corner: measured.corner,
+                from: self.at_reversal(axis, measured),
+            };
+            open.follow(measured);
+            self.open.push(open);
         }
         for (direction, velocity) in self.directions.iter_mut().zip(measured.velocities) {
             if *velocity != 0.0 {
@@ -130,6 +169,17 @@ impl Reversals {
         }
         self.velocities.copy_from_slice(measured.velocities);
         self.added.copy_from_slice(measured.added);
+        self.distances = Some(*measured.distances);
+        self.near = measured.near;
+    }
+
+    /// The deviation of each run when an axis reverses: at the end of the cycle before, which must
+    /// have been measured from the same way.
+    fn at_reversal(&self, axis: usize, measured: &Measured<'_>) -> [Option<f64>; 3] {
+        std::array::from_fn(|run| {
+            let before = self.distances.filter(|_| self.near[run] >= measured.corner);
+            before.map(|before| value(&before[run], axis))
+        })
     }
 
     fn reversal(&self, axis: usize, measured: &Measured<'_>) -> ContourReversal {

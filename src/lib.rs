@@ -98,6 +98,8 @@ pub mod identify;
 pub mod interpreter;
 mod lint;
 pub mod lists;
+#[cfg(feature = "lsp")]
+pub mod lsp;
 pub mod machine;
 pub mod motion;
 #[cfg(feature = "report")]

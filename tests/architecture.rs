@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 26] = [
+const ROOMS: [(&str, &[&str]); 27] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -180,6 +180,23 @@ const ROOMS: [(&str, &[&str]); 26] = [
         ],
     ),
     (
+        "lsp",
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "syntax",
+            "lists",
+            "machine",
+            "interpreter",
+            "timeline",
+            "session",
+            "audit",
+            "report",
+            "host",
+        ],
+    ),
+    (
         "cli",
         &[
             "contour",
@@ -203,12 +220,13 @@ const ROOMS: [(&str, &[&str]); 26] = [
             "versions",
             "report",
             "host",
+            "lsp",
         ],
     ),
 ];
 
 /// Rooms that may touch files, the terminal and the environment.
-const OUTER: [&str; 4] = ["cli", "host", "report", "main"];
+const OUTER: [&str; 5] = ["cli", "host", "lsp", "report", "main"];
 
 /// A file above this many lines is split.
 const MAX_LINES: usize = 600;

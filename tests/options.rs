@@ -444,6 +444,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "verify",
         "explain",
         "codes",
+        "lsp",
         "config",
         "config show",
         "init",

@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 22] = [
+static EXAMPLES: [Examples; 23] = [
     examples(
         &["run"],
         [
@@ -140,6 +140,7 @@ static EXAMPLES: [Examples; 22] = [
             "frictcomp config show --isolated --enable X,Y",
         ],
     ),
+    examples(&["lsp"], ["frictcomp lsp", "frictcomp lsp --stdio"]),
     examples(
         &["init"],
         [

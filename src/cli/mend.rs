@@ -97,7 +97,7 @@ impl Bench<'_> {
             Input::File(path) if path.exists() && !path.is_file() => {
                 Some(format!("`{}`", path.display()))
             }
-            Input::File(_) => None,
+            Input::File(_) | Input::Open(_) => None,
         };
         match self.inputs.iter().find_map(name) {
             Some(name) => Err(Failure::new(format!("`{option}` cannot change {name}"))

@@ -26,6 +26,7 @@ mod identify;
 mod init;
 mod listing;
 mod lists;
+mod lsp;
 mod machine;
 mod man;
 mod mend;
@@ -92,6 +93,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
+    Lsp(lsp::LspArgs),
     Init(init::InitArgs),
     #[command(subcommand)]
     Config(config::ConfigCommand),
@@ -169,6 +171,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Verify(args) => verify::run(args, console),
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
+        Command::Lsp(args) => lsp::run(args),
         Command::Init(args) => init::run(args),
         Command::Config(command) => config::run(command, console),
         Command::Completions(args) => completions::run(args, description(), console),

@@ -7,7 +7,9 @@ use clap::Args;
 use super::failure::Failure;
 use super::machine::elsewhere;
 use crate::comp::CncBuild;
-use crate::host::{CONFIG_NAME, Grounds, check_list_file, is_configuration, nearest_config};
+use crate::host::{
+    CONFIG_NAME, Grounds, OpenTexts, check_list_file, is_configuration, nearest_config,
+};
 use crate::machine::ListsReport;
 
 /// The lists of a command.
@@ -50,7 +52,7 @@ impl NamedLists {
 
     /// Checks a list, or every list that a configuration names.
     pub(super) fn check(&self, path: &Path) -> Result<ListsReport, Failure> {
-        let report = check_list_file(path, self.cnc_build)?;
+        let report = check_list_file(path, self.cnc_build, &OpenTexts::default())?;
         if self.cnc_build.is_some() && is_configuration(path) {
             let message = format!(
                 "the build of `{}` is given in the file itself",

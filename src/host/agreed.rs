@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::error::HostError;
 use super::input::Input;
 use super::ledger::{Ledger, folder};
+use super::open_texts::OpenText;
 use super::outputs::OutputFiles;
 use super::read::read_bytes;
 
@@ -85,7 +86,7 @@ impl AgreedResults {
     /// # Errors
     /// The program is standard input, which has no file beside it.
     pub fn beside(&self, program: &Input) -> Result<AgreedFile, HostError> {
-        let Input::File(path) = program else {
+        let (Input::File(path) | Input::Open(OpenText { path, .. })) = program else {
             return Err(HostError::NothingBeside(self.kind.extension));
         };
         let mut name = path.as_os_str().to_owned();

@@ -37,13 +37,15 @@ impl AxesAhead {
             ..Self::default()
         };
         for input in inputs {
-            let Input::File(path) = input else {
-                ahead.is_open = true;
-                continue;
-            };
-            // What cannot be read is said when it is run.
-            if ahead.read(path).is_err() {
-                ahead.is_open = true;
+            match input {
+                Input::File(path) => {
+                    // What cannot be read is said when it is run.
+                    if ahead.read(path).is_err() {
+                        ahead.is_open = true;
+                    }
+                }
+                Input::Open(open) => ahead.look(open.text.as_bytes()),
+                Input::Stdin => ahead.is_open = true,
             }
         }
         ahead

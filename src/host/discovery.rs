@@ -10,7 +10,8 @@ use super::finder::Reach;
 use super::grounds::{Elsewhere, Grounds, absolute};
 use super::input::Input;
 use super::ledger::Ledger;
-use super::list_files::{ListsOnDisk, read_list};
+use super::list_files::OpenLists;
+use super::open_texts::OpenTexts;
 use super::watch::{Watch, Watcher};
 use crate::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
 use crate::lists::Parameter;
@@ -75,6 +76,8 @@ pub struct LoadedMachine {
     pub extensions: Option<Vec<String>>,
     /// Where the files of a run on this machine are noted.
     pub ledger: Ledger,
+    /// The texts that stand in for files in a run on this machine.
+    pub open: OpenTexts,
     /// Who watches the runs on this machine.
     pub watch: Arc<Watch>,
 }
@@ -106,6 +109,7 @@ impl LoadedMachine {
                 given => Some(given),
             },
             ledger: ledger.clone(),
+            open: OpenTexts::default(),
             watch: Arc::default(),
         }
     }
@@ -132,6 +136,8 @@ impl LoadedMachine {
 pub struct Machines {
     options: MachineOptions,
     ledger: Ledger,
+    /// The texts that stand in for files.
+    open: OpenTexts,
     /// The axes of the programs, where somebody asks for axes.
     ahead: Option<AxesAhead>,
     watch: Arc<Watch>,
@@ -146,6 +152,7 @@ impl Machines {
         Self {
             options,
             ledger: ledger.clone(),
+            open: OpenTexts::default(),
             ahead: None,
             watch: Arc::default(),
             loaded: BTreeMap::new(),
@@ -157,6 +164,12 @@ impl Machines {
     pub fn watched_by(mut self, watcher: Arc<dyn Watcher>) -> Self {
         self.watch = Arc::new(Watch::by(watcher));
         self
+    }
+
+    /// The same, with texts in place of the files that they stand in for.
+    pub fn with_open(self, open: &OpenTexts) -> Self {
+        let open = open.clone();
+        Self { open, ..self }
     }
 
     /// The machine of a program in a folder.
@@ -173,10 +186,11 @@ impl Machines {
             return Ok(Arc::clone(loaded));
         }
         let options = &self.options;
-        let mut loaded = options.load(config.as_deref(), &self.ledger)?;
+        let mut loaded = self.load(config.as_deref())?;
         options.enable_axes(&mut loaded, self.ahead.as_ref())?;
         options.codes.apply(&mut loaded.levels);
         options.codes.sift(&mut loaded.diagnostics);
+        loaded.open = self.open.clone();
         loaded.watch = Arc::clone(&self.watch);
         let loaded = Arc::new(loaded);
         self.loaded.insert(config, Arc::clone(&loaded));
@@ -206,6 +220,74 @@ impl Machines {
         loaded.extensions.clone()
     }
 
+    /// Reads the configuration and applies what differs from it.
+    fn load(&self, config: Option<&Path>) -> Result<LoadedMachine, HostError> {
+        let options = &self.options;
+        let mut loaded = match config {
+            Some(path) => self.read_config(path)?,
+            None => LoadedMachine::unconfigured(&self.ledger),
+        };
+        loaded.reach.elsewhere = options.elsewhere;
+        if let Some(path) = &options.startup {
+            let axes = self.read_startup(path)?;
+            loaded.machine = axes.machine;
+            loaded.diagnostics = axes.diagnostics;
+            loaded.reports = axes.reports;
+            loaded.programs = axes.programs;
+            loaded.origin = axes.origin;
+            loaded.lists = axes.lists;
+        }
+        loaded.settings.extend(options.settings.iter().cloned());
+        Ok(loaded)
+    }
+
+    /// Reads a `frictcomp.toml` and the lists that it names.
+    fn read_config(&self, path: &Path) -> Result<LoadedMachine, HostError> {
+        let mut lists = OpenLists(&self.open);
+        match Configuration::from_toml(lists.named(path)?, &mut lists) {
+            Ok(configuration) => {
+                let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
+                let grounds = self.options.grounds(path, &loaded.reach);
+                grounds.conceal(&mut loaded.diagnostics);
+                Ok(loaded)
+            }
+            Err(error) => {
+                let reach = Reach {
+                    project: path.parent().unwrap_or(path).to_owned(),
+                    ..Reach::default()
+                };
+                let mut diagnostics = vec![*error.diagnostic];
+                self.options.grounds(path, &reach).conceal(&mut diagnostics);
+                Err(HostError::Configuration {
+                    path: path.to_owned(),
+                    diagnostics,
+                })
+            }
+        }
+    }
+
+    /// Reads a start-up list and the lists that it names.
+    fn read_startup(&self, path: &Path) -> Result<LoadedMachine, HostError> {
+        let mut lists = OpenLists(&self.open);
+        let configuration = Configuration::from_startup(lists.named(path)?, &mut lists);
+        let wrong = configuration.diagnostics.iter().find(|said| {
+            let whole_file = *said.place.file == *path.display().to_string();
+            said.code == Code::Fc125 && whole_file && said.place.start().line == 1
+        });
+        if let Some(wrong) = wrong
+            && configuration.machine.axis_set == AxisSet::AsTheyOccur
+        {
+            return Err(HostError::NotAStartupList {
+                path: path.to_owned(),
+                message: wrong.message.clone(),
+            });
+        }
+        let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
+        let grounds = self.options.grounds(path, &loaded.reach);
+        grounds.conceal(&mut loaded.diagnostics);
+        Ok(loaded)
+    }
+
     fn nearest(&mut self, folder: &Path) -> Option<PathBuf> {
         if let Some(found) = self.nearest.get(folder) {
             return found.clone();
@@ -222,71 +304,6 @@ impl Machines {
 }
 
 impl MachineOptions {
-    /// Reads the configuration and applies what differs from it.
-    fn load(&self, config: Option<&Path>, ledger: &Ledger) -> Result<LoadedMachine, HostError> {
-        let mut loaded = match config {
-            Some(path) => self.read_config(path, ledger)?,
-            None => LoadedMachine::unconfigured(ledger),
-        };
-        loaded.reach.elsewhere = self.elsewhere;
-        if let Some(path) = &self.startup {
-            let axes = self.read_startup(path, ledger)?;
-            loaded.machine = axes.machine;
-            loaded.diagnostics = axes.diagnostics;
-            loaded.reports = axes.reports;
-            loaded.programs = axes.programs;
-            loaded.origin = axes.origin;
-            loaded.lists = axes.lists;
-        }
-        loaded.settings.extend(self.settings.iter().cloned());
-        Ok(loaded)
-    }
-
-    /// Reads a `frictcomp.toml` and the lists that it names.
-    fn read_config(&self, path: &Path, ledger: &Ledger) -> Result<LoadedMachine, HostError> {
-        match Configuration::from_toml(read_list(path)?, &mut ListsOnDisk) {
-            Ok(configuration) => {
-                let mut loaded = LoadedMachine::new(configuration, path, ledger);
-                let grounds = self.grounds(path, &loaded.reach);
-                grounds.conceal(&mut loaded.diagnostics);
-                Ok(loaded)
-            }
-            Err(error) => {
-                let reach = Reach {
-                    project: path.parent().unwrap_or(path).to_owned(),
-                    ..Reach::default()
-                };
-                let mut diagnostics = vec![*error.diagnostic];
-                self.grounds(path, &reach).conceal(&mut diagnostics);
-                Err(HostError::Configuration {
-                    path: path.to_owned(),
-                    diagnostics,
-                })
-            }
-        }
-    }
-
-    /// Reads a start-up list and the lists that it names.
-    fn read_startup(&self, path: &Path, ledger: &Ledger) -> Result<LoadedMachine, HostError> {
-        let configuration = Configuration::from_startup(read_list(path)?, &mut ListsOnDisk);
-        let wrong = configuration.diagnostics.iter().find(|said| {
-            let whole_file = *said.place.file == *path.display().to_string();
-            said.code == Code::Fc125 && whole_file && said.place.start().line == 1
-        });
-        if let Some(wrong) = wrong
-            && configuration.machine.axis_set == AxisSet::AsTheyOccur
-        {
-            return Err(HostError::NotAStartupList {
-                path: path.to_owned(),
-                message: wrong.message.clone(),
-            });
-        }
-        let mut loaded = LoadedMachine::new(configuration, path, ledger);
-        let grounds = self.grounds(path, &loaded.reach);
-        grounds.conceal(&mut loaded.diagnostics);
-        Ok(loaded)
-    }
-
     /// Assumes friction compensation on the axes that the user names.
     fn enable_axes(
         &self,

@@ -10,6 +10,7 @@ use super::error::HostError;
 use super::finder::{ProgramFinder, Reach};
 use super::input::{Input, Naming, Opened};
 use super::ledger::Ledger;
+use super::open_texts::OpenTexts;
 use super::state_file::StateFile;
 use super::switched_axes::switched_axes;
 use super::watch::{Watch, Watched};
@@ -23,6 +24,7 @@ use crate::timeline::Sink;
 pub struct Surroundings<'a> {
     reach: Reach,
     ledger: Ledger,
+    open: OpenTexts,
     watch: Arc<Watch>,
     naming: Naming,
     before_waiting: &'a dyn Fn(),
@@ -34,6 +36,7 @@ impl<'a> Surroundings<'a> {
         Self {
             reach: loaded.reach.clone(),
             ledger: loaded.ledger.clone(),
+            open: loaded.open.clone(),
             watch: Arc::clone(&loaded.watch),
             naming,
             before_waiting: &|| (),
@@ -69,7 +72,9 @@ pub fn run_program(
         sink
     };
     let finder = ProgramFinder::new(input, &surroundings.reach, surroundings.naming);
-    let mut finder = finder.noting(&surroundings.ledger);
+    let mut finder = finder
+        .noting(&surroundings.ledger)
+        .with_open(&surroundings.open);
     let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
         Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
         Opened::Lines(mut lines) => {

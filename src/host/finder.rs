@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use super::grounds::{Elsewhere, Grounds, normal};
 use super::input::{Input, Naming};
 use super::ledger::{Ledger, PROGRAM};
+use super::open_texts::{OpenText, OpenTexts};
 use super::read::read_bytes;
 use crate::session::{Finder, NoProgram};
 use crate::text::{SourceFile, decode};
@@ -48,6 +49,8 @@ pub struct ProgramFinder {
     listings: HashMap<PathBuf, BTreeMap<String, Vec<OsString>>>,
     /// Where the files are noted that were read.
     ledger: Ledger,
+    /// The texts that stand in for files.
+    open: OpenTexts,
 }
 
 impl ProgramFinder {
@@ -55,7 +58,7 @@ impl ProgramFinder {
     pub fn new(main: &Input, reach: &Reach, naming: Naming) -> Self {
         let mut known = HashMap::new();
         let mut names = HashMap::new();
-        if let Input::File(path) = main {
+        if let Input::File(path) | Input::Open(OpenText { path, .. }) = main {
             let name = naming.name(path);
             names.extend(path.canonicalize().map(|real| (real, name.clone())));
             known.insert(name, path.clone());
@@ -68,6 +71,7 @@ impl ProgramFinder {
             names,
             listings: HashMap::new(),
             ledger: Ledger::default(),
+            open: OpenTexts::default(),
         }
     }
 
@@ -75,6 +79,12 @@ impl ProgramFinder {
     pub fn noting(self, ledger: &Ledger) -> Self {
         let ledger = ledger.clone();
         Self { ledger, ..self }
+    }
+
+    /// The same, which takes texts in place of the files that they stand in for.
+    pub fn with_open(self, open: &OpenTexts) -> Self {
+        let open = open.clone();
+        Self { open, ..self }
     }
 
     fn locate(&mut self, name: &str, caller: &str) -> Result<PathBuf, NoProgram> {
@@ -132,7 +142,11 @@ impl ProgramFinder {
             return Err(NoProgram::Outside);
         }
         let path = self.existing(folder, name).ok_or(NoProgram::Absent)?;
-        let metadata = fs::metadata(&path).map_err(|error| unusable(&error))?;
+        let metadata = match fs::metadata(&path) {
+            // What is open and was never saved lies where its name says.
+            Err(_) if self.open.of(&path).is_some() => return Ok(path),
+            metadata => metadata.map_err(|error| unusable(&error))?,
+        };
         if !self.grounds.holds(&path) {
             return Err(NoProgram::Outside);
         }
@@ -147,6 +161,7 @@ impl ProgramFinder {
     fn existing(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let exact = folder.join(name);
         match fs::metadata(&exact) {
+            Err(_) if self.open.of(&exact).is_some() => return Some(exact),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             // A folder of that name may stand beside a file that is meant.
             Ok(metadata) if !metadata.is_file() => {
@@ -230,6 +245,10 @@ impl Finder for ProgramFinder {
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
         let path = self.locate(name, caller)?;
         self.ledger.reads(PROGRAM, &path);
+        if let Some(text) = self.open.of(&path) {
+            let text = text.to_string();
+            return Ok(SourceFile::new(self.name(&path), text));
+        }
         let bytes = read_bytes(&path).map_err(|error| unusable(&error))?;
         Ok(SourceFile::new(self.name(&path), decode(bytes)))
     }

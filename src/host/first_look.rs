@@ -112,6 +112,7 @@ fn programs(folder: &Path) -> impl Iterator<Item = String> {
     let inputs = find_programs(&[folder.to_owned()], |_| None).inputs;
     inputs.into_iter().filter_map(|input| match input {
         Input::File(path) => read_text(&path).ok(),
+        Input::Open(open) => Some(open.text.to_string()),
         Input::Stdin => None,
     })
 }

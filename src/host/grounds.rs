@@ -115,7 +115,7 @@ fn or_here(folder: &Path) -> &Path {
 }
 
 /// The path from the root on, without `.` and with `..` resolved by name.
-pub(super) fn absolute(path: &Path) -> Option<PathBuf> {
+pub(crate) fn absolute(path: &Path) -> Option<PathBuf> {
     std::path::absolute(or_here(path))
         .ok()
         .map(|path| normal(&path))

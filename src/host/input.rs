@@ -3,12 +3,15 @@
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::error::HostError;
 use super::ledger::{Ledger, PROGRAM};
 use super::lines::LineReader;
+use super::open_texts::OpenText;
 use super::read::{read_text, read_whole};
 use super::steady::Steady;
+use crate::syntax::FlowScan;
 use crate::text::{LineSource, SourceFile, decode};
 
 /// The name of standard input in records and diagnostics.
@@ -38,6 +41,8 @@ impl Naming {
 pub enum Input {
     /// A file.
     File(PathBuf),
+    /// A text that stands in for a file.
+    Open(OpenText),
     /// Standard input, `-`.
     Stdin,
 }
@@ -76,7 +81,7 @@ impl Input {
     /// Its name in records and diagnostics.
     pub fn name(&self, naming: Naming) -> String {
         match self {
-            Self::File(path) => naming.name(path),
+            Self::File(path) | Self::Open(OpenText { path, .. }) => naming.name(path),
             Self::Stdin => STDIN.to_owned(),
         }
     }
@@ -84,7 +89,7 @@ impl Input {
     /// The folder in which the search for a configuration begins.
     pub fn folder(&self) -> &Path {
         match self {
-            Self::File(path) => path.parent().unwrap_or(path),
+            Self::File(path) | Self::Open(OpenText { path, .. }) => path.parent().unwrap_or(path),
             Self::Stdin => Path::new(""),
         }
     }
@@ -110,7 +115,7 @@ impl Input {
     /// Notes the program among the files that are read.
     pub fn note(&self, ledger: &Ledger) {
         let path = match self {
-            Self::File(path) => path,
+            Self::File(path) | Self::Open(OpenText { path, .. }) => path,
             Self::Stdin => Path::new(STDIN),
         };
         ledger.reads(PROGRAM, path);
@@ -129,6 +134,7 @@ impl Input {
         match self {
             Self::File(path) => open_file(path, self.name(naming), before_waiting)
                 .map_err(|error| HostError::read(path, error)),
+            Self::Open(open) => Ok(open_text(open, self.name(naming))),
             Self::Stdin => Ok(match standard_input() {
                 // A file redirected with `<` must not change while it is read, like one that is named.
                 Some((file, metadata)) => arriving(Steady::new(file, &metadata), before_waiting),
@@ -191,6 +197,27 @@ fn open_file<'a>(
     file.rewind()?;
     let bytes = read_whole(file, metadata.len())?;
     Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
+}
+
+/// The lines of a text without flow, or the whole text.
+fn open_text<'a>(open: &OpenText, name: String) -> Opened<'a> {
+    let mut scan = FlowScan::default();
+    scan.feed(open.text.as_bytes());
+    if scan.needs_whole_text() {
+        return Opened::Whole(SourceFile::new(name, open.text.as_str()));
+    }
+    let bytes = io::Cursor::new(Shared(Arc::clone(&open.text)));
+    let length = u64::try_from(open.text.len()).unwrap_or(u64::MAX);
+    Opened::Lines(LineReader::of_length(Box::new(bytes), length))
+}
+
+/// The bytes of a text that others hold, too.
+struct Shared(Arc<String>);
+
+impl AsRef<[u8]> for Shared {
+    fn as_ref(&self) -> &[u8] {
+        self.0.as_bytes()
+    }
 }
 
 /// Lines that are given out as they arrive.

@@ -86,6 +86,11 @@ impl Ledger {
         programs.map(|(path, _)| path.clone()).collect()
     }
 
+    /// All files that were read.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.inputs().keys().cloned().collect()
+    }
+
     /// Whether a program came from where it cannot be read again.
     pub fn has_streams(&self) -> bool {
         let inputs = self.inputs();

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use super::error::HostError;
+use super::open_texts::OpenTexts;
 use super::read::read_bytes;
 use crate::machine::{ListFiles, NoList};
 use crate::text::{SourceFile, decode};
@@ -34,6 +35,37 @@ impl ListFiles for ListsOnDisk {
             }
             Some(Component::RootDir | Component::Prefix(_)) => None,
         }
+    }
+}
+
+/// The lists on the disk, but those that are open as they are there.
+pub(super) struct OpenLists<'a>(pub(super) &'a OpenTexts);
+
+impl OpenLists<'_> {
+    /// Reads a list or a configuration that the user names.
+    pub(super) fn named(&self, path: &Path) -> Result<SourceFile, HostError> {
+        match self.0.of(path) {
+            Some(text) => Ok(SourceFile::new(path.display().to_string(), text.as_str())),
+            None => read_list(path),
+        }
+    }
+}
+
+impl ListFiles for OpenLists<'_> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, NoList> {
+        let spelt = as_spelt(Path::new(path));
+        let found = spelt.as_deref().unwrap_or(Path::new(path));
+        match self.0.of(found) {
+            Some(text) => Ok(SourceFile::new(
+                found.to_string_lossy().into_owned(),
+                text.as_str(),
+            )),
+            None => ListsOnDisk.read(path),
+        }
+    }
+
+    fn above(&self, folder: &str) -> Option<String> {
+        ListsOnDisk.above(folder)
     }
 }
 

@@ -26,6 +26,7 @@ mod lines;
 mod list_files;
 mod memory;
 mod mend;
+mod open_texts;
 mod outputs;
 mod parameter_files;
 mod read;
@@ -59,6 +60,7 @@ pub use ledger::Ledger;
 pub use list_files::{ListsOnDisk, read_list};
 pub use memory::memory_for_simulation;
 pub use mend::{MendedFile, mend, write_mended};
+pub use open_texts::{OpenText, OpenTexts};
 pub use outputs::{OutputFile, OutputFiles};
 pub use parameter_files::{check_list_file, find_plant, read_value_list};
 pub use read::read_text;
@@ -73,6 +75,8 @@ pub use watch::{Done, Progress, Watch, Watcher};
 
 #[cfg(feature = "cli")]
 pub(crate) use axes_ahead::AxesAhead;
+#[cfg(feature = "lsp")]
+pub(crate) use grounds::absolute;
 #[cfg(feature = "cli")]
 pub(crate) use parameter_files::is_configuration;
 #[cfg(feature = "cli")]

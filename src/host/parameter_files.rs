@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::error::HostError;
 use super::ledger::Ledger;
-use super::list_files::{ListsOnDisk, read_list};
+use super::list_files::OpenLists;
+use super::open_texts::OpenTexts;
 use super::read::read_text;
 use crate::comp::CncBuild;
 use crate::lists::{FrictionList, ReadList};
@@ -59,11 +60,16 @@ pub(crate) fn is_configuration(path: &Path) -> bool {
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn check_list_file(path: &Path, build: Option<CncBuild>) -> Result<ListsReport, HostError> {
-    let source = read_list(path)?;
+pub fn check_list_file(
+    path: &Path,
+    build: Option<CncBuild>,
+    open: &OpenTexts,
+) -> Result<ListsReport, HostError> {
+    let mut lists = OpenLists(open);
+    let source = lists.named(path)?;
     Ok(if is_configuration(path) {
-        check_configuration(source, &mut ListsOnDisk)
+        check_configuration(source, &mut lists)
     } else {
-        check_list(source, build, &mut ListsOnDisk)
+        check_list(source, build, &mut lists)
     })
 }

@@ -11,11 +11,14 @@ use super::input::Input;
 pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<String> {
     let mut found = Vec::new();
     for input in inputs {
-        if let Input::File(path) = input
-            && path.is_file()
-            && let Ok(file) = File::open(path)
-        {
-            let _ = look(BufReader::new(file), &mut found);
+        match input {
+            Input::File(path) if path.is_file() => {
+                if let Ok(file) = File::open(path) {
+                    let _ = look(BufReader::new(file), &mut found);
+                }
+            }
+            Input::Open(open) => _ = look(open.text.as_bytes(), &mut found),
+            Input::File(_) | Input::Stdin => {}
         }
     }
     found.sort_unstable();

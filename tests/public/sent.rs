@@ -8,7 +8,7 @@ use frictcomp::current::CurrentCycle;
 use frictcomp::motion::{Cause, Sample, TraceSink};
 use frictcomp::{
     audit, circle, comp, contour, current, diagnostic, drive_interface, host, identify,
-    interpreter, lists, machine, motion, report, session, simulation, stiction, syntax, text,
+    interpreter, lists, lsp, machine, motion, report, session, simulation, stiction, syntax, text,
     timeline, trace, versions,
 };
 
@@ -214,6 +214,8 @@ sent! {
     host::MendedFile,
     host::MendedProgram,
     host::Naming,
+    host::OpenText,
+    host::OpenTexts,
     host::OutputFile,
     host::OutputFiles,
     host::Played,
@@ -317,6 +319,7 @@ sent! {
     lists::Verdict,
     lists::Written,
     lists::WrittenPoint,
+    lsp::Farewell,
     machine::AcceptedList,
     machine::Axis,
     machine::AxisReport,

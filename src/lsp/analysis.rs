@@ -1,0 +1,246 @@
+//! What a check of an open text finds.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::documents::{Document, Kind};
+use super::lane::Cancel;
+use super::states::StateBook;
+use super::wording::editor;
+use crate::comp::State;
+use crate::diagnostic::Diagnostic;
+use crate::host::{
+    Alone, Axes, Grounds, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines,
+    Naming, OpenText, OpenTexts, absolute, check_list_file, run_alone,
+};
+use crate::session::{Findings, Limits, Options, SessionOptions, StopPolicy};
+use crate::timeline::{EndedBy, Record, Sink};
+
+/// A text to check, as it and all others were when it was asked for.
+pub(super) struct Job {
+    /// The text.
+    pub(super) document: Arc<Document>,
+    /// All open texts.
+    pub(super) open: Vec<OpenText>,
+    /// The executed blocks that are checked.
+    pub(super) max_blocks: u64,
+    /// Whether the text has changed since.
+    pub(super) cancel: Cancel,
+}
+
+/// What a check of a text found.
+#[derive(Debug, Default)]
+pub(super) struct Analysis {
+    /// The version of the text.
+    pub(super) version: i32,
+    /// Messages about the text and all that it uses.
+    pub(super) said: Vec<Diagnostic>,
+    /// Why it could not be checked.
+    pub(super) failure: Option<Failure>,
+    /// The files that were read for it.
+    pub(super) reads: Vec<PathBuf>,
+    /// What happens in the program.
+    pub(super) run: Option<Run>,
+}
+
+/// Why a text could not be checked.
+#[derive(Debug)]
+pub(super) struct Failure {
+    /// What cannot be done.
+    pub(super) message: String,
+    /// What to do about it.
+    pub(super) help: Option<String>,
+}
+
+/// What happens in a program.
+#[derive(Debug)]
+pub(super) struct Run {
+    /// The states of its blocks.
+    pub(super) states: StateBook,
+    /// The axes when it has ended.
+    pub(super) ends: Vec<AxisEnd>,
+    /// Why it ended.
+    pub(super) ended_by: Option<EndedBy>,
+    /// That no machine is described, in words (R1.37).
+    pub(super) remark: Option<String>,
+}
+
+/// An axis when a program has ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct AxisEnd {
+    /// Its name.
+    pub(super) axis: String,
+    /// The state at the end.
+    pub(super) end: State,
+    /// The state at the start of the control.
+    pub(super) home: State,
+}
+
+impl Job {
+    /// Checks the text; `None` where it has changed meanwhile.
+    pub(super) fn run(&self) -> Option<Analysis> {
+        let ledger = Ledger::default();
+        let open = OpenTexts::new(self.open.iter().cloned());
+        let mut analysis = match self.document.kind {
+            Kind::Program => self.check_program(&open, &ledger),
+            Kind::List | Kind::Configuration => self.check_list(&open, &ledger),
+        };
+        if self.cancel.is_set() {
+            return None;
+        }
+        analysis.version = self.document.version;
+        let files = ledger.files().into_iter();
+        analysis.reads = files.map(|path| absolute(&path).unwrap_or(path)).collect();
+        Some(analysis)
+    }
+
+    fn check_program(&self, open: &OpenTexts, ledger: &Ledger) -> Analysis {
+        let input = Input::Open(self.document.open_text());
+        input.note(ledger);
+        let mut machines = Machines::new(MachineOptions::default(), ledger).with_open(open);
+        let loaded = match machines.for_folder(input.folder()) {
+            Ok(loaded) => loaded,
+            Err(error) => return failed(&error),
+        };
+        let alone = Alone {
+            options: options(&loaded, self.max_blocks),
+            naming: Naming::AsGiven,
+            axes: Axes::Ahead,
+        };
+        let mut survey = Survey::new(self.cancel.clone());
+        if let Err(error) = run_alone(&input, &loaded, alone, &mut survey) {
+            return failed(&error);
+        }
+        let mut said: Vec<Diagnostic> = loaded.errors().cloned().collect();
+        for diagnostic in &mut said {
+            diagnostic.reword(Some(editor));
+        }
+        said.extend(survey.findings.diagnostics().cloned());
+        Analysis {
+            said,
+            run: Some(Run {
+                states: survey.states,
+                ends: survey.ends,
+                ended_by: survey.ended_by,
+                remark: survey.remark,
+            }),
+            ..Analysis::default()
+        }
+    }
+
+    fn check_list(&self, open: &OpenTexts, ledger: &Ledger) -> Analysis {
+        let path = &self.document.path;
+        ledger.reads("list", path);
+        let build = match self.document.kind {
+            Kind::List => self.build(open),
+            Kind::Program | Kind::Configuration => None,
+        };
+        let mut report = match check_list_file(path, build, open) {
+            Ok(report) => report,
+            Err(error) => return failed(&error),
+        };
+        for file in &report.files {
+            ledger.reads("list", std::path::Path::new(&**file));
+        }
+        let folder = path.parent().unwrap_or(path);
+        Grounds::default()
+            .with(std::path::Path::new(""))
+            .with(folder)
+            .conceal(&mut report.diagnostics);
+        for diagnostic in &mut report.diagnostics {
+            diagnostic.reword(Some(editor));
+        }
+        Analysis {
+            said: report.diagnostics,
+            ..Analysis::default()
+        }
+    }
+
+    /// The build of the machine that a list belongs to, where a configuration says so.
+    fn build(&self, open: &OpenTexts) -> Option<crate::comp::CncBuild> {
+        let folder = self.document.path.parent()?;
+        let unheard = Ledger::default();
+        let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(open);
+        machines.for_folder(folder).ok()?.machine.build
+    }
+}
+
+/// How programs run in an editor: as `check` runs them, for fewer blocks.
+pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions {
+    let limits = Limits::default().with_blocks(max_blocks);
+    let run = Options::default()
+        .with_stop(StopPolicy::CheckAll)
+        .with_limits(limits);
+    SessionOptions::from(run)
+        .with_levels(loaded.levels.clone())
+        .with_settings(loaded.settings.clone())
+        .with_wording(Some(editor))
+}
+
+fn failed(error: &HostError) -> Analysis {
+    Analysis {
+        said: error.diagnostics().to_vec(),
+        failure: Some(Failure {
+            message: error.to_string(),
+            help: error.help(),
+        }),
+        ..Analysis::default()
+    }
+}
+
+/// Takes the records of a run.
+struct Survey {
+    cancel: Cancel,
+    findings: Findings,
+    states: StateBook,
+    ends: Vec<AxisEnd>,
+    ended_by: Option<EndedBy>,
+    remark: Option<String>,
+}
+
+impl Survey {
+    fn new(cancel: Cancel) -> Self {
+        Self {
+            cancel,
+            findings: Findings::default(),
+            states: StateBook::default(),
+            ends: Vec::new(),
+            ended_by: None,
+            remark: None,
+        }
+    }
+}
+
+impl Sink for Survey {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if self.cancel.is_set() {
+            return ControlFlow::Break(());
+        }
+        match record {
+            Record::Session { remark, .. } => self.remark = remark.map(str::to_owned),
+            Record::Program { file, state, .. } => self.states.begin(file, *state),
+            Record::Block(row) => {
+                self.states.block(row);
+                if row.diagnostics.is_empty() {
+                    return ControlFlow::Continue(());
+                }
+            }
+            Record::End(end) => {
+                self.states.end(end.state);
+                self.ended_by = Some(end.by);
+            }
+            Record::Summary(summary) => {
+                let axes = summary.axes.iter();
+                let ends = axes.map(|axis| AxisEnd {
+                    axis: summary.state.name(axis.axis).to_owned(),
+                    end: axis.end,
+                    home: axis.home,
+                });
+                self.ends = ends.collect();
+            }
+            Record::Machine(_) => {}
+        }
+        self.findings.record(record)
+    }
+}

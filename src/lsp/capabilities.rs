@@ -1,0 +1,59 @@
+//! What the server offers.
+
+use gen_lsp_types::{
+    CodeActionKind, CodeActionOptions, CodeLensOptions, ExecuteCommandOptions, InitializeResult,
+    SaveOptions, ServerCapabilities, ServerInfo, TextDocumentContent, TextDocumentContentOptions,
+    TextDocumentSyncKind, TextDocumentSyncOptions, WorkspaceFoldersServerCapabilities,
+    WorkspaceOptions,
+};
+
+use super::client::Client;
+use super::commands::COMMANDS;
+use super::pages::SCHEME;
+
+/// The answer to `initialize`.
+pub(super) fn offer(client: &Client) -> InitializeResult {
+    InitializeResult {
+        capabilities: ServerCapabilities {
+            position_encoding: Some(client.encoding.kind()),
+            text_document_sync: Some(
+                TextDocumentSyncOptions {
+                    open_close: Some(true),
+                    change: Some(TextDocumentSyncKind::Incremental),
+                    save: Some(SaveOptions::default().into()),
+                    ..TextDocumentSyncOptions::default()
+                }
+                .into(),
+            ),
+            hover_provider: Some(true.into()),
+            code_lens_provider: Some(CodeLensOptions::default()),
+            code_action_provider: Some(
+                CodeActionOptions {
+                    code_action_kinds: Some(vec![
+                        CodeActionKind::QuickFix,
+                        CodeActionKind::SourceFixAll,
+                    ]),
+                    ..CodeActionOptions::default()
+                }
+                .into(),
+            ),
+            execute_command_provider: Some(ExecuteCommandOptions {
+                commands: COMMANDS.map(str::to_owned).to_vec(),
+                ..ExecuteCommandOptions::default()
+            }),
+            inlay_hint_provider: Some(true.into()),
+            workspace: Some(WorkspaceOptions {
+                workspace_folders: Some(WorkspaceFoldersServerCapabilities::default()),
+                text_document_content: Some(TextDocumentContent::Options(
+                    TextDocumentContentOptions::new(vec![SCHEME.to_owned()]),
+                )),
+                ..WorkspaceOptions::default()
+            }),
+            ..ServerCapabilities::default()
+        },
+        server_info: Some(ServerInfo {
+            name: "frictcomp".to_owned(),
+            version: Some(env!("CARGO_PKG_VERSION").to_owned()),
+        }),
+    }
+}

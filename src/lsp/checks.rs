@@ -1,0 +1,135 @@
+//! Which texts have to be checked, and when (R12.7).
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use super::lane::Cancel;
+
+/// How long nobody may type before a text is checked: shorter than between two keystrokes, longer
+/// than between the changes of one.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// Why a text has to be checked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outdated {
+    /// It is new.
+    Now,
+    /// It was changed, and may be again at once.
+    ByTyping,
+    /// What it uses was changed.
+    ByOthers,
+}
+
+/// The texts that have to be checked, by their URIs.
+#[derive(Debug, Default)]
+pub(super) struct Checks {
+    due: BTreeMap<String, Instant>,
+    running: Option<(String, Cancel)>,
+}
+
+impl Checks {
+    /// A text has to be checked. A check that is on its way gives way: its text is out of date, or
+    /// another one is looked at.
+    pub(super) fn expect(&mut self, uri: &str, why: Outdated) {
+        let now = Instant::now();
+        let pause = match why {
+            Outdated::Now => Duration::ZERO,
+            Outdated::ByTyping => PAUSE,
+            Outdated::ByOthers => 2 * PAUSE,
+        };
+        self.due.insert(uri.to_owned(), now + pause);
+        if let Some((running, cancel)) = &self.running
+            && (running == uri || why == Outdated::ByTyping)
+        {
+            cancel.set();
+            let again = now + 2 * PAUSE;
+            self.due.entry(running.clone()).or_insert(again);
+        }
+    }
+
+    /// A text need not be checked any more.
+    pub(super) fn forget(&mut self, uri: &str) {
+        self.due.remove(uri);
+        if let Some((running, cancel)) = &self.running
+            && running == uri
+        {
+            cancel.set();
+        }
+    }
+
+    /// Nothing need be checked any more.
+    pub(super) fn stop(&mut self) {
+        self.due.clear();
+        if let Some((_, cancel)) = &self.running {
+            cancel.set();
+        }
+    }
+
+    /// The text that is to be checked now.
+    pub(super) fn due(&mut self, now: Instant) -> Option<String> {
+        if self.running.is_some() {
+            return None;
+        }
+        let first = self.due.iter().min_by_key(|(_, at)| **at);
+        let uri = first.filter(|(_, at)| **at <= now)?.0.clone();
+        self.due.remove(&uri);
+        Some(uri)
+    }
+
+    /// How long until a text is due; `None` where none is, or another one has to be done first.
+    pub(super) fn wait(&self, now: Instant) -> Option<Duration> {
+        if self.running.is_some() {
+            return None;
+        }
+        let first = self.due.values().min()?;
+        Some(first.saturating_duration_since(now))
+    }
+
+    /// The check of a text begins.
+    pub(super) fn begin(&mut self, uri: &str) -> Cancel {
+        let cancel = Cancel::default();
+        self.running = Some((uri.to_owned(), cancel.clone()));
+        cancel
+    }
+
+    /// The check has ended: the text that it was of.
+    pub(super) fn end(&mut self) -> Option<String> {
+        self.running.take().map(|(uri, _)| uri)
+    }
+
+    /// Whether a check of a text is still to come.
+    pub(super) fn is_awaited(&self, uri: &str) -> bool {
+        let is_running = self
+            .running
+            .as_ref()
+            .is_some_and(|(running, _)| running == uri);
+        is_running || self.due.contains_key(uri)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_check_that_is_out_of_date_gives_way() {
+        // R12.7
+        let mut checks = Checks::default();
+        let later = Instant::now() + Duration::from_secs(9);
+        checks.expect("a", Outdated::Now);
+        assert_eq!(checks.due(Instant::now()).as_deref(), Some("a"));
+        let first = checks.begin("a");
+        assert_eq!(checks.due(later), None);
+        checks.expect("b", Outdated::ByOthers);
+        assert!(!first.is_set() && checks.is_awaited("a"));
+        checks.expect("b", Outdated::ByTyping);
+        assert!(first.is_set(), "who types need not wait");
+        assert_eq!(checks.end().as_deref(), Some("a"));
+        let order = [checks.due(later), checks.due(later), checks.due(later)];
+        assert_eq!(order, [Some("b".to_owned()), Some("a".to_owned()), None]);
+        assert_eq!(checks.wait(later), None);
+        checks.expect("a", Outdated::Now);
+        checks.forget("a");
+        assert!(!checks.is_awaited("a"));
+    }
+}

@@ -1,0 +1,86 @@
+//! What is known about the client.
+
+use std::path::PathBuf;
+
+use gen_lsp_types::{ClientCapabilities, InitializeParams, WorkspaceFolders};
+
+use super::encoding::Encoding;
+use super::settings::Settings;
+use super::uri::path_of;
+
+/// What the client can do, and what its user wants.
+#[derive(Debug, Clone)]
+pub(super) struct Client {
+    /// What its columns count.
+    pub(super) encoding: Encoding,
+    /// What its user chose.
+    pub(super) settings: Settings,
+    /// What it can do.
+    pub(super) capabilities: ClientCapabilities,
+}
+
+impl Client {
+    /// The client of an `initialize` request, and what cannot be used of its settings.
+    pub(super) fn new(params: &InitializeParams) -> (Self, Vec<String>) {
+        let mut settings = Settings::default();
+        let given = params.initialization_options.as_ref();
+        let wrong = given.map(|given| settings.take(given)).unwrap_or_default();
+        let client = Self {
+            encoding: Encoding::negotiated(&params.capabilities),
+            settings,
+            capabilities: params.capabilities.clone(),
+        };
+        (client, wrong)
+    }
+
+    /// Whether it tells of files that change, where it is asked to.
+    pub(super) fn watches_files(&self) -> bool {
+        let workspace = self.capabilities.workspace.as_ref();
+        let watching = workspace.and_then(|it| it.did_change_watched_files.as_ref());
+        watching.and_then(|it| it.dynamic_registration) == Some(true)
+    }
+
+    /// Whether it can be asked for its settings.
+    pub(super) fn gives_settings(&self) -> bool {
+        let workspace = self.capabilities.workspace.as_ref();
+        workspace.and_then(|it| it.configuration) == Some(true)
+    }
+
+    /// Whether it asks for inlay hints again when it is told to.
+    pub(super) fn refreshes_inlay_hints(&self) -> bool {
+        let workspace = self.capabilities.workspace.as_ref();
+        let hints = workspace.and_then(|it| it.inlay_hint.as_ref());
+        hints.and_then(|it| it.refresh_support) == Some(true)
+    }
+
+    /// Whether it asks for code lenses again when it is told to.
+    pub(super) fn refreshes_code_lenses(&self) -> bool {
+        let workspace = self.capabilities.workspace.as_ref();
+        let lenses = workspace.and_then(|it| it.code_lens.as_ref());
+        lenses.and_then(|it| it.refresh_support) == Some(true)
+    }
+
+    /// Whether changes of files name the version that they are for.
+    pub(super) fn edits_versions(&self) -> bool {
+        let workspace = self.capabilities.workspace.as_ref();
+        let edits = workspace.and_then(|it| it.workspace_edit.as_ref());
+        edits.and_then(|it| it.document_changes) == Some(true)
+    }
+}
+
+/// The folder of the project, where the client names one.
+#[allow(deprecated, reason = "older clients name nothing else")]
+pub(super) fn project(params: &InitializeParams) -> Option<PathBuf> {
+    let folders = params
+        .workspace_folders_initialize_params
+        .workspace_folders
+        .as_ref();
+    let first = match folders {
+        Some(WorkspaceFolders::WorkspaceFolderList(folders)) => folders.first(),
+        Some(WorkspaceFolders::Null) | None => None,
+    };
+    let uri = first
+        .map(|folder| &folder.uri)
+        .or(params.root_uri.as_ref())?;
+    path_of(&uri.0)
+}

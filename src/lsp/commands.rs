@@ -1,0 +1,115 @@
+//! Reports that an editor shows in a window of its own (R12.4).
+
+use std::ops::ControlFlow;
+
+use gen_lsp_types::{ExecuteCommandParams, Uri};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::refusal::Refusal;
+use super::view::View;
+use super::wording::editor;
+use crate::comp::{Kind, KindSet};
+use crate::host::{
+    Alone, Axes, Input, Ledger, MachineOptions, Machines, Naming, OpenTexts, run_alone,
+};
+use crate::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
+use crate::session::SessionOptions;
+use crate::text::{LineSource, TextLines};
+use crate::timeline::{Record, Sink};
+
+/// The timeline of a program as an HTML report.
+pub(super) const SHOW_TIMELINE: &str = "frictcomp.showTimeline";
+
+/// All commands.
+pub(super) const COMMANDS: [&str; 1] = [SHOW_TIMELINE];
+
+/// What a command is about: its one argument.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Subject {
+    /// The program, or the folder.
+    uri: Uri,
+}
+
+/// The result of a command.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Shown {
+    /// A page that needs nothing else: no network, no script, no second file.
+    html: String,
+}
+
+/// Runs a command.
+pub(super) fn execute(view: &View, params: ExecuteCommandParams) -> Result<Shown, Refusal> {
+    let subject = params.arguments.into_iter().flatten().next();
+    let subject: Subject = serde_json::from_value(subject.unwrap_or(Value::Null))?;
+    match params.command.as_str() {
+        SHOW_TIMELINE => timeline(view, &subject),
+        other => Err(Refusal::Params(format!("there is no command `{other}`"))),
+    }
+}
+
+/// The texts that are open, and the files besides.
+struct Texts(OpenTexts);
+
+impl Sources for Texts {
+    fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>> {
+        match self.0.of(std::path::Path::new(name)) {
+            Some(text) => Some(Box::new(TextLines::new(text))),
+            None => crate::host::reopen(name),
+        }
+    }
+}
+
+/// The run of a program, as far as the client wants it.
+struct Digest<'a> {
+    digest: RunDigest,
+    view: &'a View,
+}
+
+impl Sink for Digest<'_> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if self.view.cancel.is_set() {
+            return ControlFlow::Break(());
+        }
+        self.digest.record(record)
+    }
+}
+
+fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
+    let document = view
+        .document(&subject.uri)
+        .ok_or_else(|| Refusal::Params(format!("`{}` is not open", subject.uri.0)))?;
+    let open = OpenTexts::new(view.documents.iter().map(|it| it.open_text()));
+    let input = Input::Open(document.open_text());
+    let unheard = Ledger::default();
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(&open);
+    let loaded = machines.for_folder(input.folder())?;
+    let alone = Alone {
+        options: SessionOptions::default()
+            .with_levels(loaded.levels.clone())
+            .with_settings(loaded.settings.clone())
+            .with_wording(Some(editor)),
+        naming: Naming::AsGiven,
+        axes: Axes::Ahead,
+    };
+    let mut sink = Digest {
+        digest: RunDigest::new(KindSet::of(Kind::Frict)),
+        view,
+    };
+    run_alone(&input, &loaded, alone, &mut sink)?;
+    let given = RunInputs {
+        given: GivenForRun {
+            machine: loaded.origin.as_deref(),
+            variables: &loaded.settings,
+            ..GivenForRun::default()
+        },
+        parameters: &loaded.reports,
+        programs: &loaded.programs,
+    };
+    let mut page = Vec::new();
+    render_run(&sink.digest, &given, &mut Texts(open), &mut page)
+        .map_err(|error| Refusal::Failed(error.to_string()))?;
+    Ok(Shown {
+        html: String::from_utf8_lossy(&page).into_owned(),
+    })
+}

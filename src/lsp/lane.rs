@@ -1,0 +1,48 @@
+//! Threads on which work waits its turn, so that the client never does.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+
+use crossbeam_channel::{Sender, unbounded};
+
+/// A thread that does one piece of work after the other.
+pub(super) struct Lane<J> {
+    jobs: Sender<J>,
+}
+
+impl<J: Send + 'static> Lane<J> {
+    /// A lane that ends with its owner.
+    ///
+    /// # Errors
+    /// The system starts no thread.
+    pub(super) fn new(name: &str, work: impl FnMut(J) + Send + 'static) -> io::Result<Self> {
+        let (jobs, queue) = unbounded();
+        let run = move || queue.into_iter().for_each(work);
+        thread::Builder::new().name(name.to_owned()).spawn(run)?;
+        Ok(Self { jobs })
+    }
+
+    /// Adds a piece of work.
+    pub(super) fn send(&self, job: J) {
+        // The queue is closed only where its thread has ended, which nothing outlives.
+        let _ = self.jobs.send(job);
+    }
+}
+
+/// Says that nobody waits for a piece of work any more.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// Nobody waits any more.
+    pub(super) fn set(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether nobody waits.
+    pub(super) fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}

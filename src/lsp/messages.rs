@@ -1,0 +1,197 @@
+//! Messages as the protocol has them (R12.2).
+
+use std::collections::BTreeMap;
+
+use gen_lsp_types::{
+    Code as MessageCode, CodeDescription, Diagnostic as Message, DiagnosticRelatedInformation,
+    DiagnosticSeverity, DiagnosticTag, Location, Range, Uri,
+};
+
+use super::analysis::Analysis;
+use super::client::Client;
+use super::documents::{Document, Documents};
+use super::encoding::whole_line;
+use super::pages::page_uri;
+use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
+use crate::text::Place;
+use crate::timeline::EndedBy;
+
+/// Who says it.
+const SOURCE: &str = "frictcomp";
+
+/// Messages of a check, by the URIs of the texts that they are about.
+pub(super) type ByText = BTreeMap<String, Vec<Message>>;
+
+/// Makes messages for a client.
+#[derive(Clone, Copy)]
+pub(super) struct Translator<'a> {
+    /// The client.
+    pub(super) client: &'a Client,
+    /// What it has open.
+    pub(super) documents: &'a Documents,
+}
+
+impl Translator<'_> {
+    /// What a check has to say, about the text itself and others.
+    pub(super) fn messages(self, document: &Document, analysis: &Analysis) -> ByText {
+        let mut messages = ByText::new();
+        let own = messages.entry(document.uri.0.clone()).or_default();
+        own.extend(self.failure(analysis));
+        own.extend(self.shortened(analysis));
+        for said in &analysis.said {
+            let (uri, message) = self.message(said);
+            messages.entry(uri.0).or_default().push(message);
+        }
+        messages
+    }
+
+    /// That a text could not be checked: without a message it would look as if all were well.
+    fn failure(self, analysis: &Analysis) -> Option<Message> {
+        let failure = analysis.failure.as_ref()?;
+        let help = failure.help.iter().map(|help| format!("\nhelp: {help}"));
+        let text = format!(
+            "not checked: {}{}",
+            failure.message,
+            help.collect::<String>()
+        );
+        let mut message = own(DiagnosticSeverity::Error, text);
+        let related = analysis
+            .said
+            .iter()
+            .map(|said| self.related(&said.place, &said.message));
+        message.related_information = Some(related.collect());
+        Some(message)
+    }
+
+    /// That only the first blocks were checked (R12.7).
+    fn shortened(self, analysis: &Analysis) -> Option<Message> {
+        let run = analysis.run.as_ref()?;
+        let is_used_up = analysis.said.iter().any(|said| said.code == Code::Fc910);
+        let blocks = self.client.settings.max_blocks;
+        (run.ended_by == Some(EndedBy::Budget) && is_used_up).then(|| {
+            let text = format!(
+                "only the first {blocks} executed blocks are checked here; `frictcomp check` checks all of them"
+            );
+            own(DiagnosticSeverity::Information, text)
+        })
+    }
+
+    /// One message, and the text that it is about.
+    pub(super) fn message(self, said: &Diagnostic) -> (Uri, Message) {
+        let help = said.advice.iter().map(|advice| format!("\nhelp: {advice}"));
+        let labels = said.labels.iter();
+        let labels = labels.map(|label| self.related(&label.place, &label.text));
+        let lists = said
+            .advice
+            .iter()
+            .filter_map(|advice| self.list_line(advice));
+        let related: Vec<_> = labels.chain(lists).collect();
+        let message = Message {
+            range: self.client.encoding.range(&said.place),
+            severity: Some(match said.severity {
+                Severity::Error => DiagnosticSeverity::Error,
+                Severity::Warning => DiagnosticSeverity::Warning,
+                Severity::Info => DiagnosticSeverity::Information,
+            }),
+            code: Some(MessageCode::String(said.code.as_str().to_owned())),
+            code_description: Some(CodeDescription {
+                href: page_uri(said.code, &self.client.settings),
+            }),
+            source: Some(SOURCE.to_owned()),
+            message: format!("{}{}", said.message, help.collect::<String>()).into(),
+            tags: (said.code == Code::Fc402).then(|| vec![DiagnosticTag::Unnecessary]),
+            related_information: (!related.is_empty()).then_some(related),
+            data: None,
+        };
+        (self.uri(&said.place.file), message)
+    }
+
+    /// The text of a name in messages.
+    pub(super) fn uri(self, file: &str) -> Uri {
+        self.documents.uri(&Documents::path(file))
+    }
+
+    fn related(self, place: &Place, text: &str) -> DiagnosticRelatedInformation {
+        DiagnosticRelatedInformation {
+            location: self.location(&place.file, self.client.encoding.range(place)),
+            message: text.to_owned(),
+        }
+    }
+
+    /// The line of a list that sets what the advice is about.
+    fn list_line(self, advice: &Advice) -> Option<DiagnosticRelatedInformation> {
+        let Advice::ConfigureInList { file, line, .. } = advice else {
+            return None;
+        };
+        Some(DiagnosticRelatedInformation {
+            location: self.location(file, whole_line(line.saturating_sub(1))),
+            message: "P-AXIS-00522 is set to 0 here".to_owned(),
+        })
+    }
+
+    fn location(self, file: &str, range: Range) -> Location {
+        let uri = self.uri(file);
+        Location { uri, range }
+    }
+}
+
+/// A message of the server itself, at the first line.
+fn own(severity: DiagnosticSeverity, text: String) -> Message {
+    Message {
+        range: whole_line(0),
+        severity: Some(severity),
+        source: Some(SOURCE.to_owned()),
+        message: text.into(),
+        ..Message::default()
+    }
+}
+
+/// What the client was told, text by text. Each check brings messages about its text and about others;
+/// a text shows those of all checks, each once.
+#[derive(Debug, Default)]
+pub(super) struct Board {
+    by_check: BTreeMap<String, ByText>,
+    shown: ByText,
+}
+
+impl Board {
+    /// Takes the messages of the check of a text in place of the earlier ones, and returns the texts
+    /// whose messages are others now.
+    pub(super) fn put(&mut self, check: &str, messages: ByText) -> ByText {
+        let concerned: Vec<String> = messages.keys().cloned().collect();
+        let earlier = self.by_check.insert(check.to_owned(), messages);
+        self.changed(earlier, concerned)
+    }
+
+    /// Takes away the messages of the check of a text that was closed, and returns the texts whose
+    /// messages are others now.
+    pub(super) fn remove(&mut self, check: &str) -> ByText {
+        let earlier = self.by_check.remove(check);
+        let changed = self.changed(earlier, Vec::new());
+        self.shown.retain(|_, messages| !messages.is_empty());
+        changed
+    }
+
+    fn changed(&mut self, earlier: Option<ByText>, mut concerned: Vec<String>) -> ByText {
+        concerned.extend(earlier.unwrap_or_default().into_keys());
+        let mut changed = ByText::new();
+        for uri in concerned {
+            let mut now: Vec<Message> = Vec::new();
+            let own = self.by_check.get(&uri).and_then(|check| check.get(&uri));
+            let all = self.by_check.iter().filter(|(check, _)| **check != uri);
+            let others = all.filter_map(|(_, check)| check.get(&uri));
+            let mut known = std::collections::HashSet::new();
+            for message in own.into_iter().chain(others).flatten() {
+                let key = (message.range, message.code.clone(), message.message.clone());
+                if known.insert(format!("{key:?}")) {
+                    now.push(message.clone());
+                }
+            }
+            if self.shown.get(&uri) != Some(&now) {
+                self.shown.insert(uri.clone(), now.clone());
+                changed.insert(uri, now);
+            }
+        }
+        changed
+    }
+}

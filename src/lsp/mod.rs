@@ -1,0 +1,50 @@
+//! The language server: what an editor shows of programs, lists and configurations while one types
+//! (chapter 12).
+//!
+//! ```text
+//! client ── transport ──► server ── checks ──► analysis, on a thread ──► messages ──► client
+//!                           │
+//!                           └── requests ──► answers, on another thread, from a view of all texts
+//! ```
+
+mod actions;
+mod analysis;
+mod asked;
+mod capabilities;
+mod checks;
+mod client;
+mod commands;
+mod custom;
+mod documents;
+mod encoding;
+mod hints;
+mod hover;
+mod lane;
+mod lens;
+mod log;
+mod messages;
+mod pages;
+mod refusal;
+mod requests;
+mod server;
+mod settings;
+mod states;
+mod transport;
+mod uri;
+mod view;
+mod wording;
+
+use std::io;
+
+pub use server::{Farewell, serve};
+
+/// Talks to a client at the other end of standard input and output.
+///
+/// # Errors
+/// The system starts no threads.
+pub fn serve_stdio() -> io::Result<Farewell> {
+    let stdio = transport::Stdio::open()?;
+    let farewell = serve(&stdio.connection)?;
+    stdio.close();
+    Ok(farewell)
+}

@@ -1,0 +1,87 @@
+//! Which questions there are, and who answers them.
+
+use gen_lsp_types::{
+    CodeActionRequest, CodeLensRequest, ExecuteCommandRequest, HoverRequest, InlayHintRequest,
+    Request, TextDocumentContentRequest,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::custom::{StatesRequest, TimelineRequest};
+use super::refusal::Refusal;
+use super::view::View;
+use super::{actions, commands, custom, hints, hover, lens, pages};
+
+/// Answers a question with parameters that may be anything.
+pub(super) type Answerer = fn(&View, Value) -> Result<Value, Refusal>;
+
+/// What a question needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Needs {
+    /// The texts.
+    Texts,
+    /// What a check of the text finds that the question is about.
+    Check,
+    /// Time: no other question may wait for it.
+    Time,
+}
+
+/// A question, and who answers it.
+struct Known {
+    method: &'static str,
+    needs: Needs,
+    answerer: Answerer,
+}
+
+/// Who answers a question; `None` where nobody does.
+pub(super) fn answerer(method: &str) -> Option<(Needs, Answerer)> {
+    let known = KNOWN.iter().find(|known| known.method == method)?;
+    Some((known.needs, known.answerer))
+}
+
+static KNOWN: [Known; 8] = [
+    known::<HoverRequest>(Needs::Check, |view, params| {
+        answer(view, params, hover::hover)
+    }),
+    known::<InlayHintRequest>(Needs::Check, |view, params| {
+        answer(view, params, hints::inlay_hints)
+    }),
+    known::<CodeLensRequest>(Needs::Check, |view, params| {
+        answer(view, params, lens::code_lenses)
+    }),
+    known::<CodeActionRequest>(Needs::Check, |view, params| {
+        answer(view, params, actions::code_actions)
+    }),
+    known::<StatesRequest>(Needs::Check, |view, params| {
+        answer(view, params, custom::states)
+    }),
+    known::<TimelineRequest>(Needs::Check, |view, params| {
+        answer(view, params, custom::timeline)
+    }),
+    known::<TextDocumentContentRequest>(Needs::Texts, |_, params| {
+        let content = pages::content(&serde_json::from_value(params)?);
+        Ok(serde_json::to_value(content)?)
+    }),
+    known::<ExecuteCommandRequest>(Needs::Time, |view, params| {
+        let shown = commands::execute(view, serde_json::from_value(params)?)?;
+        Ok(serde_json::to_value(shown)?)
+    }),
+];
+
+const fn known<R: Request>(needs: Needs, answerer: Answerer) -> Known {
+    Known {
+        method: R::METHOD.as_str(),
+        needs,
+        answerer,
+    }
+}
+
+fn answer<P: DeserializeOwned, R: Serialize>(
+    view: &View,
+    params: Value,
+    how: fn(&View, &P) -> R,
+) -> Result<Value, Refusal> {
+    let result = how(view, &serde_json::from_value(params)?);
+    Ok(serde_json::to_value(result)?)
+}

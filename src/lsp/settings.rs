@@ -1,0 +1,141 @@
+//! What the user of an editor chose (R12.4, R12.7).
+
+use serde_json::Value;
+
+/// Executed blocks of a program that are checked while one types.
+const MAX_BLOCKS: u64 = 500_000;
+
+/// Whether symbols, definitions, references, folding and renaming are offered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Navigation {
+    /// Where the client says that ISG's extension is absent, which offers them itself.
+    #[default]
+    Auto,
+    /// They are.
+    On,
+    /// They are not.
+    Off,
+}
+
+/// The settings of the client, the keys of `frictcomp`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Settings {
+    /// `inlayHints.enable`: changes of states are shown in the text.
+    pub(super) inlay_hints: bool,
+    /// `codeLens.enable`: what a program leaves and inherits stands above it.
+    pub(super) code_lens: bool,
+    /// `navigation`: `auto`, `on` or `off`.
+    pub(super) navigation: Navigation,
+    /// `isgExtension`: whether ISG's extension is there; `None` where the client does not say.
+    pub(super) isg_extension: Option<bool>,
+    /// `maxBlocks`: the executed blocks of a program that are checked while one types.
+    pub(super) max_blocks: u64,
+    /// `pages`: the URI of the folder that holds the pages of the codes.
+    pub(super) pages: Option<String>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            inlay_hints: true,
+            code_lens: true,
+            navigation: Navigation::Auto,
+            isg_extension: None,
+            max_blocks: MAX_BLOCKS,
+            pages: None,
+        }
+    }
+}
+
+impl Settings {
+    /// Takes what a client gives, below `frictcomp` or by itself; what it leaves out stays. Returns
+    /// what cannot be used.
+    pub(super) fn take(&mut self, given: &Value) -> Vec<String> {
+        let given = given.get("frictcomp").unwrap_or(given);
+        let mut wrong = Vec::new();
+        let mut read =
+            |keys: &[&str], expected: &str, take: &mut dyn FnMut(&Value) -> Option<()>| {
+                let value = keys.iter().try_fold(given, |value, key| value.get(key));
+                let value = value.filter(|value| !value.is_null());
+                if let Some(value) = value
+                    && take(value).is_none()
+                {
+                    let key = keys.join(".");
+                    wrong.push(format!(
+                        "`frictcomp.{key}` is {value}; it must be {expected}"
+                    ));
+                }
+            };
+        let truth = "true or false";
+        read(&["inlayHints", "enable"], truth, &mut |value| {
+            self.inlay_hints = value.as_bool()?;
+            Some(())
+        });
+        read(&["codeLens", "enable"], truth, &mut |value| {
+            self.code_lens = value.as_bool()?;
+            Some(())
+        });
+        read(&["isgExtension"], truth, &mut |value| {
+            self.isg_extension = Some(value.as_bool()?);
+            Some(())
+        });
+        read(&["navigation"], "`auto`, `on` or `off`", &mut |value| {
+            self.navigation = match value.as_str()? {
+                "auto" => Navigation::Auto,
+                "on" => Navigation::On,
+                "off" => Navigation::Off,
+                _ => return None,
+            };
+            Some(())
+        });
+        read(&["maxBlocks"], "a number from 1", &mut |value| {
+            self.max_blocks = value.as_u64().filter(|blocks| *blocks > 0)?;
+            Some(())
+        });
+        read(&["pages"], "a URI", &mut |value| {
+            self.pages = Some(value.as_str()?.trim_end_matches('/').to_owned());
+            Some(())
+        });
+        wrong
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn settings_are_taken_key_by_key() {
+        // R12.4
+        let mut settings = Settings::default();
+        let wrong = settings.take(&json!({ "frictcomp": {
+            "inlayHints": { "enable": false },
+            "codeLens": { "enable": "no" },
+            "maxBlocks": 0,
+            "navigation": "maybe",
+            "isgExtension": false,
+            "other": 1,
+        }}));
+        assert_eq!(wrong.len(), 3, "{wrong:?}");
+        assert!(wrong[0].starts_with("`frictcomp.codeLens.enable` is \"no\"; it must be"));
+        let expected = Settings {
+            inlay_hints: false,
+            isg_extension: Some(false),
+            ..Settings::default()
+        };
+        assert_eq!(settings, expected);
+        assert!(
+            settings
+                .take(&json!({ "maxBlocks": 7, "navigation": "off" }))
+                .is_empty()
+        );
+        assert_eq!(
+            (settings.max_blocks, settings.navigation),
+            (7, Navigation::Off)
+        );
+        assert!(settings.take(&json!(null)).is_empty());
+        assert!(settings.take(&json!([1])).is_empty());
+    }
+}

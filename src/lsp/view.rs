@@ -1,0 +1,68 @@
+//! What a question is answered from: the texts and what was found in them, as they are at one moment.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use gen_lsp_types::{Position, Uri};
+
+use super::analysis::{Analysis, Run};
+use super::client::Client;
+use super::documents::{Document, Documents};
+use super::lane::Cancel;
+use super::messages::Translator;
+
+/// What a question is answered from. A copy is cheap, and stays as it is.
+#[derive(Clone)]
+pub(super) struct View {
+    /// The client.
+    pub(super) client: Arc<Client>,
+    /// What it has open.
+    pub(super) documents: Documents,
+    /// What was found in the open texts, by their URIs.
+    pub(super) analyses: BTreeMap<String, Arc<Analysis>>,
+    /// Whether the client still wants to know.
+    pub(super) cancel: Cancel,
+}
+
+impl View {
+    /// Who makes messages for the client.
+    pub(super) fn translator(&self) -> Translator<'_> {
+        Translator {
+            client: &self.client,
+            documents: &self.documents,
+        }
+    }
+
+    /// What was found in an open text.
+    pub(super) fn analysis(&self, uri: &Uri) -> Option<&Analysis> {
+        self.analyses.get(&uri.0).map(AsRef::as_ref)
+    }
+
+    /// An open text.
+    pub(super) fn document(&self, uri: &Uri) -> Option<&Document> {
+        self.documents.get(uri).map(AsRef::as_ref)
+    }
+
+    /// The runs that came through a file, each with the name of the file there: that of the file
+    /// itself first, then those of programs that call it.
+    pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &Run, String)> {
+        let name = document.path.display().to_string();
+        let mut runs = Vec::new();
+        for (uri, analysis) in &self.analyses {
+            let (Some(run), Some(main)) = (&analysis.run, self.document(&Uri(uri.clone()))) else {
+                continue;
+            };
+            if main.uri == document.uri {
+                runs.insert(0, (main, run, name.clone()));
+            } else if run.states.has(&name) {
+                runs.push((main, run, name.clone()));
+            }
+        }
+        runs
+    }
+
+    /// The line, from 1, of the block at a position.
+    pub(super) fn block_at(document: &Document, position: Position) -> u32 {
+        document.block_line(position.line).saturating_add(1)
+    }
+}

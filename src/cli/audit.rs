@@ -38,7 +38,7 @@ use crate::session::StopPolicy;
 /// in the state that they find
 ///
 /// Each program runs twice, once with every configured axis at home and once with every one away
-/// from home. That tells what it does after any other program.
+/// from home. This shows what it does after any other program.
 #[derive(Debug, Args)]
 pub(super) struct AuditArgs {
     /// Programs and folders of programs
@@ -58,7 +58,7 @@ pub(super) struct AuditArgs {
     /// Say what happens in this order: a file with one program on each line
     #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "html", "jobs"])]
     sequence: Option<PathBuf>,
-    /// Show all of long tables and lists
+    /// Show long tables and lists in full
     #[arg(long)]
     all: bool,
     /// The number of programs to run at once; by default the number of processors
@@ -102,9 +102,9 @@ enum Format {
     Text,
     /// One document
     Json,
-    /// One record a line
+    /// One record per line
     Ndjson,
-    /// One row a program, axis and kind
+    /// One row per program, axis and kind
     Csv,
 }
 

@@ -40,8 +40,8 @@ pub(super) struct CircleArgs {
     /// Radius in mm; for recorded circles the commanded radius
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     radius: Option<f64>,
-    /// Feed in mm/min, 1000 without it; for recorded circles the commanded feed, which a column `t`
-    /// in s tells otherwise
+    /// Feed in mm/min, by default 1000; for recorded circles the commanded feed, by default that of
+    /// the column `t` in s
     #[arg(long, value_name = "MM/MIN", allow_negative_numbers = true)]
     feed: Option<f64>,
     /// The machine: `stiff`, `mid`, `soft`, or a TOML file
@@ -57,7 +57,12 @@ pub(super) struct CircleArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
-    #[arg(long, value_name = "READING", default_value = "")]
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
     reading: Reading,
     /// A recorded circle instead of a simulated one; give it twice for both directions
     #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]

@@ -24,7 +24,7 @@ use crate::report::{ListingFormat, command_line};
 /// Check that the torque of friction compensation reaches the drives, and that the actual torque
 /// comes back
 ///
-/// The axis lists are asked first, then the network information of the master (ENI), then the
+/// The axis lists come first, then the network information of the master (ENI), then the
 /// device descriptions (ESI).
 #[derive(Debug, Args)]
 pub(super) struct DriveArgs {

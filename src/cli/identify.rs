@@ -26,7 +26,7 @@ use crate::report::{fitted, visible_line};
 
 /// Find the friction of an axis in a recorded trace and make a value list of it
 ///
-/// Record torque and commanded velocity while the axis moves at constant speeds, each forth and back:
+/// Record torque and commanded velocity while the axis moves back and forth at constant speeds:
 /// docs/identification.md says how. Without options the columns `t` (s), `v` (µm/s or 0.001°/s), `x`
 /// (0.1 µm or 0.0001°) and `torque` (drive units) are taken; `frictcomp trace` lists the channels of a
 /// file.
@@ -42,10 +42,10 @@ pub(super) struct IdentifyArgs {
     channels: AxisChannels,
     #[command(flatten)]
     cycle: CycleArgs,
-    /// How many points the value list has at most; by default 8
+    /// The largest number of points in the value list; by default 8
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=200))]
     points: Option<u32>,
-    /// Take as few points as keep the list within this part of the friction, in per cent
+    /// Use as few points as keep the list within this percentage of the friction
     #[arg(long, value_name = "PCT", allow_negative_numbers = true)]
     max_error: Option<f64>,
     /// The feed in mm/min at which the machine works

@@ -66,9 +66,11 @@ use crate::report::{visible, visible_line};
 struct Arguments {
     /// When to colour the output
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(help_heading = "Terminal")]
     color: Color,
     /// Width of text in columns; by default that of the terminal, else `COLUMNS`, else 100
     #[arg(long, global = true, value_name = "N", value_parser = settings::parse_width)]
+    #[arg(help_heading = "Terminal")]
     width: Option<usize>,
     #[command(subcommand)]
     command: Command,

@@ -16,43 +16,43 @@ use crate::stiction::{Quantity, StictionError, solve};
 /// Give the values that are known, with or without a unit; what follows from them is computed.
 #[derive(Debug, Args)]
 pub(super) struct StictionArgs {
-    /// Change of the servo lag over one control loop cycle, in mm unless said
+    /// Change of the servo lag over one control loop cycle, in mm by default
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = |it: &str| Quantity::DeltaSa.parse(it))]
     delta_sa: Option<f64>,
-    /// Control loop cycle, in µs unless said
+    /// Control loop cycle, in µs by default
     #[arg(long, value_name = "TIME", value_parser = |it: &str| Quantity::Tc.parse(it))]
     tc: Option<f64>,
-    /// Gain of the position loop, in (m/min)/mm unless said
+    /// Gain of the position loop, in (m/min)/mm by default
     #[arg(long, value_name = "GAIN", value_parser = |it: &str| Quantity::Kv.parse(it))]
     kv: Option<f64>,
-    /// Factor of stiction compensation, in µs unless said
+    /// Factor of stiction compensation, in µs by default
     #[arg(long, value_name = "TIME", value_parser = |it: &str| Quantity::Mp1511.parse(it))]
     mp1511: Option<f64>,
-    /// Feed that is added, in m/min unless said
+    /// Feed that is added, in m/min by default
     #[arg(long, value_name = "FEED", allow_hyphen_values = true, value_parser = |it: &str| Quantity::FAdd.parse(it))]
     f_add: Option<f64>,
-    /// Voltage for rapid traverse, in V unless said
+    /// Voltage for rapid traverse, in V by default
     #[arg(long, value_name = "VOLTAGE", value_parser = |it: &str| Quantity::Mp1050.parse(it))]
     mp1050: Option<f64>,
-    /// Rapid traverse, in m/min unless said
+    /// Rapid traverse, in m/min by default
     #[arg(long, value_name = "FEED", value_parser = |it: &str| Quantity::Mp1010.parse(it))]
     mp1010: Option<f64>,
-    /// Voltage that is added, in V unless said
+    /// Voltage that is added, in V by default
     #[arg(long, value_name = "VOLTAGE", allow_hyphen_values = true, value_parser = |it: &str| Quantity::VAdd.parse(it))]
     v_add: Option<f64>,
-    /// Grating period of the encoder, in µm unless said
+    /// Grating period of the encoder, in µm by default
     #[arg(long, value_name = "LENGTH", value_parser = |it: &str| Quantity::Gp.parse(it))]
     gp: Option<f64>,
     /// Limit of the change of the servo lag, in counting steps
     #[arg(long, value_name = "STEPS", value_parser = |it: &str| Quantity::Mp1512.parse(it))]
     mp1512: Option<f64>,
-    /// The same limit as a length, in µm unless said
+    /// The same limit as a length, in µm by default
     #[arg(long, value_name = "LENGTH", value_parser = |it: &str| Quantity::DeltaSaLimit.parse(it))]
     delta_sa_limit: Option<f64>,
-    /// Commanded feed, in m/min unless said
+    /// Commanded feed, in m/min by default
     #[arg(long, value_name = "FEED", value_parser = |it: &str| Quantity::Feed.parse(it))]
     feed: Option<f64>,
-    /// Feed up to which stiction is compensated, in m/min unless said
+    /// Feed up to which stiction is compensated, in m/min by default
     #[arg(long, value_name = "FEED", value_parser = |it: &str| Quantity::Mp1513.parse(it))]
     mp1513: Option<f64>,
     /// The format of the result

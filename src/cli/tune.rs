@@ -59,7 +59,7 @@ pub(super) struct TuneArgs {
         allow_negative_numbers = true
     )]
     feeds: Vec<f64>,
-    /// The accelerations v²/R in mm/s² instead of the feeds; the radius gives the feed of each
+    /// The accelerations v²/R in mm/s², instead of feeds; each feed follows from the radius
     #[arg(
         long,
         value_name = "MM/S2",
@@ -81,7 +81,7 @@ pub(super) struct TuneArgs {
         allow_negative_numbers = true
     )]
     radii: Vec<f64>,
-    /// Keep the friction curve as it is, without a shape below 1 mm/s
+    /// Keep the friction curve as it is; do not shape it below 1 mm/s
     #[arg(long)]
     no_shaping: bool,
     /// The friction model
@@ -90,7 +90,12 @@ pub(super) struct TuneArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
-    #[arg(long, value_name = "READING", default_value = "")]
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
     reading: Reading,
     /// The format of the result
     #[arg(long, default_value = "text")]
@@ -102,7 +107,7 @@ pub(super) struct TuneArgs {
     /// unless the build accepts fractions
     #[arg(long, value_name = "BUILD")]
     cnc_build: Option<CncBuild>,
-    /// Write the value list of the first plant to this file; that of X where Y has another one
+    /// Write the value list of the first plant to this file; if X and Y have different lists, that of X
     #[arg(long, short, value_name = "LIST")]
     output: Option<PathBuf>,
     /// Write a value list for each axis of the first plant to this folder, named after the axes of

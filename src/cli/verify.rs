@@ -20,10 +20,10 @@ use crate::report::verify::{VerifyReport, render_json, render_text};
 
 /// Compare a recorded torque with what a value list predicts
 ///
-/// Predicted is the additive current that the control computes from the list. Says whether the list is
-/// too low or too high, by speed, whether its sign is inverted, and by how many cycles it is late at
-/// reversals. The channels are named as for `identify`; record without the compensation, or the torque
-/// that the drive measures.
+/// The prediction is the additive current that the control computes from the list. Says at which
+/// speeds the list is too low or too high, whether its sign is inverted, and by how many cycles it is
+/// late at reversals. The channels are named as for `identify`. Record without compensation, or
+/// record the torque that the drive measures.
 #[derive(Debug, Args)]
 pub(super) struct VerifyArgs {
     /// The recorded trace
@@ -36,7 +36,12 @@ pub(super) struct VerifyArgs {
     #[command(flatten)]
     cycle: CycleArgs,
     /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
-    #[arg(long, value_name = "READING", default_value = "")]
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
     reading: Reading,
     #[command(flatten)]
     result: ResultArgs,

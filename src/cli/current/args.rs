@@ -59,7 +59,12 @@ pub(in crate::cli) struct CurrentArgs {
     pub(super) dead_band: Option<DeadBand>,
     /// Where the documents leave something open: `standstill=zero`, `below=origin`,
     /// `delay=reversal`, `start=every`, with commas between them
-    #[arg(long, value_name = "READING", default_value = "")]
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
     pub(super) reading: Reading,
     /// The format of the result
     #[arg(long, default_value = "csv")]

@@ -66,8 +66,8 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R5.24",
-        sentence: "a step is backlash if it is at least a tenth of the peak, and if half-way to where it \
-            is measured less than half of it is left of the peak",
+        sentence: "a step counts as backlash if it is at least a tenth of the peak, and if the peak has \
+            fallen below half of the step half-way to where the step is measured",
         changes: "whether little backlash beside much friction is named",
         shows: "rows `step that stays` and `peak that decays` of the report",
         when: &[],
@@ -75,7 +75,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
     Assumption {
         rule: "R5.24",
         sentence: "an ellipse is named if it is larger than the step of an axis whose peak has not decayed",
-        changes: "whether axes that do not match are named beside friction that lasts long",
+        changes: "whether axes that do not match are named beside friction that decays slowly",
         shows: "rows `step that stays` of the report",
         when: &[],
     },
@@ -89,8 +89,8 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R5.25",
-        sentence: "with the slow points delay_cycles, position_delay and reversal_lookahead are \
-            searched again; scaling_factor is 1000 then",
+        sentence: "when slow points are shaped, delay_cycles, position_delay and reversal_lookahead are \
+            searched again, with scaling_factor at 1000",
         changes: "how good a shaped list can be",
         shows: "the parameters in the report of `frictcomp tune`",
         when: &[],

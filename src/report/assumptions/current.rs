@@ -37,8 +37,8 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R4.6",
-        sentence: "a recorded velocity that changes its direction twice within 5 cycles and 1 µm stands \
-            still",
+        sentence: "where a recorded velocity changes sign twice within 5 cycles and 1 µm, the axis \
+            stands still",
         changes: "how many reversals a recorded trace has",
         shows: "the count on stderr; `--dead-band`",
         when: &[],

@@ -13,20 +13,20 @@ pub(super) const ASSUMED: &[Assumption] = &[
     Assumption {
         rule: "R6.11",
         sentence: "the torque of a segment is its mean between the 5th and the 95th percentile",
-        changes: "friction at a speed by parts of its noise",
+        changes: "friction at a speed, by a fraction of its noise",
         shows: "the column `±`",
         when: &[],
     },
     Assumption {
         rule: "R6.12",
-        sentence: "friction is half of what differs between both directions, the offset is the median of what does not",
+        sentence: "friction is half of what differs between both directions; the offset is the median of what does not, or the mean where noise explains the differences",
         changes: "friction and offset of an axis with asymmetric friction",
         shows: "the column `offset`",
         when: &[],
     },
     Assumption {
         rule: "R6.13",
-        sentence: "where friction drifts, its mean in time is used",
+        sentence: "where friction drifts, its mean over time is used",
         changes: "the value list of an axis that warms up",
         shows: "FC516",
         when: &[],
@@ -61,7 +61,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R6.20",
-        sentence: "the recorded torque is the additive current of the list times a factor, inertia and offset; without a CNC cycle the time between two samples is one",
+        sentence: "the recorded torque is the additive current of the list times a factor, inertia and offset; without a CNC cycle, the time between two samples counts as one",
         changes: "the verdict of `verify`",
         shows: "the column `recorded/predicted`",
         when: &[],

@@ -49,7 +49,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R2.13",
-        sentence: "global subprograms are searched beside the caller, then in `program_dirs`",
+        sentence: "global subprograms are searched for beside the caller, then in `program_dirs`",
         changes: "which file is executed if there are two",
         shows: "the `file` of the records",
         when: &[],

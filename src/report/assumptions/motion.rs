@@ -23,7 +23,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
     Assumption {
         rule: "R5.1",
         sentence: "with G70, F is in inch/min in the block in which it stands, with G95 in inch/rev; \
-            with F in m/min (P-CHAN-00108) its unit is not known then",
+            if F is in m/min (P-CHAN-00108), its unit is then not known",
         changes: "the velocity of programs in inches",
         shows: "the column `v`, FC903",
         when: &[],

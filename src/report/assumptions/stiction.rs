@@ -12,8 +12,8 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R8.6",
-        sentence: "what is added stays as it is until the servo lag is looked at again, and a change that was cut is lost",
-        changes: "the glitch of a simulated circle, by little while t_C is short",
+        sentence: "the added feed stays as it is until the servo lag is sampled again, and what was cut off a change is lost",
+        changes: "the glitch of a simulated circle, slightly as long as t_C is short",
         shows: "`t_C` in the report of `frictcomp circle`",
         when: &[],
     },

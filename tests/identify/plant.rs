@@ -98,7 +98,7 @@ impl Bench {
     }
 
     /// The commanded velocities in mm/s, one a millisecond.
-    fn commanded(&self) -> Vec<f64> {
+    pub(crate) fn commanded(&self) -> Vec<f64> {
         const ACCELERATION: f64 = 1000.0;
         const PAUSE: usize = 100;
         let mut plan = self.speeds.clone();

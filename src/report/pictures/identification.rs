@@ -26,27 +26,18 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
     let measured: Vec<[f64; 2]> = found
         .pairs
         .iter()
-        .flat_map(|pair| [[pair.speed, pair.friction], [f64::NAN, f64::NAN]])
+        .map(|pair| [pair.speed, pair.friction])
         .collect();
     let residuals: Vec<[f64; 2]> = found
         .pairs
         .iter()
-        .flat_map(|pair| {
-            [
-                [pair.speed, pair.friction - found.curve.at(pair.speed)],
-                [f64::NAN, f64::NAN],
-            ]
-        })
+        .map(|pair| [pair.speed, pair.friction - found.curve.at(pair.speed)])
         .collect();
     let steps = (fastest / slowest).ln() / 200.0;
     let speeds = (0..=200).map(|at| slowest * (f64::from(at) * steps).exp());
-    let points: Vec<[f64; 2]> = found
-        .points
-        .iter()
-        .map(|point| [point.input / 1000.0, point.output])
-        .collect();
-    let listed = points.iter().filter(|point| point[0] >= slowest);
-    let listed = listed.flat_map(|point| [*point, [f64::NAN, f64::NAN]]);
+    let points = found.points.iter();
+    let points = points.map(|point| [point.input / 1000.0, point.output]);
+    let listed = points.filter(|point| point[0] >= slowest);
     LineChart {
         title: title(report, "Friction"),
         description: format!(
@@ -61,21 +52,25 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
             Panel {
                 y: ChartAxis::linear(format!("friction in {unit}, bars are standard errors")),
                 series: vec![
-                    series("measured", measured, Drawn::Marked),
+                    series("measured", measured, Drawn::Scattered),
                     series("error", bars(&|_, friction| friction), Drawn::Held),
                     series(
                         "curve",
                         speeds.map(|v| [v, found.curve.at(v)]).collect(),
                         Drawn::Line,
                     ),
-                    series("points of the value list", listed.collect(), Drawn::Marked),
+                    series(
+                        "points of the value list",
+                        listed.collect(),
+                        Drawn::Scattered,
+                    ),
                 ],
                 ..Panel::default()
             },
             Panel {
                 y: ChartAxis::linear(format!("residual in {unit}")),
                 series: vec![
-                    series("residual", residuals, Drawn::Marked),
+                    series("residual", residuals, Drawn::Scattered),
                     series(
                         "error",
                         bars(&|v, friction| friction - found.curve.at(v)),
@@ -195,8 +190,8 @@ pub fn segments_on_trace(report: &IdentifyReport) -> LineChart {
     let panel = |label: String, values: &[f64], factor: f64| Panel {
         y: ChartAxis::linear(label.clone()),
         series: vec![
-            series(&label, over_time(values, factor), Drawn::Line),
-            series(&format!("{label}, used"), used(values, factor), Drawn::Line),
+            series("recorded", over_time(values, factor), Drawn::Line),
+            series("used", used(values, factor), Drawn::Line),
         ],
         ..Panel::default()
     };

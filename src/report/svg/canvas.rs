@@ -241,15 +241,24 @@ pub(super) fn px(length: f64) -> String {
 
 /// The names of series with their looks, in rows.
 pub(super) struct Legend<'a> {
-    /// Each series' number, its name, and whether it has markers.
-    pub(super) items: Vec<(usize, &'a str, Marks)>,
+    pub(super) items: Vec<LegendItem<'a>>,
 }
 
-/// Whether the points of a series are marked.
+/// A series in the legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Marks {
-    With,
-    Without,
+pub(super) struct LegendItem<'a> {
+    /// The number of its look.
+    pub(super) look: usize,
+    pub(super) name: &'a str,
+    pub(super) drawn: LegendLook,
+}
+
+/// What a series looks like in the legend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LegendLook {
+    Line,
+    Marker,
+    MarkedLine,
 }
 
 const LEGEND_ROW: f64 = 20.0;
@@ -258,16 +267,18 @@ impl Legend<'_> {
     /// Draws it from a place on and gives the height that it takes.
     pub(super) fn draw(&self, canvas: &mut Canvas, (left, top): (f64, f64)) -> f64 {
         let (mut x, mut y) = (left, top);
-        for &(series, name, marks) in &self.items {
+        for &LegendItem { look, name, drawn } in &self.items {
             let width = 34.0 + text_width(name) + 22.0;
             if x > left && x + width > WIDTH - 10.0 {
                 x = left;
                 y += LEGEND_ROW;
             }
-            let class = format!("fc-curve fc-s{}", series % SERIES);
-            canvas.line(&class, (x, y + 8.0), (x + 28.0, y + 8.0));
-            if marks == Marks::With {
-                canvas.marker(series, (x + 14.0, y + 8.0));
+            if drawn != LegendLook::Marker {
+                let class = format!("fc-curve fc-s{}", look % SERIES);
+                canvas.line(&class, (x, y + 8.0), (x + 28.0, y + 8.0));
+            }
+            if drawn != LegendLook::Line {
+                canvas.marker(look, (x + 14.0, y + 8.0));
             }
             canvas.text("", (x + 34.0, y + 12.0), Anchor::Start, name);
             x += width;

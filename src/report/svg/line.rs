@@ -1,7 +1,9 @@
 //! Curves over a common axis, in panels one below the other.
 
 use super::bands::{self, BandRow, Rows, draw_legend, draw_ticks};
-use super::canvas::{Anchor, Area, Canvas, Head, Legend, Marks, Role, SERIES, WIDTH, text_width};
+use super::canvas::{
+    Anchor, Area, Canvas, Head, Legend, LegendItem, LegendLook, Role, SERIES, WIDTH, text_width,
+};
 use super::frame::Frame;
 use super::reduce::reduce;
 use super::scale::{ChartAxis, Ends, Scale, SecondUnit};
@@ -15,6 +17,8 @@ pub enum Drawn {
     Line,
     /// A line with a marker at each point.
     Marked,
+    /// A marker at each point and no line.
+    Scattered,
     /// A marker at each point and no line. It has no row in the legend of its own and the colour of
     /// the series before it.
     Points,
@@ -104,7 +108,10 @@ const MIN_LEFT: f64 = 60.0;
 const SECOND_ROOM: f64 = 34.0;
 
 /// The room between the names along the x axis.
-const MARK_ROOM: f64 = 8.0;
+const MARK_ROOM: f64 = 14.0;
+
+/// From so many names along the x axis on, only those that are written have a tick.
+const CROWDED: usize = 120;
 
 impl LineChart {
     /// The picture, 860 units wide. More points than can be seen are reduced to the least and the
@@ -190,10 +197,12 @@ impl LineChart {
         )
     }
 
-    /// The x axis with names below its values. Names without room are left out, ticks are not.
+    /// The x axis with names below its values. Names without room are left out; their ticks only
+    /// where all of them would be a solid bar.
     fn draw_marks(&self, canvas: &mut Canvas, x: &Scale, area: Area) -> f64 {
         draw_ticks(canvas, x, area, "");
         let (above, row) = (area.y + 24.0, area.y + 40.0);
+        let are_crowded = self.marks.len() > CROWDED;
         let mut free = f64::NEG_INFINITY;
         let mut column = f64::NEG_INFINITY;
         for mark in &self.marks {
@@ -202,9 +211,12 @@ impl LineChart {
                 continue;
             }
             column = place;
-            canvas.line("fc-axis", (place, above), (place, above + 5.0));
             let width = text_width(&mark.name);
-            if place > free && place + width < WIDTH - 4.0 {
+            let is_named = place > free && place + width < WIDTH - 4.0;
+            if is_named || !are_crowded {
+                canvas.line("fc-axis", (place, above), (place, above + 5.0));
+            }
+            if is_named {
                 canvas.text("fc-quiet", (place, row), Anchor::Start, &mark.name);
                 free = place + width + MARK_ROOM;
             }
@@ -224,14 +236,15 @@ impl LineChart {
         let named = |panel: &&Panel| panel.numbered().any(|(number, _)| number > 0);
         let all = self.panels.iter().filter(named).flat_map(Panel::numbered);
         let drawn = all.filter(|(_, series)| !series.drawn.belongs_to_another());
-        let mut items: Vec<(usize, &str, Marks)> = Vec::new();
-        for (number, series) in drawn {
-            let name = series.name.as_str();
-            if !items
-                .iter()
-                .any(|&(same, other, _)| (same, other) == (number, name))
-            {
-                items.push((number, name, series.drawn.marks()));
+        let mut items: Vec<LegendItem<'_>> = Vec::new();
+        for (look, series) in drawn {
+            let item = LegendItem {
+                look,
+                name: &series.name,
+                drawn: series.drawn.in_legend(),
+            };
+            if !items.contains(&item) {
+                items.push(item);
             }
         }
         Legend { items }
@@ -244,12 +257,16 @@ impl Drawn {
         matches!(self, Self::Held | Self::Points)
     }
 
-    fn marks(self) -> Marks {
-        if self == Self::Marked {
-            Marks::With
-        } else {
-            Marks::Without
+    fn in_legend(self) -> LegendLook {
+        match self {
+            Self::Marked => LegendLook::MarkedLine,
+            Self::Scattered => LegendLook::Marker,
+            _ => LegendLook::Line,
         }
+    }
+
+    fn has_markers(self) -> bool {
+        matches!(self, Self::Marked | Self::Scattered | Self::Points)
     }
 }
 
@@ -287,7 +304,7 @@ impl Panel {
             let kept = reduce(&series.points, |point| axes.place(point).0);
             let places: Vec<(f64, f64)> = kept.iter().map(|&point| axes.place(point)).collect();
             match series.drawn {
-                Drawn::Points => {}
+                Drawn::Points | Drawn::Scattered => {}
                 Drawn::Steps => canvas.path(&class, steps(&places)),
                 Drawn::Notches => {
                     for piece in places.split(|place| !place.0.is_finite() || !place.1.is_finite())
@@ -298,7 +315,7 @@ impl Panel {
                 }
                 _ => canvas.path(&class, places.iter().copied()),
             }
-            if matches!(series.drawn, Drawn::Marked | Drawn::Points) {
+            if series.drawn.has_markers() {
                 let seen = places
                     .iter()
                     .filter(|(x, y)| x.is_finite() && y.is_finite());

@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::canvas::{Anchor, Canvas, Head, Legend, Marks, Role, SERIES, WIDTH, text_width};
+use super::canvas::{
+    Anchor, Canvas, Head, Legend, LegendItem, LegendLook, Role, SERIES, WIDTH, text_width,
+};
 use super::frame::Frame;
 use super::reduce::reduce;
 use super::scale::{label, round_step};
@@ -108,7 +110,11 @@ impl PolarChart {
         let named = longest.map_or(&[][..], |panel| &panel.series);
         let legend = Legend {
             items: (named.iter().enumerate())
-                .map(|(number, series)| (number, series.name.as_str(), Marks::Without))
+                .map(|(look, series)| LegendItem {
+                    look,
+                    name: &series.name,
+                    drawn: LegendLook::Line,
+                })
                 .collect(),
         };
         let height = legend.draw(&mut canvas, (16.0, bottom)) + bottom + 10.0;

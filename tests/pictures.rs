@@ -14,7 +14,9 @@ use frictcomp::comp::State;
 use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
 use frictcomp::machine::AcceptedList;
-use frictcomp::report::pictures::{AxisPlot, CurrentPlot, tuning, value_curve, value_curves};
+use frictcomp::report::pictures::{
+    AxisPlot, AxisSample, CurrentPlot, tuning, value_curve, value_curves,
+};
 use frictcomp::report::svg::{
     Band, BandChart, BandRow, BandState, ChartAxis, Drawn, Frame, LineChart, Panel, PolarChart,
     PolarPanel, PolarSeries, Series, Standing,
@@ -91,7 +93,12 @@ fn current() -> LineChart {
         } else if (time - 2.0).abs() < 1e-9 {
             plot.block(time, None, 3);
         }
-        plot.push(time, [(velocity, state, cycle)]);
+        let sample = AxisSample {
+            velocity,
+            state,
+            added: cycle,
+        };
+        plot.push(time, [sample]);
     }
     plot.chart()
 }

@@ -68,8 +68,8 @@ impl<'a> Numbering<'a> {
                 }
             }
         };
-        let bounds = (last.map(|it| it.value), next.map(|it| it.value));
-        let Some(free) = self.free(bounds) else {
+        let values = [last, next].map(|it| it.map(|it| it.value));
+        let Some(free) = self.free(values[0], values[1]) else {
             return command.to_owned();
         };
         self.taken.insert(free);
@@ -83,7 +83,7 @@ impl<'a> Numbering<'a> {
     }
 
     /// A free number between two, or else above all.
-    fn free(&self, (last, next): (Option<u64>, Option<u64>)) -> Option<u64> {
+    fn free(&self, last: Option<u64>, next: Option<u64>) -> Option<u64> {
         let (from, to) = match (last, next) {
             (Some(last), Some(next)) if next > last + 1 => (last + 1, next),
             (None, Some(next)) if next > 0 => (0, next),

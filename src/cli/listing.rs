@@ -141,9 +141,10 @@ impl Lister<'_> {
             let (format, counts) = (self.args.format, &self.counts);
             let text: String = counts
                 .iter()
-                .map(|(key, count)| row(*key, *count))
+                .map(|((code, severity), count)| row(*code, *severity, *count))
                 .collect();
-            let values = counts.iter().map(|(key, count)| record(*key, *count));
+            let values = counts.iter();
+            let values = values.map(|((code, severity), count)| record(*code, *severity, *count));
             let values: Vec<Value> = values.collect();
             return target.text(&records(format, &text, &values));
         }
@@ -178,7 +179,7 @@ pub(super) fn explain(code: Code) -> String {
     format!("`frictcomp explain {code}` says more about {code}")
 }
 
-fn row((code, severity): (Code, Severity), count: u64) -> String {
+fn row(code: Code, severity: Severity, count: u64) -> String {
     let (word, title) = (severity.as_str(), code.title());
     format!("{count:>7}  {word:<7}  {:<12}  {title}\n", code.as_str())
 }
@@ -205,7 +206,7 @@ fn parameter(report: &AxisReport, row: &Parameter) -> Value {
     })
 }
 
-fn record((code, severity): (Code, Severity), count: u64) -> Value {
+fn record(code: Code, severity: Severity, count: u64) -> Value {
     json!({
         "record": "statistic",
         "code": code.as_str(),

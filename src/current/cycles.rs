@@ -224,7 +224,8 @@ pub(super) fn resample(
         while after + 1 < kept.len() && times_s[kept[after]] < time - cycle_s * 1e-3 {
             after += 1;
         }
-        resampled.take(&columns, (&kept, after), time);
+        let around = [kept[after.saturating_sub(1)], kept[after]];
+        resampled.take(&columns, around, time);
         count += 1.0;
     }
     let said = resampled.told(times_s, &kept, cycle_s);
@@ -260,10 +261,9 @@ struct Resampled {
 }
 
 impl Resampled {
-    /// One more cycle, at or before the kept row with this number.
-    fn take(&mut self, columns: &TraceColumns, (kept, after): (&[usize], usize), time: f64) {
+    /// One more cycle, after the first of two rows and not after the second.
+    fn take(&mut self, columns: &TraceColumns, [before, row]: [usize; 2], time: f64) {
         let times_s = columns.times_s.as_deref().unwrap_or_default();
-        let (row, before) = (kept[after], kept[after.saturating_sub(1)]);
         let span = times_s[row] - times_s[before];
         let share = if span > 0.0 {
             ((time - times_s[before]) / span).clamp(0.0, 1.0)

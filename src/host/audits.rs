@@ -10,7 +10,7 @@ use super::error::HostError;
 use super::finder::ProgramFinder;
 use super::input::{Input, Naming, Opened};
 use super::mend::{MendedFile, read_encoded};
-use super::watch::{Done, LineTracker};
+use super::watch::{Done, LineTracker, Reached};
 use super::workers::{in_order, processors};
 use crate::audit::{
     Archive, Auditor, MendedEnd, Mending, ProgramAudit, Sequence, Step, insertions,
@@ -310,9 +310,12 @@ impl Heard {
         if executed.level.is_none() {
             let passes = self.tracker.reach(executed.line);
             if self.blocks.is_multiple_of(STEP) {
-                let place = (&**executed.file, executed.line);
+                let reached = Reached {
+                    file: executed.file,
+                    line: executed.line,
+                };
                 let done = Done::Blocks(self.blocks);
-                loaded.watch.show_program(done, place, passes);
+                loaded.watch.show_program(done, reached, passes);
             }
         }
     }

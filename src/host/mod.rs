@@ -80,6 +80,6 @@ pub(crate) use grounds::absolute;
 #[cfg(feature = "cli")]
 pub(crate) use parameter_files::is_configuration;
 #[cfg(feature = "cli")]
-pub(crate) use watch::LineTracker;
+pub(crate) use watch::{LineTracker, Reached};
 #[cfg(feature = "cli")]
 pub(crate) use workers::{in_order, processors};

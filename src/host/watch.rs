@@ -130,10 +130,11 @@ impl Watch {
     }
 
     /// Shows how far a program is: what was done of it, and at which line it stands.
-    pub(crate) fn show_program(&self, done: Done, (file, line): (&str, u32), passes: Passes) {
+    pub(crate) fn show_program(&self, done: Done, reached: Reached<'_>, passes: Passes) {
         let Some(watcher) = self.watcher.as_ref().filter(|it| it.is_due()) else {
             return;
         };
+        let Reached { file, line } = reached;
         // Who comes while another program shows itself need not wait.
         let Ok(mut known) = self.lines.try_lock() else {
             return;
@@ -151,6 +152,13 @@ impl Watch {
             lines: lines.filter(|_| passes == Passes::Once),
         });
     }
+}
+
+/// The line of a program that control has reached.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reached<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) line: u32,
 }
 
 /// How often control goes through a program.
@@ -227,8 +235,11 @@ impl<'a> Watched<'a> {
         }
         if self.blocks.is_multiple_of(STEP) {
             let done = Done::Blocks(self.blocks);
-            self.watch
-                .show_program(done, (row.file, row.line), self.tracker.passes);
+            let reached = Reached {
+                file: row.file,
+                line: row.line,
+            };
+            self.watch.show_program(done, reached, self.tracker.passes);
         }
     }
 }

@@ -100,13 +100,13 @@ pub(super) fn fit(pairs: &[Pair]) -> Option<Fit> {
         let (from, to) = (low.ln(), high.ln());
         let step = (to - from) / f64::from(STEPS);
         let on_grid = (0..=STEPS).map(|at| from + f64::from(at) * step);
-        let Some(grid) = on_grid
+        let Some((at, start)) = on_grid
             .filter_map(|at| try_at(at).map(|fit| (at, fit)))
             .min_by(|one, other| one.1.chi_square.total_cmp(&other.1.chi_square))
         else {
             continue;
         };
-        let found = refined(grid, step, try_at);
+        let found = refined(at, start, step, try_at);
         if best.is_none_or(|best| found.chi_square < best.chi_square) {
             best = Some(found);
         }
@@ -119,7 +119,7 @@ pub(super) fn fit(pairs: &[Pair]) -> Option<Fit> {
 }
 
 /// The best place between the neighbours of a place on the grid, by the golden section.
-fn refined((at, start): (f64, Fit), step: f64, try_at: impl Fn(f64) -> Option<Fit>) -> Fit {
+fn refined(at: f64, start: Fit, step: f64, try_at: impl Fn(f64) -> Option<Fit>) -> Fit {
     const GOLDEN: f64 = 0.618_033_988_75;
     let (mut low, mut high) = (at - step, at + step);
     let mut best = start;

@@ -142,8 +142,8 @@ impl StartupList {
     /// Gathers the files. Lists with an index beyond `zahl_mds` or `zahl_kw` are not loaded by
     /// the control, FC124 says so.
     pub fn from_entries(list: &Entries, diagnostics: &mut Vec<Diagnostic>) -> Self {
-        let axis_lists = counted(list, ("achs_mds[]", "zahl_mds"), diagnostics);
-        let value_lists = counted(list, ("achs_kw[]", "zahl_kw"), diagnostics);
+        let axis_lists = counted(list, "achs_mds[]", "zahl_mds", diagnostics);
+        let value_lists = counted(list, "achs_kw[]", "zahl_kw", diagnostics);
         let mut numbers: BTreeMap<u32, Given<u32>> = list
             .indexed("achs_kw_log_ax_nr[]")
             .filter_map(|(index, entry)| Some((index, axis_number(entry, diagnostics)?)))
@@ -168,18 +168,19 @@ impl StartupList {
     }
 }
 
-/// The files under `keys.0`, as many as `keys.1` says.
+/// The files under a key, as many as another key says.
 fn counted(
     list: &Entries,
-    keys: (&str, &str),
+    files_key: &str,
+    count_key: &str,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> BTreeMap<u32, Given<String>> {
     let count = list
-        .find(keys.1)
+        .find(count_key)
         .and_then(|entry| axis_number(entry, diagnostics));
     let mut files = BTreeMap::new();
     let mut surplus: Option<&Entry> = None;
-    for (index, entry) in list.indexed(keys.0) {
+    for (index, entry) in list.indexed(files_key) {
         if count.as_ref().is_some_and(|count| index >= count.value) {
             surplus = surplus.or(Some(entry));
         } else if let Some(path) = text(entry) {
@@ -194,7 +195,7 @@ fn counted(
                 format!(
                     "`{}` is not loaded, `{}` is {}",
                     entry.key(),
-                    keys.1,
+                    count_key,
                     count.value
                 ),
             )
@@ -205,11 +206,14 @@ fn counted(
     if let Some(count) = count
         && let Some(hole) = (0..count.value).find(|index| !files.contains_key(index))
     {
-        let key = keys.0.replace("[]", &format!("[{hole}]"));
-        let message = format!("`{}` is {}, but `{key}` names no list", keys.1, count.value);
+        let key = files_key.replace("[]", &format!("[{hole}]"));
+        let message = format!(
+            "`{}` is {}, but `{key}` names no list",
+            count_key, count.value
+        );
         diagnostics.push(
             Diagnostic::new(Code::Fc123, count.place(), message)
-                .with_help(format!("add `{key}`, or lower `{}`", keys.1)),
+                .with_help(format!("add `{key}`, or lower `{count_key}`")),
         );
     }
     files

@@ -8,6 +8,8 @@
 //! profile between knots stays below the velocities of the first step, so that it keeps the bounds
 //! of all segments that it spans.
 
+use std::ops::Range;
+
 use super::junction::Junction;
 use super::profile::{Bounds, VelocityProfile, fits, reach};
 
@@ -33,7 +35,7 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    fn new((start, end): (f64, f64), span: &Interval, bounds: Bounds) -> Self {
+    fn new(start: f64, end: f64, span: &Interval, bounds: Bounds) -> Self {
         Self {
             segments: span.segments,
             profile: VelocityProfile::between(start, end, span.length, &bounds),
@@ -53,13 +55,14 @@ impl Stretch {
             (segments, way)
         });
         let (segments, way) = ends.filter(|(_, way)| steady.contains(way)).last()?;
-        let part = |segments, length, ends| {
+        let part = |segments, length, [start, end]: [f64; 2]| {
             let bounds = Bounds {
                 velocity,
                 ..self.bounds
             };
             Self::new(
-                ends,
+                start,
+                end,
                 &Interval {
                     segments,
                     length,
@@ -71,11 +74,11 @@ impl Stretch {
             )
         };
         Some((
-            part(segments, way, (self.start_velocity, velocity)),
+            part(segments, way, [self.start_velocity, velocity]),
             part(
                 self.segments - segments,
                 self.profile.length() - way,
-                (velocity, self.end_velocity),
+                [velocity, self.end_velocity],
             ),
         ))
     }
@@ -156,7 +159,7 @@ impl Envelope<'_> {
     fn spans(&self, knots: &[usize]) -> Vec<Interval> {
         let mut spans: Vec<Interval> = knots
             .windows(2)
-            .map(|pair| Interval::new(self.stages, &self.velocities, (pair[0], pair[1])))
+            .map(|pair| Interval::new(self.stages, &self.velocities, pair[0]..pair[1]))
             .collect();
         let mut end = 0.0;
         for span in spans.iter_mut().rev() {
@@ -182,7 +185,7 @@ impl Envelope<'_> {
             };
             let end = span.end.min(reach(velocity, span.length, &bounds));
             let start = std::mem::replace(&mut velocity, end);
-            Stretch::new((start, end), span, bounds)
+            Stretch::new(start, end, span, bounds)
         });
         Some(stretches.collect())
     }
@@ -252,7 +255,8 @@ struct Interval {
 }
 
 impl Interval {
-    fn new(stages: &[Stage], velocities: &[f64], (from, to): (usize, usize)) -> Self {
+    fn new(stages: &[Stage], velocities: &[f64], knots: Range<usize>) -> Self {
+        let (from, to) = (knots.start, knots.end);
         let mut span = Self {
             segments: to - from,
             length: 0.0,

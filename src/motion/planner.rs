@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::limits::AxisLimits;
 use super::look_ahead::LookAhead;
-use super::remarks::{At, Remarks};
+use super::remarks::{At, Remark, Remarks};
 use super::sampler::Sampler;
 use super::segment::{Ends, SAME_PLACE, Segment};
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
@@ -156,9 +156,12 @@ impl TrajectoryPlanner {
                 text: &std::mem::take(&mut self.text),
                 line: self.line,
             };
-            let help = Advice::RaiseBudget(Budget::Cycles);
-            let message = "the trace is longer than its budget and ends here";
-            self.remarks.say(&at, (Code::Fc915, message), help);
+            let remark = Remark {
+                code: Code::Fc915,
+                message: "the trace is longer than its budget and ends here",
+                help: Advice::RaiseBudget(Budget::Cycles),
+            };
+            self.remarks.say(&at, remark);
         }
     }
 
@@ -209,13 +212,13 @@ impl TrajectoryPlanner {
             return ControlFlow::Continue(());
         };
         if !row.modal.transformed.is_empty() {
-            let message = "from here on the trace is that of the program, not of the machine: a \
-                           transformation is active";
-            self.remarks.say(
-                &At::of(row),
-                (Code::Fc904, message),
-                "the axes of the machine move differently",
-            );
+            let remark = Remark {
+                code: Code::Fc904,
+                message: "from here on the trace is that of the program, not of the machine: a \
+                          transformation is active",
+                help: "the axes of the machine move differently".into(),
+            };
+            self.remarks.say(&At::of(row), remark);
         }
         let jumped = self.stand.iter().zip(&travel.from);
         if self.running == Running::Yes

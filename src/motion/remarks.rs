@@ -37,6 +37,13 @@ impl<'a> At<'a> {
     }
 }
 
+/// Something to say about a block.
+pub(super) struct Remark<'a> {
+    pub(super) code: Code,
+    pub(super) message: &'a str,
+    pub(super) help: Advice,
+}
+
 /// What was said: the code, file and line of a block, and what of several things there.
 type Key = (Code, Arc<str>, u32, &'static str);
 
@@ -117,7 +124,12 @@ impl Remarks {
         for what in holds.without(self.simplified).iter() {
             let message = format!("the trace {}", what.instead());
             let key = (Code::Fc907, Arc::from(row.file), row.line, what.name());
-            self.say_once(key, &At::of(row), (&message, Advice::ReadPage(Code::Fc907)));
+            let remark = Remark {
+                code: Code::Fc907,
+                message: &message,
+                help: Advice::ReadPage(Code::Fc907),
+            };
+            self.say_once(key, &At::of(row), remark);
         }
         self.simplified = holds;
     }
@@ -126,23 +138,23 @@ impl Remarks {
     pub(super) fn say_left_out(&mut self, row: &Row<'_>, reason: &str) {
         let message = format!("the trace leaves this motion out: {reason}");
         let key = (Code::Fc903, Arc::from(row.file), row.line, "");
-        self.say_once(key, &At::of(row), (&message, Advice::CompleteMotion));
+        let remark = Remark {
+            code: Code::Fc903,
+            message: &message,
+            help: Advice::CompleteMotion,
+        };
+        self.say_once(key, &At::of(row), remark);
     }
 
     /// Something that holds for the rest of the program: only the first is said.
-    pub(super) fn say(
-        &mut self,
-        at: &At<'_>,
-        (code, message): (Code, &str),
-        help: impl Into<Advice>,
-    ) {
-        self.say_once((code, Arc::from(""), 0, ""), at, (message, help.into()));
+    pub(super) fn say(&mut self, at: &At<'_>, remark: Remark<'_>) {
+        self.say_once((remark.code, Arc::from(""), 0, ""), at, remark);
     }
 
-    fn say_once(&mut self, key: Key, at: &At<'_>, (message, help): (&str, Advice)) {
-        let code = key.0;
+    fn say_once(&mut self, key: Key, at: &At<'_>, remark: Remark<'_>) {
         if self.named.len() < MAX_NAMED && self.named.insert(key) {
-            let diagnostic = Diagnostic::new(code, at.place(), message).with_help(help);
+            let diagnostic = Diagnostic::new(remark.code, at.place(), remark.message);
+            let diagnostic = diagnostic.with_help(remark.help);
             self.diagnostics.push(diagnostic);
         }
     }

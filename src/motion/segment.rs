@@ -95,7 +95,7 @@ impl Segment {
         cause: Shared<Cause>,
     ) -> Result<Self, &'static str> {
         let axes = arc.axes.map(crate::comp::AxisIndex::get);
-        let circle = Circle::new(axes, (&ends.from, &ends.to), arc)?;
+        let circle = Circle::new(axes, &ends.from, &ends.to, arc)?;
         let depth = (0..ends.from.len())
             .filter(|axis| ends.main[*axis] && !axes.contains(axis))
             .map(|axis| ends.to[axis] - ends.from[axis])
@@ -230,7 +230,8 @@ impl Segment {
 impl Circle {
     fn new(
         axes: [usize; 2],
-        (from, to): (&[f64], &[f64]),
+        from: &[f64],
+        to: &[f64],
         arc: &CircularArc,
     ) -> Result<Self, &'static str> {
         let (start, end) = (axes.map(|axis| from[axis]), axes.map(|axis| to[axis]));

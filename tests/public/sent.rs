@@ -387,6 +387,7 @@ sent! {
     report::html::RunDigest,
     report::html::RunInputs<'_>,
     report::pictures::AxisPlot,
+    report::pictures::AxisSample<'_>,
     report::pictures::ContourPicture,
     report::pictures::CurrentPlot,
     report::svg::Band,

@@ -82,7 +82,7 @@ impl RecordedCircle {
             let longest =
                 turns.max_by(|(one, _), (other, _)| one.covered().total_cmp(&other.covered()));
             if let Some((run, turn)) = longest {
-                found.push(Self::of(&different, (run, turn), commanded_mm)?.with_repeats(repeated));
+                found.push(Self::of(&different, run, turn, commanded_mm)?.with_repeats(repeated));
             }
         }
         if found.is_empty() {
@@ -94,7 +94,8 @@ impl RecordedCircle {
     /// The circle of a run from one turn on it.
     fn of(
         trace: &RecordedTrace,
-        (run, mut turn): (&Run, Range<usize>),
+        run: &Run,
+        mut turn: Range<usize>,
         commanded_mm: Option<f64>,
     ) -> Result<Self, RecordedError> {
         let points = &trace.points_mm;

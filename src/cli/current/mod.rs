@@ -18,7 +18,7 @@ pub(super) fn run(args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
     let Format::Csv = args.format;
     match (&args.program, &args.trace, &args.value_list) {
         (Some(program), ..) => program::run(program, args, console),
-        (None, Some(trace), Some(list)) => recorded::run((trace, list), args, console),
+        (None, Some(trace), Some(list)) => recorded::run(trace, list, args, console),
         // The arguments are declared so that one of them is there.
         _ => Err(Failure::new("there is neither a program nor a trace")),
     }

@@ -46,7 +46,7 @@ fn counted(cycles: u64) -> String {
 }
 
 /// Says where it matters what is added at standstill (C11).
-pub(super) fn say_at_rest((axis, reading): (&str, Reading), cycles: u64) {
+pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
     if cycles == 0 {
         return;
     }

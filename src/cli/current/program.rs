@@ -93,7 +93,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
         say_saturated(&format!(" of axis {name}"), cycles);
     }
     for (name, cycles) in names.iter().zip(currents.at_rest()) {
-        say_at_rest((&format!(" of axis {name}"), args.reading), cycles);
+        say_at_rest(&format!(" of axis {name}"), args.reading, cycles);
     }
     let lists = followed
         .iter()

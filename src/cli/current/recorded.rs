@@ -13,11 +13,12 @@ use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
 use crate::comp::State;
 use crate::current::{Added, AdditiveCurrent, CommandedTrace, Switched};
 use crate::host::{Ledger, read_commanded};
-use crate::report::pictures::AxisPlot;
+use crate::report::pictures::{AxisPlot, AxisSample};
 
 /// Computes the current of a recorded trace.
 pub(super) fn run(
-    (trace, list): (&Path, &Path),
+    trace: &Path,
+    list: &Path,
     args: &CurrentArgs,
     console: Console,
 ) -> Result<u8, Failure> {
@@ -34,7 +35,7 @@ pub(super) fn run(
         Console::talk(remark);
     }
     let mut current = AdditiveCurrent::new(&list, args.reading);
-    let written = write_csv(&mut writer, &trace, (&mut current, plot.as_mut()));
+    let written = write_csv(&mut writer, &trace, &mut current, plot.as_mut());
     if let Some(plot) = plot {
         plot.finish()?;
     }
@@ -45,7 +46,7 @@ pub(super) fn run(
     outputs.finish()?;
     Console::talk(&format!("reading: {}", args.reading));
     say_saturated("", current.saturated());
-    say_at_rest(("", args.reading), current.at_rest());
+    say_at_rest("", args.reading, current.at_rest());
     say_sign(&list);
     Ok(exit::CLEAN)
 }
@@ -53,14 +54,20 @@ pub(super) fn run(
 fn write_csv(
     writer: &mut dyn Write,
     trace: &CommandedTrace,
-    (current, mut plot): (&mut AdditiveCurrent, Option<&mut Plot>),
+    current: &mut AdditiveCurrent,
+    mut plot: Option<&mut Plot>,
 ) -> std::io::Result<()> {
     let mut writer = BufWriter::new(writer);
     writeln!(writer, "t,x,v,w_before,w_after,current,output")?;
     for (row, added) in trace.currents(current) {
         let (t, x, v) = (row.time_s, row.position, row.velocity);
         if let Some(plot) = &mut plot {
-            plot.traces.push(t, [(v, state(row.switched), &added)]);
+            let sample = AxisSample {
+                velocity: v,
+                state: state(row.switched),
+                added: &added,
+            };
+            plot.traces.push(t, [sample]);
         }
         let Added {
             w_before,

@@ -8,8 +8,9 @@ use super::args::Column;
 use super::plot::Plot;
 use crate::comp::State;
 use crate::current::{CurrentCycle, CurrentSample, CurrentSink};
-use crate::host::{Done, LineTracker, Watch};
+use crate::host::{Done, LineTracker, Reached, Watch};
 use crate::motion::Simplification;
+use crate::report::pictures::AxisSample;
 
 /// Cycles between two looks at the clock.
 const STEP: u64 = 1 << 16;
@@ -121,9 +122,12 @@ impl CurrentSink for Table {
         self.cycles += 1;
         let passes = self.tracker.reach(cycle.cause.line);
         if self.cycles.is_multiple_of(STEP) {
-            let place = (self.program.as_str(), cycle.cause.line);
+            let reached = Reached {
+                file: &self.program,
+                line: cycle.cause.line,
+            };
             self.watch
-                .show_program(Done::Cycles(self.cycles), place, passes);
+                .show_program(Done::Cycles(self.cycles), reached, passes);
         }
         for (seen, axis) in self.seen.iter_mut().zip(cycle.axes) {
             let state = axis.commanded.friction;
@@ -142,12 +146,10 @@ impl CurrentSink for Table {
             let axes = cycle.axes.iter();
             plot.traces.push(
                 cycle.time_s,
-                axes.map(|it| {
-                    (
-                        it.commanded.velocity_units,
-                        it.commanded.friction,
-                        &it.added,
-                    )
+                axes.map(|it| AxisSample {
+                    velocity: it.commanded.velocity_units,
+                    state: it.commanded.friction,
+                    added: &it.added,
                 }),
             );
         }

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::run::at::{At, MacroCode, Shown};
 use crate::interpreter::run::hash_parts::point_after;
@@ -139,7 +140,12 @@ impl Interpreter {
                 span,
             } => {
                 let (name, keyword) = (axis.of(at.text), keyword.of(at.text));
-                self.bracket((name, keyword), *span, at);
+                let bracket = AxisBracket {
+                    name,
+                    keyword,
+                    span: *span,
+                };
+                self.bracket(bracket, at);
                 self.pass_over(&format!("{name}[{keyword}]"), *span, at);
                 Ok(())
             }

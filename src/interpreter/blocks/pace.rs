@@ -14,14 +14,25 @@ const OVERRIDE: std::ops::RangeInclusive<f64> = 0.1..=200.0;
 const FEED: &str = "FEED_FACT";
 const RAPID: &str = "RAPID_FACT";
 
+/// A command in the bracket of an axis or spindle.
+#[derive(Clone, Copy)]
+pub(in crate::interpreter) struct AxisBracket<'a> {
+    /// The name before the bracket.
+    pub(in crate::interpreter) name: &'a str,
+    /// The first word in it.
+    pub(in crate::interpreter) keyword: &'a str,
+    /// The whole of it.
+    pub(in crate::interpreter) span: Span,
+}
+
 impl Interpreter {
     /// Takes note of what a commanded trace does not follow in full.
-    pub(in crate::interpreter) fn simplify(&mut self, (what, holds): (Simplification, Holds)) {
+    pub(in crate::interpreter) fn simplify(&mut self, what: Simplification, holds: Holds) {
         if holds == Holds::Once {
             let geometry = self.geometry();
             geometry.simplified = geometry.simplified.union(what.into());
         } else {
-            self.state.modal.simplify((what, holds));
+            self.state.modal.simplify(what, holds);
         }
     }
 
@@ -52,20 +63,20 @@ impl Interpreter {
             }
             "#MAIN SPINDLE" => self.state.modal.pace.forget_spindle(),
             _ => {
-                if let Some(found) = simplified::of_command(name) {
-                    self.simplify(found);
+                if let Some((what, holds)) = simplified::of_command(name) {
+                    self.simplify(what, holds);
                 }
             }
         }
     }
 
     /// A command in the bracket of an axis or spindle, `X[OVERRIDE FEED_FACT=20]`, `S[REV1200 M3]`.
-    pub(in crate::interpreter) fn bracket(
-        &mut self,
-        (name, keyword): (&str, &str),
-        span: Span,
-        at: &At<'_>,
-    ) {
+    pub(in crate::interpreter) fn bracket(&mut self, bracket: AxisBracket<'_>, at: &At<'_>) {
+        let AxisBracket {
+            name,
+            keyword,
+            span,
+        } = bracket;
         let body = span.of(at.text).split_once('[');
         let body = body.map_or("", |(_, body)| body.trim_end().trim_end_matches(']'));
         let keyword = keyword.to_ascii_uppercase();
@@ -87,7 +98,7 @@ impl Interpreter {
             self.state.modal.pace.override_axis(axis, change);
         }
         if let Some(what) = simplified::of_bracket(&keyword) {
-            self.simplify((what, Holds::On));
+            self.simplify(what, Holds::On);
             if what == Simplification::IndependentAxis {
                 self.state.modal.forget_position(axis);
             }

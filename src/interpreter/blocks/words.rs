@@ -365,7 +365,7 @@ impl Interpreter {
                     }
                 }
                 if let Some((what, holds)) = simplified::of_g(number) {
-                    self.simplify((what, holds));
+                    self.simplify(what, holds);
                 }
                 self.pass_over(&format!("G{number}"), span, at);
             }

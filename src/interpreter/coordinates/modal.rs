@@ -241,7 +241,8 @@ impl Modal {
     /// A command or function that a commanded trace does not follow in full.
     pub(in crate::interpreter) fn simplify(
         &mut self,
-        (what, holds): (simplified::Simplification, Holds),
+        what: simplified::Simplification,
+        holds: Holds,
     ) {
         self.simplified = match holds {
             Holds::On => self.simplified.union(what.into()),
@@ -442,7 +443,7 @@ impl Modal {
             _ => {}
         }
         if let Some((what, Holds::On)) = simplified::of_g(number) {
-            self.simplify((what, Holds::On));
+            self.simplify(what, Holds::On);
         }
         if let Some(group) = Group::of(number) {
             self.functions.unknown.insert(group);

@@ -21,7 +21,7 @@ impl Interpreter {
 
     pub(in crate::interpreter) fn enable_coupling(&mut self, rest: &str, span: Span, at: &At<'_>) {
         let group = self.group_of(rest, at);
-        self.simplify((Simplification::Coupling, Holds::On));
+        self.simplify(Simplification::Coupling, Holds::On);
         if let Some(changed) = self.state.couplings.enable(&group) {
             self.mark_coupled(changed);
             self.lose_followers(&group);
@@ -51,7 +51,7 @@ impl Interpreter {
         };
         self.mark_coupled(changed);
         if !self.state.couplings.is_any() {
-            self.simplify((Simplification::Coupling, Holds::Off));
+            self.simplify(Simplification::Coupling, Holds::Off);
         }
     }
 
@@ -59,14 +59,14 @@ impl Interpreter {
     pub(in crate::interpreter) fn release_couplings(&mut self) {
         let changed = self.state.couplings.release_all();
         self.mark_coupled(changed);
-        self.simplify((Simplification::Coupling, Holds::Off));
+        self.simplify(Simplification::Coupling, Holds::Off);
     }
 
     /// Any coupling may be in force, or none.
     pub(in crate::interpreter) fn doubt_couplings(&mut self) {
         let changed = self.state.couplings.doubt();
         if !changed.is_empty() {
-            self.simplify((Simplification::Coupling, Holds::On));
+            self.simplify(Simplification::Coupling, Holds::On);
         }
         for axis in &changed {
             self.state.modal.forget_position(*axis);

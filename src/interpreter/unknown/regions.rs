@@ -136,7 +136,7 @@ impl Interpreter {
             Effect::Feeds => modal.functions.feeds = [None; 4],
             Effect::Spindle => modal.pace.forget_spindle(),
             Effect::Overrides => modal.pace.forget_overrides(),
-            Effect::Simplified(what) => modal.simplify((*what, Holds::On)),
+            Effect::Simplified(what) => modal.simplify(*what, Holds::On),
             Effect::Radius => modal.radius = None,
             Effect::Position(axis) => {
                 modal.forget_position(*axis);

@@ -98,7 +98,7 @@ impl Marks {
     fn id(&self, site: &Site) -> Option<String> {
         let (number, lines) = self.files.get(&*site.file)?;
         let is_shown = lines.contains(&site.line);
-        is_shown.then(|| line_id((*number, site.line)))
+        is_shown.then(|| line_id(*number, site.line))
     }
 
     fn link(&self, site: &Site, text: &str) -> Markup {
@@ -320,7 +320,7 @@ fn lines(page: &mut Page<'_>, marks: &Marks, sources: &mut dyn Sources) -> io::R
             }
             written = at;
             let text = source.line().text.to_owned();
-            let id = lines.contains(&at).then(|| line_id((*number, at)));
+            let id = lines.contains(&at).then(|| line_id(*number, at));
             page.push(&html! {
                 (format!("{at:>6}  "))
                 @match id {

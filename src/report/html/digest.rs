@@ -59,6 +59,13 @@ pub struct RunDigest {
     version: Option<u64>,
 }
 
+/// A line of source: the number of its file in the page, and its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct SourceLine {
+    pub(super) file: usize,
+    pub(super) line: u32,
+}
+
 /// One axis of the machine.
 #[derive(Debug)]
 pub(super) struct AxisDigest {
@@ -118,7 +125,7 @@ pub(super) struct LineDigest {
 pub(super) struct Message {
     pub(super) diagnostic: Diagnostic,
     /// The file and line at which the report shows it; `None` for the machine's lists.
-    pub(super) shown: Option<(usize, u32)>,
+    pub(super) shown: Option<SourceLine>,
     pub(super) times: u64,
 }
 
@@ -149,7 +156,7 @@ impl RunDigest {
     }
 
     /// How a state of a kind on an axis stands to that after a start of the control.
-    pub(super) fn standing(&self, (axis, kind): (AxisIndex, Kind), state: State) -> Standing {
+    pub(super) fn standing(&self, axis: AxisIndex, kind: Kind, state: State) -> Standing {
         let mut tracks = self.programs.iter().flat_map(|program| &program.tracks);
         let track = tracks.find(|track| (track.axis, track.kind) == (axis, kind));
         track.map_or(Standing::Home, |track| Standing::of(state, track.home))
@@ -189,7 +196,7 @@ impl RunDigest {
             let kinds = Kind::ALL.into_iter();
             for kind in kinds.filter(|&kind| self.kinds.contains(kind)) {
                 let home = start.state(axis, kind);
-                tracks.push(Track::new((axis, kind), state.state(axis, kind), home));
+                tracks.push(Track::new(axis, kind, state.state(axis, kind), home));
             }
         }
         self.version = Some(state.version);
@@ -247,7 +254,11 @@ impl RunDigest {
         }
         for &change in row.changes {
             if self.kinds.contains(change.kind) {
-                self.change((file, row.line), row.text, change);
+                let place = SourceLine {
+                    file,
+                    line: row.line,
+                };
+                self.change(place, row.text, change);
             }
         }
         for diagnostic in row.diagnostics {
@@ -270,7 +281,8 @@ impl RunDigest {
     }
 
     /// What is kept of a line, unless there are too many already.
-    fn line(&mut self, (file, line): (usize, u32), text: &str) -> Option<&mut LineDigest> {
+    fn line(&mut self, place: SourceLine, text: &str) -> Option<&mut LineDigest> {
+        let SourceLine { file, line } = place;
         let events = &mut self.files[file].events;
         if !events.contains_key(&line) {
             if self.event_lines >= MAX_EVENT_LINES {
@@ -286,7 +298,7 @@ impl RunDigest {
         Some(digest)
     }
 
-    fn change(&mut self, place: (usize, u32), text: &str, change: Change) {
+    fn change(&mut self, place: SourceLine, text: &str, change: Change) {
         let Some(line) = self.line(place, text) else {
             return;
         };
@@ -322,9 +334,9 @@ impl RunDigest {
             let within = self.files[file].name == *place.file;
             let line = if within { place.start().line } else { line };
             let text = if within { &*place.text } else { text };
-            let digest = self.line((file, line), text)?;
+            let digest = self.line(SourceLine { file, line }, text)?;
             digest.messages.push(number);
-            Some((file, line))
+            Some(SourceLine { file, line })
         });
         self.messages.push(Message {
             diagnostic: diagnostic.clone(),

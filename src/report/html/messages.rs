@@ -38,7 +38,7 @@ fn row(message: &Message) -> Row {
         html! { span.sev.(severity) { (severity) } },
         html! {
             @match message.shown {
-                Some(at) => a href={ "#" (line_id(at)) } { (place) },
+                Some(at) => a href={ "#" (line_id(at.file, at.line)) } { (place) },
                 None => (place),
             }
         },

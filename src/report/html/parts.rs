@@ -126,7 +126,7 @@ pub(super) fn counted(number: u64, noun: &str) -> String {
 }
 
 /// The identifier of a line of source in the page.
-pub(super) fn line_id((file, line): (usize, u32)) -> String {
+pub(super) fn line_id(file: usize, line: u32) -> String {
     format!("f{file}l{line}")
 }
 

@@ -119,8 +119,8 @@ fn left(digest: &RunDigest) -> Markup {
         ],
     };
     let rows = summary.axes.iter().map(|axis| {
-        let of = (axis.axis, Kind::Frict);
-        let state = |state| state_word(state, digest.standing(of, state));
+        let standing = |state| digest.standing(axis.axis, Kind::Frict, state);
+        let state = |state| state_word(state, standing(state));
         let changed = changed_by(digest, &axis.changed_by, axis.changes);
         let cells = [state(axis.start), state(axis.end), changed];
         Row::new(digest.axis_name(axis.axis), cells)
@@ -199,7 +199,7 @@ fn changing_block(digest: &RunDigest, block: &ChangedBy) -> Markup {
     let shown = file.filter(|&file| digest.files[file].events.contains_key(&block.line));
     html! {
         @match shown {
-            Some(file) => a href={ "#" (line_id((file, block.line))) } { (name) },
+            Some(file) => a href={ "#" (line_id(file, block.line)) } { (name) },
             None => (name),
         }
     }

@@ -225,7 +225,7 @@ impl Listing<'_, '_> {
             runs: self.digest.files[self.file].runs_of(line),
         };
         self.page.push(&html! {
-            div.ev id=(line_id((self.file, line))) tabindex="-1" {
+            div.ev id=(line_id(self.file, line)) tabindex="-1" {
                 pre { (gutter) (self.marked(line, text, event)) "\n" }
                 ul {
                     @for (change, count) in &event.changes {
@@ -245,8 +245,8 @@ impl Listing<'_, '_> {
     }
 
     fn change(&self, change: Change) -> Markup {
-        let of = (change.axis, change.kind);
-        let word = |state| state_word(state, self.digest.standing(of, state));
+        let standing = |state| self.digest.standing(change.axis, change.kind, state);
+        let word = |state| state_word(state, standing(state));
         html! {
             strong {
                 (self.digest.axis_name(change.axis))

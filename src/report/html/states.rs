@@ -124,7 +124,7 @@ fn told(digest: &RunDigest, label: &str, stretch: &Stretch) -> String {
 fn target(digest: &RunDigest, program: &ProgramDigest, stretch: &Stretch) -> String {
     match stretch.spot {
         Some(spot) if digest.files[spot.file].events.contains_key(&spot.line) => {
-            format!("#{}", line_id((spot.file, spot.line)))
+            format!("#{}", line_id(spot.file, spot.line))
         }
         Some(spot) => format!("#f{}", spot.file),
         None => format!("#f{}", program.file),

@@ -44,7 +44,7 @@ const MAX_STRETCHES: usize = 2048;
 
 impl Track {
     /// A track that begins with a state.
-    pub(super) fn new((axis, kind): (AxisIndex, Kind), state: State, home: State) -> Self {
+    pub(super) fn new(axis: AxisIndex, kind: Kind, state: State, home: State) -> Self {
         Self {
             axis,
             kind,
@@ -128,11 +128,7 @@ mod tests {
     };
 
     fn track(blocks: u64) -> Track {
-        let mut track = Track::new(
-            (AxisIndex::new(0), Kind::Frict),
-            State::Active,
-            State::Active,
-        );
+        let mut track = Track::new(AxisIndex::new(0), Kind::Frict, State::Active, State::Active);
         for seq in 1..=blocks {
             let state = if seq % 2 == 0 {
                 State::Active

@@ -43,6 +43,17 @@ pub struct AxisPlot {
     largest: f64,
 }
 
+/// An axis in a CNC cycle.
+#[derive(Debug, Clone, Copy)]
+pub struct AxisSample<'a> {
+    /// The commanded velocity in µm/s or 0.001°/s.
+    pub velocity: f64,
+    /// The state of friction compensation.
+    pub state: State,
+    /// What is added.
+    pub added: &'a Added,
+}
+
 impl AxisPlot {
     /// An axis before its first cycle. A recorded trace has neither name nor type.
     pub fn new(name: &str, axis_type: Option<AxisType>) -> Self {
@@ -58,9 +69,14 @@ impl AxisPlot {
         }
     }
 
-    /// Takes a CNC cycle: seconds, commanded velocity in µm/s or 0.001°/s, state, and what is
-    /// added. In the state `unknown` the current is not known, and it is not drawn.
-    fn push(&mut self, time: f64, velocity: f64, (state, added): (State, &Added)) {
+    /// Takes a CNC cycle at a time in s. In the state `unknown` the current is not known, and it is
+    /// not drawn.
+    fn push(&mut self, time: f64, sample: &AxisSample<'_>) {
+        let AxisSample {
+            velocity,
+            state,
+            added,
+        } = *sample;
         self.velocity.push([time, velocity]);
         if state == State::Unknown {
             self.current.interrupt();
@@ -177,15 +193,11 @@ impl CurrentPlot {
 
     /// Takes a CNC cycle: its time in s, and for each axis the commanded velocity in µm/s or
     /// 0.001°/s, the state of friction compensation and what is added.
-    pub fn push<'a>(
-        &mut self,
-        time: f64,
-        samples: impl IntoIterator<Item = (f64, State, &'a Added)>,
-    ) {
+    pub fn push<'a>(&mut self, time: f64, samples: impl IntoIterator<Item = AxisSample<'a>>) {
         self.cycles += 1;
         self.length = time;
-        for (axis, (velocity, state, added)) in self.axes.iter_mut().zip(samples) {
-            axis.push(time, velocity, (state, added));
+        for (axis, sample) in self.axes.iter_mut().zip(samples) {
+            axis.push(time, &sample);
         }
     }
 

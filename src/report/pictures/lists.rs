@@ -60,7 +60,7 @@ pub fn value_curves(accepted: &[&AcceptedList]) -> LineChart {
         x: ChartAxis::logarithmic_from_zero(x)
             .with_second(format!("velocity in {per_minute}"), PER_MINUTE),
         panels: (accepted.iter())
-            .map(|list| list_panel(list, (accepted.len(), end)))
+            .map(|list| list_panel(list, accepted.len(), end))
             .collect(),
         ..LineChart::default()
     }
@@ -80,7 +80,7 @@ fn describe_list(accepted: &AcceptedList) -> String {
     }
 }
 
-fn list_panel(accepted: &AcceptedList, (panels, end): (usize, f64)) -> Panel {
+fn list_panel(accepted: &AcceptedList, panels: usize, end: f64) -> Panel {
     let list = &accepted.list;
     let table: Vec<[f64; 2]> = (list.table.iter())
         .map(|point| [point.input, point.output])

@@ -11,7 +11,7 @@ mod units;
 
 pub use circle::circle;
 pub use contour::ContourPicture;
-pub use current::{AxisPlot, CurrentPlot};
+pub use current::{AxisPlot, AxisSample, CurrentPlot};
 pub use identification::{friction_curve, residuals_over_position, segments_on_trace};
 pub use lists::{value_curve, value_curves};
 pub use trace::channels;

@@ -83,9 +83,11 @@ struct Case {
 /// How far the offset may be off, in N.
 const OFFSET: f64 = 2.0;
 
-/// Of coloured noise no estimate of the offset from the samples of R6.10 stays within 2 N: the
-/// Cramér–Rao bound of its 95th percentile is 2.24 N, and that of forty recordings scatters by 15 %.
+/// No estimate of the offset from the samples of R6.10 is better than its Cramér–Rao bound, whose
+/// 95th percentile is 2.24 N for coloured noise and 1.78 N for white noise of 5 %. The median of the
+/// pairs comes within a fifth of it, of which forty recordings alone explain 15 %.
 const COLOURED: f64 = 1.2 * 2.24;
+const LOUD: f64 = 1.2 * 1.78;
 
 fn cases() -> Vec<Case> {
     let case = |name, bench, limits| Case {
@@ -110,7 +112,7 @@ fn cases() -> Vec<Case> {
                 noise_n: 250.0,
                 ..plain()
             },
-            [1.0, 3.0, 0.8, OFFSET],
+            [1.0, 3.0, 0.8, LOUD],
         ),
         case(
             "ripple 100 N",

@@ -75,7 +75,9 @@ impl Paired {
                 pair.take_drift(segments, part / duration_s);
             }
         }
-        let offset = offset(&pairs);
+        let offsets: Vec<f64> = pairs.iter().filter_map(|pair| pair.offset).collect();
+        // Not weighted: ripple makes small errors at high speeds, not right ones.
+        let offset = median(&offsets).unwrap_or(0.0);
         for pair in pairs.iter_mut().filter(|pair| pair.offset.is_none()) {
             // Only one direction: what its torque is without the offset of the others.
             let sign = segments[pair.segments[0]].velocity.signum();
@@ -106,25 +108,6 @@ impl Pair {
         let later = couples.iter().map(later).sum::<f64>() / count(couples.len().max(1));
         *offset -= self.friction * rate * later / 2.0;
     }
-}
-
-/// What is the same in both directions at all speeds: the median of theirs, or their mean where they
-/// differ by no more than their errors. The median is not misled by slow speeds that saw only a part
-/// of a ripple, but noise moves it by a quarter more than the mean. Neither is weighted: ripple makes
-/// small errors at high speeds, not right ones.
-fn offset(pairs: &[Pair]) -> f64 {
-    /// Errors explain what the offsets differ by up to this reduced χ².
-    const EXPLAINED: f64 = 2.0;
-    let paired = || pairs.iter().filter_map(|pair| Some((pair, pair.offset?)));
-    let offsets: Vec<f64> = paired().map(|(_, offset)| offset).collect();
-    let middle = median(&offsets).unwrap_or(0.0);
-    let squares: f64 = paired()
-        .map(|(pair, offset)| ((offset - middle) / pair.error.max(f64::MIN_POSITIVE)).powi(2))
-        .sum();
-    if offsets.len() > 1 && squares <= EXPLAINED * count(offsets.len() - 1) {
-        return offsets.iter().sum::<f64>() / count(offsets.len());
-    }
-    middle
 }
 
 /// Segments with one speed, slowest first.

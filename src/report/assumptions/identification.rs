@@ -19,7 +19,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R6.12",
-        sentence: "friction is half of what differs between both directions; the offset is the median of what does not, or the mean where noise explains the differences",
+        sentence: "friction is half of what differs between both directions; the offset is the median of what does not",
         changes: "friction and offset of an axis with asymmetric friction",
         shows: "the column `offset`",
         when: &[],

@@ -89,6 +89,8 @@ pub mod comp;
 mod config;
 pub mod contour;
 pub mod current;
+#[cfg(feature = "cli")]
+pub mod dap;
 pub mod diagnostic;
 pub mod drive_interface;
 mod facade;

@@ -1,4 +1,6 @@
-// Bundles the extension, and the script of the timeline view, each into one file.
+// Bundles the extension, and the script of the timeline view, each into one file, and puts the pages of
+// the codes beside them.
+import { cpSync } from "node:fs";
 import { build } from "esbuild";
 
 const common = { bundle: true, minify: true, logLevel: "warning", legalComments: "none" };
@@ -20,3 +22,4 @@ await build({
   format: "iife",
   target: "es2022",
 });
+cpSync("../../docs/codes", "dist/codes", { recursive: true });

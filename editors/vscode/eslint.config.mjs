@@ -12,7 +12,7 @@ export default tseslint.config(
   {
     files: ["**/*.mjs"],
     languageOptions: {
-      globals: { process: "readonly", console: "readonly", URL: "readonly", setTimeout: "readonly" },
+      globals: { process: "readonly", console: "readonly", document: "readonly" },
     },
   },
 );

@@ -11,6 +11,7 @@ mod console;
 mod contour;
 mod current;
 mod cycle;
+mod dap;
 mod diff;
 mod drive;
 mod examples;
@@ -96,6 +97,7 @@ enum Command {
     Explain(explain::ExplainArgs),
     Codes(codes::CodesArgs),
     Lsp(lsp::LspArgs),
+    Dap(dap::DapArgs),
     Init(init::InitArgs),
     #[command(subcommand)]
     Config(config::ConfigCommand),
@@ -174,6 +176,7 @@ fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
         Command::Explain(args) => explain::run(args, console),
         Command::Codes(args) => codes::run(args, console),
         Command::Lsp(args) => lsp::run(args),
+        Command::Dap(args) => dap::run(args),
         Command::Init(args) => init::run(args),
         Command::Config(command) => config::run(command, console),
         Command::Completions(args) => completions::run(args, description(), console),

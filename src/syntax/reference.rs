@@ -13,7 +13,7 @@ use super::lower;
 use crate::text::TextLines;
 
 /// Stretches of a program that are more than words.
-const PIECES: [&str; 56] = [
+const PIECES: [&str; 60] = [
     "X[COMP ON FRICT]",
     "Y[COMP OFF FRICT]",
     "X[COMP OFF_ALL]",
@@ -47,6 +47,10 @@ const PIECES: [&str; 56] = [
     "MOD",
     "XOR",
     "X1 MOD 2",
+    "X1 AND P2",
+    "X1 OR-2",
+    "OR",
+    "X1 ^ 2",
     "; frictcomp: allow FC402",
     ";",
     "(a (b) c)",

@@ -11,7 +11,7 @@ import { TimelineView } from "./view/provider";
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
   const reports = new Reports();
-  const server = new Server((title, html) => {
+  const server = new Server(context.extensionUri, (title, html) => {
     reports.show(title, html);
   });
   const status = new StatusBar((uri, position) => server.states(uri, position));

@@ -2,7 +2,7 @@
 import * as vscode from "vscode";
 import { LanguageClient, TransportKind, type LanguageClientOptions } from "vscode-languageclient/node";
 import { SELECTOR } from "./languages";
-import type { States, Timeline } from "./protocol";
+import type { Report, States, Timeline } from "./protocol";
 
 /** The identifier of ISG's extension, beside which navigation is left to it. */
 const ISG_EXTENSION = "isg-stuttgart.vscode-isg-cnc";
@@ -10,22 +10,28 @@ const ISG_EXTENSION = "isg-stuttgart.vscode-isg-cnc";
 /** Shows a report that the server made of an open text. */
 export type ShowReport = (title: string, html: string) => void;
 
+/** The pages of the codes, in the folder of the extension. */
+const PAGES = ["dist", "codes"];
+
 export class Server implements vscode.Disposable {
   private client: LanguageClient | undefined;
 
-  constructor(private readonly showReport: ShowReport) {}
+  constructor(
+    private readonly extension: vscode.Uri,
+    private readonly showReport: ShowReport,
+  ) {}
 
   async start(binary: string): Promise<void> {
     await this.stop();
     const options: LanguageClientOptions = {
       documentSelector: SELECTOR,
-      initializationOptions: serverSettings(),
+      initializationOptions: { frictcomp: this.settings() },
       synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/{*.lis,frictcomp.toml}") },
       middleware: {
         executeCommand: async (command, args: unknown[], next) => {
           const answer: unknown = await next(command, args);
           if (isReport(answer)) {
-            this.showReport(answer.title, answer.html);
+            this.showReport(titleOf(args), answer.html);
           }
           return answer;
         },
@@ -54,11 +60,23 @@ export class Server implements vscode.Disposable {
 
   /** Runs a command of the server on a document; what it answers is shown by the middleware. */
   async command(command: string, uri: vscode.Uri): Promise<void> {
-    await vscode.commands.executeCommand(command, uri.toString());
+    await vscode.commands.executeCommand(command, { uri: uri.toString() });
   }
 
   dispose(): void {
     void this.stop();
+  }
+
+  private settings(): object {
+    const settings = vscode.workspace.getConfiguration("frictcomp");
+    return {
+      inlayHints: { enable: settings.get<boolean>("inlayHints.enable") },
+      codeLens: { enable: settings.get<boolean>("codeLens.enable") },
+      navigation: settings.get<string>("navigation"),
+      maxBlocks: settings.get<number>("maxBlocks"),
+      isgExtension: vscode.extensions.getExtension(ISG_EXTENSION) !== undefined,
+      pages: vscode.Uri.joinPath(this.extension, ...PAGES).toString(),
+    };
   }
 
   private async ask<Answer>(method: string, params: object): Promise<Answer | undefined> {
@@ -75,25 +93,14 @@ export class Server implements vscode.Disposable {
   }
 }
 
-function serverSettings(): object {
-  const settings = vscode.workspace.getConfiguration("frictcomp");
-  const navigation = settings.get<string>("navigation", "auto");
-  const alone = vscode.extensions.getExtension(ISG_EXTENSION) === undefined;
-  return {
-    inlayHints: { enable: settings.get<boolean>("inlayHints.enable", true) },
-    codeLens: { enable: settings.get<boolean>("codeLens.enable", true) },
-    navigation: navigation === "auto" ? (alone ? "on" : "off") : navigation,
-    maxBlocks: settings.get<number>("maxBlocks", 1_000_000),
-  };
+function isReport(answer: unknown): answer is Report {
+  return typeof answer === "object" && answer !== null && "html" in answer && typeof answer.html === "string";
 }
 
-function isReport(answer: unknown): answer is { title: string; html: string } {
-  return (
-    typeof answer === "object" &&
-    answer !== null &&
-    "html" in answer &&
-    typeof answer.html === "string" &&
-    "title" in answer &&
-    typeof answer.title === "string"
-  );
+/** A report is called after the program that its command was about. */
+function titleOf([subject]: unknown[]): string {
+  if (typeof subject === "object" && subject !== null && "uri" in subject && typeof subject.uri === "string") {
+    return `Run of ${vscode.workspace.asRelativePath(vscode.Uri.parse(subject.uri))}`;
+  }
+  return "Run";
 }

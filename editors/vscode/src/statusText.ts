@@ -1,29 +1,33 @@
 /** The states at the cursor as the status bar shows them. */
-import type { AxisState } from "./protocol";
+import type { AxisStates, State } from "./protocol";
 
-const SIGNS: Record<string, string> = {
+const SIGNS: Record<State, string> = {
   active: "$(check)",
   ineffective: "$(warning)",
   inactive: "$(circle-slash)",
+  unconfigured: "$(dash)",
   unknown: "$(question)",
-  several: "$(list-unordered)",
 };
 
 /** One sign for each axis that has the compensation; the words are in the tooltip. */
-export function statusText(axes: readonly AxisState[]): string {
-  const shown = axes.filter((axis) => axis.after !== "unconfigured");
+export function statusText(axes: readonly AxisStates[]): string {
+  const shown = axes.filter(({ after }) => after.some((state) => state !== "unconfigured"));
   if (shown.length === 0) {
     return "no axis has compensation";
   }
-  return shown.map((axis) => `${axis.axis} ${SIGNS[axis.after] ?? axis.after}`).join("  ");
+  return shown.map(({ axis, after }) => `${axis} ${after.map((state) => SIGNS[state]).join("")}`).join("  ");
 }
 
 /** The states in words, one line for each axis. */
-export function statusTooltip(axes: readonly AxisState[]): string {
-  const lines = axes.map((axis) =>
-    axis.before === axis.after
-      ? `${axis.axis}: ${axis.after}`
-      : `${axis.axis}: ${axis.before} → ${axis.after}`,
-  );
+export function statusTooltip(axes: readonly AxisStates[]): string {
+  const lines = axes.map(({ axis, before, after }) => {
+    const [from, to] = [inWords(before), inWords(after)];
+    return from === to ? `${axis}: ${to}` : `${axis}: ${from} → ${to}`;
+  });
   return ["Friction compensation after this block", ...lines].join("\n");
+}
+
+/** `active or inactive`, where the runs of a block differ. */
+export function inWords(states: readonly State[]): string {
+  return states.join(" or ");
 }

@@ -220,6 +220,15 @@ impl Interpreter {
         self.state.memory.shared()
     }
 
+    /// The values that the running program sees, by name: the own parameters of its call, the
+    /// parameters in the order of their numbers, and the variables.
+    pub fn values(&self) -> Vec<(String, Value)> {
+        let running = self.state.frames.running();
+        let own = running.into_iter().flat_map(|frame| &frame.own);
+        let own = own.map(|(index, value)| (format!("@P{index}"), value.clone()));
+        own.chain(self.state.memory.all()).collect()
+    }
+
     /// Takes over the compensation state of an earlier session.
     pub fn set_compensation(&mut self, compensation: Compensation) {
         self.state.compensation = compensation;

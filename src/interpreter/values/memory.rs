@@ -398,18 +398,23 @@ impl Memory {
 
     /// The `V.S.` variables, which outlive programs.
     pub(in crate::interpreter) fn shared(&self) -> BTreeMap<String, Value> {
-        let shared = self.variables.names.iter();
-        let shared = shared.filter(|(name, _)| name.starts_with("V.S."));
-        let mut all = BTreeMap::new();
-        for (name, variable) in shared {
-            if let Some(value) = &variable.scalar {
-                all.insert(name.clone(), value.clone());
-            }
-            for (subscripts, value) in &variable.elements {
-                all.insert(format!("{name}{subscripts}"), value.clone());
-            }
+        let mut held = self.variables.held();
+        held.retain(|name, _| name.starts_with("V.S."));
+        held
+    }
+
+    /// The parameters, and the variables that the program sees which runs.
+    pub(in crate::interpreter) fn all(&self) -> Vec<(String, Value)> {
+        let direct = (0..).zip(&self.direct);
+        let direct = direct.filter_map(|(index, value)| Some((index, value.as_ref()?)));
+        let further = self.parameters.iter().map(|(index, value)| (*index, value));
+        let parameters = direct.chain(further);
+        let parameters = parameters.map(|(index, value)| (format!("P{index}"), value.clone()));
+        let mut variables = self.variables.held();
+        for level in &self.locals {
+            variables.append(&mut level.held());
         }
-        all
+        parameters.chain(variables).collect()
     }
 }
 

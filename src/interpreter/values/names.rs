@@ -142,6 +142,20 @@ impl Variable {
 }
 
 impl Names {
+    /// All values by name, those of an array element by element.
+    pub(in crate::interpreter) fn held(&self) -> BTreeMap<String, Value> {
+        let mut held = BTreeMap::new();
+        for (name, variable) in &self.names {
+            if let Some(value) = &variable.scalar {
+                held.insert(name.clone(), value.clone());
+            }
+            for (subscripts, value) in &variable.elements {
+                held.insert(format!("{name}{subscripts}"), value.clone());
+            }
+        }
+        held
+    }
+
     pub(in crate::interpreter) fn value(&self, name: &str) -> Option<Value> {
         let (base, subscripts) = parts(name);
         let variable = self.names.get(base)?;

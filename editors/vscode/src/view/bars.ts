@@ -1,8 +1,14 @@
 /** The timeline of a program as bars over its lines: geometry only, no page. */
 import type { State, Timeline } from "../protocol";
+import { inWords } from "../statusText";
+
+/** What a bar is drawn as. */
+export type Look = State | "several";
 
 export interface Bar {
-  state: State;
+  look: Look;
+  /** The states in words. */
+  words: string;
   /** First and last line of the bar, as the editor numbers them. */
   first: number;
   last: number;
@@ -20,17 +26,23 @@ export interface Column {
 export function columns(timeline: Timeline): Column[] {
   const lines = Math.max(timeline.lines, 1);
   return timeline.axes
-    .filter(({ segments }) => segments.some(({ state }) => state !== "unconfigured"))
+    .filter(({ segments }) => segments.some(({ states }) => states.some((state) => state !== "unconfigured")))
     .map(({ axis, segments }) => ({
       axis,
-      bars: segments.map(({ from, to, state }) => ({
-        state,
+      bars: segments.map(({ from, to, states }) => ({
+        look: look(states),
+        words: inWords(states),
         first: from + 1,
         last: to,
         top: from / lines,
         height: (to - from) / lines,
       })),
     }));
+}
+
+function look(states: readonly State[]): Look {
+  const [first, ...others] = states;
+  return first === undefined || others.length > 0 ? "several" : first;
 }
 
 /** The line, counted from 0, at a height between 0 and 1. */

@@ -1,5 +1,6 @@
 /** The page of the timeline view: one column of bars an axis, and a marker at the line of the cursor. */
 import { columns, lineAt, type Column } from "./bars";
+import type { Timeline } from "../protocol";
 import type { FromPage, ToPage } from "./messages";
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
@@ -13,7 +14,7 @@ window.addEventListener("message", (event: MessageEvent<ToPage>) => {
   switch (message.kind) {
     case "timeline":
       lines = message.timeline.lines;
-      draw(message.name, columns(message.timeline));
+      draw(message.name, message.timeline);
       break;
     case "cursor":
       mark(message.line);
@@ -24,7 +25,8 @@ window.addEventListener("message", (event: MessageEvent<ToPage>) => {
   }
 });
 
-function draw(name: string, shown: readonly Column[]): void {
+function draw(name: string, timeline: Timeline): void {
+  const shown = columns(timeline);
   if (shown.length === 0) {
     page.replaceChildren(element("p", "empty", `No axis of the machine of ${name} has friction compensation.`));
     return;
@@ -36,11 +38,11 @@ function draw(name: string, shown: readonly Column[]): void {
     const track = element("div", "track");
     for (const bar of bars) {
       const part = document.createElement("button");
-      part.className = `bar ${bar.state}`;
+      part.className = `bar ${bar.look}`;
       part.style.top = `${(bar.top * 100).toFixed(4)}%`;
       part.style.height = `max(${(bar.height * 100).toFixed(4)}%, 2px)`;
       const where = bar.first === bar.last ? `line ${bar.first.toString()}` : `lines ${bar.first.toString()} to ${bar.last.toString()}`;
-      part.title = `${axis} ${bar.state}, ${where}`;
+      part.title = `${axis} ${bar.words}, ${where}`;
       part.setAttribute("aria-label", part.title);
       part.addEventListener("click", (event) => {
         // The keyboard has no place within the bar: it leads to its first line.
@@ -56,7 +58,8 @@ function draw(name: string, shown: readonly Column[]): void {
   marker.id = "marker";
   marker.hidden = true;
   chart.append(marker);
-  page.replaceChildren(element("h1", "name", name), chart, legend(shown));
+  const remark = timeline.remark === null ? [] : [element("p", "remark", timeline.remark)];
+  page.replaceChildren(element("h1", "name", name), ...remark, chart, legend(shown));
 }
 
 function lineBelow(event: MouseEvent, track: HTMLElement): number {
@@ -75,10 +78,10 @@ function mark(line: number): void {
 
 function legend(shown: readonly Column[]): HTMLElement {
   const list = element("ul", "legend");
-  const states = new Set(shown.flatMap(({ bars }) => bars.map(({ state }) => state)));
-  for (const state of states) {
-    const item = element("li", "", state === "several" ? "several states over the runs" : state);
-    item.prepend(element("span", `sample ${state}`));
+  const looks = new Set(shown.flatMap(({ bars }) => bars.map(({ look }) => look)));
+  for (const look of looks) {
+    const item = element("li", "", look === "several" ? "differs between runs" : look);
+    item.prepend(element("span", `sample ${look}`));
     list.append(item);
   }
   return list;

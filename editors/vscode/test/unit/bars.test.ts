@@ -4,23 +4,24 @@ import { columns, lineAt } from "../../src/view/bars";
 test("bars fill the height in the order of the lines", () => {
   const shown = columns({
     lines: 10,
+    remark: null,
     axes: [
       {
         axis: "X",
         segments: [
-          { from: 0, to: 4, state: "active" },
-          { from: 4, to: 10, state: "inactive" },
+          { from: 0, to: 4, states: ["active"] },
+          { from: 4, to: 10, states: ["inactive", "active"] },
         ],
       },
-      { axis: "Z", segments: [{ from: 0, to: 10, state: "unconfigured" }] },
+      { axis: "Z", segments: [{ from: 0, to: 10, states: ["unconfigured"] }] },
     ],
   });
   expect(shown).toEqual([
     {
       axis: "X",
       bars: [
-        { state: "active", first: 1, last: 4, top: 0, height: 0.4 },
-        { state: "inactive", first: 5, last: 10, top: 0.4, height: 0.6 },
+        { look: "active", words: "active", first: 1, last: 4, top: 0, height: 0.4 },
+        { look: "several", words: "inactive or active", first: 5, last: 10, top: 0.4, height: 0.6 },
       ],
     },
   ]);

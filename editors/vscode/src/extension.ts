@@ -3,6 +3,7 @@ import { constants, accessSync } from "node:fs";
 import * as path from "node:path";
 import * as vscode from "vscode";
 import { findBinary, type Found } from "./binary";
+import { registerDebugger } from "./debug";
 import { ownLanguage, PROGRAM_LANGUAGES } from "./languages";
 import { Reports } from "./reports";
 import { Server } from "./server";
@@ -41,6 +42,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     status,
     view,
     ...ownLanguages(),
+    ...registerDebugger(binary),
     ...commands({ server, reports, binary, start }),
     vscode.workspace.onDidChangeConfiguration((change) => {
       if (change.affectsConfiguration("frictcomp")) {

@@ -1,0 +1,29 @@
+/** Stepping through a program: the debug adapter of frictcomp. */
+import * as vscode from "vscode";
+
+const TYPE = "frictcomp";
+
+/** Registers the debugger; `binary` gives the program frictcomp, or says what to do where it is missing. */
+export function registerDebugger(binary: () => string | undefined): vscode.Disposable[] {
+  return [
+    vscode.debug.registerDebugConfigurationProvider(TYPE, {
+      // F5 without a launch configuration: the program in the editor, from its first block.
+      resolveDebugConfiguration: (_, configuration) =>
+        configuration.type
+          ? configuration
+          : {
+              type: TYPE,
+              request: "launch",
+              name: "Step through the NC program",
+              program: "${file}",
+              stopOnEntry: true,
+            },
+    }),
+    vscode.debug.registerDebugAdapterDescriptorFactory(TYPE, {
+      createDebugAdapterDescriptor: () => {
+        const file = binary();
+        return file === undefined ? undefined : new vscode.DebugAdapterExecutable(file, ["dap"]);
+      },
+    }),
+  ];
+}

@@ -120,7 +120,9 @@ fn no_command_and_no_format_lets_harm_out() {
                 is_harmless(&tool(folder, &arguments), &arguments);
             }
         }
-        for format in ["text", "concise", "json", "ndjson", "github", "sarif"] {
+        for format in [
+            "text", "concise", "json", "ndjson", "github", "gitlab", "sarif",
+        ] {
             for arguments in [
                 &["check", "--format", format, name][..],
                 &["check", "--format", format, "."],

@@ -239,6 +239,12 @@ fn check_has_six_formats() {
         "summary"
     );
     assert!(json(&check("json")).to_string().contains("P-ERR-70495"));
+    let gitlab = json(&check("gitlab"));
+    let issue = &gitlab[0];
+    assert_eq!(issue["check_name"], "P-ERR-70495");
+    assert_eq!(issue["severity"], "critical");
+    assert_eq!(issue["location"]["path"], "a.nc");
+    assert_eq!(issue["location"]["lines"]["begin"], 1);
     let sarif = json(&check("sarif"));
     assert_eq!(sarif["version"], "2.1.0");
     let result = &sarif["runs"][0]["results"][0];
@@ -248,6 +254,24 @@ fn check_has_six_formats() {
         (&region["startLine"], &region["startColumn"]),
         (&1.into(), &5.into())
     );
+}
+
+#[test]
+fn the_fingerprints_of_gitlab_outlive_a_change_above() {
+    // R13.6: the same message twice is two fingerprints, and a line more above changes neither.
+    let fingerprints = |text: &str| -> Vec<String> {
+        let bench = Bench::new(&[("a.nc", text)]);
+        let report = json(&bench.stdout(&["check", "--format", "gitlab", "a.nc"]));
+        let issues = report.as_array().expect("a list").iter();
+        let text = |issue: &serde_json::Value| issue["fingerprint"].as_str().map(str::to_owned);
+        issues.filter_map(text).collect()
+    };
+    let twice = "N10 X[COMP OFF FRIKT]\nN20 X[COMP OFF FRIKT]\nN30 M30\n";
+    let before = fingerprints(twice);
+    assert_eq!(before.len(), 2);
+    assert_ne!(before[0], before[1]);
+    assert_eq!(fingerprints(&format!("N5 X1\n{twice}")), before);
+    assert!(fingerprints("N10 M30\n").is_empty());
 }
 
 #[test]

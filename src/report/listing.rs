@@ -7,6 +7,7 @@ use std::ops::ControlFlow;
 use crate::diagnostic::{Diagnostic, Severity};
 
 use super::diagnostics::{Look, render};
+use super::gitlab::{self, GitLab};
 use super::output::Output;
 use super::records::append_diagnostic;
 use super::sarif::Sarif;
@@ -28,18 +29,21 @@ pub enum ListingFormat {
     Ndjson,
     /// Workflow commands of GitHub.
     Github,
+    /// A Code Quality report of GitLab.
+    Gitlab,
     /// SARIF 2.1.0.
     Sarif,
 }
 
 impl ListingFormat {
     /// Every format.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Text,
         Self::Concise,
         Self::Json,
         Self::Ndjson,
         Self::Github,
+        Self::Gitlab,
         Self::Sarif,
     ];
 
@@ -51,6 +55,7 @@ impl ListingFormat {
             Self::Json => "json",
             Self::Ndjson => "ndjson",
             Self::Github => "github",
+            Self::Gitlab => "gitlab",
             Self::Sarif => "sarif",
         }
     }
@@ -63,13 +68,14 @@ impl ListingFormat {
             Self::Json => "One JSON document",
             Self::Ndjson => "One JSON object per line",
             Self::Github => "GitHub workflow commands",
+            Self::Gitlab => "GitLab Code Quality report",
             Self::Sarif => "SARIF 2.1.0",
         }
     }
 
     /// Whether it is for diagnostics only, without records of other kinds.
     pub fn is_for_diagnostics(self) -> bool {
-        matches!(self, Self::Github | Self::Sarif)
+        matches!(self, Self::Github | Self::Gitlab | Self::Sarif)
     }
 }
 
@@ -100,6 +106,7 @@ pub struct Listing<W> {
     output: Output<W>,
     format: ListingFormat,
     look: Look,
+    gitlab: GitLab,
     sarif: Sarif,
     records: u64,
     tally: Tally,
@@ -111,6 +118,7 @@ impl<W: Write> Listing<W> {
         let mut output = Output::new(writer);
         match format {
             ListingFormat::Json => output.bytes.extend_from_slice(json::OPENING),
+            ListingFormat::Gitlab => output.bytes.extend_from_slice(gitlab::OPENING),
             ListingFormat::Sarif => Sarif::open(&mut output.bytes),
             _ => {}
         }
@@ -118,6 +126,7 @@ impl<W: Write> Listing<W> {
             output,
             format,
             look,
+            gitlab: GitLab::default(),
             sarif: Sarif::default(),
             records: 0,
             tally: Tally::default(),
@@ -152,6 +161,7 @@ impl<W: Write> Listing<W> {
             }
             ListingFormat::Concise => concise::append(&mut self.output.bytes, diagnostic),
             ListingFormat::Github => github::append(&mut self.output.bytes, diagnostic),
+            ListingFormat::Gitlab => self.gitlab.append(&mut self.output.bytes, diagnostic),
             ListingFormat::Sarif => self.sarif.append(&mut self.output.bytes, diagnostic),
             ListingFormat::Json | ListingFormat::Ndjson => self.object(|out| {
                 out.extend_from_slice(b"{\"record\":\"diagnostic\"");
@@ -182,6 +192,7 @@ impl<W: Write> Listing<W> {
                     self.output.bytes.extend_from_slice(b"\n]}\n");
                 }
             }
+            ListingFormat::Gitlab => self.output.bytes.extend_from_slice(gitlab::CLOSING),
             ListingFormat::Sarif => self.sarif.close(&mut self.output.bytes),
             ListingFormat::Text | ListingFormat::Concise | ListingFormat::Github => {}
         }

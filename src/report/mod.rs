@@ -16,6 +16,7 @@ mod diagnostics;
 pub mod drives;
 mod findings;
 mod github;
+mod gitlab;
 pub mod html;
 pub mod identify;
 mod json;

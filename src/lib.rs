@@ -89,7 +89,7 @@ pub mod comp;
 mod config;
 pub mod contour;
 pub mod current;
-#[cfg(feature = "cli")]
+#[cfg(feature = "lsp")]
 pub mod dap;
 pub mod diagnostic;
 pub mod drive_interface;

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each room may import. Rooms stand in the order of the data; an import never goes down.
-const ROOMS: [(&str, &[&str]); 27] = [
+const ROOMS: [(&str, &[&str]); 28] = [
     ("text", &[]),
     ("diagnostic", &["text"]),
     ("comp", &["text", "diagnostic"]),
@@ -197,6 +197,18 @@ const ROOMS: [(&str, &[&str]); 27] = [
         ],
     ),
     (
+        "dap",
+        &[
+            "text",
+            "diagnostic",
+            "comp",
+            "syntax",
+            "machine",
+            "interpreter",
+            "host",
+        ],
+    ),
+    (
         "cli",
         &[
             "contour",
@@ -221,12 +233,13 @@ const ROOMS: [(&str, &[&str]); 27] = [
             "report",
             "host",
             "lsp",
+            "dap",
         ],
     ),
 ];
 
 /// Rooms that may touch files, the terminal and the environment.
-const OUTER: [&str; 5] = ["cli", "host", "lsp", "report", "main"];
+const OUTER: [&str; 6] = ["cli", "dap", "host", "lsp", "report", "main"];
 
 /// A file above this many lines is split.
 const MAX_LINES: usize = 600;

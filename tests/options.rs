@@ -445,6 +445,7 @@ fn every_help_ends_with_two_examples_that_work() {
         "explain",
         "codes",
         "lsp",
+        "dap",
         "config",
         "config show",
         "init",

@@ -13,7 +13,11 @@ use crate::dap::serve;
 /// An editor starts it to step through a program block by block, with breakpoints on lines and on
 /// changes of states; `docs/editors.md` has the settings of editors.
 #[derive(Debug, Args)]
-pub(super) struct DapArgs {}
+pub(super) struct DapArgs {
+    /// Talk over standard input and output, which is the only way: some editors say so
+    #[arg(long)]
+    stdio: bool,
+}
 
 /// Runs the command.
 pub(super) fn run(_: &DapArgs) -> Result<u8, Failure> {

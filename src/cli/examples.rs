@@ -12,7 +12,7 @@ const fn examples(command: &'static [&'static str], lines: [&'static str; 2]) ->
     Examples { command, lines }
 }
 
-static EXAMPLES: [Examples; 23] = [
+static EXAMPLES: [Examples; 24] = [
     examples(
         &["run"],
         [
@@ -141,6 +141,7 @@ static EXAMPLES: [Examples; 23] = [
         ],
     ),
     examples(&["lsp"], ["frictcomp lsp", "frictcomp lsp --stdio"]),
+    examples(&["dap"], ["frictcomp dap", "frictcomp dap --stdio"]),
     examples(
         &["init"],
         [

@@ -149,7 +149,7 @@ impl Stride<'_> {
         }
         let has_arrived = match self.reach {
             Reach::Block => true,
-            Reach::Depth(deepest) => depth(block) <= deepest,
+            Reach::Depth(limit) => depth(block) <= limit,
             Reach::Breakpoint => false,
         };
         has_arrived.then_some(Halt::Arrived)

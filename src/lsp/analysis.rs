@@ -219,7 +219,7 @@ impl Sink for Survey {
         }
         match record {
             Record::Session { remark, .. } => self.remark = remark.map(str::to_owned),
-            Record::Program { file, state, .. } => self.states.begin(file, *state),
+            Record::Program { state, .. } => self.states.begin(*state),
             Record::Block(row) => {
                 self.states.block(row);
                 if row.diagnostics.is_empty() {

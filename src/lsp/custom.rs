@@ -1,11 +1,11 @@
 //! What a status bar and a timeline view ask for, beyond the protocol.
 
 use gen_lsp_types::{
-    LspRequestMethod, MessageDirection, Position, Request, TextDocumentIdentifier, Uri,
+    LspRequestMethod, MessageDirection, Position, Request, TextDocumentIdentifier,
 };
 use serde::{Deserialize, Serialize};
 
-use super::states::StateSet;
+use super::states::{Pass, StateSet};
 use super::view::View;
 use crate::comp::State;
 
@@ -56,7 +56,7 @@ pub(super) struct AxisStates {
     pub(super) after: Vec<State>,
 }
 
-/// `frictcomp/timeline`: the states of all axes over the executed blocks.
+/// `frictcomp/timeline`: the states of all axes over the lines of a program.
 pub(super) enum TimelineRequest {}
 
 impl Request for TimelineRequest {
@@ -74,41 +74,37 @@ pub(super) struct TimelineParams {
     pub(super) text_document: TextDocumentIdentifier,
 }
 
-/// The states of all axes over the executed blocks.
+/// The states of all axes over the lines of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Timeline {
+    /// How many lines the program has.
+    pub(super) lines: u32,
     /// The axes.
     pub(super) axes: Vec<AxisTimeline>,
-    /// How often states changed besides, in a run with too many changes to show.
-    pub(super) left_out: u64,
     /// That no machine is described, in words.
     pub(super) remark: Option<String>,
 }
 
-/// An axis over the executed blocks.
+/// An axis over the lines of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct AxisTimeline {
     /// Its name.
     pub(super) axis: String,
-    /// Its states, in the order of the run.
+    /// Its states, from the first line to the last.
     pub(super) segments: Vec<Segment>,
 }
 
-/// Executed blocks with the same state.
+/// Lines after which an axis has the same states.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Segment {
-    /// The state.
-    pub(super) state: State,
-    /// The text that holds the block which begins it.
-    pub(super) uri: Uri,
-    /// The line of the block which begins it, from 0; that of the first line for the start.
-    pub(super) from_line: u32,
-    /// The line of the block which ends it, from 0; that of the last executed block at the end.
-    pub(super) to_line: u32,
-    /// The block which begins it; empty for the start.
-    pub(super) text: String,
+    /// The first line, from 0.
+    pub(super) from: u32,
+    /// The first line after them.
+    pub(super) to: u32,
+    /// The states; in a loop or a subprogram there may be several.
+    pub(super) states: Vec<State>,
 }
 
 /// The states at a place.
@@ -167,42 +163,64 @@ fn in_words(axis: &AxisStates) -> String {
     format!("{name} {} \u{2192} {after}", words(&axis.before))
 }
 
-/// The states of a program over its executed blocks.
+/// The states of a program over its lines. Before the first executed block they are those that it
+/// finds; what is not executed has those of the block above.
 pub(super) fn timeline(view: &View, params: &TimelineParams) -> Option<Timeline> {
     let document = view.document(&params.text_document.uri)?;
-    let run = view.analysis(&document.uri)?.run.as_ref()?;
-    let last = run.states.at_end().1.unwrap_or(1).saturating_sub(1);
-    let marks: Vec<_> = run.states.marks().collect();
-    let axes = run.states.axes().iter().enumerate();
-    let axes = axes.filter_map(|(at, axis)| {
-        let mut segments: Vec<Segment> = Vec::new();
-        for (mark, set) in &marks {
-            let Some(state) = set.get(at).copied().flatten() else {
-                continue;
-            };
-            let line = mark.line.saturating_sub(1);
-            if let Some(earlier) = segments.last_mut() {
-                if earlier.state == state {
-                    continue;
-                }
-                earlier.to_line = line;
-            }
-            segments.push(Segment {
-                state,
-                uri: view.translator().uri(&mark.file),
-                from_line: line,
-                to_line: last,
-                text: mark.text.clone(),
-            });
-        }
-        (!segments.is_empty()).then(|| AxisTimeline {
+    let (_, run, name) = view.runs(document).into_iter().next()?;
+    let lines = document.line_count();
+    let names = run.states.axes().iter();
+    let mut axes: Vec<AxisTimeline> = names
+        .map(|axis| AxisTimeline {
             axis: axis.clone(),
-            segments,
+            segments: Vec::new(),
         })
-    });
+        .collect();
+    for (line, passes) in run.states.executed(&name) {
+        for (at, axis) in axes.iter_mut().enumerate() {
+            let states = |of: for<'p> fn(&Pass<'p>) -> &'p StateSet| {
+                let mut states = Vec::new();
+                for pass in &passes {
+                    add(&mut states, of(pass).get(at).copied().flatten());
+                }
+                states
+            };
+            if axis.segments.is_empty() && line > 1 {
+                axis.begin(0, states(|pass| pass.before));
+            }
+            axis.begin(line - 1, states(|pass| pass.after));
+        }
+    }
+    axes.retain_mut(|axis| axis.finish(lines));
     Some(Timeline {
-        axes: axes.collect(),
-        left_out: run.states.unmarked(),
+        lines,
+        axes,
         remark: run.remark.clone(),
     })
+}
+
+impl AxisTimeline {
+    /// From a line on the axis has these states.
+    fn begin(&mut self, line: u32, states: Vec<State>) {
+        if let Some(last) = self.segments.last_mut() {
+            if last.states == states {
+                return;
+            }
+            last.to = line;
+        }
+        self.segments.push(Segment {
+            from: line,
+            to: line,
+            states,
+        });
+    }
+
+    /// The program ends with this many lines. Whether the axis occurs in it.
+    fn finish(&mut self, lines: u32) -> bool {
+        if let Some(last) = self.segments.last_mut() {
+            last.to = lines;
+        }
+        self.segments.retain(|segment| !segment.states.is_empty());
+        !self.segments.is_empty()
+    }
 }

@@ -56,6 +56,15 @@ impl Document {
         &self.text
     }
 
+    /// How many lines it has; an empty one after the last line end does not count.
+    pub(super) fn line_count(&self) -> u32 {
+        let lines = u32::try_from(self.lines.lines()).unwrap_or(u32::MAX);
+        match self.line(lines - 1) {
+            "" => lines - 1,
+            _ => lines,
+        }
+    }
+
     /// A line, from 0, without its end; empty past the last one.
     pub(super) fn line(&self, line: u32) -> &str {
         let number = self.lines.first().saturating_add(line);

@@ -6,9 +6,6 @@ use std::sync::Arc;
 use crate::comp::{Kind, State};
 use crate::timeline::{Row, StateView};
 
-/// Changes of states that are kept in their order.
-const MOST_MARKS: usize = 10_000;
-
 /// Passes through one block that differ in their states; further ones are counted with the last.
 const MOST_PASSES: u32 = 64;
 
@@ -58,18 +55,6 @@ pub(super) struct Pass<'a> {
     pub(super) times: u32,
 }
 
-/// Where the states changed, in the order of the run.
-#[derive(Debug, Clone)]
-pub(super) struct Mark {
-    /// The file.
-    pub(super) file: Arc<str>,
-    /// The line on which the block starts, from 1; 0 for the start.
-    pub(super) line: u32,
-    /// The first line of the block.
-    pub(super) text: String,
-    after: SetIndex,
-}
-
 /// The states of a run.
 #[derive(Debug, Default)]
 pub(super) struct StateBook {
@@ -83,27 +68,19 @@ pub(super) struct StateBook {
     by_name: HashMap<Arc<str>, usize>,
     /// The file of the last block.
     file: usize,
-    marks: Vec<Mark>,
-    unmarked: u64,
     /// The last line of the main program that was reached.
     last: Option<u32>,
 }
 
 impl StateBook {
     /// The states before the first block.
-    pub(super) fn begin(&mut self, file: &str, state: StateView<'_>) {
+    pub(super) fn begin(&mut self, state: StateView<'_>) {
         if self.axes.is_empty() {
             let axes = state.machine.axes.iter();
             self.axes = axes.map(|axis| axis.name.clone()).collect();
         }
         self.now = self.number(state);
         self.version = Some(state.version);
-        self.marks = vec![Mark {
-            file: file.into(),
-            line: 0,
-            text: String::new(),
-            after: self.now,
-        }];
     }
 
     /// Takes a block.
@@ -122,30 +99,12 @@ impl StateBook {
         if row.level.is_none() {
             self.last = Some(row.line);
         }
-        if before != self.now {
-            self.mark(row);
-        }
     }
 
     /// The states when the program has ended.
     pub(super) fn end(&mut self, state: StateView<'_>) {
         self.now = self.number(state);
         self.version = Some(state.version);
-    }
-
-    #[cold]
-    fn mark(&mut self, row: &Row<'_>) {
-        if self.marks.len() >= MOST_MARKS {
-            self.unmarked += 1;
-            return;
-        }
-        let text = row.text.lines().next().unwrap_or_default();
-        self.marks.push(Mark {
-            file: Arc::clone(&self.files[self.file].name),
-            line: row.line,
-            text: text.trim().chars().take(80).collect(),
-            after: self.now,
-        });
     }
 
     #[cold]
@@ -210,6 +169,17 @@ impl StateBook {
         u32::try_from(found + 1).ok()
     }
 
+    /// The lines of the executed blocks of a file, from 1, each with all its passes.
+    pub(super) fn executed(&self, file: &str) -> impl Iterator<Item = (u32, Vec<Pass<'_>>)> {
+        let file = self.by_name.get(file).map(|at| &self.files[*at]);
+        file.into_iter().flat_map(move |file| {
+            let lines = file.lines.iter().zip(1..);
+            let executed = lines.filter(|(first, _)| first.times > 0);
+            executed
+                .map(move |(_, line)| (line, file.of(line).map(|visit| self.pass(visit)).collect()))
+        })
+    }
+
     /// The lines of the blocks of a file that change a state, from 1, each with all its passes.
     pub(super) fn switching(&self, file: &str) -> impl Iterator<Item = (u32, Vec<Pass<'_>>)> {
         let file = self.by_name.get(file).map(|at| &self.files[*at]);
@@ -237,16 +207,6 @@ impl StateBook {
     /// The states at the end, and the last line of the main program, from 1.
     pub(super) fn at_end(&self) -> (&StateSet, Option<u32>) {
         (self.set(self.now), self.last)
-    }
-
-    /// Where the states changed, with the states after it; the first is the start.
-    pub(super) fn marks(&self) -> impl Iterator<Item = (&Mark, &StateSet)> {
-        self.marks.iter().map(|mark| (mark, self.set(mark.after)))
-    }
-
-    /// How often the states changed besides.
-    pub(super) fn unmarked(&self) -> u64 {
-        self.unmarked
     }
 }
 

@@ -187,40 +187,39 @@ fn a_status_bar_asks_for_the_states_at_the_cursor() {
 }
 
 #[test]
-fn a_timeline_view_asks_for_the_states_in_order() {
-    // R12.3
+fn a_timeline_view_asks_for_the_states_over_the_lines() {
+    // R12.8
     let (_bench, mut client, uri) = opened(LOOP);
     let timeline = client.ask(
         "frictcomp/timeline",
         &json!({ "textDocument": { "uri": uri } }),
     );
-    let x = timeline["axes"][0]["segments"].as_array().expect("a list");
-    let shown: Vec<_> = x
-        .iter()
-        .map(|it| {
-            (
-                it["state"].as_str().expect("a state"),
-                it["fromLine"].as_u64(),
-                it["toLine"].as_u64(),
-            )
-        })
-        .collect();
+    let axis = |at: usize| {
+        let segments = timeline["axes"][at]["segments"].as_array().expect("a list");
+        let segment = |it: &Value| (it["from"].as_u64(), it["to"].as_u64(), it["states"].clone());
+        segments.iter().map(segment).collect::<Vec<_>>()
+    };
+    let (active, inactive) = (json!(["active"]), json!(["inactive"]));
+    let either = |first: &str, other: &str| json!([first, other]);
     assert_eq!(
-        shown,
+        axis(0),
         [
-            ("active", Some(0), Some(2)),
-            ("inactive", Some(2), Some(10)),
-            ("active", Some(10), Some(2)),
-            ("inactive", Some(2), Some(7)),
+            (Some(0), Some(1), active.clone()),
+            (Some(1), Some(2), either("active", "inactive")),
+            (Some(2), Some(4), inactive.clone()),
+            (Some(4), Some(6), either("inactive", "active")),
+            (Some(6), Some(10), inactive.clone()),
+            (Some(10), Some(11), active.clone()),
+            (Some(11), Some(13), either("inactive", "active")),
         ]
     );
     assert_eq!(
-        (&x[1]["text"], &x[1]["uri"]),
-        (&json!("N30 X[COMP OFF FRICT]"), &json!(uri))
+        axis(1),
+        [(Some(0), Some(6), active), (Some(6), Some(13), inactive),]
     );
     assert_eq!(
-        (&timeline["leftOut"], &timeline["remark"]),
-        (&json!(0), &Value::Null)
+        (&timeline["lines"], &timeline["remark"]),
+        (&json!(13), &Value::Null)
     );
     client.drop_all();
 }

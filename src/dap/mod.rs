@@ -1,9 +1,10 @@
 //! The debug adapter: a program block by block, as the Debug Adapter Protocol wants it (R12.9).
 //!
-//! [`stepper`](self) holds the run: the interpreter stands before the block that is shown, and goes
-//! back to it by a snapshot when a breakpoint was noticed behind it. The messages are written as JSON
-//! values: of the crates that hold the types of the protocol none is kept up.
+//! The interpreter of `stepper` stands before the block that is shown, and returns there by a snapshot
+//! when the block itself shows that the run should have stopped before it. What the adapter sends is
+//! written as JSON values: of the crates with the types of the protocol none is maintained.
 
+mod arguments;
 mod breakpoints;
 mod paths;
 mod server;

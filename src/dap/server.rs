@@ -6,16 +6,16 @@ use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
 
-use serde::Deserialize;
-use serde::de::DeserializeOwned;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
+use super::arguments::{
+    Evaluate, Launch, SetBreakpoints, SetFilters, SetVariable, Variables, arguments,
+};
 use super::breakpoints::{Breakpoints, STATE_CHANGES, UNKNOWN_VALUES};
 use super::paths::real;
 use super::stepper::{Halt, Position, Reach, Stepper, in_words};
 use super::transport::{self, Incoming, Outgoing, Request};
 use super::variables::{self, Scope};
-use crate::comp::Kind;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::host::read_text;
 use crate::interpreter::EndedBy;
@@ -96,82 +96,6 @@ impl Client {
     }
 }
 
-/// `launch`.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Launch {
-    /// The program.
-    program: PathBuf,
-    /// Whether the run stops before the first block.
-    #[serde(default = "yes")]
-    stop_on_entry: bool,
-    /// Values that only the machine knows.
-    #[serde(default)]
-    set: Map<String, Value>,
-}
-
-fn yes() -> bool {
-    true
-}
-
-/// `setBreakpoints`.
-#[derive(Debug, Deserialize)]
-struct SetBreakpoints {
-    source: Source,
-    #[serde(default)]
-    breakpoints: Vec<SourceBreakpoint>,
-}
-
-#[derive(Debug, Deserialize)]
-struct Source {
-    path: String,
-}
-
-#[derive(Debug, Deserialize)]
-struct SourceBreakpoint {
-    line: u32,
-}
-
-/// `setExceptionBreakpoints`.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct SetFilters {
-    #[serde(default)]
-    filters: Vec<String>,
-    #[serde(default)]
-    filter_options: Vec<FilterOption>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct FilterOption {
-    filter_id: String,
-    #[serde(default)]
-    condition: String,
-}
-
-/// `variables`.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Variables {
-    variables_reference: i64,
-}
-
-/// `setVariable`.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct SetVariable {
-    variables_reference: i64,
-    name: String,
-    value: String,
-}
-
-/// `evaluate`.
-#[derive(Debug, Deserialize)]
-struct Evaluate {
-    expression: String,
-}
-
 struct Server<W> {
     client: Client,
     outgoing: Outgoing<W>,
@@ -190,11 +114,11 @@ impl<W: Write> Server<W> {
             return Ok(());
         }
         match request.command.as_str() {
-            "launch" => self.outgoing.event("initialized", json!({})),
+            "launch" => self.outgoing.event("initialized", &json!({})),
             "configurationDone" => self.begin(),
             "continue" => self.go(|_| Reach::Breakpoint),
             "stepIn" => self.go(|_| Reach::Block),
-            "next" => self.go(|depth| Reach::Depth(depth)),
+            "next" => self.go(Reach::Depth),
             "stepOut" => {
                 self.go(|depth| depth.checked_sub(1).map_or(Reach::Breakpoint, Reach::Depth))
             }
@@ -206,7 +130,7 @@ impl<W: Write> Server<W> {
         match request.command.as_str() {
             "initialize" => Ok(capabilities()),
             "launch" => self.launch(arguments(request)?),
-            "setBreakpoints" => self.set_breakpoints(arguments(request)?),
+            "setBreakpoints" => self.set_breakpoints(&arguments(request)?),
             "setExceptionBreakpoints" => Ok(self.set_filters(&arguments(request)?)),
             "threads" => Ok(json!({ "threads": [{ "id": CHANNEL, "name": "NC channel" }] })),
             "stackTrace" => self.stepper().map(stack),
@@ -266,7 +190,7 @@ impl<W: Write> Server<W> {
         Ok(json!({}))
     }
 
-    fn set_breakpoints(&mut self, wanted: SetBreakpoints) -> Result<Value, String> {
+    fn set_breakpoints(&mut self, wanted: &SetBreakpoints) -> Result<Value, String> {
         let file = real(&wanted.source.path);
         let text = read_text(&file).map_err(|error| error.to_string())?;
         let lines: Vec<u32> = wanted.breakpoints.iter().map(|it| it.line).collect();
@@ -358,20 +282,24 @@ impl<W: Write> Server<W> {
             body["description"] = text.into();
             body["text"] = text.into();
         }
-        self.outgoing.event("stopped", body)
+        self.outgoing.event("stopped", &body)
     }
 
     /// Says what the program leaves, and that it has ended.
     fn end(&mut self, by: EndedBy) -> io::Result<()> {
-        let left = self.stepper.as_ref().map(left).unwrap_or_default();
+        let left = self
+            .stepper
+            .as_ref()
+            .map(variables::states)
+            .unwrap_or_default();
         self.print(
             "console",
             &format!("the program ends by {by} and leaves {left}"),
         )?;
-        self.outgoing.event("terminated", json!({}))?;
+        self.outgoing.event("terminated", &json!({}))?;
         self.outgoing.event(
             "exited",
-            json!({ "exitCode": i32::from(by == EndedBy::Error) }),
+            &json!({ "exitCode": i32::from(by == EndedBy::Error) }),
         )
     }
 
@@ -392,22 +320,13 @@ impl<W: Write> Server<W> {
             "source": source(&said.place.file),
             "line": line,
         });
-        self.outgoing.event("output", body)
+        self.outgoing.event("output", &body)
     }
 
     fn print(&mut self, category: &str, text: &str) -> io::Result<()> {
         let body = json!({ "category": category, "output": format!("{text}\n") });
-        self.outgoing.event("output", body)
+        self.outgoing.event("output", &body)
     }
-}
-
-fn arguments<T: DeserializeOwned>(request: &Request) -> Result<T, String> {
-    serde_json::from_value(request.arguments.clone()).map_err(|error| {
-        format!(
-            "the arguments of `{}` are not understood: {error}",
-            request.command
-        )
-    })
 }
 
 fn capabilities() -> Value {
@@ -461,21 +380,4 @@ fn source(file: &str) -> Value {
     let path = std::path::absolute(file).unwrap_or_else(|_| PathBuf::from(file));
     let name = path.file_name().map(|name| name.to_string_lossy());
     json!({ "name": name, "path": path.to_string_lossy() })
-}
-
-/// `X inactive, Y active`: the states that are left.
-fn left(stepper: &Stepper) -> String {
-    let here = stepper.interpreter();
-    let compensation = here.compensation();
-    let occurred = here.occurred().iter().enumerate();
-    let axes = occurred.filter(|(_, occurred)| **occurred).map(|(at, _)| {
-        let axis = crate::comp::AxisIndex::new(at);
-        let name = &here.machine().axis(axis).name;
-        format!("{name} {}", compensation.state(axis, Kind::Frict))
-    });
-    let axes: Vec<String> = axes.collect();
-    match axes.is_empty() {
-        true => "no axis changed".to_owned(),
-        false => axes.join(", "),
-    }
 }

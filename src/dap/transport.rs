@@ -113,7 +113,7 @@ impl<W: Write> Outgoing<W> {
     }
 
     /// Tells the client of something.
-    pub(super) fn event(&mut self, event: &str, body: Value) -> io::Result<()> {
+    pub(super) fn event(&mut self, event: &str, body: &Value) -> io::Result<()> {
         self.send(json!({ "type": "event", "event": event, "body": body }))
     }
 

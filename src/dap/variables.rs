@@ -77,6 +77,20 @@ pub(super) fn by_name(stepper: &Stepper, name: &str) -> Option<Json> {
     Some(json!({ "result": in_words(&value), "variablesReference": 0 }))
 }
 
+/// The states of all axes in one line: `X inactive, Y active`.
+pub(super) fn states(stepper: &Stepper) -> String {
+    let here = stepper.interpreter();
+    let state = |axis| {
+        let state = here.compensation().state(axis, Kind::Frict);
+        format!("{} {state}", name_of(here, axis))
+    };
+    let states: Vec<String> = axes(here).map(state).collect();
+    if states.is_empty() {
+        return "no axis changed".to_owned();
+    }
+    states.join(", ")
+}
+
 /// What a user typed as a value: a number, or a text in quotes.
 pub(super) fn setting(typed: &str) -> Option<Setting> {
     let typed = typed.trim();
@@ -95,7 +109,8 @@ pub(super) fn setting(typed: &str) -> Option<Setting> {
 
 fn axes(here: &Interpreter) -> impl Iterator<Item = AxisIndex> {
     let occurred = here.occurred().iter().enumerate();
-    occurred.filter_map(|(at, occurred)| occurred.then(|| AxisIndex::new(at)))
+    let occurred = occurred.filter(|(_, occurred)| **occurred);
+    occurred.map(|(at, _)| AxisIndex::new(at))
 }
 
 fn name_of(here: &Interpreter, axis: AxisIndex) -> &str {
@@ -154,9 +169,12 @@ fn modal(here: &Interpreter) -> Vec<Json> {
         ("feed mode", Group::Feed, functions.feed_mode),
         ("zero offset", Group::Offset, functions.offset),
     ]
-    .map(|(name, group, function)| match modal.is_known(group) {
-        true => line(name, &format!("G{function:02}")),
-        false => line(name, "unknown"),
+    .map(|(name, group, function)| {
+        if modal.is_known(group) {
+            line(name, &format!("G{function:02}"))
+        } else {
+            line(name, "unknown")
+        }
     })
     .into()
 }

@@ -215,7 +215,11 @@ fn a_timeline_view_asks_for_the_states_over_the_lines() {
     );
     assert_eq!(
         axis(1),
-        [(Some(0), Some(6), active), (Some(6), Some(13), inactive),]
+        [
+            (Some(0), Some(6), active.clone()),
+            (Some(6), Some(9), inactive),
+            (Some(9), Some(13), active),
+        ]
     );
     assert_eq!(
         (&timeline["lines"], &timeline["remark"]),

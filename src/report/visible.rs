@@ -24,6 +24,12 @@ pub(super) fn push_picture(out: &mut String, letter: char) {
     }
 }
 
+/// The last part of a path, as whatever system writes it: titles and pictures have no room for more,
+/// and are the same in every folder.
+pub(super) fn last_part(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
 /// Whether a text holds a special byte; a blank is none. Most texts hold none, so that sixteen bytes
 /// are looked at without a branch; the last sixteen may overlap those before.
 #[inline]

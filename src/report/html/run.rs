@@ -15,6 +15,7 @@ use crate::comp::Kind;
 use crate::diagnostic::Severity;
 use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
 use crate::report::assumptions::Met;
+use crate::report::visible::last_part;
 use crate::timeline::ChangedBy;
 
 const LEFT: Part = Part::new("left", "What is left");
@@ -70,7 +71,7 @@ fn title(digest: &RunDigest) -> String {
     let mut names: Vec<&str> = Vec::new();
     for program in &digest.programs {
         let name = digest.files[program.file].name.as_str();
-        names.push(name.rsplit(['/', '\\']).next().unwrap_or(name));
+        names.push(last_part(name));
     }
     let total = digest.programs.len();
     names.truncate(NAMED);

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::circle::{Direction, RadialProfile, UM_PER_M};
 use crate::report::circle::{CircleReport, Subject};
 use crate::report::svg::{PolarChart, PolarPanel, PolarSeries};
-use crate::report::visible::visible_line;
+use crate::report::visible::{last_part, visible_line};
 
 /// Points of a path in the picture.
 const POINTS: usize = 7200;
@@ -42,7 +42,7 @@ pub fn circle(report: &CircleReport) -> PolarChart {
         Subject::Simulated { test, .. } => (
             format!(
                 "Circular test, plant {}, diameter {} mm, {} mm/min",
-                visible_line(&test.plant.name),
+                visible_line(last_part(&test.plant.name)),
                 2.0 * test.circle.radius_mm,
                 test.circle.feed_mm_per_min
             ),

@@ -3,6 +3,7 @@
 use crate::circle::FeedResult;
 use crate::report::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
 use crate::report::tune::TuneReport;
+use crate::report::visible::last_part;
 
 /// The glitch before and after tuning over v²/R, on which it depends, and what less and more friction
 /// make of it (R5.25); two panels a plant, since what is left is small against what was there.
@@ -10,7 +11,10 @@ pub fn tuning(reports: &[TuneReport]) -> LineChart {
     let told: Vec<String> = reports.iter().map(describe).collect();
     LineChart {
         title: match reports {
-            [one] => format!("Glitch before and after tuning, plant {}", one.plant),
+            [one] => format!(
+                "Glitch before and after tuning, plant {}",
+                last_part(&one.plant)
+            ),
             _ => "Glitch before and after tuning".to_owned(),
         },
         description: format!(
@@ -61,7 +65,7 @@ fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
     let panel = |quantity: &str, series: Vec<Series>| Panel {
         y: ChartAxis::linear(match plants {
             1 => quantity.to_owned(),
-            _ => format!("plant {}: {quantity}", report.plant),
+            _ => format!("plant {}: {quantity}", last_part(&report.plant)),
         }),
         series,
         ..Panel::default()

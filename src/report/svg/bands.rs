@@ -318,6 +318,9 @@ pub(super) fn draw_legend(
     if states.is_empty() { 0.0 } else { 20.0 }
 }
 
+/// The room between the values at the ticks of an axis.
+pub(super) const TICK_ROOM: f64 = 10.0;
+
 /// Draws an axis with its ticks and its label below an area; gives where the room below it begins.
 pub(super) fn draw_ticks(canvas: &mut Canvas, scale: &Scale, area: Area, label: &str) -> f64 {
     canvas.line("fc-axis", (area.x, area.y), (area.right(), area.y));
@@ -330,7 +333,7 @@ pub(super) fn draw_ticks(canvas: &mut Canvas, scale: &Scale, area: Area, label: 
         let middle = x.min(WIDTH - half - 4.0);
         if middle - half > free {
             canvas.text("fc-quiet", (middle, area.y + 18.0), Anchor::Middle, text);
-            free = middle + half + 6.0;
+            free = middle + half + TICK_ROOM;
         }
     }
     let middle = area.x + area.width / 2.0;

@@ -1,6 +1,6 @@
 //! Curves over a common axis, in panels one below the other.
 
-use super::bands::{self, BandRow, Rows, draw_legend, draw_ticks};
+use super::bands::{self, BandRow, Rows, TICK_ROOM, draw_legend, draw_ticks};
 use super::canvas::{
     Anchor, Area, Canvas, Head, Legend, LegendItem, LegendLook, Role, SERIES, WIDTH, text_width,
 };
@@ -376,7 +376,7 @@ fn draw_second(canvas: &mut Canvas, x: &Scale, second: &SecondUnit, area: Area) 
         let middle = place.min(WIDTH - half - 4.0);
         if middle - half > free {
             canvas.text("fc-quiet", (middle, area.y - 9.0), Anchor::Middle, text);
-            free = middle + half + 6.0;
+            free = middle + half + TICK_ROOM;
         }
     }
     canvas.line("fc-axis", (area.x, area.y), (area.right(), area.y));

@@ -6,6 +6,7 @@ use unicode_width::UnicodeWidthStr;
 use crate::diagnostic::Severity;
 use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
 use crate::report::diagnostics::Look;
+use crate::report::visible::last_part;
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
 use super::line::{BOLD, DIM, Line, Paragraph, grouped, style};
@@ -131,7 +132,7 @@ fn more(left: u64) -> String {
 fn block_name(block: &ChangedBy, files: Files) -> String {
     let file = match files {
         Files::Path => block.file.as_str(),
-        Files::Name => block.file.rsplit(['/', '\\']).next().unwrap_or_default(),
+        Files::Name => last_part(&block.file),
     };
     match block.number {
         Some(number) => format!("N{number} ({file}:{})", block.line),

@@ -430,6 +430,64 @@ fn currents_are_steps_and_blocks_stand_along_the_time() {
 }
 
 #[test]
+fn many_blocks_have_ticks_where_they_have_names() {
+    let svg_of = |blocks: u32| {
+        let mut plot = CurrentPlot::new(vec![AxisPlot::new("X", None)]);
+        let cycles = AdditiveCurrent::new(&list(), Reading::default()).trace(&[0.0], &[0.0]);
+        for block in 0..blocks {
+            plot.block(f64::from(block), Some(i64::from(block)), 1);
+            let sample = AxisSample {
+                velocity: 0.0,
+                state: State::Active,
+                added: &cycles[0],
+            };
+            plot.push(f64::from(block), [sample]);
+        }
+        plot.chart().render(Frame::Alone)
+    };
+    // Ticks of blocks and of seconds, and names of blocks.
+    let counted = |blocks| {
+        let svg = svg_of(blocks);
+        let ticks = svg.matches("fc-axis").count();
+        (ticks, svg.matches(">N").count())
+    };
+    let ((few_ticks, few_names), (many_ticks, many_names)) = (counted(100), counted(600));
+    assert!(few_ticks > 100 && few_names < 40, "{few_ticks} {few_names}");
+    assert!(many_ticks < 60, "{many_ticks} ticks of {many_names} names");
+    assert!(many_names > 10, "{many_names}");
+}
+
+#[test]
+fn points_without_a_line_have_none_in_the_legend() {
+    // R6.18
+    let series = |name: &str, drawn| Series {
+        name: name.to_owned(),
+        points: vec![[0.0, 1.0], [1.0, 2.0]],
+        drawn,
+    };
+    let chart = LineChart {
+        panels: vec![Panel {
+            series: vec![
+                series("measured", Drawn::Scattered),
+                series("curve", Drawn::Line),
+            ],
+            ..Panel::default()
+        }],
+        ..LineChart::default()
+    };
+    let svg = chart.render(Frame::Alone);
+    let document = parse(&svg);
+    assert!(texts(&document).contains(&"measured"));
+    let lines = |class: &str| {
+        let nodes = document.descendants();
+        nodes
+            .filter(|node| node.attribute("class") == Some(class))
+            .count()
+    };
+    assert_eq!([lines("fc-curve fc-s0"), lines("fc-curve fc-s1")], [0, 2]);
+}
+
+#[test]
 fn a_million_cycles_are_a_picture_of_bounded_size() {
     let points = (0..1_000_000_u32).map(|at| [f64::from(at), f64::from(at % 977)]);
     let chart = LineChart {

@@ -92,6 +92,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_path_ends_with_its_last_part() {
+        // R9.16
+        assert_eq!(last_part("C:\\plants/mill.toml"), "mill.toml");
+        assert_eq!(last_part("stiff"), "stiff");
+    }
+
+    #[test]
     fn what_cannot_be_seen_has_a_picture() {
         // R9.76
         assert_eq!(visible_line("a\u{1b}[31m\nb"), "a\u{241b}[31m\u{240a}b");

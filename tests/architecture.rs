@@ -103,7 +103,6 @@ const ROOMS: [(&str, &[&str]); 28] = [
             "motion",
         ],
     ),
-    ("versions", &["diagnostic", "comp", "timeline"]),
     ("stiction", &[]),
     (
         "simulation",
@@ -134,6 +133,7 @@ const ROOMS: [(&str, &[&str]); 28] = [
             "simulation",
         ],
     ),
+    ("versions", &["diagnostic", "comp", "timeline", "contour"]),
     (
         "report",
         &[
@@ -162,6 +162,7 @@ const ROOMS: [(&str, &[&str]); 28] = [
         "host",
         &[
             "audit",
+            "contour",
             "interpreter",
             "text",
             "diagnostic",

@@ -11,6 +11,8 @@ mod independent;
 mod shape;
 #[path = "contour/truth.rs"]
 mod truth;
+#[path = "contour/versions.rs"]
+mod versions;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

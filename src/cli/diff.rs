@@ -13,19 +13,26 @@ use super::outputs::Outputs;
 use super::painted::difference;
 use super::result::{Format, ResultArgs};
 use super::settings;
+use super::simulated::{SimulationArgs, Tolerance};
 use crate::comp::KindSet;
-use crate::host::{Alone, Axes, Input, Ledger, Machines, Naming, run_alone, switched_axes};
+use crate::contour::BlockDeviations;
+use crate::host::{
+    Alone, Axes, Input, Ledger, Machines, Naming, drive_contour, run_alone, switched_axes,
+};
 use crate::report::fitted;
 use crate::report::html::render_versions;
-use crate::report::versions::{VersionsReport, render_json, render_text};
+use crate::report::versions::{ContoursReport, VersionsReport, render_json, render_text};
 use crate::session::StopPolicy;
-use crate::versions::{Agreement, Version, VersionComparison};
+use crate::versions::{
+    Agreement, ContourAgreement, ContourComparison, Version, VersionComparison, VersionContour,
+};
 
 /// Show which compensation changes differ between two versions of a program
 ///
 /// The exit status is 0 if both versions change the states in the same way, and 1 if a block changes
 /// a state in only one of them, or if a version is not known as a whole: an error stops it, a state
-/// depends on what only the machine knows, or no machine is described.
+/// depends on what only the machine knows, or no machine is described. With `--contour` it is 1, too,
+/// if a block of the new version deviates more, or if a motion could not be driven.
 #[derive(Debug, Args)]
 pub(super) struct DiffArgs {
     /// The old version
@@ -37,6 +44,14 @@ pub(super) struct DiffArgs {
     /// The kinds of compensation to compare: `FRICT,LEAD` or `all`
     #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
     kinds: KindSet,
+    /// Compare the contours, too: where the simulated axes leave the path farther in the new version
+    #[arg(long)]
+    contour: bool,
+    /// What a block may deviate more in the new version, in µm; by default 0.5
+    #[arg(long, value_name = "UM")]
+    tolerance: Option<Tolerance>,
+    #[command(flatten)]
+    simulation: SimulationArgs,
     #[command(flatten)]
     result: ResultArgs,
     /// Also write an HTML report with the changes of both versions to this file
@@ -50,6 +65,10 @@ pub(super) struct DiffArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
+    if !args.contour {
+        Tolerance::refuse_without_contour(args.tolerance)?;
+        args.simulation.refuse_without_contour()?;
+    }
     let ledger = Ledger::default();
     let inputs = [&args.old, &args.new].map(|path| Input::new(path));
     for input in &inputs {
@@ -70,6 +89,11 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         version(args, old, &mut machines)?,
         version(args, new, &mut machines)?,
     );
+    let contours = if args.contour {
+        Some(contours(args, &inputs, (&mut machines, &ledger))?)
+    } else {
+        None
+    };
     let is_described = machines.loaded().all(|it| it.machine.is_described());
     let report = VersionsReport {
         old: shown(&args.old),
@@ -78,6 +102,7 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
             .then(|| undescribed_remark(&inputs))
             .flatten(),
         comparison,
+        contours,
     };
     let printed = match args.result.format {
         Format::Text => {
@@ -91,10 +116,35 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
         render_versions(&report, &mut html).map_err(Failure::output)?;
     }
     outputs.finish()?;
-    Ok(match report.comparison.agreement() {
+    let contours = report.contours.as_ref().map(|it| it.comparison.agreement());
+    Ok(match (report.comparison.agreement(), contours) {
         _ if printed == Printed::Unread && !written => exit::CLEAN,
-        Agreement::Same => exit::CLEAN,
-        Agreement::Different | Agreement::NotComparable => exit::FOUND,
+        (Agreement::Same, None | Some(ContourAgreement::NoMore)) => exit::CLEAN,
+        _ => exit::FOUND,
+    })
+}
+
+/// The contours of both versions.
+fn contours(
+    args: &DiffArgs,
+    inputs: &[Input; 2],
+    (machines, ledger): (&mut Machines, &Ledger),
+) -> Result<ContoursReport, Failure> {
+    let mut plane = Default::default();
+    let mut contour = |input: &Input| -> Result<VersionContour, Failure> {
+        let loaded = machines.for_folder(input.folder())?;
+        let of = (&*loaded, Naming::AsGiven);
+        let setup = args.simulation.setup(of, &args.execution, ledger)?;
+        let contour = drive_contour(input, &loaded, &setup, |_| BlockDeviations::default())?;
+        plane = setup.plane;
+        Ok(contour.into())
+    };
+    let [old, new] = inputs;
+    let (old, new) = (contour(old)?, contour(new)?);
+    Ok(ContoursReport {
+        comparison: ContourComparison::new(old, new, args.tolerance.unwrap_or_default().um()),
+        plane,
+        plant: args.simulation.plant().to_owned(),
     })
 }
 

@@ -1,4 +1,4 @@
-//! `frictcomp golden`: each program's timeline against the one that was agreed on.
+//! `frictcomp golden`: each program's timeline, or contour, against the one that was agreed on.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -14,27 +14,43 @@ use super::listing::passed_over;
 use super::machine::MachineArgs;
 use super::painted::difference;
 use super::severities::SeverityArgs;
+use super::simulated::{SimulationArgs, Tolerance};
+use crate::contour::BlockDeviations;
 use crate::host::{
     AgreedDrift, AgreedFile, AgreedKind, AgreedResults, Alone, Axes, HostError, Input, Ledger,
-    Machines, Naming, find_programs, run_alone,
+    LoadedMachine, Machines, Naming, drive_contour, find_programs, run_alone,
 };
+use crate::report::contour::{AgreedContour, render_agreed};
 use crate::report::{Report, Text, TextChange, TextOptions, render_unified};
 use crate::session::StopPolicy;
 
 const TIMELINE: AgreedKind = AgreedKind {
     extension: "timeline",
     writer: "golden --update",
+    tolerance_um: 0.0,
 };
 
 /// Compare each program's timeline with the `.timeline` file beside it
+///
+/// With `--contour` it is the contour that is compared, with the `.contour` file beside the program: the
+/// deviation of each block and the glitches of its reversals. A figure that changes by no more than the
+/// tolerance is as agreed.
 #[derive(Debug, Args)]
 pub(super) struct GoldenArgs {
     /// Programs and folders of programs
     #[arg(value_name = "PATH", default_value = ".")]
     paths: Vec<PathBuf>,
-    /// Write the timelines instead of comparing them
+    /// Write the timelines, or contours, instead of comparing them
     #[arg(long)]
     update: bool,
+    /// Compare contours in place of timelines
+    #[arg(long)]
+    contour: bool,
+    /// What a figure of a contour may change, in µm; by default 0.5
+    #[arg(long, value_name = "UM")]
+    tolerance: Option<Tolerance>,
+    #[command(flatten)]
+    simulation: SimulationArgs,
     /// Print only the differences
     #[arg(long, short)]
     quiet: bool,
@@ -48,8 +64,9 @@ pub(super) struct GoldenArgs {
 
 /// The programs of one call, what they run on, and what was agreed on.
 struct Bench<'a> {
-    execution: &'a ExecutionArgs,
+    args: &'a GoldenArgs,
     machines: Machines,
+    ledger: Ledger,
     agreed: AgreedResults,
     files: Vec<AgreedFile>,
     /// What to say of files that are no programs.
@@ -58,12 +75,16 @@ struct Bench<'a> {
 
 /// Runs the command.
 pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
+    if !args.contour {
+        Tolerance::refuse_without_contour(args.tolerance)?;
+        args.simulation.refuse_without_contour()?;
+    }
     let ledger = Ledger::default();
     let console = if args.quiet { console.quiet() } else { console };
     let mut machines = args.machine.weighed(&args.severities, &ledger)?;
     let found = find_programs(&args.paths, |folder| machines.extensions(folder));
     let mut failures = Failures::from(found.failures);
-    let agreed = AgreedResults::of(TIMELINE, &args.paths);
+    let agreed = AgreedResults::of(args.kind(), &args.paths);
     let mut files = Vec::new();
     for input in &found.inputs {
         input.note(&ledger);
@@ -75,14 +96,15 @@ pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
     let programs: Vec<Input> = files.iter().map(|it| it.program.clone()).collect();
     machines.look_ahead(&programs);
     let bench = Bench {
-        execution: &args.execution,
+        args,
         machines,
+        ledger,
         agreed,
         files,
         passed_over: passed_over(found.passed_over),
     };
     let status = if args.update {
-        bench.update(&ledger, console, &mut failures)?
+        bench.update(console, &mut failures)?
     } else {
         bench.compare(console, &mut failures)?
     };
@@ -94,9 +116,9 @@ impl Bench<'_> {
         let (mut drifted, mut missing) = (0_u64, 0_u64);
         let mut output = String::new();
         for file in &self.files {
-            let now = timeline(&file.program, &mut self.machines, self.execution);
+            let now = result(&file.program, (self.args, &mut self.machines), &self.ledger);
             let name = shown(&file.path);
-            match now.and_then(|now| self.agreed.compare(file, now)) {
+            match now.and_then(|now| Ok(self.agreed.compare(file, now)?)) {
                 Ok(AgreedDrift::AsAgreed) => {}
                 Ok(AgreedDrift::Missing { .. }) => {
                     missing += 1;
@@ -112,13 +134,13 @@ impl Bench<'_> {
                     };
                     let _ = writeln!(output, "{}", render_unified(change));
                 }
-                Err(error) => failures.push(error.into()),
+                Err(failure) => failures.push(failure),
             }
         }
         if let Printed::Unread = console.print_painted(&output, difference)? {
             return Ok(exit::CLEAN);
         }
-        let all = timelines(self.files.len());
+        let all = self.args.counted(self.files.len());
         if drifted + missing > 0 {
             let counts = [(drifted, "drifted"), (missing, "missing")];
             let parts = counts.iter().filter(|(count, _)| *count > 0);
@@ -133,15 +155,11 @@ impl Bench<'_> {
         Ok(exit::CLEAN)
     }
 
-    fn update(
-        mut self,
-        ledger: &Ledger,
-        console: Console,
-        failures: &mut Failures,
-    ) -> Result<u8, Failure> {
+    fn update(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
         let mut written = 0;
-        let now = |program: &Input| timeline(program, &mut self.machines, self.execution);
-        for updated in self.agreed.update::<HostError>(&self.files, ledger, now)? {
+        let (args, ledger) = (self.args, &self.ledger);
+        let now = |program: &Input| result(program, (args, &mut self.machines), ledger);
+        for updated in self.agreed.update::<Failure>(&self.files, ledger, now)? {
             for path in &updated.written {
                 console.remark(&format!("wrote `{}`", path.display()));
             }
@@ -149,40 +167,87 @@ impl Bench<'_> {
                 written += updated.written.len();
                 continue;
             }
-            let (folder, count) = (updated.folder.display(), timelines(updated.files));
-            failures.extend(Failures::from(updated.failures));
+            let (folder, count) = (updated.folder.display(), args.counted(updated.files));
+            for failure in updated.failures {
+                failures.push(failure);
+            }
             Console::talk(&format!(
                 "left out `{folder}`: nothing of its {count} was written"
             ));
         }
-        let all = timelines(self.files.len());
+        let all = self.args.counted(self.files.len());
         console.remark(&format!("{written} of {all} written{}", self.passed_over));
         Ok(exit::CLEAN)
     }
 }
 
-fn timelines(count: usize) -> String {
-    match count {
-        1 => "1 timeline".to_owned(),
-        _ => format!("{count} timelines"),
+impl GoldenArgs {
+    fn kind(&self) -> AgreedKind {
+        if !self.contour {
+            return TIMELINE;
+        }
+        AgreedKind {
+            extension: "contour",
+            writer: "golden --contour --update",
+            tolerance_um: self.tolerance.unwrap_or_default().um(),
+        }
     }
+
+    fn counted(&self, count: usize) -> String {
+        let kind = self.kind().extension;
+        match count {
+            1 => format!("1 {kind}"),
+            _ => format!("{count} {kind}s"),
+        }
+    }
+}
+
+/// What is agreed on of one program.
+fn result(
+    program: &Input,
+    (args, machines): (&GoldenArgs, &mut Machines),
+    ledger: &Ledger,
+) -> Result<String, Failure> {
+    let loaded = machines.for_folder(program.folder())?;
+    if args.contour {
+        contour(program, (args, &loaded), ledger)
+    } else {
+        Ok(timeline(program, &loaded, &args.execution)?)
+    }
+}
+
+/// The contour of one program, the same in every folder.
+fn contour(
+    program: &Input,
+    (args, loaded): (&GoldenArgs, &LoadedMachine),
+    ledger: &Ledger,
+) -> Result<String, Failure> {
+    let simulation = &args.simulation;
+    let of = (loaded, Naming::FileName);
+    let setup = simulation.setup(of, &args.execution, ledger)?;
+    let mut contour = drive_contour(program, loaded, &setup, |_| BlockDeviations::default())?;
+    let subject = AgreedContour {
+        program: program.name(Naming::FileName),
+        plant: simulation.plant().to_owned(),
+        start: simulation.start.given().to_vec(),
+    };
+    Ok(render_agreed(&mut contour, &subject))
 }
 
 /// The timeline of one program, the same on every machine and in every folder.
 fn timeline(
     program: &Input,
-    machines: &mut Machines,
+    loaded: &LoadedMachine,
     execution: &ExecutionArgs,
 ) -> Result<String, HostError> {
-    let loaded = machines.for_folder(program.folder())?;
     let mut bytes = Vec::new();
     let mut report = Text::new(&mut bytes, TextOptions::default());
     let alone = Alone {
-        options: execution.options(&loaded, StopPolicy::FirstError),
+        options: execution.options(loaded, StopPolicy::FirstError),
         naming: Naming::FileName,
         axes: Axes::Ahead,
     };
-    run_alone(program, &loaded, alone, &mut report)?;
+    run_alone(program, loaded, alone, &mut report)?;
     report.finish().map_err(HostError::Output)?;
     drop(report);
     Ok(String::from_utf8_lossy(&bytes).into_owned())

@@ -41,6 +41,7 @@ mod result;
 mod run;
 mod settings;
 mod severities;
+mod simulated;
 mod start;
 mod stiction;
 mod trace;

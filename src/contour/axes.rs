@@ -45,6 +45,9 @@ pub enum NoContour {
     /// More axes than can be driven at once.
     #[error("the program moves {0} linear axes; at most {MOST_AXES} are driven at once")]
     TooMany(usize),
+    /// A value list for an axis that does not move.
+    #[error("the contour drives no axis `{0}`, for which a value list is given")]
+    NotDriven(String),
 }
 
 impl MovingAxes {
@@ -84,6 +87,10 @@ impl MovingAxes {
         indices.extend(further);
         if indices.len() > MOST_AXES {
             return Err(NoContour::TooMany(indices.len()));
+        }
+        let is_driven = |name: &str| indices.iter().any(|axis| machine.axis(*axis).name == name);
+        if let Some((name, ..)) = given.iter().find(|(name, ..)| !is_driven(name)) {
+            return Err(NoContour::NotDriven(name.clone()));
         }
         let driven = indices.into_iter().enumerate();
         Ok(driven

@@ -9,6 +9,7 @@
 //! in µm, positions in mm, times in s.
 
 mod axes;
+mod blocks;
 mod figures;
 mod options;
 mod path;
@@ -18,6 +19,7 @@ mod reversals;
 mod run;
 
 pub use axes::{MovingAxes, NoContour, parameterise};
+pub use blocks::{BlockDeviation, BlockDeviations, WorstPlace};
 pub use figures::{ContourSummary, Deviations, Worst};
 pub use options::{ContourAxis, ContourOptions, ListSource, MOST_AXES};
 pub use per_run::PerRun;

@@ -16,10 +16,10 @@ use crate::current::{
     VELOCITY_UNITS_PER_MM_PER_S,
 };
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::PositionFrame;
+use crate::interpreter::{Motion, PositionFrame};
 use crate::machine::Machine;
 use crate::motion::{Cause, Movement, ProgramTrace, Sample, TraceSink};
-use crate::timeline::{Record, Sink};
+use crate::timeline::{Record, Row, Sink};
 
 const UM_PER_MM: f64 = 1000.0;
 
@@ -46,6 +46,11 @@ pub struct ContourPoint<'a> {
 
 /// Who hears of a contour.
 pub trait ContourSink {
+    /// Takes a block that moves axes, before its cycles.
+    fn block(&mut self, row: &Row<'_>) {
+        let _ = row;
+    }
+
     /// Takes a cycle.
     fn point(&mut self, point: &ContourPoint<'_>) {
         let _ = point;
@@ -214,6 +219,11 @@ fn seconds(cycles: u64, each_s: f64) -> f64 {
 
 impl<S: ContourSink> Sink for ProgramContour<S> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Record::Block(row) = record
+            && let Some(Motion::Travel(_)) = row.motion
+        {
+            self.trace.sink().sink.block(row);
+        }
         self.trace.record(record)
     }
 }

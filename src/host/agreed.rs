@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::HostError;
+use super::figures::settled;
 use super::input::Input;
 use super::ledger::{Ledger, folder};
 use super::open_texts::OpenText;
@@ -11,12 +12,14 @@ use super::outputs::OutputFiles;
 use super::read::read_bytes;
 
 /// A kind of result that is agreed on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AgreedKind {
     /// What the name of the program is followed by, `timeline`.
     pub extension: &'static str,
     /// Who writes the files, as it is called in errors.
     pub writer: &'static str,
+    /// What its figures in µm may change: no more is no change, and stays as it was agreed on.
+    pub tolerance_um: f64,
 }
 
 /// The results of one kind, in the folders that the user handed over.
@@ -106,8 +109,14 @@ impl AgreedResults {
         self.stay_inside(&agreed.path)?;
         Ok(match read_agreed(&agreed.path)? {
             None => AgreedDrift::Missing { now },
-            Some(before) if before == now => AgreedDrift::AsAgreed,
-            Some(before) => AgreedDrift::Drifted { before, now },
+            Some(before) => {
+                let now = settled(&before, now, self.kind.tolerance_um);
+                if before == now {
+                    AgreedDrift::AsAgreed
+                } else {
+                    AgreedDrift::Drifted { before, now }
+                }
+            }
         })
     }
 

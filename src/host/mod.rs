@@ -13,9 +13,11 @@
 mod agreed;
 mod audits;
 mod axes_ahead;
+mod contours;
 mod discovery;
 mod dry_run;
 mod error;
+mod figures;
 mod finder;
 mod first_look;
 mod grounds;
@@ -44,6 +46,7 @@ mod workers;
 
 pub use agreed::{AgreedDrift, AgreedFile, AgreedKind, AgreedResults, UpdatedFolder};
 pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
+pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
 pub use discovery::{
     CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
 };

@@ -43,6 +43,13 @@ pub enum Done {
     Blocks(u64),
     /// CNC cycles of a trace.
     Cycles(u64),
+    /// Whole seconds of machine time, and those of the whole program.
+    MachineTime {
+        /// What is done.
+        seconds: u64,
+        /// All of it.
+        all: u64,
+    },
     /// Runs of a simulation.
     Runs {
         /// What is simulated.
@@ -74,6 +81,13 @@ impl fmt::Display for Progress {
         match self.done {
             Done::Blocks(blocks) => write!(f, "{blocks} blocks")?,
             Done::Cycles(cycles) => write!(f, "{cycles} cycles")?,
+            Done::MachineTime { seconds, all } => {
+                write!(f, "{seconds} of {all} s of machine time")?;
+                let percent = seconds.saturating_mul(100).checked_div(all);
+                if let Some(percent) = percent.filter(|percent| *percent <= 100) {
+                    write!(f, " ({percent} %)")?;
+                }
+            }
             Done::Runs { of, done, all } => write!(f, "{of}: {done} of {all} runs")?,
         }
         let Some(line) = self.line else {
@@ -279,6 +293,14 @@ mod tests {
                 Passes::Repeated,
                 Passes::Repeated
             ]
+        );
+        let driven = Done::MachineTime {
+            seconds: 30,
+            all: 120,
+        };
+        assert_eq!(
+            Progress::from(driven).to_string(),
+            "30 of 120 s of machine time (25 %)"
         );
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), "N1\nN2\n").unwrap();

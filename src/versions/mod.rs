@@ -2,7 +2,8 @@
 //!
 //! A [`Version`] takes the records of a session that runs one version; a [`VersionComparison`] says
 //! which blocks switch in one version and not in the other, and what keeps the versions from being
-//! compared as a whole. Lines that only moved make no difference.
+//! compared as a whole. Lines that only moved make no difference. A [`ContourComparison`] says where
+//! the contour of the new version deviates more.
 //!
 //! ```
 //! use frictcomp::comp::{Kind, KindSet};
@@ -21,12 +22,17 @@
 //! assert_eq!(switch.to_string(), "X FRICT: active → inactive");
 //! ```
 
+mod alignment;
 mod compare;
+mod contour;
 mod obstacle;
 mod switch;
 mod version;
 
 pub use compare::{Agreement, Paired, VersionComparison, Which};
+pub use contour::{
+    BlockChange, ContourAgreement, ContourComparison, ContourObstacle, VersionContour,
+};
 pub use obstacle::{Obstacle, Reason};
 pub use switch::Switch;
 pub use version::Version;

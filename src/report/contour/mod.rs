@@ -1,10 +1,12 @@
 //! A contour in every format (R11.4, R11.6).
 
+mod agreed;
 mod document;
 mod recorder;
 mod records;
 mod text;
 
+pub use agreed::{AgreedContour, render_agreed};
 pub use document::{document, summary_record};
 pub use recorder::ContourRecorder;
 pub use records::{CSV_HEADER, csv_row, reversal_record};

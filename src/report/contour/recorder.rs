@@ -32,14 +32,12 @@ pub struct ContourRecorder<'a> {
     worst: Vec<ContourReversal>,
     blocks: BTreeMap<(Arc<str>, u32), f64>,
     picture: Option<ContourPicture>,
-    watch: &'a (dyn Fn(f64) + Sync),
     error: Option<io::Error>,
 }
 
 impl<'a> ContourRecorder<'a> {
-    /// Keeps the worst reversals of axes with these names. `watch` hears the time of the trace now
-    /// and then.
-    pub fn new(names: Vec<String>, watch: &'a (dyn Fn(f64) + Sync)) -> Self {
+    /// Keeps the worst reversals of axes with these names.
+    pub fn new(names: Vec<String>) -> Self {
         Self {
             names,
             reversals: Reversals::Worst,
@@ -47,7 +45,6 @@ impl<'a> ContourRecorder<'a> {
             worst: Vec::new(),
             blocks: BTreeMap::new(),
             picture: None,
-            watch,
             error: None,
         }
     }
@@ -124,7 +121,6 @@ impl<'a> ContourRecorder<'a> {
 
 impl ContourSink for ContourRecorder<'_> {
     fn point(&mut self, point: &ContourPoint<'_>) {
-        (self.watch)(point.time_s);
         if let Some(picture) = &mut self.picture {
             picture.point(point);
         }

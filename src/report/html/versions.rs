@@ -6,11 +6,12 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, with_code};
-use crate::report::versions::{VersionsReport, sign};
-use crate::versions::{Agreement, Paired, Which};
+use crate::report::versions::{ContoursReport, VersionsReport, sign};
+use crate::versions::{Agreement, BlockChange, Paired, Which};
 
 const RESULT: Part = Part::new("result", "Result");
 const CHANGES: Part = Part::new("changes", "Changes of state in both versions");
+const CONTOURS: Part = Part::new("contours", "Where the new version deviates more");
 
 /// Changes of state that a page shows at most (R9.52).
 const MAX_CHANGES: usize = 4000;
@@ -21,16 +22,86 @@ const MAX_CHANGES: usize = 4000;
 /// Those of `out`.
 pub fn render_versions(report: &VersionsReport, out: &mut dyn Write) -> io::Result<()> {
     let title = format!("{} and {}", report.old, report.new);
-    let mut page = Page::open(out, &title, &lead(report), &[RESULT, CHANGES])?;
+    let contours = report.contours.as_ref();
+    let mut parts = vec![RESULT, CHANGES];
+    parts.extend(contours.map(|_| CONTOURS));
+    let mut page = Page::open(out, &title, &lead(report), &parts)?;
     page.part(RESULT, &result(report))?;
     page.part(CHANGES, &changes(report))?;
+    if let Some(contours) = contours {
+        page.part(CONTOURS, &contours_part(contours))?;
+    }
     page.close()
+}
+
+/// The figures of both contours, and the blocks that deviate more.
+fn contours_part(report: &ContoursReport) -> Markup {
+    let comparison = &report.comparison;
+    let figures = [Which::Old, Which::New].map(|which| {
+        let deviations = comparison.deviations(which);
+        let cells =
+            [deviations.max_um(), deviations.rms_um()].map(|um| html! { (format!("{um:.2}")) });
+        Row::new(which.as_str(), cells)
+    });
+    let table = Table {
+        caption: Caption::Shown("While cutting, in \u{b5}m"),
+        columns: &[
+            Column::Text("version"),
+            Column::Number("largest deviation"),
+            Column::Number("root mean square"),
+        ],
+    };
+    let changes = Table {
+        caption: Caption::Shown("Blocks that deviate more, in \u{b5}m"),
+        columns: &[
+            Column::Text("line"),
+            Column::Number("old"),
+            Column::Number("new"),
+            Column::Number("more"),
+            Column::Text("at"),
+            Column::Text("block"),
+        ],
+    };
+    let more = comparison.more();
+    let left = more.len().saturating_sub(MAX_CHANGES);
+    html! {
+        p {
+            "Plane " (report.plane.concat()) ", plant " (report.plant) ": " (report.verdict()) "."
+        }
+        @for (which, obstacle) in comparison.obstacles() {
+            p { "Not comparable: the contour of the " (which.as_str()) " version: " (obstacle.to_string()) "." }
+        }
+        (table.render(figures))
+        @if !more.is_empty() {
+            (changes.render(more.iter().take(MAX_CHANGES).map(|change| change_row(report, change))))
+        }
+        @if left > 0 { p { (left) " more blocks are left out." } }
+    }
+}
+
+fn change_row(report: &ContoursReport, change: &BlockChange) -> Row {
+    let old = change.old.map(|(_, um)| format!("{um:.2}"));
+    let cells = [
+        html! { (old.as_deref().unwrap_or("\u{2013}")) },
+        html! { (format!("{:.2}", change.new.deviation_um)) },
+        html! { (format!("{:.2}", change.more_um())) },
+        html! { (report.place(change)) },
+        html! { code { (change.block.text) } },
+    ];
+    Row::new(
+        &format!("{}:{}", change.block.file, change.block.line),
+        cells,
+    )
 }
 
 fn lead(report: &VersionsReport) -> String {
     let verdict = report.verdict();
     let (first, rest) = verdict.split_at(1);
-    format!("{}{rest}.", first.to_ascii_uppercase())
+    let switched = format!("{}{rest}.", first.to_ascii_uppercase());
+    match &report.contours {
+        Some(contours) => format!("{switched} Contour: {}.", contours.verdict()),
+        None => switched,
+    }
 }
 
 fn result(report: &VersionsReport) -> Markup {

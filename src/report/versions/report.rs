@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::strings::to_pretty;
-use super::visible::visible_line;
+use super::contour::{ContourRecord, ContoursReport, push_contours};
+use crate::report::strings::to_pretty;
+use crate::report::visible::visible_line;
 use crate::versions::{Agreement, Obstacle, Reason, Switch, VersionComparison, Which};
 
 /// A comparison, and of what.
@@ -19,11 +20,13 @@ pub struct VersionsReport {
     pub remark: Option<String>,
     /// The result.
     pub comparison: VersionComparison,
+    /// The contours, where they are compared.
+    pub contours: Option<ContoursReport>,
 }
 
 impl VersionsReport {
     /// What the comparison comes to, in a sentence without its end.
-    pub(super) fn verdict(&self) -> String {
+    pub(in crate::report) fn verdict(&self) -> String {
         match self.comparison.agreement() {
             Agreement::Same => {
                 let count = self.comparison.common();
@@ -37,7 +40,7 @@ impl VersionsReport {
 }
 
 /// The sign of a difference.
-pub(super) fn sign(which: Which) -> char {
+pub(in crate::report) fn sign(which: Which) -> char {
     match which {
         Which::Old => '-',
         Which::New => '+',
@@ -68,6 +71,9 @@ pub fn render_text(report: &VersionsReport) -> String {
     if comparison.agreement() == Agreement::Same {
         let _ = writeln!(out, "{}", report.verdict());
     }
+    if let Some(contours) = &report.contours {
+        push_contours(&mut out, contours);
+    }
     out
 }
 
@@ -81,6 +87,8 @@ struct Document<'a> {
     common: usize,
     differences: Vec<Difference<'a>>,
     obstacles: Vec<Hindrance<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contour: Option<ContourRecord<'a>>,
 }
 
 #[derive(Serialize)]
@@ -156,6 +164,7 @@ pub fn render_json(report: &VersionsReport) -> String {
         common: comparison.common(),
         differences: comparison.differences().map(Difference::new).collect(),
         obstacles: comparison.obstacles().map(Hindrance::new).collect(),
+        contour: report.contours.as_ref().map(ContourRecord::new),
     };
     to_pretty(&document) + "\n"
 }

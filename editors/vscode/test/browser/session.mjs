@@ -75,6 +75,7 @@ function theme(name) {
     "workbench.colorTheme": name,
     "workbench.startupEditor": "none",
     "workbench.tips.enabled": false,
+    "workbench.welcomePage.walkthroughs.openOnInstall": false,
     "security.workspace.trust.enabled": false,
     "editor.minimap.enabled": false,
   });
@@ -123,7 +124,7 @@ async function session(page) {
   await forgotten.first().waitFor();
   assert.equal(await forgotten.count(), 2, "the two axes that are left inactive");
 
-  await page.locator(".view-line").filter({ hasText: "N35" }).locator("span span").nth(1).hover();
+  await page.locator(".view-line").filter({ hasText: "N35" }).hover({ position: { x: 60, y: 8 } });
   const hover = page.locator(".monaco-hover:visible");
   await hover.filter({ hasText: "inactive" }).first().waitFor();
   await shot(page, "hover");
@@ -141,22 +142,26 @@ async function session(page) {
   await shot(page, "fixed");
 
   await command(page, "frictcomp: Focus on Compensation View");
-  const view = await inner(page, "Compensation");
+  const view = await inner(page, 0);
   await view.locator(".bar").first().waitFor();
   for (const name of THEMES) {
     theme(name);
     await page.waitForTimeout(1500);
     await shot(page, `timeline-${name.split(" ")[1].toLowerCase()}`);
   }
-  const bars = view.locator(".bar.inactive");
-  await bars.last().click();
-  const cursor = await page.locator("#status\\.editor\\.selection").innerText();
-  assert.match(cursor, /Ln [2-7],/, "the cursor is at the bar that was clicked");
+  await view.locator(".column").first().locator(".bar.inactive").click();
+  // In the middle of the bar, which covers lines 5 to 7.
+  await page.locator("#status\\.editor\\.selection").filter({ hasText: /Ln 6,/ }).waitFor();
+  await page.locator(".editor-instance .monaco-editor.focused").waitFor();
 
   await command(page, "frictcomp: Run Program and Show Its Timeline");
-  const report = page.locator(".tab").filter({ hasText: "friction.nc" });
-  await report.nth(1).waitFor();
+  await page.locator(".tab").filter({ hasText: "Run of friction.nc" }).waitFor();
+  const report = await inner(page, 1);
+  await report.getByText("N35 X22 Y33 Z44").first().waitFor();
   await shot(page, "report");
+
+  await page.locator(".view-line").filter({ hasText: "N55" }).first().click();
+  await debug(page);
 }
 
 async function trust(page) {
@@ -200,13 +205,29 @@ async function fix(page) {
   await page.keyboard.press("Enter");
 }
 
-/** The page inside a webview, which is two frames deep. */
-async function inner(page, title) {
-  const outer = page.locator(`iframe.webview.ready`).first().contentFrame();
+/** Steps through the program from its first block to a change of a state. */
+async function debug(page) {
+  const at = (line) =>
+    page.locator("#status\\.editor\\.selection").filter({ hasText: `Ln ${line},` }).waitFor();
+  await page.keyboard.press("F5");
+  await page.locator(".debug-toolbar").waitFor();
+  await at(2);
+  await page.keyboard.press("F10");
+  await at(3);
+  await page.keyboard.press("F5");
+  await at(4);
+  await page.locator(".debug-variables .monaco-list-row").filter({ hasText: "Axes" }).waitFor();
+  await page.locator(".debug-variables .monaco-list-row").filter({ hasText: "inactive" }).first().waitFor();
+  await shot(page, "debug");
+  await page.keyboard.press("Shift+F5");
+  await page.locator(".debug-toolbar").waitFor({ state: "hidden" });
+}
+
+/** The page inside a webview, by the order in which they were opened; it is two frames deep. */
+async function inner(page, order) {
+  const outer = page.locator("iframe.webview.ready").nth(order).contentFrame();
   await outer.locator("iframe#active-frame").waitFor({ state: "attached" });
-  const frame = outer.locator("iframe#active-frame").contentFrame();
-  assert.equal(await frame.locator("title").innerText().catch(() => title), title);
-  return frame;
+  return outer.locator("iframe#active-frame").contentFrame();
 }
 
 async function shot(page, name) {

@@ -458,6 +458,23 @@ fn many_blocks_have_ticks_where_they_have_names() {
 }
 
 #[test]
+fn glitches_are_drawn_from_zero() {
+    // R5.25
+    let mut chart = glitches();
+    for point in (chart.panels.iter_mut())
+        .flat_map(|panel| &mut panel.series)
+        .flat_map(|series| &mut series.points)
+    {
+        // As large as those of a soft plant, and as much alike.
+        point[1] += 100.0;
+    }
+    let svg = chart.render(Frame::Alone);
+    let document = parse(&svg);
+    let zeros = texts(&document).into_iter().filter(|text| *text == "0");
+    assert_eq!(zeros.count(), chart.panels.len());
+}
+
+#[test]
 fn points_without_a_line_have_none_in_the_legend() {
     // R6.18
     let series = |name: &str, drawn| Series {

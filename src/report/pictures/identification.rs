@@ -50,7 +50,8 @@ pub fn friction_curve(report: &IdentifyReport) -> LineChart {
         x: ChartAxis::logarithmic("speed in mm/s, logarithmic"),
         panels: vec![
             Panel {
-                y: ChartAxis::linear(format!("friction in {unit}, bars are standard errors")),
+                y: ChartAxis::linear(format!("friction in {unit}, bars are standard errors"))
+                    .from_zero(),
                 series: vec![
                     series("measured", measured, Drawn::Scattered),
                     series("error", bars(&|_, friction| friction), Drawn::Held),

@@ -66,7 +66,8 @@ fn panels(report: &TuneReport, plants: usize) -> [Panel; 2] {
         y: ChartAxis::linear(match plants {
             1 => quantity.to_owned(),
             _ => format!("plant {}: {quantity}", last_part(&report.plant)),
-        }),
+        })
+        .from_zero(),
         series,
         ..Panel::default()
     };

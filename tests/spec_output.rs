@@ -275,6 +275,26 @@ fn the_fingerprints_of_gitlab_outlive_a_change_above() {
 }
 
 #[test]
+fn only_blocks_with_a_change_or_a_message_are_written() {
+    // R13.7
+    let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);
+    let short = bench.stdout(&["run", "--format", "ndjson", "--changes-only", "a.nc"]);
+    assert_eq!(
+        short,
+        bench.stdout(&["run", "--format", "ndjson", "--changes", "a.nc"])
+    );
+    let full = bench.stdout(&["run", "--format", "ndjson", "a.nc"]);
+    let switching: Vec<&str> = full
+        .lines()
+        .filter(|line| {
+            !line.starts_with(r#"{"record":"block""#) || line.contains(r#""changes":[{"#)
+        })
+        .collect();
+    assert_eq!(short.lines().collect::<Vec<_>>(), switching);
+    assert!(switching.len() < full.lines().count());
+}
+
+#[test]
 fn data_and_talk_are_apart() {
     // R9.27
     let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);

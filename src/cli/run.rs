@@ -47,7 +47,7 @@ pub(super) struct RunArgs {
     #[arg(long)]
     keep_going: bool,
     /// Print only blocks with a change or a message
-    #[arg(long, conflicts_with = "full")]
+    #[arg(long, visible_alias = "changes-only", conflicts_with = "full")]
     changes: bool,
     /// Show all blocks; do not fold those without a change
     #[arg(long)]

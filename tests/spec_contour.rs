@@ -302,6 +302,81 @@ fn the_picture_rings_what_is_not_compensated() {
 }
 
 #[test]
+fn each_mark_leads_to_its_line_and_each_line_shows_its_reversals() {
+    // R11.5
+    let bench = bench(&circle("G03", "OFF"));
+    let arguments = [
+        "contour", "part.nc", "--start", "X25,Y0", "--svg", "a.svg", "--html", "a.html",
+    ];
+    assert_eq!(bench.call(&arguments).status.code(), Some(0));
+    let page = bench.read("a.html");
+    for line in [4, 5, 6] {
+        assert!(page.contains(&format!("id=\"f0l{line}\"")), "line {line}");
+        assert!(
+            page.contains(&format!("href=\"#f0l{line}\"")),
+            "line {line}"
+        );
+    }
+    let from = page.find("id=\"f0l5\"").expect("line 5");
+    let line = &page[from..page.len().min(from + 600)];
+    assert!(line.contains("G03 X25 Y0 I-25 J0"), "{line}");
+    assert!(
+        line.contains("X: 2 reversals, ") && line.contains("2 without compensation"),
+        "{line}"
+    );
+    // Alone, a picture has nowhere to lead.
+    assert!(!bench.read("a.svg").contains("href="));
+}
+
+#[test]
+fn ten_thousand_reversals_stay_readable() {
+    // R11.5
+    let zigzag = "X0.1 Y0.1\nX0 Y0\n".repeat(2500);
+    let bench = bench(&format!("X[COMP OFF FRICT]\nG01 F12000\n{zigzag}M30\n"));
+    let arguments = [
+        "contour", "part.nc", "--start", "X0,Y0", "--svg", "a.svg", "--html", "a.html",
+    ];
+    assert_eq!(bench.call(&arguments).status.code(), Some(0));
+    let picture = bench.read("a.svg");
+    assert!(picture.matches("<circle").count() < 200);
+    assert!(picture.contains("the worst of "));
+    assert!(picture.len() < 500_000 && bench.read("a.html").len() < 6_000_000);
+}
+
+#[test]
+fn the_picture_of_the_documents_is_what_the_tool_draws() {
+    // R11.5; `UPDATE_DOCS=1` draws it again.
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn = folder.path().join("contour.svg");
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+        .current_dir(root)
+        .args([
+            "contour",
+            "programs/demo/contour/plate.nc",
+            "--start",
+            "X0,Y0,Z10",
+            "--svg",
+        ])
+        .arg(&drawn)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .status()
+        .expect("the tool starts");
+    assert!(status.success());
+    let drawn = std::fs::read_to_string(drawn).expect("a picture");
+    let kept = root.join("docs/contour.svg");
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        std::fs::write(&kept, &drawn).expect("written");
+    }
+    let kept = std::fs::read_to_string(kept).expect("a picture");
+    assert!(
+        kept == drawn,
+        "docs/contour.svg is no longer what the tool draws"
+    );
+}
+
+#[test]
 fn a_long_program_makes_no_larger_picture() {
     // R11.7
     let size = |turns: usize| {

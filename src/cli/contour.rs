@@ -8,6 +8,7 @@ use super::console::{Console, Target};
 use super::execution::ExecutionArgs;
 use super::exit;
 use super::failure::Failure;
+use super::html::Files;
 use super::machine::{MachineArgs, remark};
 use super::outputs::{Outputs, write_text};
 use super::result::ResultArgs;
@@ -156,12 +157,13 @@ impl Pictures {
         let Some(picture) = contour.sink().take_picture() else {
             return Ok(());
         };
-        let chart = picture.chart(&subject.program);
         if let Some(svg) = &mut self.svg {
+            let chart = picture.clone().chart(&subject.program);
             write_text(svg, &chart.render(Frame::Alone))?;
         }
         if let Some(html) = &mut self.html {
-            render_contour((contour, subject), &chart, html).map_err(Failure::output)?;
+            render_contour((contour, subject), picture, &mut Files, html)
+                .map_err(Failure::output)?;
         }
         Ok(())
     }

@@ -86,10 +86,13 @@ pub fn render_text(
         );
     }
     if contour.left_out() > 0 {
+        let motions = match contour.left_out() {
+            1 => "1 motion".to_owned(),
+            count => format!("{count} motions"),
+        };
         let _ = writeln!(
             out,
-            "left out: {} motions whose start, end or feed is not known",
-            contour.left_out()
+            "left out: {motions} whose start, end or feed is not known"
         );
     }
     out
@@ -160,7 +163,7 @@ fn push_worst(out: &mut String, worst: &[ContourReversal]) {
             visible_line(&reversal.axis),
             reversal.state.as_str(),
             reversal.feed_mm_per_min,
-            reversal.acceleration_mm_per_s2 + 0.0,
+            reversal.acceleration_mm_per_s2.round() + 0.0,
             glitch.programmed,
             glitch.all_on,
             glitch.all_off

@@ -7,41 +7,52 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, figure};
+use super::reversed::ReversedFiles;
+use super::source::Sources;
 use crate::comp::State;
 use crate::contour::{ContourReversal, ProgramContour};
 use crate::report::contour::{ContourRecorder, ContourSubject, render_text};
-use crate::report::svg::{Frame, PlaneChart};
+use crate::report::pictures::ContourPicture;
+use crate::report::svg::Frame;
 
 const PICTURE: Part = Part::new("picture", "Path and deviation");
 const FIGURES: Part = Part::new("figures", "Figures");
 const REVERSALS: Part = Part::new("reversals", "Reversals by line");
+const SOURCE: Part = Part::new("source", "Source with its reversals");
 
 /// So many lines have a row of their own, those with the worst reversals.
 const LINES: usize = 500;
 
-/// Writes the report of a contour as one page.
+/// Writes the report of a contour as one page: each mark of the picture leads to its line, and each
+/// line shows its reversals.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn render_contour(
     (contour, subject): (&mut ProgramContour<ContourRecorder<'_>>, &ContourSubject),
-    chart: &PlaneChart,
+    picture: ContourPicture,
+    sources: &mut dyn Sources,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let text = render_text(contour, subject);
     let (lead, figures) = text.split_once('\n').unwrap_or((&text, ""));
-    let mut page = Page::open(out, &chart.title, lead, &[PICTURE, FIGURES, REVERSALS])?;
+    let reversals = contour.sink().reversals();
+    let files = ReversedFiles::of(reversals);
+    let chart = picture.linked_chart(&subject.program, |file, line| files.link(file, line));
+    let parts = [PICTURE, FIGURES, REVERSALS, SOURCE];
+    let mut page = Page::open(out, &chart.title, lead, &parts)?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("contour"))))?;
     page.part(
         FIGURES,
         &html! { div.wide tabindex="0" { pre { (figures.trim()) } } },
     )?;
-    page.part(REVERSALS, &reversals(contour.sink().reversals()))?;
+    page.part(REVERSALS, &table(reversals, &files))?;
+    page.long_part(SOURCE, |page| files.render(page, sources))?;
     page.close()
 }
 
 /// The reversals of each line, the lines with the worst first.
-fn reversals(reversals: &[ContourReversal]) -> Markup {
+fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
     let mut lines: BTreeMap<(&str, u32, &str), Vec<&ContourReversal>> = BTreeMap::new();
     for reversal in reversals {
         let key = (&*reversal.file, reversal.line, reversal.axis.as_str());
@@ -68,7 +79,11 @@ fn reversals(reversals: &[ContourReversal]) -> Markup {
             html! { (most(|it| it.glitch_um.all_on)) },
             html! { (most(|it| it.glitch_um.all_off)) },
         ];
-        Row::new(&format!("{file}:{line}"), cells)
+        let name = format!("{file}:{line}");
+        match files.link(file, *line) {
+            Some(link) => Row::leading(&name, &link, cells),
+            None => Row::new(&name, cells),
+        }
     });
     let table = Table {
         caption: Caption::Shown("Reversals by line and axis; glitches in µm"),

@@ -17,6 +17,7 @@ mod machine;
 mod messages;
 mod page;
 mod parts;
+mod reversed;
 mod run;
 mod source;
 mod states;

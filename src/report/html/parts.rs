@@ -43,14 +43,22 @@ impl Column<'_> {
 /// A row of a table.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
-    heading: String,
+    heading: Markup,
     cells: Vec<Markup>,
 }
 
 impl Row {
     pub(super) fn new(heading: &str, cells: impl Into<Vec<Markup>>) -> Self {
         Self {
-            heading: heading.to_owned(),
+            heading: html! { (heading) },
+            cells: cells.into(),
+        }
+    }
+
+    /// A row whose heading leads somewhere.
+    pub(super) fn leading(heading: &str, href: &str, cells: impl Into<Vec<Markup>>) -> Self {
+        Self {
+            heading: html! { a href=(href) { (heading) } },
             cells: cells.into(),
         }
     }

@@ -331,7 +331,7 @@ impl Render for Gutter {
 }
 
 /// A source line, cut where it is unreasonably long.
-struct SourceText<'a>(&'a str);
+pub(super) struct SourceText<'a>(pub(super) &'a str);
 
 impl Render for SourceText<'_> {
     fn render_to(&self, out: &mut String) {

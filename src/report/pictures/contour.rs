@@ -1,5 +1,7 @@
 //! The contour of a program: the path with its deviation, reversals, and both over time.
 
+use std::sync::Arc;
+
 use crate::comp::State;
 use crate::contour::{ContourPoint, ContourReversal};
 use crate::motion::Movement;
@@ -20,6 +22,13 @@ const MOST_BANDS: usize = 5000;
 /// So many of the worst reversals are named.
 const NAMED: usize = 6;
 
+/// The block of a reversal.
+#[derive(Debug, Clone)]
+struct Spot {
+    file: Arc<str>,
+    line: u32,
+}
+
 /// A contour while it comes in, in memory that does not grow with the length of the program.
 #[derive(Debug, Clone)]
 pub struct ContourPicture {
@@ -30,7 +39,7 @@ pub struct ContourPicture {
     filled: u64,
     curves: [Curve; 3],
     bands: [Vec<Band>; 2],
-    marks: Vec<(PlaneMark, u32)>,
+    marks: Vec<(PlaneMark, Spot)>,
     more_marks: u64,
     largest_um: f64,
 }
@@ -120,9 +129,21 @@ impl ContourPicture {
             ringed: reversal.state != State::Active,
             weight: reversal.glitch_um.programmed,
             label: None,
+            title: format!(
+                "line {}: {} reverses, {}, {:.1} µm",
+                reversal.line,
+                reversal.axis,
+                reversal.state.as_str(),
+                reversal.glitch_um.programmed
+            ),
+            href: None,
+        };
+        let spot = Spot {
+            file: Arc::clone(&reversal.file),
+            line: reversal.line,
         };
         if self.marks.len() < MOST_MARKS {
-            self.marks.push((mark, reversal.line));
+            self.marks.push((mark, spot));
             return;
         }
         self.more_marks += 1;
@@ -131,17 +152,29 @@ impl ContourPicture {
             .iter_mut()
             .min_by(|one, other| one.0.weight.total_cmp(&other.0.weight));
         if let Some(weakest) = weakest.filter(|it| it.0.weight < mark.weight) {
-            *weakest = (mark, reversal.line);
+            *weakest = (mark, spot);
         }
     }
 
     /// The picture: the path above, deviations over time below.
-    pub fn chart(mut self, program: &str) -> PlaneChart {
+    pub fn chart(self, program: &str) -> PlaneChart {
+        self.linked_chart(program, |_, _| None)
+    }
+
+    /// The same in a page: each mark leads where `link` says for its file and line.
+    pub fn linked_chart(
+        mut self,
+        program: &str,
+        link: impl Fn(&str, u32) -> Option<String>,
+    ) -> PlaneChart {
+        for (mark, spot) in &mut self.marks {
+            mark.href = link(&spot.file, spot.line);
+        }
         self.marks
             .sort_by(|one, other| other.0.weight.total_cmp(&one.0.weight));
         let uncompensated = self.marks.iter().filter(|(mark, _)| mark.ringed).count();
-        for (mark, line) in self.marks.iter_mut().take(NAMED) {
-            mark.label = Some(format!("line {line}: {:.1} µm", mark.weight));
+        for (mark, spot) in self.marks.iter_mut().take(NAMED) {
+            mark.label = Some(format!("line {}: {:.1} µm", spot.line, mark.weight));
         }
         let (count, largest) = (self.marks.len(), self.largest_um);
         let description = format!(

@@ -18,6 +18,12 @@ const ROOM: Area = Area {
 /// The largest deviation is drawn so long.
 const LARGEST: f64 = 34.0;
 
+/// Points that are closer together in the picture are drawn as one.
+const SEEN: f64 = 0.7;
+
+/// A straight line between two points is no longer.
+const STRAIGHT: f64 = 7.0;
+
 /// Marks in a square of this size are drawn as one.
 const CELL: f64 = 13.0;
 
@@ -56,6 +62,10 @@ pub struct PlaneMark {
     pub weight: f64,
     /// Words beside it, for the worst ones.
     pub label: Option<String>,
+    /// What a pointer and a screen reader say.
+    pub title: String,
+    /// Where it leads, `#id` of the page.
+    pub href: Option<String>,
 }
 
 /// A path in a plane.
@@ -159,7 +169,11 @@ impl PlaneChart {
                 title: &self.title,
                 description: &self.description,
                 height,
-                role: Role::Image,
+                role: if self.marks.iter().any(|mark| mark.href.is_some()) {
+                    Role::Group
+                } else {
+                    Role::Image
+                },
             },
         )
     }
@@ -179,7 +193,10 @@ impl PlaneChart {
                 Stroke::Unjudged => "fc-curve fc-grid",
                 _ => "fc-curve fc-axis",
             };
-            canvas.path(class, stretch.iter().map(|point| fit.place(point.place)));
+            canvas.path(
+                class,
+                thinned(stretch.iter().map(|point| fit.place(point.place))),
+            );
         }
         for stretch in stretches(&self.points) {
             let class = match stretch[stretch.len() - 1].stroke {
@@ -187,7 +204,10 @@ impl PlaneChart {
                 Stroke::Compensated => "fc-curve fc-s0",
                 Stroke::Uncompensated => "fc-curve fc-s1",
             };
-            canvas.path(class, stretch.iter().map(|point| fit.magnified(point)));
+            canvas.path(
+                class,
+                thinned(stretch.iter().map(|point| fit.magnified(point))),
+            );
         }
     }
 
@@ -207,6 +227,12 @@ impl PlaneChart {
         for (mark, count) in cells.values() {
             let at = fit.place(mark.place);
             let more = f64::from(*count).log2();
+            let title = match count {
+                1 => mark.title.clone(),
+                _ => format!("{}; the worst of {count}", mark.title),
+            };
+            let href = mark.href.as_deref();
+            canvas.open_link(href, &title);
             if mark.ringed {
                 canvas.circle("fc-outline", at, 4.0 + more);
             }
@@ -215,6 +241,7 @@ impl PlaneChart {
                 at,
                 2.2 + more / 2.0,
             );
+            canvas.close_link(href);
         }
         let mut taken: Vec<Area> = Vec::new();
         for mark in &self.marks {
@@ -275,6 +302,39 @@ impl PlaneChart {
         canvas.text("", (right - length - 6.0, y + 4.0), Anchor::End, &text);
         y
     }
+}
+
+/// The points that are seen: not those next to the one before, nor those on a short straight line
+/// between their neighbours. The last one stays.
+fn thinned(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    let mut last = None;
+    for point in points {
+        let is_near = kept.last().is_some_and(|kept| length(*kept, point) < SEEN);
+        last = is_near.then_some(point);
+        if is_near {
+            continue;
+        }
+        if let [.., before, between] = kept[..]
+            && length(before, point) < STRAIGHT
+            && off_line(between, (before, point)) < SEEN / 8.0
+        {
+            kept.pop();
+        }
+        kept.push(point);
+    }
+    kept.extend(last);
+    kept
+}
+
+fn length(one: (f64, f64), other: (f64, f64)) -> f64 {
+    (other.0 - one.0).hypot(other.1 - one.1)
+}
+
+/// How far a point is from the line through two others.
+fn off_line(point: (f64, f64), (from, to): ((f64, f64), (f64, f64))) -> f64 {
+    let cross = (to.0 - from.0) * (point.1 - from.1) - (to.1 - from.1) * (point.0 - from.0);
+    cross.abs() / length(from, to)
 }
 
 fn overlap(one: Area, other: Area) -> bool {

@@ -188,6 +188,7 @@ const ROOMS: [(&str, &[&str]); 28] = [
             "comp",
             "syntax",
             "lists",
+            "config",
             "machine",
             "interpreter",
             "timeline",

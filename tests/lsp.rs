@@ -2,6 +2,8 @@
 
 #![cfg(feature = "lsp")]
 
+#[path = "lsp/fixes.rs"]
+mod fixes;
 mod folder;
 #[path = "lsp/lifecycle.rs"]
 mod lifecycle;
@@ -9,5 +11,7 @@ mod lifecycle;
 mod lsp_client;
 #[path = "lsp/messages.rs"]
 mod messages;
+#[path = "lsp/scripts.rs"]
+mod scripts;
 #[path = "lsp/shown.rs"]
 mod shown;

@@ -32,7 +32,7 @@ pub(crate) struct AxisTable {
     pub(crate) max_jerk: Option<f64>,
 }
 
-const AXIS: Shape = Shape {
+pub(super) const AXIS: Shape = Shape {
     name: "[[axis]]",
     keys: Some(&[
         "name",
@@ -52,7 +52,7 @@ const AXIS: Shape = Shape {
     ]),
 };
 
-const VALUE: Shape = Shape {
+pub(super) const VALUE: Shape = Shape {
     name: "[axis.value]",
     keys: Some(&[
         "mode",

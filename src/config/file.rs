@@ -41,22 +41,22 @@ pub(crate) enum Variable {
 }
 
 /// The whole file.
-const ROOT: Shape = Shape {
+pub(super) const ROOT: Shape = Shape {
     name: "frictcomp.toml",
     keys: Some(&["machine", "axis", "variables", "lint", "check"]),
 };
 
-const VARIABLES: Shape = Shape {
+pub(super) const VARIABLES: Shape = Shape {
     name: "[variables]",
     keys: None,
 };
 
-const LINT: Shape = Shape {
+pub(super) const LINT: Shape = Shape {
     name: "[lint]",
     keys: None,
 };
 
-const CHECK: Shape = Shape {
+pub(super) const CHECK: Shape = Shape {
     name: "[check]",
     keys: Some(&["extensions"]),
 };

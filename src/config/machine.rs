@@ -36,7 +36,7 @@ pub(crate) struct MachineTable {
     pub(crate) keep_parameters: bool,
 }
 
-const MACHINE: Shape = Shape {
+pub(super) const MACHINE: Shape = Shape {
     name: "[machine]",
     keys: Some(&[
         "startup",
@@ -53,12 +53,12 @@ const MACHINE: Shape = Shape {
     ]),
 };
 
-const EXTERNAL_KEEPS: Shape = Shape {
+pub(super) const EXTERNAL_KEEPS: Shape = Shape {
     name: "[machine.external_keeps]",
     keys: Some(&["compensation", "positions", "parameters"]),
 };
 
-const WORDS: Shape = Shape {
+pub(super) const WORDS: Shape = Shape {
     name: "[machine.programs]",
     keys: None,
 };

@@ -261,7 +261,9 @@ impl<'a> ProgramAuditor<'a> {
     }
 
     fn finder(&self, input: &Input) -> ProgramFinder {
-        ProgramFinder::new(input, &self.loaded.reach, Naming::AsGiven).noting(&self.loaded.ledger)
+        ProgramFinder::new(input, &self.loaded.reach, Naming::AsGiven)
+            .noting(&self.loaded.ledger)
+            .with_open(&self.loaded.open)
     }
 
     fn run(

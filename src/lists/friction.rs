@@ -142,6 +142,12 @@ impl Field {
         counted && (smallest..0).contains(&value)
     }
 
+    /// The values that it may have: the documented range, or that of its type.
+    pub fn range(self) -> RangeInclusive<i64> {
+        let documented = self.documented_range();
+        documented.unwrap_or_else(|| self.type_range())
+    }
+
     /// The documented range where it is narrower than the type and no other check holds it
     /// (R3.25).
     pub(super) fn documented_range(self) -> Option<RangeInclusive<i64>> {

@@ -1,10 +1,10 @@
 //! What the server offers.
 
 use gen_lsp_types::{
-    CodeActionKind, CodeActionOptions, CodeLensOptions, ExecuteCommandOptions, InitializeResult,
-    SaveOptions, ServerCapabilities, ServerInfo, TextDocumentContent, TextDocumentContentOptions,
-    TextDocumentSyncKind, TextDocumentSyncOptions, WorkspaceFoldersServerCapabilities,
-    WorkspaceOptions,
+    CodeActionKind, CodeActionOptions, CodeLensOptions, CompletionOptions, ExecuteCommandOptions,
+    InitializeResult, SaveOptions, ServerCapabilities, ServerInfo, TextDocumentContent,
+    TextDocumentContentOptions, TextDocumentSyncKind, TextDocumentSyncOptions,
+    WorkspaceFoldersServerCapabilities, WorkspaceOptions,
 };
 
 use super::client::Client;
@@ -13,6 +13,7 @@ use super::pages::SCHEME;
 
 /// The answer to `initialize`.
 pub(super) fn offer(client: &Client) -> InitializeResult {
+    let navigates = client.settings.navigates().then_some(true);
     InitializeResult {
         capabilities: ServerCapabilities {
             position_encoding: Some(client.encoding.kind()),
@@ -37,6 +38,15 @@ pub(super) fn offer(client: &Client) -> InitializeResult {
                 }
                 .into(),
             ),
+            completion_provider: Some(CompletionOptions {
+                trigger_characters: Some(vec!["[".to_owned(), " ".to_owned()]),
+                ..CompletionOptions::default()
+            }),
+            document_symbol_provider: navigates.map(Into::into),
+            definition_provider: navigates.map(Into::into),
+            references_provider: navigates.map(Into::into),
+            folding_range_provider: navigates.map(Into::into),
+            rename_provider: navigates.map(Into::into),
             execute_command_provider: Some(ExecuteCommandOptions {
                 commands: COMMANDS.map(str::to_owned).to_vec(),
                 ..ExecuteCommandOptions::default()

@@ -1,28 +1,35 @@
 //! Reports that an editor shows in a window of its own (R12.4).
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use gen_lsp_types::{ExecuteCommandParams, Uri};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::refusal::Refusal;
+use super::uri::path_of;
 use super::view::View;
 use super::wording::editor;
 use crate::comp::{Kind, KindSet};
 use crate::host::{
-    Alone, Axes, Input, Ledger, MachineOptions, Machines, Naming, OpenTexts, run_alone,
+    Alone, ArchiveAuditor, AuditOptions, Axes, Input, Ledger, MachineOptions, Machines, Naming,
+    OpenText, OpenTexts, find_programs, run_alone,
 };
-use crate::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
-use crate::session::SessionOptions;
+use crate::report::audit::{AuditReport, MachineAudit};
+use crate::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_audit, render_run};
+use crate::session::{Options, SessionOptions};
 use crate::text::{LineSource, TextLines};
 use crate::timeline::{Record, Sink};
 
 /// The timeline of a program as an HTML report.
 pub(super) const SHOW_TIMELINE: &str = "frictcomp.showTimeline";
 
+/// What the order of the programs of a folder does, as an HTML report.
+const AUDIT: &str = "frictcomp.audit";
+
 /// All commands.
-pub(super) const COMMANDS: [&str; 1] = [SHOW_TIMELINE];
+pub(super) const COMMANDS: [&str; 2] = [SHOW_TIMELINE, AUDIT];
 
 /// What a command is about: its one argument.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -44,6 +51,7 @@ pub(super) fn execute(view: &View, params: ExecuteCommandParams) -> Result<Shown
     let subject: Subject = serde_json::from_value(subject.unwrap_or(Value::Null))?;
     match params.command.as_str() {
         SHOW_TIMELINE => timeline(view, &subject),
+        AUDIT => audit(view, &subject),
         other => Err(Refusal::Params(format!("there is no command `{other}`"))),
     }
 }
@@ -108,6 +116,56 @@ fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
     };
     let mut page = Vec::new();
     render_run(&sink.digest, &given, &mut Texts(open), &mut page)
+        .map_err(|error| Refusal::Failed(error.to_string()))?;
+    Ok(Shown {
+        html: String::from_utf8_lossy(&page).into_owned(),
+    })
+}
+
+/// Audits the programs of a folder and below, or of the folder of a program, each as it is open.
+fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
+    let named = path_of(&subject.uri.0);
+    let path = named.ok_or_else(|| Refusal::Params(format!("`{}` is no file", subject.uri.0)))?;
+    let folder = match path.parent() {
+        Some(folder) if !path.is_dir() => folder.to_owned(),
+        _ => path,
+    };
+    let open = OpenTexts::new(view.documents.iter().map(|it| it.open_text()));
+    let unheard = Ledger::default();
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(&open);
+    let found = find_programs(&[folder], |folder| machines.extensions(folder));
+    let inputs = found.inputs.into_iter().map(|input| match &input {
+        Input::File(path) => match open.of(path) {
+            Some(text) => Input::Open(OpenText {
+                path: path.clone(),
+                text: Arc::clone(text),
+            }),
+            None => input,
+        },
+        Input::Open(_) | Input::Stdin => input,
+    });
+    let options = AuditOptions::new(Options::default());
+    let (auditor, mut errors) = ArchiveAuditor::new(inputs.collect(), &mut machines, options);
+    errors.extend(found.failures);
+    let (archives, unread) = auditor.audit();
+    errors.extend(unread);
+    // A report that leaves programs out would look like an all-clear.
+    if let Some(error) = errors.into_iter().next() {
+        return Err(error.into());
+    }
+    let audits = auditor
+        .machines()
+        .iter()
+        .zip(archives)
+        .map(|(loaded, archive)| {
+            let origin = loaded.origin.as_deref();
+            MachineAudit::new(origin.map(|it| it.display().to_string()), archive)
+        });
+    let report = AuditReport {
+        machines: audits.collect(),
+    };
+    let mut page = Vec::new();
+    render_audit(&report, &mut Texts(open), &mut page)
         .map_err(|error| Refusal::Failed(error.to_string()))?;
     Ok(Shown {
         html: String::from_utf8_lossy(&page).into_owned(),

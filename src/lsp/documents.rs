@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gen_lsp_types::{Position, TextDocumentContentChangeEvent, TextDocumentItem, Uri};
+use gen_lsp_types::{Position, Range, TextDocumentContentChangeEvent, TextDocumentItem, Uri};
 
 use super::encoding::Encoding;
 use super::uri::{path_of, uri_of};
 use crate::host::{CONFIG_NAME, OpenText, absolute};
-use crate::text::LineIndex;
+use crate::text::{LineIndex, Span};
 
 /// What a text is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,6 +92,14 @@ impl Document {
     /// The byte offset of a position.
     pub(super) fn offset(&self, position: Position, encoding: Encoding) -> usize {
         encoding.place(&self.text, &self.lines, position)
+    }
+
+    /// The range of a span.
+    pub(super) fn range(&self, span: Span, encoding: Encoding) -> Range {
+        Range {
+            start: encoding.position(&self.text, &self.lines, span.start),
+            end: encoding.position(&self.text, &self.lines, span.end),
+        }
     }
 
     /// Applies what the client did, one change after the other.
@@ -205,8 +213,7 @@ fn kind(path: &Path, language: &str) -> Kind {
 #[cfg(test)]
 mod tests {
     use gen_lsp_types::{
-        LanguageKind, Range, TextDocumentContentChangePartial,
-        TextDocumentContentChangeWholeDocument,
+        LanguageKind, TextDocumentContentChangePartial, TextDocumentContentChangeWholeDocument,
     };
     use proptest::prelude::*;
 

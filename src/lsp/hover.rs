@@ -2,21 +2,39 @@
 
 use std::fmt::Write as _;
 
-use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind};
+use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind, Position};
 
-use super::documents::Kind;
+use super::completion::about;
+use super::documents::{Document, Kind};
+use super::moving::{AxisMoves, moves};
+use super::parameters::page_of;
 use super::states::{Pass, StateBook};
 use super::view::View;
-use crate::comp::State;
+use crate::comp::{CompCommand, Selection, State};
+use crate::syntax::parse_comp;
 
 /// What is said about the place under the pointer.
 pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
     let at = &params.text_document_position_params;
     let document = view.document(&at.text_document.uri)?;
-    if document.kind != Kind::Program {
-        return None;
-    }
-    let line = View::block_at(document, at.position);
+    let text = match document.kind {
+        Kind::Program => program(view, document, at.position),
+        Kind::List => page_of(document.line(at.position.line)).map(|page| page.text),
+        Kind::Configuration => None,
+    };
+    Some(Hover {
+        contents: MarkupContent {
+            kind: MarkupKind::Markdown,
+            value: text?,
+        }
+        .into(),
+        range: None,
+    })
+}
+
+/// The states at a block, what it switches and what moves in it.
+fn program(view: &View, document: &Document, position: Position) -> Option<String> {
+    let line = View::block_at(document, position);
     let mut text = String::new();
     for (main, run, name) in view.runs(document) {
         let passes = run.states.passes(&name, line);
@@ -28,15 +46,75 @@ pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
             let _ = writeln!(text, "\nCalled from `{caller}`:\n");
         }
         text += &table(&run.states, &passes);
-    }
-    (!text.is_empty()).then(|| Hover {
-        contents: MarkupContent {
-            kind: MarkupKind::Markdown,
-            value: text,
+        if main.uri == document.uri {
+            for moves in moves(view, document, line) {
+                let _ = writeln!(text, "\n{}", moving(&moves));
+            }
         }
-        .into(),
-        range: None,
-    })
+    }
+    let shown = document.line(position.line);
+    let offset = view.client.encoding.offset(shown, position.character);
+    if let Some(command) = command_at(shown, offset) {
+        let _ = writeln!(text, "\n---\n{}", meaning(&command));
+    }
+    (!text.is_empty()).then_some(text)
+}
+
+/// The COMP command around an offset of a line.
+fn command_at(line: &str, offset: usize) -> Option<CompCommand> {
+    let brackets = line.match_indices('[').filter_map(|(open, _)| {
+        let close = open + line[open..].find(']')? + 1;
+        let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        let name = line[..open].trim_end().trim_end_matches(is_name).len();
+        Some((name, close))
+    });
+    let mut around = brackets.filter(|(start, end)| (*start..=*end).contains(&offset));
+    let (start, end) = around.next()?;
+    parse_comp(line[start..end].trim_start()).ok()
+}
+
+/// What a COMP command does, as the documents say it.
+fn meaning(command: &CompCommand) -> String {
+    let axis = &command.axis;
+    let (verb, kinds) = match command.selection {
+        Selection::On(kinds) => ("selects", kinds),
+        Selection::Off(kinds) => ("deselects", kinds),
+        _ => {
+            return format!(
+                "`{axis}[COMP OFF_ALL]` deselects every compensation of axis {axis}, until a program selects it again or the control restarts; M30 does not."
+            );
+        }
+    };
+    let mut text = format!(
+        "The command {verb} compensations of axis {axis}, until a program switches them again or the control restarts; M30 does not.\n"
+    );
+    for kind in kinds.iter() {
+        let _ = writeln!(text, "\n`{kind}`: {}", about(kind));
+    }
+    text
+}
+
+/// How an axis moves in the block.
+fn moving(moves: &AxisMoves) -> String {
+    let AxisMoves {
+        axis,
+        times,
+        compensated,
+        reversals,
+        is_unsure,
+    } = moves;
+    let compensation = match *compensated {
+        0 => "without friction compensation".to_owned(),
+        all if all == *times => "with friction compensation".to_owned(),
+        some => format!("with friction compensation {some} of {times} times"),
+    };
+    let reversal = match (*reversals, is_unsure) {
+        (0, false) => "does not reverse".to_owned(),
+        (0, true) => "whether it reverses is not known".to_owned(),
+        (1, _) if *times == 1 => "reverses".to_owned(),
+        (count, _) => format!("reverses {count} times"),
+    };
+    format!("{axis} moves {compensation}; {reversal}")
 }
 
 /// The states of each axis before and after a block, in all passes.

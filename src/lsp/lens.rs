@@ -4,10 +4,14 @@ use gen_lsp_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
 
 use super::commands::SHOW_TIMELINE;
-use super::documents::Kind;
+use super::documents::{Document, Kind};
 use super::encoding::whole_line;
 use super::hints::left;
 use super::view::View;
+use crate::host::{
+    ArchiveAuditor, AuditOptions, Input, Ledger, MachineOptions, Machines, OpenTexts,
+};
+use crate::session::{Limits, Options};
 
 /// The lenses over a text.
 pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<CodeLens>> {
@@ -28,6 +32,7 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
     lenses.extend(run.remark.clone().map(said));
     let left = left(run).unwrap_or_else(|| "leaves no axis away from home".to_owned());
     lenses.push(said(left));
+    lenses.extend(inherited(view, document).map(said));
     lenses.push(CodeLens {
         range: whole_line(0),
         command: Some(Command {
@@ -39,4 +44,24 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
         data: None,
     });
     Some(lenses)
+}
+
+/// The axes that a program moves in the state that it finds (R10.1); `None` where that cannot be
+/// found out.
+fn inherited(view: &View, document: &Document) -> Option<String> {
+    let open = OpenTexts::new(view.documents.iter().map(|it| it.open_text()));
+    let unheard = Ledger::default();
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(&open);
+    let limits = Limits::default().with_blocks(view.client.settings.max_blocks);
+    let options = AuditOptions::new(Options::default().with_limits(limits));
+    let inputs = vec![Input::Open(document.open_text())];
+    let (auditor, _) = ArchiveAuditor::new(inputs, &mut machines, options);
+    let (archives, _) = auditor.audit();
+    let program = archives.first()?.programs().first()?;
+    let axes = program.axes.iter().filter(|axis| axis.is_inheritor());
+    let axes: Vec<&str> = axes.map(|axis| axis.axis.as_str()).collect();
+    Some(match axes.as_slice() {
+        [] => "inherits no state".to_owned(),
+        axes => format!("inherits the state of {}", axes.join(", ")),
+    })
 }

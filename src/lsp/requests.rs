@@ -1,8 +1,9 @@
 //! Which questions there are, and who answers them.
 
 use gen_lsp_types::{
-    CodeActionRequest, CodeLensRequest, ExecuteCommandRequest, HoverRequest, InlayHintRequest,
-    Request, TextDocumentContentRequest,
+    CodeActionRequest, CodeLensRequest, CompletionRequest, DefinitionRequest,
+    DocumentSymbolRequest, ExecuteCommandRequest, FoldingRangeRequest, HoverRequest,
+    InlayHintRequest, ReferencesRequest, RenameRequest, Request, TextDocumentContentRequest,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -11,7 +12,7 @@ use serde_json::Value;
 use super::custom::{StatesRequest, TimelineRequest};
 use super::refusal::Refusal;
 use super::view::View;
-use super::{actions, commands, custom, hints, hover, lens, pages};
+use super::{actions, commands, completion, custom, hints, hover, lens, navigation, pages};
 
 /// Answers a question with parameters that may be anything.
 pub(super) type Answerer = fn(&View, Value) -> Result<Value, Refusal>;
@@ -40,12 +41,15 @@ pub(super) fn answerer(method: &str) -> Option<(Needs, Answerer)> {
     Some((known.needs, known.answerer))
 }
 
-static KNOWN: [Known; 8] = [
+static KNOWN: [Known; 14] = [
     known::<HoverRequest>(Needs::Check, |view, params| {
         answer(view, params, hover::hover)
     }),
     known::<InlayHintRequest>(Needs::Check, |view, params| {
         answer(view, params, hints::inlay_hints)
+    }),
+    known::<CompletionRequest>(Needs::Check, |view, params| {
+        answer(view, params, completion::completion)
     }),
     known::<CodeLensRequest>(Needs::Check, |view, params| {
         answer(view, params, lens::code_lenses)
@@ -58,6 +62,21 @@ static KNOWN: [Known; 8] = [
     }),
     known::<TimelineRequest>(Needs::Check, |view, params| {
         answer(view, params, custom::timeline)
+    }),
+    known::<DocumentSymbolRequest>(Needs::Texts, |view, params| {
+        answer(view, params, navigation::symbols)
+    }),
+    known::<DefinitionRequest>(Needs::Texts, |view, params| {
+        answer(view, params, navigation::definition)
+    }),
+    known::<ReferencesRequest>(Needs::Texts, |view, params| {
+        answer(view, params, navigation::references)
+    }),
+    known::<FoldingRangeRequest>(Needs::Texts, |view, params| {
+        answer(view, params, navigation::folding)
+    }),
+    known::<RenameRequest>(Needs::Texts, |view, params| {
+        answer(view, params, navigation::rename)
     }),
     known::<TextDocumentContentRequest>(Needs::Texts, |_, params| {
         let content = pages::content(&serde_json::from_value(params)?);

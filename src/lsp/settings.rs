@@ -98,8 +98,16 @@ impl Settings {
         });
         wrong
     }
-}
 
+    /// Whether symbols, definitions and the like are offered.
+    pub(super) fn navigates(&self) -> bool {
+        match self.navigation {
+            Navigation::On => true,
+            Navigation::Off => false,
+            Navigation::Auto => self.isg_extension == Some(false),
+        }
+    }
+}
 #[cfg(test)]
 mod tests {
     use serde_json::json;
@@ -126,6 +134,7 @@ mod tests {
             ..Settings::default()
         };
         assert_eq!(settings, expected);
+        assert!(settings.navigates());
         assert!(
             settings
                 .take(&json!({ "maxBlocks": 7, "navigation": "off" }))

@@ -21,6 +21,8 @@ N110 $ENDIF
 N120 M17
 ";
 
+const INVALID_PARAMS: i32 = -32602;
+
 /// A program on the machine of the tests, open.
 fn opened(text: &str) -> (Bench, Client, String) {
     let bench = Bench::new(&[("a.nc", "M30\n")]);
@@ -225,5 +227,256 @@ fn a_timeline_view_asks_for_the_states_over_the_lines() {
         (&timeline["lines"], &timeline["remark"]),
         (&json!(13), &Value::Null)
     );
+    client.drop_all();
+}
+
+#[test]
+fn a_block_shows_what_it_switches_and_how_it_moves() {
+    // R12.3
+    let text = "\
+N10 G90 G17 F1000
+N20 G1 X0 Y0
+N30 X10 Y10
+N40 X[COMP OFF FRICT]
+N50 X5 Y10
+N60 G2 X15 Y10 I5 J0
+N70 Y[COMP ON FRICT LEAD]
+N80 M30
+";
+    let (_bench, mut client, uri) = opened(text);
+    let text = hover(&mut client, &uri, 2);
+    assert!(
+        text.contains("X moves with friction compensation; does not reverse"),
+        "{text}"
+    );
+    let text = hover(&mut client, &uri, 4);
+    assert!(
+        text.contains("X moves without friction compensation; reverses"),
+        "{text}"
+    );
+    assert!(!text.contains("Y moves"), "{text}");
+    let text = hover(&mut client, &uri, 5);
+    assert!(
+        text.contains("X moves without friction compensation; reverses"),
+        "{text}"
+    );
+    assert!(
+        text.contains("Y moves with friction compensation; reverses"),
+        "{text}"
+    );
+    let on_command =
+        json!({ "textDocument": { "uri": uri }, "position": { "line": 6, "character": 10 } });
+    let text = client.ask("textDocument/hover", &on_command)["contents"]["value"].take();
+    let text = text.as_str().expect("text");
+    assert!(
+        text.contains("`LEAD`: configured by P-AXIS-00175 (`lr_param.ssfk`)"),
+        "{text}"
+    );
+    client.drop_all();
+}
+
+#[test]
+fn a_list_shows_the_page_of_a_parameter() {
+    // R12.3
+    let mut client = Client::new();
+    client.open_as(
+        "file:///p/x.lis",
+        "isg-list",
+        "kopf.achs_nr 1\nfrict_comp.reversal_lookahead 2\nEnde\n",
+    );
+    let text = hover(&mut client, "file:///p/x.lis", 1);
+    assert!(
+        text.contains("P-COMP-00044") && text.contains("| cycles | 0 to 4 | 0 |"),
+        "{text}"
+    );
+    assert_eq!(hover(&mut client, "file:///p/x.lis", 2), "");
+    client.drop_all();
+}
+
+fn offered(client: &mut Client, uri: &str, (line, character): (u32, u32)) -> Vec<String> {
+    let at = json!({ "textDocument": { "uri": uri }, "position": { "line": line, "character": character } });
+    let items = client.ask("textDocument/completion", &at);
+    items
+        .as_array()
+        .into_iter()
+        .flatten()
+        .map(|it| it["label"].as_str().expect("a label").to_owned())
+        .collect()
+}
+
+#[test]
+fn what_may_be_written_next_is_offered() {
+    // R12.6
+    let (bench, mut client, uri) = opened("N10 X[COMP ON FRICT \nN20 G1 \n(comment \nM30\n");
+    assert_eq!(
+        offered(&mut client, &uri, (0, 20)),
+        ["BACKLASH", "CROSS", "PLANE", "LEAD", "TEMP", "CROSSTALK"]
+    );
+    assert_eq!(offered(&mut client, &uri, (1, 7)), ["X", "Y", "Z"]);
+    assert_eq!(offered(&mut client, &uri, (2, 9)), [""; 0]);
+    let toml = crate::lsp_client::uri(&bench.folder().join("frictcomp.toml"));
+    client.open_as(
+        &toml,
+        "toml",
+        "[machine]\ncy\n\n[[axis]] # X\nname = \"X\"\n\n",
+    );
+    assert!(offered(&mut client, &toml, (1, 2)).contains(&"cycle_time_ms".to_owned()));
+    assert!(offered(&mut client, &toml, (5, 0)).contains(&"frict_comp".to_owned()));
+    assert_eq!(offered(&mut client, &toml, (4, 7)), [""; 0]);
+    client.open_as("file:///p/x.lis", "isg-list", "frict\n");
+    assert!(
+        offered(&mut client, "file:///p/x.lis", (0, 5)).contains(&"frict_comp.mode".to_owned())
+    );
+    client.drop_all();
+}
+
+#[test]
+fn a_lens_says_what_a_program_inherits() {
+    // R12.4
+    let (_bench, mut client, uri) =
+        opened("N10 G1 X5 F100\nN20 Y[COMP ON FRICT]\nN30 Y5\nN40 M30\n");
+    let lenses = client.ask(
+        "textDocument/codeLens",
+        &json!({ "textDocument": { "uri": uri } }),
+    );
+    let titles: Vec<&str> = lenses
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|it| it["command"]["title"].as_str())
+        .collect();
+    assert_eq!(
+        titles,
+        [
+            "leaves no axis away from home",
+            "inherits the state of X",
+            "Show timeline"
+        ]
+    );
+    client.drop_all();
+}
+
+const NAMES: &str = "\
+N10 LL SUB
+N20: X1
+N30 $GOTO N20
+N40 L other.nc
+N50 M30
+%L SUB
+[HERE] X2
+N70 $GOTO [HERE]
+N80 M17
+";
+
+/// A client that says whether ISG's extension is there.
+fn beside(isg: &Value) -> (Bench, Client, String) {
+    let bench = Bench::new(&[("other.nc", "M17\n")]);
+    let uri = uri(&bench.folder().join("a.nc"));
+    let mut client = Client::with(&json!({
+        "capabilities": {},
+        "initializationOptions": { "isgExtension": isg },
+    }));
+    client.open(&uri, NAMES);
+    (bench, client, uri)
+}
+
+#[test]
+fn names_are_found_and_changed_where_nobody_else_does_it() {
+    // R12.6
+    let (bench, mut client, uri) = beside(&json!(false));
+    let text = json!({ "uri": uri });
+    let symbols = client.ask(
+        "textDocument/documentSymbol",
+        &json!({ "textDocument": text }),
+    );
+    let names: Vec<&str> = symbols
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|it| it["name"].as_str().expect("a name"))
+        .collect();
+    assert_eq!(names, ["N20", "SUB", "HERE"]);
+    let folds = client.ask(
+        "textDocument/foldingRange",
+        &json!({ "textDocument": text }),
+    );
+    assert_eq!(folds[0], json!({ "startLine": 5, "endLine": 8 }));
+    let at = |line: u32, character: u32| json!({ "line": line, "character": character });
+    let call = json!({ "textDocument": text, "position": at(0, 8) });
+    let found = client.ask("textDocument/definition", &call);
+    assert_eq!(found["range"]["start"], at(5, 3));
+    let file = json!({ "textDocument": text, "position": at(3, 7) });
+    let found = client.ask("textDocument/definition", &file);
+    assert_eq!(
+        found["uri"],
+        crate::lsp_client::uri(&bench.folder().join("other.nc"))
+    );
+    let label = json!({
+        "textDocument": text,
+        "position": at(1, 1),
+        "context": { "includeDeclaration": true },
+    });
+    let found = client.ask("textDocument/references", &label);
+    assert_eq!(found.as_array().map(Vec::len), Some(2), "{found}");
+    let renamed = |client: &mut Client, (line, character): (u32, u32), new: &str| {
+        let params = json!({
+            "textDocument": text,
+            "position": at(line, character),
+            "newName": new,
+        });
+        client.ask("textDocument/rename", &params)
+    };
+    let edit = renamed(&mut client, (0, 8), "FINISH");
+    assert_eq!(edit["changes"][&uri].as_array().map(Vec::len), Some(2));
+    let edit = renamed(&mut client, (1, 1), "N25");
+    assert_eq!(edit["changes"][&uri][1]["newText"], "N25");
+    for (place, new) in [
+        ((1, 1), "25"),
+        ((1, 1), "HERE"),
+        ((0, 8), "a b"),
+        ((3, 7), "x.nc"),
+        ((4, 6), "M02"),
+    ] {
+        assert_eq!(renamed(&mut client, place, new), Value::Null, "{new}");
+    }
+    client.drop_all();
+}
+
+#[test]
+fn beside_the_extension_of_isg_nothing_is_offered_twice() {
+    // R12.6
+    for isg in [json!(true), json!(null)] {
+        let (_bench, mut client, uri) = beside(&isg);
+        let text = json!({ "textDocument": { "uri": uri } });
+        assert_eq!(
+            client.ask("textDocument/documentSymbol", &text),
+            Value::Null
+        );
+        client.drop_all();
+    }
+}
+
+#[test]
+fn an_audit_takes_the_programs_as_they_are_open() {
+    // R12.4
+    let bench = Bench::new(&[("a.nc", "M30\n"), ("b.nc", "G1 X5 F100\nM30\n")]);
+    let a = uri(&bench.folder().join("a.nc"));
+    let mut client = Client::new();
+    client.open(&a, "X[COMP OFF FRICT]\nM30\n");
+    let params = |uri: &str| json!({ "command": "frictcomp.audit", "arguments": [{ "uri": uri }] });
+    for subject in [a.clone(), uri(bench.folder())] {
+        let shown = client.ask("workspace/executeCommand", &params(&subject));
+        let html = shown["html"].as_str().expect("a page");
+        assert!(html.contains("a.nc") && html.contains("b.nc"), "{html}");
+        assert!(html.contains("X[COMP ON FRICT]"), "the cure: {html}");
+    }
+    for wrong in [
+        json!({ "command": "frictcomp.audit" }),
+        params("untitled:a"),
+        json!({ "command": "frictcomp.wonder", "arguments": [{ "uri": a }] }),
+    ] {
+        let code = client.refused("workspace/executeCommand", &wrong);
+        assert_eq!(code, INVALID_PARAMS, "{wrong}");
+    }
     client.drop_all();
 }

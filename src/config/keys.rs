@@ -1,0 +1,26 @@
+//! The keys that may stand in `frictcomp.toml`, for who offers them while one types.
+
+use super::axis::{AXIS, VALUE};
+use super::file::{CHECK, LINT, ROOT, VARIABLES};
+use super::machine::{EXTERNAL_KEEPS, MACHINE, WORDS};
+use super::section::Shape;
+
+/// Every table, by its header; the file itself has none.
+const TABLES: [(&str, &Shape); 9] = [
+    ("", &ROOT),
+    (AXIS.name, &AXIS),
+    (VALUE.name, &VALUE),
+    (MACHINE.name, &MACHINE),
+    (EXTERNAL_KEEPS.name, &EXTERNAL_KEEPS),
+    (WORDS.name, &WORDS),
+    (VARIABLES.name, &VARIABLES),
+    (LINT.name, &LINT),
+    (CHECK.name, &CHECK),
+];
+
+/// The keys of the table of a header, `[[axis]]`; `None` where the user chooses them, or there is no
+/// such table.
+pub(crate) fn keys(header: &str) -> Option<&'static [&'static str]> {
+    let table = TABLES.iter().find(|(name, _)| *name == header);
+    table.and_then(|(_, shape)| shape.keys)
+}

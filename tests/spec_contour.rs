@@ -200,6 +200,19 @@ fn what_is_not_known_is_left_out_and_counted() {
 }
 
 #[test]
+fn what_deviates_beside_the_plane_is_said() {
+    // R11.3, R11.8
+    let bench = bench("G18\nG01 X10 Z0 F2000\nG03 X10 Z0 I-10 K0\nM30\n");
+    let said = |plane: &str| {
+        bench.stdout(&[
+            "contour", "part.nc", "--start", "X0,Y0,Z0", "--plane", plane,
+        ])
+    };
+    assert!(said("XY").contains("in the plane XY; `--plane X,Z` shows those of Z"));
+    assert!(!said("X,Z").contains("shows those of"));
+}
+
+#[test]
 fn a_limit_fails_the_build() {
     // R11.6
     let bench = bench(&circle("G03", "OFF"));

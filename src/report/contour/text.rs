@@ -54,6 +54,7 @@ pub fn render_text(
     for axis in contour.axes() {
         let _ = writeln!(out, "{}", sentence(axis));
     }
+    push_beside_the_plane(&mut out, contour.axes());
     push_worst(&mut out, contour.sink().worst());
     out.push('\n');
     for axis in &contour.options().axes {
@@ -96,6 +97,26 @@ pub fn render_text(
         );
     }
     out
+}
+
+/// A glitch in µm that a deviation in its plane would show.
+const NOTICEABLE_UM: f64 = 1.0;
+
+/// Says that an axis beside the plane deviates, too: in the plane that is not seen.
+fn push_beside_the_plane(out: &mut String, axes: &[ContourSummary]) {
+    let [first, second, further @ ..] = axes else {
+        return;
+    };
+    for axis in further {
+        let worst = axis.worst.as_ref();
+        if worst.is_some_and(|worst| worst.reversal.glitch_um.all_off > NOTICEABLE_UM) {
+            let _ = writeln!(
+                out,
+                "the deviations above are those in the plane {}{}; `--plane {},{}` shows those of {}",
+                first.axis, second.axis, first.axis, axis.axis, axis.axis
+            );
+        }
+    }
 }
 
 /// "X reverses 412 times while cutting, 57 times without compensation: …"

@@ -299,7 +299,7 @@ impl<W: Write> Server<W> {
         self.outgoing.event("terminated", &json!({}))?;
         self.outgoing.event(
             "exited",
-            &json!({ "exitCode": i32::from(by == EndedBy::Error) }),
+            &json!({ "exitCode": i32::from(matches!(by, EndedBy::Error | EndedBy::Budget)) }),
         )
     }
 

@@ -236,6 +236,18 @@ fn a_limit_fails_the_build() {
 }
 
 #[test]
+fn feed_moves_that_were_left_out_are_no_all_clear() {
+    // R11.6, R11.8: the start of the first feed move is unknown; that of a rapid move does not matter.
+    let status = |program: &str| {
+        let bench = bench(program);
+        let call = bench.call(&["contour", "part.nc", "--fail-above", "500"]);
+        call.status.code()
+    };
+    assert_eq!(status("G01 X10 Y0 F2000\nG01 X20\nM30\n"), Some(1));
+    assert_eq!(status("G00 X10 Y0\nG01 X20 F2000\nM30\n"), Some(0));
+}
+
+#[test]
 fn every_format_has_a_record_for_each_reversal() {
     // R11.6
     let bench = bench(&circle("G02", "OFF"));

@@ -178,6 +178,11 @@ impl<S: ContourSink> ProgramContour<S> {
         self.trace.left_out()
     }
 
+    /// How many of them are not known to be rapid moves: they may deviate by anything.
+    pub fn left_out_feed(&self) -> u64 {
+        self.trace.left_out_feed()
+    }
+
     /// Whether a drive was unstable; the contour ends there.
     pub fn is_unstable(&self) -> bool {
         self.tracer().is_unstable

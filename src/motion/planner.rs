@@ -74,6 +74,8 @@ pub struct TrajectoryPlanner {
     /// Whether a motion was left out for another reason than its start.
     has_lost: bool,
     left_out: u64,
+    /// Those of them that are not known to be rapid.
+    left_out_feed: u64,
     remarks: Remarks,
 }
 
@@ -127,6 +129,7 @@ impl TrajectoryPlanner {
             line: 0,
             has_lost: false,
             left_out: 0,
+            left_out_feed: 0,
             remarks: Remarks::default(),
             names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
         }
@@ -181,6 +184,11 @@ impl TrajectoryPlanner {
     /// How many motions the trace leaves out.
     pub fn left_out(&self) -> u64 {
         self.left_out
+    }
+
+    /// How many of them are not known to be rapid moves.
+    pub fn left_out_feed(&self) -> u64 {
+        self.left_out_feed
     }
 
     /// What there is to say about the motions, each once a place.
@@ -385,6 +393,9 @@ impl TrajectoryPlanner {
     /// A motion that is not part of the trace.
     fn leave_out(&mut self, row: &Row<'_>, reason: &'static str, sink: &mut dyn TraceSink) {
         self.left_out += 1;
+        let is_rapid =
+            matches!(row.motion, Some(Motion::Travel(travel)) if travel.form == Form::Rapid);
+        self.left_out_feed += u64::from(!is_rapid);
         sink.left_out(&SkippedMotion {
             time_s: self.look_ahead.time_s(),
             file: row.file,

@@ -95,6 +95,11 @@ impl<S: TraceSink> ProgramTrace<S> {
         self.planner.left_out()
     }
 
+    /// How many of them are not known to be rapid moves.
+    pub fn left_out_feed(&self) -> u64 {
+        self.planner.left_out_feed()
+    }
+
     /// Who takes the trace, to look at.
     pub fn sink_ref(&self) -> &S {
         &self.sink

@@ -1,14 +1,17 @@
-//! The extension for VS Code, as far as its manifest says it.
+//! The extension for VS Code as far as its manifest says it, and the settings of other editors.
 
 use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
+fn file(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    fs::read_to_string(path).expect(name)
+}
+
 fn manifest() -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("editors/vscode/package.json");
-    let text = fs::read_to_string(path).expect("a manifest");
-    serde_json::from_str(&text).expect("JSON")
+    serde_json::from_str(&file("editors/vscode/package.json")).expect("JSON")
 }
 
 #[test]
@@ -36,4 +39,21 @@ fn the_extension_stands_beside_that_of_isg() {
 fn the_extension_has_the_version_of_the_command() {
     // R12.8
     assert_eq!(manifest()["version"], env!("CARGO_PKG_VERSION"));
+}
+
+#[test]
+fn other_editors_start_the_same_server_for_the_same_files() {
+    // R12.10: `scripts/neovim-test` opens a program with the first of these.
+    let neovim = file("docs/neovim.lua");
+    assert!(
+        neovim.contains(r#"cmd = { "frictcomp", "lsp" }"#),
+        "{neovim}"
+    );
+    let documents = file("docs/editors.md");
+    assert!(documents.contains("command = \"frictcomp\"\nargs = [\"lsp\"]"));
+    let endings = file("editors/vscode/src/languages.ts");
+    for ending in ["nc", "cnc", "cyc", "ecy", "sub", "plc", "lis"] {
+        assert!(documents.contains(&format!("\"{ending}\"")), "{ending}");
+        assert!(endings.contains(&format!("\".{ending}\"")), "{ending}");
+    }
 }

@@ -110,7 +110,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let worst = contour.deviations().programmed.max_um();
     let said = said(&contour, &loaded);
     let has_moved = contour.machine_time_s() > 0.0;
-    let unknown = contour.left_out_feed();
+    let is_known = contour.left_out_feed() == 0 && contour.time_not_of_the_machine_s() == 0.0;
     drop(contour);
     result.text(&text)?;
     outputs.finish()?;
@@ -121,17 +121,14 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
              X0,Y0` where the axes stand",
         );
     }
-    if has_moved && unknown > 0 && args.fail_above.is_some() {
-        Console::talk(
-            "feed moves were left out, and how far they deviate is not known: say with `--start \
-             X0,Y0` where the axes stand",
-        );
+    if has_moved && !is_known && args.fail_above.is_some() {
+        Console::talk("feed moves were left out: whether they stay below the limit is not known");
     }
     args.machine.say_unread(&ledger, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     let deviates = args
         .fail_above
-        .is_some_and(|limit| worst > limit || !has_moved || unknown > 0);
+        .is_some_and(|limit| worst > limit || !has_moved || !is_known);
     Ok(if failed || deviates {
         exit::FOUND
     } else {

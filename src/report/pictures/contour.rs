@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::comp::State;
 use crate::contour::{ContourPoint, ContourReversal};
+use crate::interpreter::PositionFrame;
 use crate::motion::Movement;
 use crate::report::svg::{
     Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PanelHeight, PlaneChart,
@@ -64,10 +65,11 @@ impl ContourPicture {
     pub fn point(&mut self, point: &ContourPoint<'_>) {
         let off = point.cause.friction.iter().take(2);
         let is_on = off.into_iter().all(|state| *state == State::Active);
-        let stroke = match (point.counts, is_on) {
-            (false, _) => Stroke::Unjudged,
-            (true, true) => Stroke::Compensated,
-            (true, false) => Stroke::Uncompensated,
+        let stroke = match (point.cause.frame, point.counts, is_on) {
+            (PositionFrame::Programmed, ..) => Stroke::LeftOut,
+            (PositionFrame::Machine, false, _) => Stroke::Unjudged,
+            (PositionFrame::Machine, true, true) => Stroke::Compensated,
+            (PositionFrame::Machine, true, false) => Stroke::Uncompensated,
         };
         self.keep(PlanePoint {
             place: [point.positions[0], point.positions[1]],

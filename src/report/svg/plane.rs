@@ -27,6 +27,9 @@ const STRAIGHT: f64 = 7.0;
 /// Marks in a square of this size are drawn as one.
 const CELL: f64 = 13.0;
 
+/// The class of a stretch that is left out.
+const LEFT_OUT: &str = "fc-curve fc-s3";
+
 /// How a stretch of the path is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
@@ -38,6 +41,8 @@ pub enum Stroke {
     Uncompensated,
     /// Not judged: a rapid motion.
     Unjudged,
+    /// Left out: where it leads on the machine is not known.
+    LeftOut,
 }
 
 /// A point of the path.
@@ -153,7 +158,7 @@ impl PlaneChart {
         self.draw_axes(&mut canvas);
         self.draw_path(&mut canvas, &fit);
         self.draw_marks(&mut canvas, &fit);
-        let bottom = Self::draw_legend(&mut canvas, &fit);
+        let bottom = self.draw_legend(&mut canvas, &fit);
         let mut height = bottom + 18.0;
         if let Some(below) = &self.below {
             let inside = match frame {
@@ -191,6 +196,7 @@ impl PlaneChart {
         for stretch in stretches(&self.points) {
             let class = match stretch[stretch.len() - 1].stroke {
                 Stroke::Unjudged => "fc-curve fc-grid",
+                Stroke::LeftOut => LEFT_OUT,
                 _ => "fc-curve fc-axis",
             };
             canvas.path(
@@ -200,7 +206,7 @@ impl PlaneChart {
         }
         for stretch in stretches(&self.points) {
             let class = match stretch[stretch.len() - 1].stroke {
-                Stroke::Unjudged => continue,
+                Stroke::Unjudged | Stroke::LeftOut => continue,
                 Stroke::Compensated => "fc-curve fc-s0",
                 Stroke::Uncompensated => "fc-curve fc-s1",
             };
@@ -268,14 +274,20 @@ impl PlaneChart {
         }
     }
 
-    fn draw_legend(canvas: &mut Canvas, fit: &Fit) -> f64 {
+    fn draw_legend(&self, canvas: &mut Canvas, fit: &Fit) -> f64 {
         let y = ROOM.bottom() + 20.0;
         let mut x = 16.0;
-        for (class, text) in [
+        let lines = [
             ("fc-curve fc-s0", "compensated"),
             ("fc-curve fc-s1", "not compensated"),
             ("fc-curve fc-axis", "commanded"),
-        ] {
+        ];
+        let has_left_out = self
+            .points
+            .iter()
+            .any(|point| point.stroke == Stroke::LeftOut);
+        let left_out = has_left_out.then_some((LEFT_OUT, "left out"));
+        for (class, text) in lines.into_iter().chain(left_out) {
             canvas.path(class, [(x, y), (x + 26.0, y)]);
             canvas.text("", (x + 32.0, y + 4.0), Anchor::Start, text);
             x += 56.0 + super::canvas::text_width(text);

@@ -2,7 +2,7 @@
 
 use std::io::sink;
 
-use frictcomp::report::{Csv, Ndjson, Report, Text, TextOptions, View};
+use frictcomp::report::{Csv, Ndjson, Positions, Report, Text, TextOptions, View};
 use frictcomp::session::{SavedState, Session};
 
 use crate::{Bench, Files, POLICIES, machine};
@@ -15,7 +15,7 @@ pub fn check_run(files: Files<'_>, way: usize) {
     let mut report: Box<dyn Report> = match way / 3 % 3 {
         0 => Box::new(Text::new(sink(), TextOptions::default())),
         1 => Box::new(Ndjson::new(sink(), View::default())),
-        _ => Box::new(Csv::new(sink(), View::default()).with_positions()),
+        _ => Box::new(Csv::new(sink(), View::default()).with_positions(Positions::Shown)),
     };
     let _ = session.begin(&[], &mut *report);
     if way / 9 % 2 == 0 {

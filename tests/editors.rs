@@ -36,6 +36,23 @@ fn the_extension_stands_beside_that_of_isg() {
 }
 
 #[test]
+fn the_extension_and_the_server_have_commands_of_their_own() {
+    // R12.8: VS Code registers those of the server, and refuses a name that is registered already.
+    let manifest = manifest();
+    let commands = manifest["contributes"]["commands"]
+        .as_array()
+        .expect("commands");
+    let server = file("src/lsp/commands.rs");
+    assert!(server.contains("\"frictcomp.showTimeline\""));
+    for command in commands {
+        assert!(
+            !server.contains(&command["command"].to_string()),
+            "{command}"
+        );
+    }
+}
+
+#[test]
 fn the_extension_has_the_version_of_the_command() {
     // R12.8
     assert_eq!(manifest()["version"], env!("CARGO_PKG_VERSION"));

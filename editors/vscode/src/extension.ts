@@ -62,20 +62,20 @@ interface Parts {
 
 function commands({ server, reports, binary, start }: Parts): vscode.Disposable[] {
   return [
-    vscode.commands.registerCommand("frictcomp.run", async () => {
+    vscode.commands.registerCommand("frictcomp.runProgram", async () => {
       const document = activeProgram();
       if (document) {
         await server.command("frictcomp.showTimeline", document.uri);
       }
     }),
-    vscode.commands.registerCommand("frictcomp.audit", async (chosen?: vscode.Uri) => {
+    vscode.commands.registerCommand("frictcomp.auditFolder", async (chosen?: vscode.Uri) => {
       const folder = chosen ?? (await chooseFolder());
       const file = binary();
       if (folder && file !== undefined) {
         await reports.showRun("Audit", file, ["audit", folder.fsPath], folder.fsPath);
       }
     }),
-    vscode.commands.registerCommand("frictcomp.contour", async () => {
+    vscode.commands.registerCommand("frictcomp.contourOfProgram", async () => {
       const document = activeProgram();
       const file = binary();
       // The command line reads the file: what is not saved would not be in the picture.
@@ -84,7 +84,7 @@ function commands({ server, reports, binary, start }: Parts): vscode.Disposable[
         await reports.showRun("Contour", file, ["contour", fsPath], path.dirname(fsPath));
       }
     }),
-    vscode.commands.registerCommand("frictcomp.circle", async () => {
+    vscode.commands.registerCommand("frictcomp.simulateCircle", async () => {
       const file = binary();
       const circle = file === undefined ? undefined : await askCircle();
       if (file !== undefined && circle) {

@@ -31,7 +31,7 @@ export class Server implements vscode.Disposable {
         executeCommand: async (command, args: unknown[], next) => {
           const answer: unknown = await next(command, args);
           if (isReport(answer)) {
-            this.showReport(titleOf(args), answer.html);
+            this.showReport(titleOf(command, args), answer.html);
           }
           return answer;
         },
@@ -97,10 +97,11 @@ function isReport(answer: unknown): answer is Report {
   return typeof answer === "object" && answer !== null && "html" in answer && typeof answer.html === "string";
 }
 
-/** A report is called after the program that its command was about. */
-function titleOf([subject]: unknown[]): string {
+/** A report is called after what its command was about. */
+function titleOf(command: string, [subject]: unknown[]): string {
+  const report = command === "frictcomp.audit" ? "Audit" : "Run";
   if (typeof subject === "object" && subject !== null && "uri" in subject && typeof subject.uri === "string") {
-    return `Run of ${vscode.workspace.asRelativePath(vscode.Uri.parse(subject.uri))}`;
+    return `${report} of ${vscode.workspace.asRelativePath(vscode.Uri.parse(subject.uri))}`;
   }
-  return "Run";
+  return report;
 }

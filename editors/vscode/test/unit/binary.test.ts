@@ -4,7 +4,7 @@ import { findBinary, type Surroundings } from "../../src/binary";
 function around(files: string[], change: Partial<Surroundings> = {}): Surroundings {
   return {
     setting: "",
-    workspace: "/work/parts",
+    workspace: "/home/cnc/parts",
     extension: "/ext/frictcomp",
     platform: "linux",
     path: "/usr/local/bin::/usr/bin",
@@ -20,10 +20,10 @@ test("the program beside the extension comes before the one on PATH", () => {
 });
 
 test("a setting is the only place that is looked at", () => {
-  const files = ["/usr/bin/frictcomp", "/work/parts/tools/frictcomp"];
+  const files = ["/usr/bin/frictcomp", "/home/cnc/parts/tools/frictcomp"];
   expect(findBinary(around(files, { setting: " tools/frictcomp " }))).toEqual({
     kind: "found",
-    file: "/work/parts/tools/frictcomp",
+    file: "/home/cnc/parts/tools/frictcomp",
   });
   expect(findBinary(around(files, { setting: "/opt/frictcomp" }))).toEqual({
     kind: "missing",

@@ -165,7 +165,7 @@ impl CommandedPath {
             };
         }
         // It never goes back along the path: where a path returns over itself, the place would be
-        // found on the way that is already behind it. Past a corner the next step may be further
+        // found on the stretch that was passed before. After a corner the next step may be further
         // away and the one after it nearer, so every step within the lag is compared.
         let from = commanded.saturating_sub(self.back).clamp(lowest, highest);
         let mut at = (*near).clamp(from, highest);

@@ -197,7 +197,7 @@ impl AgreedResults {
     }
 }
 
-/// The agreed result, `None` when there is none. Line ends may be those of any system.
+/// The agreed result; `None` where nothing was agreed on yet. Line ends may be those of any system.
 fn read_agreed(path: &Path) -> Result<Option<String>, HostError> {
     match read_bytes(path) {
         Ok(bytes) => {

@@ -108,8 +108,8 @@ pub(super) fn folding(view: &View, params: &FoldingRangeParams) -> Option<Vec<Fo
     Some(folds.collect())
 }
 
-/// Gives a label or a local subprogram another name, wherever it stands; `None` where there is none,
-/// or the new name is none.
+/// Gives a label or a local subprogram another name, wherever it stands. `None` if neither stands at
+/// the place, or if the new name cannot be one.
 pub(super) fn rename(view: &View, params: &RenameParams) -> Option<WorkspaceEdit> {
     let (document, outline, name) = at(view, &params.text_document_position_params)?;
     let new = &params.new_name;

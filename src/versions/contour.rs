@@ -162,7 +162,7 @@ pub struct ContourComparison {
 
 impl ContourComparison {
     /// Compares two contours, stretch by stretch of each block: a peak is not hidden by another one
-    /// that both versions have. What a block deviates more by no more than the tolerance is none.
+    /// that both versions have. Differences within the tolerance do not count.
     pub fn new(old: VersionContour, new: VersionContour, tolerance_um: f64) -> Self {
         let mut more = Vec::new();
         let mut less = 0;

@@ -1,19 +1,7 @@
 //! `diff --contour` and `golden --contour`.
 
+use super::MACHINE;
 use super::folder::{Bench, json};
-
-const MACHINE: &str = "\
-[[axis]]
-name = \"X\"
-frict_comp = true
-max_acceleration = 5.0
-max_jerk = 1000.0
-[[axis]]
-name = \"Y\"
-frict_comp = true
-max_acceleration = 5.0
-max_jerk = 1000.0
-";
 
 const OLD: &str = "\
 N10 X[COMP ON FRICT] Y[COMP ON FRICT]

@@ -132,7 +132,7 @@ impl<S: LineSource> BlockReader<S> {
             }
         }
         if let Some(name) = start.strip_prefix('%') {
-            return Some(program_line(&self.code, name));
+            return Some(program_line(&self.code, &self.text, name));
         }
         let mut foreign = masked.foreign;
         if masked.continues {
@@ -330,13 +330,17 @@ fn too_long(line: &str) -> bool {
 }
 
 /// `%NAME`, `% NAME`, `%L NAME` (R2.10).
-fn program_line(code: &str, after: &str) -> Stretch {
+fn program_line(code: &str, text: &str, after: &str) -> Stretch {
     let separators = [
         ' ', '\t', '\u{0}', '\u{3}', '(', ';', '"', ']', ',', '#', '$',
     ];
     let rest = after.trim_start_matches(is_blank);
+    // In the code a letter outside ASCII is a blank: `%Läufer` is a main program.
+    let is_letter = |at: usize| text.as_bytes().get(at).is_some_and(|byte| !byte.is_ascii());
     let (local, name) = match rest.strip_prefix(['L', 'l']) {
-        Some(name) if name.starts_with([' ', '\t']) => (true, name.trim_start_matches(is_blank)),
+        Some(name) if name.starts_with([' ', '\t']) && !is_letter(code.len() - name.len()) => {
+            (true, name.trim_start_matches(is_blank))
+        }
         _ => (false, rest),
     };
     let start = code.len() - name.len();

@@ -10,6 +10,7 @@ use super::ast::Block;
 use super::grammar::Rule;
 use super::lines::{BlockReader, FastPath};
 use super::lower;
+use super::raw::Stretch;
 use crate::text::TextLines;
 
 /// Stretches of a program that are more than words.
@@ -211,6 +212,22 @@ fn what_editors_leave_at_the_end_of_a_comment_is_no_text() {
     // R2.1
     for end in ["\u{0}\u{0}", " \u{3}", "\u{1a}\t", "\u{0} \u{3} "] {
         assert_eq!(compare(&format!("N10 X1 ; a{end}\nN20 X2 (b){end}\n")), 2);
+    }
+}
+
+#[test]
+fn a_name_with_a_letter_outside_ascii_begins_a_main_program() {
+    // R2.10
+    for (line, is_local) in [
+        ("%Läufer", false),
+        ("% Läufer", false),
+        ("%L äufer", true),
+        ("%L A", true),
+    ] {
+        let mut reader = BlockReader::new(TextLines::new(line), 1, FastPath::On);
+        let stretch = reader.next(&mut Block::default()).map(|raw| raw.stretch);
+        let found = matches!(stretch, Some(Stretch::Program { local: true, .. }));
+        assert_eq!(found, is_local, "{line}");
     }
 }
 

@@ -178,6 +178,33 @@ fn a_run_is_resumed_at_any_block() {
     }
 }
 
+#[test]
+fn a_clone_of_a_run_goes_on_as_the_run_would() {
+    let mut whole = Vec::new();
+    start(&mut |event| {
+        whole.push(shown(event));
+        ControlFlow::Continue(())
+    });
+    let mut said = Vec::new();
+    let (mut run, mut outcome) = start(&mut |event| {
+        said.push(shown(event));
+        ControlFlow::Break(())
+    });
+    while outcome == RunOutcome::Paused {
+        let mut ahead = Vec::new();
+        run.clone().go_on(&mut find, &mut |event: Event<'_>| {
+            ahead.push(shown(&event));
+            ControlFlow::Continue(())
+        });
+        assert_eq!(ahead, whole[said.len()..], "after {}", said.len());
+        outcome = run.go_on(&mut find, &mut |event: Event<'_>| {
+            said.push(shown(&event));
+            ControlFlow::Break(())
+        });
+    }
+    assert_eq!(said, whole);
+}
+
 fn snapshot(run: &Interpreter) -> Snapshot {
     run.snapshot().expect("its text is in memory")
 }

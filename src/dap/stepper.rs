@@ -1,10 +1,10 @@
 //! The run of a program that is looked at block by block.
 //!
 //! An interpreter tells of a block when it has executed it; a debugger stands before a block. So the
-//! stepper keeps a snapshot from some blocks ago: when a block says that the run should have stopped
-//! before it, the run is resumed there and goes to the block again.
+//! stepper keeps a copy of the run from some blocks ago: when a block says that the run should have
+//! stopped before it, the copy goes to the block again.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -17,13 +17,12 @@ use crate::host::{
     read_text,
 };
 use crate::interpreter::{
-    Ended, EndedBy, Event, Executed, Finder, Interpreter, NoProgram, NoteKind, Notes, Observer,
-    Options, ResumeError, Snapshot,
+    Ended, EndedBy, Event, Executed, Interpreter, NoteKind, Notes, Observer, Options,
 };
 use crate::machine::{Machine, Setting};
 use crate::text::SourceFile;
 
-/// Blocks that are executed between two snapshots, and between two looks whether the client wants
+/// Blocks that are executed between two copies, and between two looks whether the client wants
 /// anything.
 const STRIDE: u64 = 10_000;
 
@@ -73,20 +72,6 @@ pub(super) enum Halt {
     Interrupted,
     /// The program has ended.
     Ended(EndedBy),
-}
-
-/// The files of a run, kept because a snapshot is resumed with them.
-struct Files {
-    finder: ProgramFinder,
-    texts: BTreeMap<String, SourceFile>,
-}
-
-impl Finder for Files {
-    fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
-        let found = self.finder.find(name, caller)?;
-        self.texts.insert(found.name().to_string(), found.clone());
-        Ok(found)
-    }
 }
 
 /// What is known of the blocks up to the next one.
@@ -216,8 +201,7 @@ impl Observer for Stride<'_> {
 /// The run of a program.
 pub(super) struct Stepper {
     machine: Arc<Machine>,
-    options: Options,
-    files: Files,
+    finder: ProgramFinder,
     /// Stands before the block that is shown.
     here: Interpreter,
     trail: Trail,
@@ -247,13 +231,10 @@ impl Stepper {
         for (name, setting) in loaded.settings.iter().chain(settings) {
             here.set(name, setting);
         }
-        let mut files = Files {
-            finder: ProgramFinder::new(&input, reach, Naming::AsGiven),
-            texts: BTreeMap::from([(source.name().to_string(), source.clone())]),
-        };
+        let mut finder = ProgramFinder::new(&input, reach, Naming::AsGiven);
         let mut said = Vec::new();
         let mut trail = Trail::default();
-        let _ = here.program(source, &mut files, &mut |event: Event<'_>| {
+        let _ = here.program(source, &mut finder, &mut |event: Event<'_>| {
             if let Event::Ended(ended) = event {
                 trail.ended = Some(ended.by);
                 said.extend_from_slice(ended.diagnostics);
@@ -262,8 +243,7 @@ impl Stepper {
         });
         let mut stepper = Self {
             machine,
-            options,
-            files,
+            finder,
             here,
             trail,
             position: Position::Before(Vec::new()),
@@ -321,9 +301,7 @@ impl Stepper {
             if let Some(by) = self.trail.ended {
                 break Halt::Ended(by);
             }
-            let Some(anchor) = self.here.snapshot() else {
-                break Halt::Arrived;
-            };
+            let anchor = self.here.clone();
             let trail = self.trail.clone();
             let mut stride = Stride {
                 reach,
@@ -336,7 +314,7 @@ impl Stepper {
                 first: std::mem::take(&mut first),
                 stop: None,
             };
-            let _ = self.here.go_on(&mut self.files, &mut stride);
+            let _ = self.here.go_on(&mut self.finder, &mut stride);
             let Stride {
                 blocks,
                 stop,
@@ -364,16 +342,13 @@ impl Stepper {
         halt
     }
 
-    /// Resumes a snapshot and executes so many blocks.
-    fn return_to(&mut self, anchor: Snapshot, blocks: u64) {
-        let Ok(here) = self.resumed(anchor) else {
-            return;
-        };
-        self.here = here;
+    /// Goes back to a copy of the run and executes so many blocks.
+    fn return_to(&mut self, anchor: Interpreter, blocks: u64) {
+        self.here = anchor;
         let mut left = blocks;
         while left > 0 {
             let trail = &mut self.trail;
-            let _ = self.here.go_on(&mut self.files, &mut |event: Event<'_>| {
+            let _ = self.here.go_on(&mut self.finder, &mut |event: Event<'_>| {
                 if let Event::Executed(block) = event {
                     trail.pass(&block);
                     left -= 1;
@@ -387,13 +362,6 @@ impl Stepper {
         }
     }
 
-    fn resumed(&self, snapshot: Snapshot) -> Result<Interpreter, ResumeError> {
-        let machine = Arc::clone(&self.machine);
-        Interpreter::resume(machine, self.options, snapshot, &mut |name| {
-            self.files.texts.get(name).cloned()
-        })
-    }
-
     /// Finds the block that comes next by executing it in a copy of the run.
     fn look_ahead(&mut self) {
         self.wanted.clear();
@@ -401,11 +369,9 @@ impl Stepper {
             self.position = Position::Ended(by);
             return;
         }
-        let Some(Ok(mut copy)) = self.here.snapshot().map(|it| self.resumed(it)) else {
-            return;
-        };
+        let mut copy = self.here.clone();
         let (mut sites, mut ended, mut wanted) = (self.trail.sites.clone(), None, BTreeSet::new());
-        let _ = copy.go_on(&mut self.files, &mut |event: Event<'_>| {
+        let _ = copy.go_on(&mut self.finder, &mut |event: Event<'_>| {
             match event {
                 Event::Executed(block) => {
                     sites.truncate(depth(&block));
@@ -430,7 +396,7 @@ impl Stepper {
 
     fn finish(&mut self) {
         let (trail, said) = (&mut self.trail, &mut self.said);
-        let _ = self.here.go_on(&mut self.files, &mut |event: Event<'_>| {
+        let _ = self.here.go_on(&mut self.finder, &mut |event: Event<'_>| {
             if let Event::Ended(ended) = event {
                 trail.ended = Some(ended.by);
                 said.extend_from_slice(ended.diagnostics);

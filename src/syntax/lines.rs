@@ -132,7 +132,11 @@ impl<S: LineSource> BlockReader<S> {
             }
         }
         if let Some(name) = start.strip_prefix('%') {
-            return Some(program_line(&self.code, &self.text, name));
+            let stretch = program_line(&self.code, &self.text, name, masked.foreign);
+            block
+                .faults
+                .extend(masked.foreign.map(|span| outside_ascii(span, &self.text)));
+            return Some(stretch);
         }
         let mut foreign = masked.foreign;
         if masked.continues {
@@ -163,24 +167,9 @@ impl<S: LineSource> BlockReader<S> {
             );
             return Some(Stretch::Block);
         }
-        if let Some(span) = foreign {
-            let found = span.of(&self.text);
-            let blank = found.chars().find(|letter| letter.is_whitespace());
-            let shown = blank.map_or_else(
-                || found.to_owned(),
-                |letter| format!("U+{:04X}", u32::from(letter)),
-            );
-            let message = format!(
-                "`{shown}` is outside ASCII; programs are ASCII except in comments and strings"
-            );
-            let mut fault = Fault::new(Code::Fc101, span, message);
-            if blank.is_some() {
-                fault = fault.with_help(
-                    "it looks like a blank but is a different character; replace it with a blank",
-                );
-            }
-            block.faults.push(fault);
-        }
+        block
+            .faults
+            .extend(foreign.map(|span| outside_ascii(span, &self.text)));
         lower::block(&self.code, block);
         block.faults.sort_by_key(|fault| fault.span.start);
         cap_faults(&mut block.faults);
@@ -293,6 +282,23 @@ impl<S: LineSource> BlockReader<S> {
     }
 }
 
+/// FC101: a character that programs have only in comments and strings.
+fn outside_ascii(span: Span, text: &str) -> Fault {
+    let found = span.of(text);
+    let blank = found.chars().find(|letter| letter.is_whitespace());
+    let shown = blank.map_or_else(
+        || found.to_owned(),
+        |letter| format!("U+{:04X}", u32::from(letter)),
+    );
+    let message =
+        format!("`{shown}` is outside ASCII; programs are ASCII except in comments and strings");
+    let fault = Fault::new(Code::Fc101, span, message);
+    if blank.is_none() {
+        return fault;
+    }
+    fault.with_help("it looks like a blank but is a different character; replace it with a blank")
+}
+
 /// Keeps the first faults of a block and says how many more there are. An error stays one.
 fn cap_faults(faults: &mut Vec<Fault>) {
     if faults.len() <= MAX_FAULTS {
@@ -329,22 +335,27 @@ fn too_long(line: &str) -> bool {
     line.len() > MAX_LINE && line.chars().count() > MAX_LINE
 }
 
-/// `%NAME`, `% NAME`, `%L NAME` (R2.10).
-fn program_line(code: &str, text: &str, after: &str) -> Stretch {
-    let separators = [
-        ' ', '\t', '\u{0}', '\u{3}', '(', ';', '"', ']', ',', '#', '$',
-    ];
+/// `%NAME`, `% NAME`, `%L NAME` (R2.10). In the code a letter outside ASCII is a blank, and
+/// `foreign` is the first: `%Läufer` is a main program.
+fn program_line(code: &str, text: &str, after: &str, foreign: Option<Span>) -> Stretch {
+    let separators = ['(', ';', '"', ']', ',', '#', '$'];
+    let at = |part: &str| code.len() - part.len();
+    let letter = foreign
+        .filter(|span| !span.of(text).starts_with(char::is_whitespace))
+        .map(|span| span.range().start);
     let rest = after.trim_start_matches(is_blank);
-    // In the code a letter outside ASCII is a blank: `%Läufer` is a main program.
-    let is_letter = |at: usize| text.as_bytes().get(at).is_some_and(|byte| !byte.is_ascii());
     let (local, name) = match rest.strip_prefix(['L', 'l']) {
-        Some(name) if name.starts_with([' ', '\t']) && !is_letter(code.len() - name.len()) => {
+        Some(name)
+            if name.starts_with([' ', '\t']) && letter.is_none_or(|letter| letter > at(name)) =>
+        {
             (true, name.trim_start_matches(is_blank))
         }
         _ => (false, rest),
     };
-    let start = code.len() - name.len();
-    let length = name.find(separators).unwrap_or(name.len());
+    let start = letter.map_or(at(name), |letter| letter.min(at(name)));
+    let name = &text[start..];
+    let ends = |c: char| separators.contains(&c) || is_blank(c) || c.is_whitespace();
+    let length = name.find(ends).unwrap_or(name.len());
     Stretch::Program {
         name: Span::new(start, start + length),
         local,

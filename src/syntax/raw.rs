@@ -1,6 +1,10 @@
 //! A block as it stands in the file.
 
-use crate::text::Span;
+use std::sync::Arc;
+
+use super::fault::Fault;
+use crate::diagnostic::Diagnostic;
+use crate::text::{Place, Span};
 
 /// Characters that one line may have (R2.2).
 pub const MAX_LINE: usize = 4000;
@@ -36,6 +40,24 @@ pub struct RawBlock<'a> {
     pub plain: bool,
     /// The comment line directly above that speaks to this tool (R9.24).
     pub remark: Option<&'a Remark>,
+}
+
+impl RawBlock<'_> {
+    /// A place in its lines.
+    pub(crate) fn place(&self, file: &Arc<str>, span: Span) -> Place {
+        Place {
+            file: Arc::clone(file),
+            text: self.text.into(),
+            first_line: self.line,
+            span,
+        }
+    }
+
+    /// A fault of a `%` line, which no run comes to, as a message about its file.
+    pub(crate) fn opening_said(&self, file: &Arc<str>, fault: Fault) -> Diagnostic {
+        let place = self.place(file, fault.span);
+        fault.into_diagnostic(place, |_| None)
+    }
 }
 
 /// Comment lines, one right above the other, that speak to this tool.

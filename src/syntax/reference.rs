@@ -11,6 +11,7 @@ use super::grammar::Rule;
 use super::lines::{BlockReader, FastPath};
 use super::lower;
 use super::raw::Stretch;
+use crate::diagnostic::Code;
 use crate::text::TextLines;
 
 /// Stretches of a program that are more than words.
@@ -217,17 +218,25 @@ fn what_editors_leave_at_the_end_of_a_comment_is_no_text() {
 
 #[test]
 fn a_name_with_a_letter_outside_ascii_begins_a_main_program() {
-    // R2.10
-    for (line, is_local) in [
-        ("%Läufer", false),
-        ("% Läufer", false),
-        ("%L äufer", true),
-        ("%L A", true),
+    // R2.10, R2.1
+    for (line, name, is_local) in [
+        ("%Läufer", "Läufer", false),
+        ("% Läufer", "Läufer", false),
+        ("%äL B", "äL", false),
+        ("%L äufer", "äufer", true),
+        ("%L (für) A", "A", true),
+        ("%L A (für)", "A", true),
+        ("%A\u{a0}B", "A", false),
     ] {
         let mut reader = BlockReader::new(TextLines::new(line), 1, FastPath::On);
-        let stretch = reader.next(&mut Block::default()).map(|raw| raw.stretch);
-        let found = matches!(stretch, Some(Stretch::Program { local: true, .. }));
-        assert_eq!(found, is_local, "{line}");
+        let mut block = Block::default();
+        let raw = reader.next(&mut block).expect("a program begins");
+        let Stretch::Program { name: found, local } = raw.stretch else {
+            panic!("{line} is a block");
+        };
+        assert_eq!((found.of(raw.text), local), (name, is_local), "{line}");
+        let says_so = block.faults.iter().any(|fault| fault.code == Code::Fc101);
+        assert_eq!(says_so, !line.contains("(für)"), "{line}");
     }
 }
 

@@ -8,7 +8,7 @@ use crate::text::Span;
 pub(in crate::interpreter) type Given = Option<Option<f64>>;
 
 /// The words of a block that shape its motion and nothing else.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Geometry {
     /// I, J, K.
     pub(in crate::interpreter) centre: [Given; 3],

@@ -76,9 +76,9 @@ impl Interpreter {
         {
             notes.to_mut().push(open);
         }
-        let lost = self.lost_remarks();
-        if !lost.is_empty() {
-            notes.to_mut().append(&lost);
+        let beside = self.beside_blocks();
+        if !beside.is_empty() {
+            notes.to_mut().append(&beside);
         }
         let mut changes = std::mem::take(&mut self.work.changes);
         changes.extend(self.state.compensation.program_end());

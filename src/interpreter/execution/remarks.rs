@@ -1,4 +1,5 @@
-//! Comments that speak to this tool and stand above no block (R9.24).
+//! Lines that no run comes to: `%` lines, and comments that speak to this tool and stand above no block
+//! (R9.24).
 
 use std::sync::Arc;
 
@@ -9,10 +10,13 @@ use crate::syntax::{LostRemarks, Remark, allow};
 use crate::text::Place;
 
 impl Interpreter {
-    /// What there is to say about such comments: in all files, or up to the last block of each that
-    /// was reached where the rest is not checked.
-    pub(in crate::interpreter) fn lost_remarks(&mut self) -> Collected {
+    /// What there is to say about the `%` lines of the main file; about such comments in all files,
+    /// or up to the last block of each that was reached where the rest is not checked.
+    pub(in crate::interpreter) fn beside_blocks(&mut self) -> Collected {
         let mut said = std::mem::take(&mut self.lost);
+        if let Some(main) = self.programs.units().first() {
+            said.append(&main.index.openings);
+        }
         for unit in self.programs.units() {
             let reached = unit.high.checked_sub(1);
             let last = reached.and_then(|last| unit.index.entries.get(last as usize));

@@ -63,8 +63,9 @@ impl Interpreter {
         if self.is_refused() {
             return self.refuse(observer);
         }
-        if let Some(section) = main {
-            self.enter(0, section);
+        match main {
+            Some(section) => self.enter(0, section),
+            None => self.lost.extend(self.programs.index(0).no_main_program()),
         }
         let main = Arc::clone(self.programs.index(0).source.name());
         if let Err(missing) = self.start_program(&main, finder) {

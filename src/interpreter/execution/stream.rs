@@ -88,6 +88,9 @@ impl Interpreter {
                 return self.go_on_with(rest, progress, finder, observer);
             }
             if let Stretch::Program { name, .. } = raw.stretch {
+                let faults = block.faults.drain(..);
+                self.lost
+                    .extend(faults.map(|fault| raw.opening_said(&file, fault)));
                 if matches!(stage, Stage::Before) {
                     stage = Stage::Announced;
                     if self.announce(Some(name.of(raw.text)), observer).is_break() {

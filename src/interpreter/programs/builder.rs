@@ -86,6 +86,8 @@ impl Index {
                 remarks: HashMap::new(),
                 lost: LostRemarks::default(),
                 interpreted: BTreeMap::new(),
+                openings: Collected::default(),
+                first_local: None,
                 refused: Collected::default(),
             },
             nesting: nesting as usize,
@@ -137,6 +139,13 @@ impl Builder {
                 Stretch::Program { name, local } => {
                     self.close_section();
                     self.section(Some(name.of(raw.text).to_owned()), local);
+                    let file = self.index.source.name();
+                    for fault in block.faults.drain(..) {
+                        self.index.openings.push(raw.opening_said(file, fault));
+                    }
+                    if local && self.index.first_local.is_none() {
+                        self.index.first_local = Some(raw.place(file, name));
+                    }
                 }
                 Stretch::Block => {
                     let entry = Span::new(self.index.entries.len(), raw.offset);

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostic::Collected;
+use crate::diagnostic::{Code, Collected, Diagnostic};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, Operand};
 use crate::syntax::{BlockReader, FastPath, LostRemarks, Remark, Stretch};
@@ -98,6 +98,10 @@ pub(in crate::interpreter) struct Index {
     pub(in crate::interpreter) lost: LostRemarks,
     /// Where the branches of each `#IF` end.
     pub(in crate::interpreter) interpreted: BTreeMap<EntryIndex, EntryIndex>,
+    /// What there is to say about the `%` lines.
+    pub(in crate::interpreter) openings: Collected,
+    /// The name of the first local subprogram.
+    pub(in crate::interpreter) first_local: Option<Place>,
     /// What keeps the program from running at all.
     pub(in crate::interpreter) refused: Collected,
 }
@@ -131,6 +135,14 @@ impl Index {
                     .iter()
                     .position(|section| !section.local && section.name.is_some())
             })
+    }
+
+    /// FC323 where the file has local subprograms and [`Index::main`] finds nothing to run.
+    pub(in crate::interpreter) fn no_main_program(&self) -> Option<Diagnostic> {
+        let place = self.first_local.clone()?;
+        let message = "the file has no main program, only local subprograms; nothing of it was run";
+        let said = Diagnostic::new(Code::Fc323, place, message);
+        Some(said.with_help("begin the main program with `%NAME`"))
     }
 
     /// A local subprogram by its name.

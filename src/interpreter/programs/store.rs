@@ -31,7 +31,7 @@ pub(in crate::interpreter) struct Caller<'a> {
 }
 
 /// The files of a run, the main program first.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(in crate::interpreter) struct Programs {
     units: Vec<Unit>,
     /// How deep control blocks may be nested.

@@ -8,8 +8,9 @@ use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
 
 /// A file of the run.
+#[derive(Clone)]
 pub(in crate::interpreter) struct Unit {
-    pub(in crate::interpreter) index: Index,
+    pub(in crate::interpreter) index: Arc<Index>,
     /// Blocks that were executed more than once, parsed.
     pub(in crate::interpreter) kept: Vec<Option<Arc<Parsed>>>,
     /// Blocks below this one were executed before.
@@ -27,7 +28,7 @@ impl Unit {
             high: 0,
             executed: vec![false; index.entries.len()],
             undecided: BTreeSet::new(),
-            index,
+            index: Arc::new(index),
         }
     }
 }

@@ -46,6 +46,9 @@ use crate::syntax::ast::Block;
 /// });
 /// assert_eq!(changes, 1);
 /// ```
+///
+/// A clone stands where the run stands and shares the texts with it: a debugger looks ahead in it.
+#[derive(Clone)]
 pub struct Interpreter {
     pub(in crate::interpreter) machine: Arc<Machine>,
     pub(in crate::interpreter) options: Options,
@@ -64,7 +67,7 @@ pub struct Interpreter {
     /// Ways that leave at the block that is executed.
     pub(in crate::interpreter) departing: Vec<Departing>,
     pub(in crate::interpreter) regions: Regions,
-    /// What there is to say about comments of lines that are not kept.
+    /// What there is to say about lines that are no blocks and not kept.
     pub(in crate::interpreter) lost: Collected,
     pub(in crate::interpreter) journal: Journal,
     pub(in crate::interpreter) state: State,

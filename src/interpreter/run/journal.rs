@@ -23,7 +23,7 @@ pub(in crate::interpreter) struct Scan {
 
 /// What was written since regions were made unknown last: a loop that comes back to a region need
 /// only look at that.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::interpreter) struct Journal {
     written: Vec<Target>,
     /// Rises when the list is restarted.

@@ -19,6 +19,7 @@ use crate::text::{Place, Span};
     clippy::struct_excessive_bools,
     reason = "facts of one block, of which each is asked by itself"
 )]
+#[derive(Clone)]
 pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) block: Block,
     pub(in crate::interpreter) outcomes: Vec<Outcome>,

@@ -5,8 +5,9 @@ use crate::syntax::allow;
 use crate::text::{SourceFile, Span};
 
 /// The change of a program that silences a message of it: a comment in its block, or above a block
-/// of several lines. `None` for what cannot be silenced, the numbers of the control, budgets, and
-/// messages about such comments, and for a message whose lines are not those of the file.
+/// of several lines. `None` for what cannot be silenced, the numbers of the control, budgets,
+/// messages about such comments and about `%` lines, and for a message whose lines are not those of
+/// the file.
 pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
     let is_comment = matches!(said.code, Code::Fc490 | Code::Fc491);
     if said.code.is_controller() || said.code.is_budget() || is_comment {
@@ -26,6 +27,9 @@ pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
     }
     while end < last && goes_on(end) {
         end += 1;
+    }
+    if of(first).of(text).trim_start().starts_with('%') {
+        return None;
     }
     let (offset, comment) = if first == end {
         allow::insertion(of(first).of(text), said.code)

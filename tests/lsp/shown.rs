@@ -79,6 +79,31 @@ fn a_loop_shows_the_states_of_all_passes() {
 }
 
 #[test]
+fn a_called_program_shows_the_states_of_its_callers_that_are_open() {
+    // R12.3
+    let called = "G1 Y5 F100\nX[COMP ON FRICT]\nM17\n";
+    let bench = Bench::new(&[("a.nc", "M30\n"), ("b.nc", "M30\n"), ("s.nc", called)]);
+    let [a, b, s] = ["a.nc", "b.nc", "s.nc"].map(|name| uri(&bench.folder().join(name)));
+    let mut client = Client::new();
+    client.open(&a, "X[COMP OFF FRICT]\nL s.nc\nL s.nc\nM30\n");
+    client.open(&b, "G1 X5 F100\nM30\n");
+    client.open(&s, called);
+    let text = hover(&mut client, &s, 1);
+    let (own, callers) = text.split_once("Called from `").expect("a caller");
+    assert!(own.contains("| X | active | active |"), "{text}");
+    assert!(
+        callers.contains("a.nc`") && !callers.contains("b.nc"),
+        "{text}"
+    );
+    assert!(
+        callers.contains("| X | inactive (1 of 2), active (1 of 2) | active |"),
+        "{text}"
+    );
+    assert!(callers.contains("executed 2 times"), "{text}");
+    client.drop_all();
+}
+
+#[test]
 fn hints_stand_where_a_state_changes_and_at_the_end() {
     // R12.4
     let (_bench, mut client, uri) = opened(LOOP);

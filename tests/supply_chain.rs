@@ -36,13 +36,7 @@ fn no_dependency_needs_a_younger_rust() {
     let host = version.lines().find_map(|line| line.strip_prefix("host: "));
     let host = host.expect("cargo names the host");
     // `--locked`: the lock file is as the manifest says.
-    let options = [
-        "--format-version=1",
-        "--locked",
-        "--offline",
-        "--filter-platform",
-        host,
-    ];
+    let options = ["--format-version=1", "--locked", "--filter-platform", host];
     let metadata = cargo(&[&["metadata"], &options[..]].concat());
     let metadata: Value = serde_json::from_str(&metadata).expect("JSON");
     let packages = metadata["packages"].as_array().expect("packages");
@@ -60,7 +54,22 @@ fn no_dependency_needs_a_younger_rust() {
 
 #[test]
 fn every_dependency_has_its_reason() {
-    let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("a manifest");
+    let bindings = fs::read_dir(root().join("bindings")).expect("a folder");
+    let folders = bindings.map(|entry| entry.expect("an entry").path());
+    for folder in folders.chain([root().to_owned()]) {
+        let path = folder.join("Cargo.toml");
+        let manifest = fs::read_to_string(&path).expect("a manifest");
+        let bare = without_reason(&manifest);
+        let manifest = path.display();
+        assert!(
+            bare.is_empty(),
+            "{manifest}: no reason stands beside {bare:?}"
+        );
+    }
+}
+
+/// The dependencies of a manifest above which no comment stands.
+fn without_reason(manifest: &str) -> Vec<&str> {
     let mut section = "";
     let mut reasoned = false;
     let mut bare = Vec::new();
@@ -76,5 +85,5 @@ fn every_dependency_has_its_reason() {
             bare.push(line);
         }
     }
-    assert!(bare.is_empty(), "no reason stands beside {bare:?}");
+    bare
 }

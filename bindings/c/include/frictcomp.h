@@ -1,0 +1,196 @@
+/* Friction compensation of ISG and TwinCAT CNC controls, for hosts with an interpreter of their own.
+ *
+ * A handle is used by one thread at a time; different handles may be used by different threads. Texts
+ * that are handed over are UTF-8 and end with NUL. No function throws, ends the process or keeps a pointer
+ * that it was handed. Made from the functions of bindings/c: do not edit. */
+
+#ifndef FRICTCOMP_H
+#define FRICTCOMP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Whether a call did what it was asked for.
+typedef enum {
+    // It did.
+    FRICTCOMP_STATUS_OK = 0,
+    // The control refuses the command with an error of its own; nothing is changed.
+    FRICTCOMP_STATUS_REFUSED = 1,
+    // The text is a bracket or a word that does not concern COMP; nothing is changed.
+    FRICTCOMP_STATUS_NOT_COMP = 2,
+    // The text is a COMP command with a mistake; nothing is changed.
+    FRICTCOMP_STATUS_FAULTY = 3,
+    // An argument is missing, is not UTF-8, or names something that there is not.
+    FRICTCOMP_STATUS_BAD_ARGUMENT = 4,
+    // A file cannot be read or used.
+    FRICTCOMP_STATUS_NO_MACHINE = 5,
+    // A mistake in frictcomp itself; the handle that was used should be freed.
+    FRICTCOMP_STATUS_INTERNAL = 6,
+} FrictcompStatus;
+
+// The state of a kind of compensation on an axis.
+typedef enum {
+    // The axis parameters do not configure it.
+    FRICTCOMP_STATE_UNCONFIGURED = 0,
+    // It is switched off.
+    FRICTCOMP_STATE_INACTIVE = 1,
+    // It is switched on and works.
+    FRICTCOMP_STATE_ACTIVE = 2,
+    // It is switched on and changes nothing, because its value list was not accepted.
+    FRICTCOMP_STATE_INEFFECTIVE = 3,
+    // Only the machine knows.
+    FRICTCOMP_STATE_UNKNOWN = 4,
+} FrictcompState;
+
+// A kind of axis compensation that COMP switches.
+typedef enum {
+    // `BACKLASH`
+    FRICTCOMP_KIND_BACKLASH = 0,
+    // `CROSS`
+    FRICTCOMP_KIND_CROSS = 1,
+    // `PLANE`
+    FRICTCOMP_KIND_PLANE = 2,
+    // `LEAD`
+    FRICTCOMP_KIND_LEAD = 3,
+    // `TEMP`
+    FRICTCOMP_KIND_TEMP = 4,
+    // `FRICT`
+    FRICTCOMP_KIND_FRICT = 5,
+    // `CROSSTALK`
+    FRICTCOMP_KIND_CROSSTALK = 6,
+} FrictcompKind;
+
+// Whether an axis takes part in a coupling, in which the control refuses COMP.
+typedef enum {
+    // It does not.
+    FRICTCOMP_COUPLING_NONE = 0,
+    // It does.
+    FRICTCOMP_COUPLING_ACTIVE = 1,
+    // Only the machine knows: what COMP leaves is unknown.
+    FRICTCOMP_COUPLING_PERHAPS = 2,
+} FrictcompCoupling;
+
+// The state of every compensation on every axis of a machine.
+typedef struct FrictcompCompensation FrictcompCompensation;
+
+// A machine: its axes, and what the lists of the control say about their compensation.
+typedef struct FrictcompMachine FrictcompMachine;
+
+// One state that a call changed.
+typedef struct {
+    // The position of the axis in the machine.
+    size_t axis;
+    // The kind of compensation.
+    FrictcompKind kind;
+    // The state before.
+    FrictcompState from;
+    // The state now.
+    FrictcompState to;
+} FrictcompChange;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The version of frictcomp, as `0.1.0`.
+const char *frictcomp_version(void);
+
+// Why the last call of this thread failed, in one sentence; NULL where it did not fail. The text is
+// there until the next call of this thread.
+const char *frictcomp_last_error(void);
+
+// The number of the last error of this thread, as `P-ERR-70495` for an error of the control or `FC202`
+// for one of frictcomp; NULL where it has none. The text is there until the next call of this thread.
+const char *frictcomp_last_error_code(void);
+
+// Reads the machine from a start-up list of the control, with every list that it names, or from a
+// `frictcomp.toml`. The path is UTF-8. NULL where that cannot be done. Errors in the lists do not keep
+// it from being made: ask `frictcomp_machine_error_count`.
+FrictcompMachine *frictcomp_machine_read(const char *path);
+
+// A machine without lists: the axes X Y Z A B C U V W, none of which has compensation until
+// `frictcomp_machine_enable` assumes it.
+FrictcompMachine *frictcomp_machine_unconfigured(void);
+
+// Assumes friction compensation on an axis: P-AXIS-00522 is 1 and its value list is accepted. What was
+// made from the machine before stays as it is.
+FrictcompStatus frictcomp_machine_enable(FrictcompMachine *machine,
+                                         const char *axis);
+
+// How many axes the machine has; 0 for NULL.
+size_t frictcomp_machine_axis_count(const FrictcompMachine *machine);
+
+// The name of an axis by its position; NULL where there is none. The text is there until the machine
+// is changed or freed.
+const char *frictcomp_machine_axis_name(const FrictcompMachine *machine,
+                                        size_t axis);
+
+// Writes the position of an axis to `axis`, by its name.
+FrictcompStatus frictcomp_machine_find(const FrictcompMachine *machine,
+                                       const char *name,
+                                       size_t *axis);
+
+// How many messages there are about the lists of the machine; 0 for NULL.
+size_t frictcomp_machine_message_count(const FrictcompMachine *machine);
+
+// How many of the messages are errors: where there is one, the control would not start with these
+// lists, or would not take one of them. `SIZE_MAX` for NULL.
+size_t frictcomp_machine_error_count(const FrictcompMachine *machine);
+
+// A message about the lists, `file:line:column: severity[code] words`; NULL where there is none. The
+// text is there until the machine is freed.
+const char *frictcomp_machine_message(const FrictcompMachine *machine,
+                                      size_t message);
+
+// Frees a machine; NULL is nothing to free. What was made from it stays.
+void frictcomp_machine_free(FrictcompMachine *machine);
+
+// The states of every compensation on every axis after a start of the control; NULL where that cannot
+// be done.
+FrictcompCompensation *frictcomp_compensation_new(const FrictcompMachine *machine);
+
+// Frees the states; NULL is nothing to free.
+void frictcomp_compensation_free(FrictcompCompensation *compensation);
+
+// Applies one COMP command, as `X[COMP OFF FRICT]`. Where the control refuses it, nothing is changed,
+// `FRICTCOMP_STATUS_REFUSED` is returned, and `frictcomp_last_error_code` is the control's error.
+FrictcompStatus frictcomp_apply(FrictcompCompensation *compensation,
+                                const char *command);
+
+// What the end of a program does: friction compensation stays as it is.
+FrictcompStatus frictcomp_program_end(FrictcompCompensation *compensation);
+
+// What a reset of the control does.
+FrictcompStatus frictcomp_reset(FrictcompCompensation *compensation);
+
+// Takes over a state that the host knows from elsewhere, as from the job before. `kind` is a
+// `FrictcompKind`; `state` is active, inactive or unknown.
+FrictcompStatus frictcomp_set_state(FrictcompCompensation *compensation,
+                                    size_t axis,
+                                    uint32_t kind,
+                                    uint32_t state);
+
+// Says whether an axis takes part in a coupling, a `FrictcompCoupling`.
+FrictcompStatus frictcomp_set_coupling(FrictcompCompensation *compensation,
+                                       size_t axis,
+                                       uint32_t coupling);
+
+// The state of a kind of compensation, a `FrictcompKind`, on an axis. What there is not is unknown, and
+// `frictcomp_last_error` says why.
+FrictcompState frictcomp_state(const FrictcompCompensation *compensation,
+                               size_t axis,
+                               uint32_t kind);
+
+// How many states the last call with this handle changed; 0 for NULL.
+size_t frictcomp_change_count(const FrictcompCompensation *compensation);
+
+// Writes a change of the last call with this handle to `change`.
+FrictcompStatus frictcomp_change(const FrictcompCompensation *compensation,
+                                 size_t number,
+                                 FrictcompChange *change);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* FRICTCOMP_H */

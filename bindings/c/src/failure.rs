@@ -1,0 +1,179 @@
+//! What went wrong in the last call of a thread, and the border that no panic crosses.
+
+use std::cell::RefCell;
+use std::ffi::{CString, c_char};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr::null;
+
+use frictcomp::comp::CompensationError;
+use frictcomp::diagnostic::Code;
+use frictcomp::host::HostError;
+use frictcomp::syntax::Fault;
+use thiserror::Error;
+
+/// Whether a call did what it was asked for.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrictcompStatus {
+    /// It did.
+    Ok = 0,
+    /// The control refuses the command with an error of its own; nothing is changed.
+    Refused = 1,
+    /// The text is a bracket or a word that does not concern COMP; nothing is changed.
+    NotComp = 2,
+    /// The text is a COMP command with a mistake; nothing is changed.
+    Faulty = 3,
+    /// An argument is missing, is not UTF-8, or names something that there is not.
+    BadArgument = 4,
+    /// A file cannot be read or used.
+    NoMachine = 5,
+    /// A mistake in frictcomp itself; the handle that was used should be freed.
+    Internal = 6,
+}
+
+/// Why a call failed.
+#[derive(Debug, Error)]
+pub(crate) enum Failure {
+    #[error(transparent)]
+    Refused(#[from] CompensationError),
+    #[error("{message}")]
+    Text { code: Code, message: String },
+    #[error("{0}")]
+    BadArgument(String),
+    #[error("{0}")]
+    Machine(String),
+    #[error("an internal error of frictcomp: {0}")]
+    Internal(String),
+}
+
+impl Failure {
+    pub(crate) fn bad(message: impl Into<String>) -> Self {
+        Self::BadArgument(message.into())
+    }
+
+    pub(crate) fn status(&self) -> FrictcompStatus {
+        match self {
+            Self::Refused(_) => FrictcompStatus::Refused,
+            // FC207 is the word for a text that is something else than one COMP command.
+            Self::Text { code, .. } if *code == Code::Fc207 => FrictcompStatus::NotComp,
+            Self::Text { .. } => FrictcompStatus::Faulty,
+            Self::BadArgument(_) => FrictcompStatus::BadArgument,
+            Self::Machine(_) => FrictcompStatus::NoMachine,
+            Self::Internal(_) => FrictcompStatus::Internal,
+        }
+    }
+
+    fn code(&self) -> Option<Code> {
+        match self {
+            Self::Refused(error) => Some(error.code()),
+            Self::Text { code, .. } => Some(*code),
+            _ => None,
+        }
+    }
+}
+
+impl From<Fault> for Failure {
+    fn from(fault: Fault) -> Self {
+        let advice: Vec<String> = fault.advice.iter().map(ToString::to_string).collect();
+        let message = match &advice[..] {
+            [] => fault.message,
+            advice => format!("{}; {}", fault.message, advice.join("; ")),
+        };
+        Self::Text {
+            code: fault.code,
+            message,
+        }
+    }
+}
+
+impl From<HostError> for Failure {
+    fn from(error: HostError) -> Self {
+        let mut message = error.to_string();
+        if let HostError::Configuration { diagnostics, .. } = &error {
+            for said in diagnostics {
+                message.push_str("; ");
+                message.push_str(&crate::machine::line(said));
+            }
+        }
+        Self::Machine(message)
+    }
+}
+
+/// The last error of a thread, as C reads it.
+#[derive(Default)]
+struct LastError {
+    message: Option<CString>,
+    code: Option<CString>,
+}
+
+thread_local! {
+    static LAST: RefCell<LastError> = RefCell::default();
+}
+
+/// Does the work of a call: forgets the error of the call before, and returns `fallback` where the work
+/// fails or panics.
+pub(crate) fn call<T>(
+    fallback: impl FnOnce(FrictcompStatus) -> T,
+    work: impl FnOnce() -> Result<T, Failure>,
+) -> T {
+    remember(None);
+    let done = catch_unwind(AssertUnwindSafe(work));
+    let failure = match done {
+        Ok(Ok(result)) => return result,
+        Ok(Err(failure)) => failure,
+        Err(panic) => {
+            let words = panic
+                .downcast_ref::<String>()
+                .cloned()
+                .or_else(|| panic.downcast_ref::<&str>().map(|it| (*it).to_owned()));
+            Failure::Internal(words.unwrap_or_else(|| "no reason is given".to_owned()))
+        }
+    };
+    let status = failure.status();
+    remember(Some(&failure));
+    fallback(status)
+}
+
+fn remember(failure: Option<&Failure>) {
+    LAST.with_borrow_mut(|last| {
+        last.message = failure.map(|failure| c_text(&failure.to_string()));
+        last.code = failure
+            .and_then(Failure::code)
+            .map(|code| c_text(code.as_str()));
+    });
+}
+
+/// The words of the last error, where the last call of this thread failed.
+pub(crate) fn last_message() -> *const c_char {
+    LAST.with_borrow(|last| last.message.as_ref().map_or(null(), |text| text.as_ptr()))
+}
+
+/// The code of the last error, where it has one.
+pub(crate) fn last_code() -> *const c_char {
+    LAST.with_borrow(|last| last.code.as_ref().map_or(null(), |text| text.as_ptr()))
+}
+
+/// A text for C, without the NUL that would end it early.
+pub(crate) fn c_text(text: &str) -> CString {
+    CString::new(text.replace('\0', "\u{fffd}")).expect("it has no NUL")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_a_status() {
+        // R13.5
+        let status = call(|status| status, || panic!("of {} kinds", 2));
+        assert_eq!(status, FrictcompStatus::Internal);
+        let done = call(|status| status, || Ok(FrictcompStatus::Ok));
+        assert_eq!(done, FrictcompStatus::Ok);
+        assert!(last_message().is_null());
+    }
+
+    #[test]
+    fn a_text_with_a_nul_stays_whole() {
+        assert_eq!(c_text("a\0b").as_c_str(), c"a\u{fffd}b");
+    }
+}

@@ -1,0 +1,13 @@
+//! Friction compensation for hosts with an NC interpreter of their own that are written in C or talk to
+//! C: `include/frictcomp.h` is made from this crate, `docs/c.md` shows how it is used.
+//!
+//! [`machine`] and [`compensation`] are what the handles of C point to, [`failure`] keeps panics inside
+//! and the last error at hand, and [`exports`] alone touches pointers.
+
+#[cfg(panic = "abort")]
+compile_error!("a panic must not end the host: build with `--profile binding`");
+
+mod compensation;
+mod exports;
+mod failure;
+mod machine;

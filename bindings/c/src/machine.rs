@@ -1,0 +1,112 @@
+//! The machine behind a handle.
+
+use std::ffi::CString;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use frictcomp::comp::AxisIndex;
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::host::{ConfigurationChoice, Ledger, LoadedMachine, MachineOptions, Machines};
+use frictcomp::machine::Machine;
+
+use crate::failure::{Failure, c_text};
+
+/// A machine: its axes, and what the lists of the control say about their compensation.
+#[derive(Debug)]
+pub struct FrictcompMachine {
+    machine: Machine,
+    names: Vec<CString>,
+    messages: Vec<CString>,
+    errors: usize,
+}
+
+impl FrictcompMachine {
+    /// The machine of a start-up list or, where the file is named so, of a `frictcomp.toml`.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let is_configuration = path
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+        let mut options = MachineOptions::default();
+        if is_configuration {
+            options.configuration = ConfigurationChoice::File(path.to_owned());
+        } else {
+            options.configuration = ConfigurationChoice::Isolated;
+            options.startup = Some(PathBuf::from(path));
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let loaded = Machines::new(options, &Ledger::default()).for_folder(folder)?;
+        Ok(Self::of(&loaded))
+    }
+
+    fn of(loaded: &Arc<LoadedMachine>) -> Self {
+        Self {
+            names: names(&loaded.machine),
+            messages: loaded
+                .diagnostics
+                .iter()
+                .map(|said| c_text(&line(said)))
+                .collect(),
+            errors: loaded.errors().count(),
+            machine: loaded.machine.clone(),
+        }
+    }
+
+    /// The machine without lists: the usual axes, none of them configured.
+    pub(crate) fn unconfigured() -> Self {
+        let machine = Machine::unconfigured();
+        Self {
+            names: names(&machine),
+            messages: Vec::new(),
+            errors: 0,
+            machine,
+        }
+    }
+
+    /// Assumes friction compensation on an axis.
+    pub(crate) fn enable(&mut self, name: &str) -> Result<(), Failure> {
+        if !self.machine.enable(name) {
+            return Err(Failure::bad(format!("the machine has no axis `{name}`")));
+        }
+        self.names = names(&self.machine);
+        Ok(())
+    }
+
+    pub(crate) fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// The names of the axes, in the machine's order.
+    pub(crate) fn names(&self) -> &[CString] {
+        &self.names
+    }
+
+    pub(crate) fn find(&self, name: &str) -> Result<AxisIndex, Failure> {
+        let found = self.machine.find(name);
+        found.ok_or_else(|| Failure::bad(format!("the machine has no axis `{name}`")))
+    }
+
+    /// What there is to say about the lists, a line each.
+    pub(crate) fn messages(&self) -> &[CString] {
+        &self.messages
+    }
+
+    /// How many of the messages are errors.
+    pub(crate) fn errors(&self) -> usize {
+        self.errors
+    }
+}
+
+fn names(machine: &Machine) -> Vec<CString> {
+    machine.axes.iter().map(|axis| c_text(&axis.name)).collect()
+}
+
+/// A message in one line, with its place in front as compilers have it.
+pub(crate) fn line(said: &Diagnostic) -> String {
+    let severity = match said.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        _ => "info",
+    };
+    let (file, start) = (&said.place.file, said.place.start());
+    format!("{file}:{start}: {severity}[{}] {}", said.code, said.message)
+}

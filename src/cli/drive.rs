@@ -16,7 +16,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::drive_interface::{
     DriveReport, Evidence, SlaveOfAxis, XmlError, check_drive, read_devices, read_network,
 };
-use crate::host::{Ledger, read_list};
+use crate::host::{Disk, Ledger, read_list};
 use crate::machine::ListsReport;
 use crate::report::drives::render_drives;
 use crate::report::{ListingFormat, command_line};
@@ -67,9 +67,10 @@ fn parse_slave(text: &str) -> Result<SlaveOfAxis, String> {
 /// What is known besides the lists.
 fn evidence(args: &DriveArgs, ledger: &Ledger) -> Result<Evidence, Failure> {
     let mut evidence = Evidence::default();
+    let disk = Disk::default();
     if let Some(path) = &args.eni {
         ledger.reads("network", path);
-        let network = read_network(&read_list(path)?).map_err(|error| unread(&error))?;
+        let network = read_network(&read_list(path, &disk)?).map_err(|error| unread(&error))?;
         for given in &args.slave {
             let drives = network.drives();
             if !network.slaves.iter().any(|slave| slave.name == given.slave) {
@@ -86,7 +87,7 @@ fn evidence(args: &DriveArgs, ledger: &Ledger) -> Result<Evidence, Failure> {
     }
     for path in &args.esi {
         ledger.reads("device description", path);
-        let devices = read_devices(&read_list(path)?).map_err(|error| unread(&error))?;
+        let devices = read_devices(&read_list(path, &disk)?).map_err(|error| unread(&error))?;
         evidence.devices.extend(devices);
     }
     evidence.slaves.clone_from(&args.slave);

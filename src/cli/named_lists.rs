@@ -7,9 +7,7 @@ use clap::Args;
 use super::failure::Failure;
 use super::machine::elsewhere;
 use crate::comp::CncBuild;
-use crate::host::{
-    CONFIG_NAME, Grounds, OpenTexts, check_list_file, is_configuration, nearest_config,
-};
+use crate::host::{CONFIG_NAME, Disk, Grounds, check_list_file, is_configuration, nearest_config};
 use crate::machine::ListsReport;
 
 /// The lists of a command.
@@ -33,7 +31,7 @@ impl NamedLists {
         if !self.files.is_empty() {
             return Ok(self.files.clone());
         }
-        let nearest = nearest_config(Path::new(""));
+        let nearest = nearest_config(Path::new(""), &Disk::default());
         let failure = || {
             Failure::new(format!("there is no {CONFIG_NAME} in this folder or above"))
                 .with_help("name the lists, `frictcomp lists hochlauf.lis`")
@@ -52,7 +50,7 @@ impl NamedLists {
 
     /// Checks a list, or every list that a configuration names.
     pub(super) fn check(&self, path: &Path) -> Result<ListsReport, Failure> {
-        let report = check_list_file(path, self.cnc_build, &OpenTexts::default())?;
+        let report = check_list_file(path, self.cnc_build, &Disk::default())?;
         if self.cnc_build.is_some() && is_configuration(path) {
             let message = format!(
                 "the build of `{}` is given in the file itself",

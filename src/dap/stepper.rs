@@ -223,7 +223,12 @@ impl Stepper {
         let mut machines = Machines::new(MachineOptions::default(), &Ledger::default());
         let input = Input::new(program);
         let loaded = machines.for_folder(input.folder())?;
-        let LoadedMachine { machine, reach, .. } = &*loaded;
+        let LoadedMachine {
+            machine,
+            reach,
+            disk,
+            ..
+        } = &*loaded;
         let source = SourceFile::new(input.name(Naming::AsGiven), read_text(program)?);
         let machine = Arc::new(machine.clone());
         let options = Options::default().with_notes(Notes::Taken);
@@ -231,7 +236,7 @@ impl Stepper {
         for (name, setting) in loaded.settings.iter().chain(settings) {
             here.set(name, setting);
         }
-        let mut finder = ProgramFinder::new(&input, reach, Naming::AsGiven);
+        let mut finder = ProgramFinder::new(&input, reach, Naming::AsGiven, disk);
         let mut said = Vec::new();
         let mut trail = Trail::default();
         let _ = here.program(source, &mut finder, &mut |event: Event<'_>| {

@@ -7,7 +7,7 @@ use super::error::HostError;
 use super::figures::settled;
 use super::input::Input;
 use super::ledger::{Ledger, folder};
-use super::open_texts::OpenText;
+use super::open_text::OpenText;
 use super::outputs::OutputFiles;
 use super::read::read_bytes;
 

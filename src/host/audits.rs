@@ -261,9 +261,9 @@ impl<'a> ProgramAuditor<'a> {
     }
 
     fn finder(&self, input: &Input) -> ProgramFinder {
-        ProgramFinder::new(input, &self.loaded.reach, Naming::AsGiven)
-            .noting(&self.loaded.ledger)
-            .with_open(&self.loaded.open)
+        let loaded = self.loaded;
+        ProgramFinder::new(input, &loaded.reach, Naming::AsGiven, &loaded.disk)
+            .noting(&loaded.ledger)
     }
 
     fn run(

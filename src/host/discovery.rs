@@ -5,13 +5,13 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use super::axes_ahead::{AxesAhead, may_be_axis};
+use super::disk::Disk;
 use super::error::HostError;
 use super::finder::Reach;
-use super::grounds::{Elsewhere, Grounds, absolute};
+use super::grounds::{Elsewhere, Grounds};
 use super::input::Input;
 use super::ledger::Ledger;
-use super::list_files::OpenLists;
-use super::open_texts::OpenTexts;
+use super::list_files::{ListsOnDisk, read_list};
 use super::watch::{Watch, Watcher};
 use crate::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
 use crate::lists::Parameter;
@@ -76,8 +76,8 @@ pub struct LoadedMachine {
     pub extensions: Option<Vec<String>>,
     /// Where the files of a run on this machine are noted.
     pub ledger: Ledger,
-    /// The texts that stand in for files in a run on this machine.
-    pub open: OpenTexts,
+    /// The disk that runs on this machine read from.
+    pub disk: Disk,
     /// Who watches the runs on this machine.
     pub watch: Arc<Watch>,
 }
@@ -109,7 +109,7 @@ impl LoadedMachine {
                 given => Some(given),
             },
             ledger: ledger.clone(),
-            open: OpenTexts::default(),
+            disk: Disk::default(),
             watch: Arc::default(),
         }
     }
@@ -136,8 +136,7 @@ impl LoadedMachine {
 pub struct Machines {
     options: MachineOptions,
     ledger: Ledger,
-    /// The texts that stand in for files.
-    open: OpenTexts,
+    disk: Disk,
     /// The axes of the programs, where somebody asks for axes.
     ahead: Option<AxesAhead>,
     watch: Arc<Watch>,
@@ -152,7 +151,7 @@ impl Machines {
         Self {
             options,
             ledger: ledger.clone(),
-            open: OpenTexts::default(),
+            disk: Disk::default(),
             ahead: None,
             watch: Arc::default(),
             loaded: BTreeMap::new(),
@@ -166,10 +165,10 @@ impl Machines {
         self
     }
 
-    /// The same, with texts in place of the files that they stand in for.
-    pub fn with_open(self, open: &OpenTexts) -> Self {
-        let open = open.clone();
-        Self { open, ..self }
+    /// The same, read from another disk than that of the system.
+    pub fn on_disk(self, disk: &Disk) -> Self {
+        let disk = disk.clone();
+        Self { disk, ..self }
     }
 
     /// The machine of a program in a folder.
@@ -190,7 +189,7 @@ impl Machines {
         options.enable_axes(&mut loaded, self.ahead.as_ref())?;
         options.codes.apply(&mut loaded.levels);
         options.codes.sift(&mut loaded.diagnostics);
-        loaded.open = self.open.clone();
+        loaded.disk = self.disk.clone();
         loaded.watch = Arc::clone(&self.watch);
         let loaded = Arc::new(loaded);
         self.loaded.insert(config, Arc::clone(&loaded));
@@ -243,11 +242,11 @@ impl Machines {
 
     /// Reads a `frictcomp.toml` and the lists that it names.
     fn read_config(&self, path: &Path) -> Result<LoadedMachine, HostError> {
-        let mut lists = OpenLists(&self.open);
-        match Configuration::from_toml(lists.named(path)?, &mut lists) {
+        let text = read_list(path, &self.disk)?;
+        match Configuration::from_toml(text, &mut ListsOnDisk::new(&self.disk)) {
             Ok(configuration) => {
                 let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
-                let grounds = self.options.grounds(path, &loaded.reach);
+                let grounds = self.options.grounds(path, &loaded.reach, &self.disk);
                 grounds.conceal(&mut loaded.diagnostics);
                 Ok(loaded)
             }
@@ -257,7 +256,8 @@ impl Machines {
                     ..Reach::default()
                 };
                 let mut diagnostics = vec![*error.diagnostic];
-                self.options.grounds(path, &reach).conceal(&mut diagnostics);
+                let grounds = self.options.grounds(path, &reach, &self.disk);
+                grounds.conceal(&mut diagnostics);
                 Err(HostError::Configuration {
                     path: path.to_owned(),
                     diagnostics,
@@ -268,8 +268,9 @@ impl Machines {
 
     /// Reads a start-up list and the lists that it names.
     fn read_startup(&self, path: &Path) -> Result<LoadedMachine, HostError> {
-        let mut lists = OpenLists(&self.open);
-        let configuration = Configuration::from_startup(lists.named(path)?, &mut lists);
+        let text = read_list(path, &self.disk)?;
+        let mut lists = ListsOnDisk::new(&self.disk);
+        let configuration = Configuration::from_startup(text, &mut lists);
         let wrong = configuration.diagnostics.iter().find(|said| {
             let whole_file = *said.place.file == *path.display().to_string();
             said.code == Code::Fc125 && whole_file && said.place.start().line == 1
@@ -283,7 +284,7 @@ impl Machines {
             });
         }
         let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
-        let grounds = self.options.grounds(path, &loaded.reach);
+        let grounds = self.options.grounds(path, &loaded.reach, &self.disk);
         grounds.conceal(&mut loaded.diagnostics);
         Ok(loaded)
     }
@@ -292,7 +293,7 @@ impl Machines {
         if let Some(found) = self.nearest.get(folder) {
             return found.clone();
         }
-        let found = nearest_config(folder);
+        let found = nearest_config(folder, &self.disk);
         self.nearest.insert(folder.to_owned(), found.clone());
         found
     }
@@ -327,14 +328,14 @@ impl MachineOptions {
     }
 
     /// The folders whose lists are shown: the current one, that of a file and those of programs.
-    fn grounds(&self, path: &Path, reach: &Reach) -> Grounds {
+    fn grounds(&self, path: &Path, reach: &Reach, disk: &Disk) -> Grounds {
         let reach = Reach {
             elsewhere: self.elsewhere,
             ..reach.clone()
         };
-        let grounds = reach.grounds().with(Path::new(""));
+        let grounds = reach.grounds(disk).with(Path::new(""));
         // A file that the user names lies where it lies; one that was found may be a link.
-        match (&self.configuration, path.canonicalize()) {
+        match (&self.configuration, disk.real(path)) {
             (ConfigurationChoice::File(_), Ok(real)) => {
                 grounds.with(real.parent().unwrap_or(&real))
             }
@@ -397,12 +398,13 @@ fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
 }
 
 /// The nearest configuration from a folder upwards, as a path from the current folder.
-pub fn nearest_config(folder: &Path) -> Option<PathBuf> {
-    let found = absolute(folder)?
+pub fn nearest_config(folder: &Path, disk: &Disk) -> Option<PathBuf> {
+    let found = disk
+        .absolute(folder)?
         .ancestors()
         .map(|ancestor| ancestor.join(CONFIG_NAME))
-        .find(|candidate| candidate.is_file())?;
-    let here = std::env::current_dir().ok()?;
+        .find(|candidate| disk.is_file(candidate))?;
+    let here = disk.absolute(Path::new(""))?;
     Some(relative(&found, &here))
 }
 
@@ -433,10 +435,11 @@ mod tests {
         let deep = root.path().join("a/b");
         std::fs::create_dir_all(&deep).unwrap();
         std::fs::write(root.path().join(CONFIG_NAME), "").unwrap();
-        let far = nearest_config(&deep).unwrap();
+        let nearest = || nearest_config(&deep, &Disk::default()).unwrap();
+        let far = nearest();
         assert!(far.ends_with(CONFIG_NAME) && !far.ends_with("a/frictcomp.toml"));
         std::fs::write(root.path().join("a").join(CONFIG_NAME), "").unwrap();
-        assert!(nearest_config(&deep).unwrap().ends_with("a/frictcomp.toml"));
+        assert!(nearest().ends_with("a/frictcomp.toml"));
     }
 
     #[test]

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use super::axes_ahead::AxesAhead;
 use super::discovery::LoadedMachine;
+use super::disk::Disk;
 use super::error::HostError;
 use super::finder::{ProgramFinder, Reach};
 use super::input::{Input, Naming, Opened};
 use super::ledger::Ledger;
-use super::open_texts::OpenTexts;
 use super::state_file::StateFile;
 use super::switched_axes::switched_axes;
 use super::watch::{Watch, Watched};
@@ -24,7 +24,7 @@ use crate::timeline::Sink;
 pub struct Surroundings<'a> {
     reach: Reach,
     ledger: Ledger,
-    open: OpenTexts,
+    disk: Disk,
     watch: Arc<Watch>,
     naming: Naming,
     before_waiting: &'a dyn Fn(),
@@ -36,7 +36,7 @@ impl<'a> Surroundings<'a> {
         Self {
             reach: loaded.reach.clone(),
             ledger: loaded.ledger.clone(),
-            open: loaded.open.clone(),
+            disk: loaded.disk.clone(),
             watch: Arc::clone(&loaded.watch),
             naming,
             before_waiting: &|| (),
@@ -71,10 +71,14 @@ pub fn run_program(
     } else {
         sink
     };
-    let finder = ProgramFinder::new(input, &surroundings.reach, surroundings.naming);
-    let mut finder = finder
-        .noting(&surroundings.ledger)
-        .with_open(&surroundings.open);
+    let Surroundings {
+        reach,
+        naming,
+        disk,
+        ledger,
+        ..
+    } = surroundings;
+    let mut finder = ProgramFinder::new(input, reach, *naming, disk).noting(ledger);
     let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
         Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
         Opened::Lines(mut lines) => {

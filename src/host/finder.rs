@@ -3,17 +3,17 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::ffi::OsString;
-use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::grounds::{Elsewhere, Grounds, normal};
+use super::disk::Disk;
+use super::grounds::{Elsewhere, Grounds};
 use super::input::{Input, Naming};
 use super::ledger::{Ledger, PROGRAM};
-use super::open_texts::{OpenText, OpenTexts};
-use super::read::read_bytes;
+use super::open_text::OpenText;
+use super::paths::{Entry, normal};
 use crate::session::{Finder, NoProgram};
-use crate::text::{SourceFile, decode};
+use crate::text::SourceFile;
 
 /// Where the programs that are called may lie besides their caller's folder.
 #[derive(Debug, Clone, Default)]
@@ -28,8 +28,8 @@ pub struct Reach {
 
 impl Reach {
     /// The project, the configured folders and everything below them.
-    pub fn grounds(&self) -> Grounds {
-        let grounds = Grounds::new(self.elsewhere).with(&self.project);
+    pub fn grounds(&self, disk: &Disk) -> Grounds {
+        let grounds = Grounds::on(disk, self.elsewhere).with(&self.project);
         self.program_dirs
             .iter()
             .fold(grounds, |grounds, folder| grounds.with(folder))
@@ -49,29 +49,28 @@ pub struct ProgramFinder {
     listings: HashMap<PathBuf, BTreeMap<String, Vec<OsString>>>,
     /// Where the files are noted that were read.
     ledger: Ledger,
-    /// The texts that stand in for files.
-    open: OpenTexts,
+    disk: Disk,
 }
 
 impl ProgramFinder {
     /// A finder for the programs that `main` calls.
-    pub fn new(main: &Input, reach: &Reach, naming: Naming) -> Self {
+    pub fn new(main: &Input, reach: &Reach, naming: Naming, disk: &Disk) -> Self {
         let mut known = HashMap::new();
         let mut names = HashMap::new();
         if let Input::File(path) | Input::Open(OpenText { path, .. }) = main {
             let name = naming.name(path);
-            names.extend(path.canonicalize().map(|real| (real, name.clone())));
+            names.extend(disk.real(path).map(|real| (real, name.clone())));
             known.insert(name, path.clone());
         }
         Self {
             folders: reach.program_dirs.clone(),
-            grounds: reach.grounds().with(main.folder()),
+            grounds: reach.grounds(disk).with(main.folder()),
             naming,
             known,
             names,
             listings: HashMap::new(),
             ledger: Ledger::default(),
-            open: OpenTexts::default(),
+            disk: disk.clone(),
         }
     }
 
@@ -79,12 +78,6 @@ impl ProgramFinder {
     pub fn noting(self, ledger: &Ledger) -> Self {
         let ledger = ledger.clone();
         Self { ledger, ..self }
-    }
-
-    /// The same, which takes texts in place of the files that they stand in for.
-    pub fn with_open(self, open: &OpenTexts) -> Self {
-        let open = open.clone();
-        Self { open, ..self }
     }
 
     fn locate(&mut self, name: &str, caller: &str) -> Result<PathBuf, NoProgram> {
@@ -142,32 +135,28 @@ impl ProgramFinder {
             return Err(NoProgram::Outside);
         }
         let path = self.existing(folder, name).ok_or(NoProgram::Absent)?;
-        let metadata = match fs::metadata(&path) {
-            // What is open and was never saved lies where its name says.
-            Err(_) if self.open.of(&path).is_some() => return Ok(path),
-            metadata => metadata.map_err(|error| unusable(&error))?,
-        };
+        let entry = self.disk.entry(&path).map_err(|error| unusable(&error))?;
         if !self.grounds.holds(&path) {
             return Err(NoProgram::Outside);
         }
-        if !metadata.is_file() {
-            return Err(NoProgram::Unusable(special(&metadata)));
+        match entry {
+            Entry::File => Ok(path),
+            Entry::Folder => Err(NoProgram::Unusable("is a folder".to_owned())),
+            Entry::Special => Err(NoProgram::Unusable("is not a regular file".to_owned())),
         }
-        Ok(path)
     }
 
     /// The path of that name below a folder; the control's disk does not tell upper from lower
     /// case.
     fn existing(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let exact = folder.join(name);
-        match fs::metadata(&exact) {
-            Err(_) if self.open.of(&exact).is_some() => return Some(exact),
+        match self.disk.entry(&exact) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             // A folder of that name may stand beside a file that is meant.
-            Ok(metadata) if !metadata.is_file() => {
+            Ok(Entry::Folder | Entry::Special) => {
                 return Some(self.spelled(folder, name).unwrap_or(exact));
             }
-            Ok(_) | Err(_) => return Some(exact),
+            Ok(Entry::File) | Err(_) => return Some(exact),
         }
         if Path::new(name).has_root() {
             return None;
@@ -185,35 +174,31 @@ impl ProgramFinder {
                 continue;
             }
             let is_last = parts.peek().is_none();
-            let wanted = |metadata: &Metadata| metadata.is_file() == is_last;
+            let disk = self.disk.clone();
+            let wanted = |path: &PathBuf| {
+                let entry = disk.entry(path);
+                entry.is_ok_and(|entry| (entry == Entry::File) == is_last)
+            };
             let exact = path.join(part);
-            if fs::metadata(&exact).is_ok_and(|metadata| wanted(&metadata)) {
+            if wanted(&exact) {
                 path = exact;
                 continue;
             }
             let alike = self.listing(&path).get(&part.to_lowercase())?;
             let mut alike = alike.iter().map(|name| path.join(name));
-            path = alike.find(|path| fs::metadata(path).is_ok_and(|metadata| wanted(&metadata)))?;
+            path = alike.find(wanted)?;
         }
         Some(path)
     }
 
     fn listing(&mut self, folder: &Path) -> &BTreeMap<String, Vec<OsString>> {
+        let disk = &self.disk;
         self.listings.entry(folder.to_owned()).or_insert_with(|| {
-            let listed = if folder.as_os_str().is_empty() {
-                Path::new(".")
-            } else {
-                folder
-            };
             let mut names: BTreeMap<String, Vec<OsString>> = BTreeMap::new();
-            for entry in fs::read_dir(listed).into_iter().flatten().flatten() {
-                let name = entry.file_name();
+            for name in disk.names(folder) {
                 if let Some(text) = name.to_str() {
                     names.entry(text.to_lowercase()).or_default().push(name);
                 }
-            }
-            for alike in names.values_mut() {
-                alike.sort();
             }
             names
         })
@@ -221,13 +206,14 @@ impl ProgramFinder {
 
     /// The name of a file in records: its own, and no other file's.
     fn name(&mut self, path: &Path) -> String {
-        let real = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let real = self.disk.real(path);
+        let real = real.unwrap_or_else(|_| path.to_owned());
         if let Some(name) = self.names.get(&real) {
             return name.clone();
         }
         // Going by the name alone, `..` after a link leads to a different file.
         let shown = Some(normal(path))
-            .filter(|shown| shown.canonicalize().is_ok_and(|shown| shown == real));
+            .filter(|shown| self.disk.real(shown).is_ok_and(|shown| shown == real));
         let shown = shown.unwrap_or_else(|| path.to_owned());
         let mut name = self.naming.name(&shown);
         let mut parts = shown.iter().rev().skip(1);
@@ -245,12 +231,8 @@ impl Finder for ProgramFinder {
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
         let path = self.locate(name, caller)?;
         self.ledger.reads(PROGRAM, &path);
-        if let Some(text) = self.open.of(&path) {
-            let text = text.to_string();
-            return Ok(SourceFile::new(self.name(&path), text));
-        }
-        let bytes = read_bytes(&path).map_err(|error| unusable(&error))?;
-        Ok(SourceFile::new(self.name(&path), decode(bytes)))
+        let text = self.disk.read(&path).map_err(|error| unusable(&error))?;
+        Ok(SourceFile::new(self.name(&path), text))
     }
 }
 
@@ -261,15 +243,6 @@ fn native(name: &str) -> Cow<'_, str> {
         Cow::Owned(format!("/{name}"))
     } else {
         Cow::Borrowed(name)
-    }
-}
-
-/// What stands where a file is wanted.
-fn special(metadata: &Metadata) -> String {
-    if metadata.is_dir() {
-        "is a folder".to_owned()
-    } else {
-        "is not a regular file".to_owned()
     }
 }
 
@@ -302,7 +275,7 @@ mod tests {
             ..Reach::default()
         };
         for naming in [Naming::AsGiven, Naming::FileName] {
-            let mut finder = ProgramFinder::new(&main, &reach, naming);
+            let mut finder = ProgramFinder::new(&main, &reach, naming, &Disk::default());
             let caller = main.name(naming);
             let mut find = |name: &str| {
                 let found = finder.find(name, &caller).ok();
@@ -345,7 +318,8 @@ mod tests {
         let caller = main.name(Naming::AsGiven);
         let secret = path("secret.nc").display().to_string();
         let why = |elsewhere, name: &str| {
-            let mut finder = ProgramFinder::new(&main, &reach(elsewhere), Naming::AsGiven);
+            let mut finder =
+                ProgramFinder::new(&main, &reach(elsewhere), Naming::AsGiven, &Disk::default());
             finder
                 .find(name, &caller)
                 .map(|file| file.text().to_owned())
@@ -393,7 +367,8 @@ mod tests {
         }
         std::fs::write(path("main.nc"), "").unwrap();
         let main = Input::File(path("main.nc"));
-        let mut finder = ProgramFinder::new(&main, &Reach::default(), Naming::FileName);
+        let reach = Reach::default();
+        let mut finder = ProgramFinder::new(&main, &reach, Naming::FileName, &Disk::default());
         let mut find = |name: &str| finder.find(name, "main.nc").ok().unwrap();
         let (one, two, again) = (
             find("one/sub.nc"),

@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use ignore::WalkBuilder;
 
 use super::discovery::relative;
+use super::disk::Disk;
 use super::error::HostError;
-use super::grounds::normal;
 use super::input::Input;
 use super::list_files::{ListsOnDisk, read_list};
+use super::paths::normal;
 use super::read::read_text;
 use super::unfinished::{UnfinishedFile, take_away_left};
 use super::walk::find_programs;
@@ -59,6 +60,7 @@ pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
 
 /// The start-up list below a folder, recognised by its content.
 fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
+    let disk = Disk::default();
     let mut found: Vec<PathBuf> = Vec::new();
     let walk = WalkBuilder::new(folder)
         .max_depth(Some(DEPTH))
@@ -70,7 +72,7 @@ fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
             .extension()
             .is_some_and(|it| it.eq_ignore_ascii_case("lis"));
         if is_list
-            && let Ok(list) = read_list(path)
+            && let Ok(list) = read_list(path, &disk)
             && check_list(list, None, &mut NoLists).kind == Some(ListKind::Startup)
         {
             found.push(path.strip_prefix(".").unwrap_or(path).to_owned());
@@ -84,7 +86,9 @@ fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
 
 /// Says what is there instead of a start-up list.
 fn check_startup(path: &Path) -> Result<(), HostError> {
-    let configuration = Configuration::from_startup(read_list(path)?, &mut ListsOnDisk);
+    let disk = Disk::default();
+    let list = read_list(path, &disk)?;
+    let configuration = Configuration::from_startup(list, &mut ListsOnDisk::new(&disk));
     let wrong = configuration
         .diagnostics
         .iter()

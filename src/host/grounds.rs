@@ -1,7 +1,8 @@
 //! The folders that programs and lists are expected in, and what is kept back about files elsewhere.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
+use super::disk::Disk;
 use crate::diagnostic::{Advice, Diagnostic};
 use crate::text::Place;
 
@@ -23,23 +24,30 @@ pub struct Grounds {
     /// With all links resolved.
     real: Vec<PathBuf>,
     elsewhere: Elsewhere,
+    /// Where they lie.
+    disk: Disk,
 }
 
 impl Grounds {
     /// No folder yet.
     pub fn new(elsewhere: Elsewhere) -> Self {
+        Self::on(&Disk::default(), elsewhere)
+    }
+
+    /// The same on another disk than that of the system.
+    pub fn on(disk: &Disk, elsewhere: Elsewhere) -> Self {
         Self {
             elsewhere,
+            disk: disk.clone(),
             ..Self::default()
         }
     }
 
     /// The same with one more folder; an empty path is the current one.
     pub fn with(mut self, folder: &Path) -> Self {
-        let folder = or_here(folder);
-        self.named
-            .extend(absolute(folder).map(|path| folded(&path)));
-        self.real.extend(folder.canonicalize());
+        let named = self.disk.absolute(folder);
+        self.named.extend(named.map(|path| folded(&path)));
+        self.real.extend(self.disk.real(folder));
         self
     }
 
@@ -49,7 +57,7 @@ impl Grounds {
         if self.elsewhere == Elsewhere::Allowed {
             return true;
         }
-        absolute(path).is_some_and(|path| {
+        self.disk.absolute(path).is_some_and(|path| {
             let path = folded(&path);
             let real = self.real.iter().map(|root| folded(root));
             self.named.iter().any(|root| path.starts_with(root))
@@ -60,8 +68,9 @@ impl Grounds {
     /// Whether a file lies here once all links are resolved.
     pub fn holds(&self, path: &Path) -> bool {
         self.elsewhere == Elsewhere::Allowed
-            || path
-                .canonicalize()
+            || self
+                .disk
+                .real(path)
                 .is_ok_and(|path| self.real.iter().any(|root| path.starts_with(root)))
     }
 
@@ -105,42 +114,6 @@ fn blank(place: &mut Place) {
     place.text = blank.into();
 }
 
-/// The current folder has no name of its own.
-fn or_here(folder: &Path) -> &Path {
-    if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    }
-}
-
-/// The path from the root on, without `.` and with `..` resolved by name.
-pub(crate) fn absolute(path: &Path) -> Option<PathBuf> {
-    std::path::absolute(or_here(path))
-        .ok()
-        .map(|path| normal(&path))
-}
-
-/// The path without `.` and with `..` resolved by name; what goes up from a relative path's start
-/// stays.
-pub(super) fn normal(path: &Path) -> PathBuf {
-    let mut normal = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir => match normal.components().next_back() {
-                Some(Component::Normal(_)) => {
-                    normal.pop();
-                }
-                Some(Component::RootDir | Component::Prefix(_)) => {}
-                Some(Component::CurDir | Component::ParentDir) | None => normal.push(part),
-            },
-            part => normal.push(part),
-        }
-    }
-    normal
-}
-
 /// What paths are compared by: Windows does not tell upper from lower case.
 fn folded(path: &Path) -> PathBuf {
     match path.to_str() {
@@ -157,20 +130,6 @@ mod tests {
     use super::*;
     use crate::diagnostic::Code;
     use crate::text::{SourceFile, Span};
-
-    #[test]
-    fn paths_are_made_normal_by_name() {
-        for (path, wanted) in [
-            ("a/./b", "a/b"),
-            ("a/../b", "b"),
-            ("../a", "../a"),
-            ("../../a/../b", "../../b"),
-            ("/../a", "/a"),
-            ("a/b/../../../c", "../c"),
-        ] {
-            assert_eq!(normal(Path::new(path)), Path::new(wanted), "{path}");
-        }
-    }
 
     #[test]
     fn a_file_lies_in_its_folder_and_below() {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::error::HostError;
 use super::ledger::{Ledger, PROGRAM};
 use super::lines::LineReader;
-use super::open_texts::OpenText;
+use super::open_text::OpenText;
 use super::read::{read_text, read_whole};
 use super::steady::Steady;
 use crate::syntax::FlowScan;
@@ -161,19 +161,26 @@ pub fn reopen(name: &str) -> Option<Box<dyn LineSource>> {
 
 /// Standard input, where it is a file and no pipe.
 fn standard_input() -> Option<(File, Metadata)> {
-    let file = File::from(owned_input().ok()?);
+    let file = input_file().ok()?;
     let metadata = file.metadata().ok()?;
     metadata.is_file().then_some((file, metadata))
 }
 
 #[cfg(unix)]
-fn owned_input() -> io::Result<std::os::fd::OwnedFd> {
-    std::os::fd::AsFd::as_fd(&io::stdin()).try_clone_to_owned()
+fn input_file() -> io::Result<File> {
+    let input = std::os::fd::AsFd::as_fd(&io::stdin()).try_clone_to_owned();
+    input.map(File::from)
 }
 
 #[cfg(windows)]
-fn owned_input() -> io::Result<std::os::windows::io::OwnedHandle> {
-    std::os::windows::io::AsHandle::as_handle(&io::stdin()).try_clone_to_owned()
+fn input_file() -> io::Result<File> {
+    let input = std::os::windows::io::AsHandle::as_handle(&io::stdin()).try_clone_to_owned();
+    input.map(File::from)
+}
+
+#[cfg(not(any(unix, windows)))]
+fn input_file() -> io::Result<File> {
+    Err(io::ErrorKind::Unsupported.into())
 }
 
 fn open_file<'a>(

@@ -45,6 +45,7 @@ impl Unfinished {
         self.0.retain(|other| other != path);
     }
 
+    #[cfg(any(unix, windows))]
     fn take_away(&mut self) {
         for path in self.0.drain(..) {
             // What cannot be removed now, the next run takes away.

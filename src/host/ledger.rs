@@ -116,8 +116,12 @@ enum Identity {
 type FileKey = (u64, u64);
 
 /// The open file, which is how the system tells.
-#[cfg(not(unix))]
+#[cfg(windows)]
 type FileKey = same_file::Handle;
+
+/// Where there are no links.
+#[cfg(not(any(unix, windows)))]
+type FileKey = PathBuf;
 
 impl Identity {
     fn of_file(path: &Path) -> Option<Self> {
@@ -150,9 +154,14 @@ fn key(path: &Path) -> Option<FileKey> {
     Some((metadata.dev(), metadata.ino()))
 }
 
-#[cfg(not(unix))]
+#[cfg(windows)]
 fn key(path: &Path) -> Option<FileKey> {
     same_file::Handle::from_path(path).ok()
+}
+
+#[cfg(not(any(unix, windows)))]
+fn key(path: &Path) -> Option<FileKey> {
+    path.canonicalize().ok()
 }
 
 /// The folder of a file, `.` for a bare name.

@@ -15,6 +15,7 @@ mod audits;
 mod axes_ahead;
 mod contours;
 mod discovery;
+mod disk;
 mod dry_run;
 mod error;
 mod figures;
@@ -27,10 +28,12 @@ mod ledger;
 mod lines;
 mod list_files;
 mod memory;
+mod memory_disk;
 mod mend;
-mod open_texts;
+mod open_text;
 mod outputs;
 mod parameter_files;
+mod paths;
 mod read;
 mod simulations;
 mod state_file;
@@ -50,6 +53,7 @@ pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
 pub use discovery::{
     CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
 };
+pub use disk::Disk;
 pub use dry_run::{
     Alone, Axes, Played, Programs, Surroundings, open_session, run_alone, run_program, run_programs,
 };
@@ -63,7 +67,7 @@ pub use ledger::Ledger;
 pub use list_files::{ListsOnDisk, read_list};
 pub use memory::memory_for_simulation;
 pub use mend::{MendedFile, mend, write_mended};
-pub use open_texts::{OpenText, OpenTexts};
+pub use open_text::OpenText;
 pub use outputs::{OutputFile, OutputFiles};
 pub use parameter_files::{check_list_file, find_plant, read_value_list};
 pub use read::read_text;
@@ -78,8 +82,6 @@ pub use watch::{Done, Progress, Watch, Watcher};
 
 #[cfg(feature = "cli")]
 pub(crate) use axes_ahead::AxesAhead;
-#[cfg(feature = "lsp")]
-pub(crate) use grounds::absolute;
 #[cfg(feature = "cli")]
 pub(crate) use parameter_files::is_configuration;
 #[cfg(feature = "cli")]

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use super::disk::Disk;
 use super::error::HostError;
 use super::ledger::Ledger;
-use super::list_files::OpenLists;
-use super::open_texts::OpenTexts;
+use super::list_files::{ListsOnDisk, read_list};
 use super::read::read_text;
 use crate::comp::CncBuild;
 use crate::lists::{FrictionList, ReadList};
@@ -63,10 +63,10 @@ pub(crate) fn is_configuration(path: &Path) -> bool {
 pub fn check_list_file(
     path: &Path,
     build: Option<CncBuild>,
-    open: &OpenTexts,
+    disk: &Disk,
 ) -> Result<ListsReport, HostError> {
-    let mut lists = OpenLists(open);
-    let source = lists.named(path)?;
+    let mut lists = ListsOnDisk::new(disk);
+    let source = read_list(path, disk)?;
     Ok(if is_configuration(path) {
         check_configuration(source, &mut lists)
     } else {

@@ -11,8 +11,8 @@ use super::wording::editor;
 use crate::comp::State;
 use crate::diagnostic::Diagnostic;
 use crate::host::{
-    Alone, Axes, Grounds, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines,
-    Naming, OpenText, OpenTexts, absolute, check_list_file, run_alone,
+    Alone, Axes, Disk, Grounds, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines,
+    Naming, OpenText, check_list_file, run_alone,
 };
 use crate::session::{Findings, Limits, Options, SessionOptions, StopPolicy};
 use crate::timeline::{EndedBy, Record, Sink};
@@ -81,24 +81,26 @@ impl Job {
     /// Checks the text; `None` where it has changed meanwhile.
     pub(super) fn run(&self) -> Option<Analysis> {
         let ledger = Ledger::default();
-        let open = OpenTexts::new(self.open.iter().cloned());
+        let disk = Disk::with_open(self.open.iter().cloned());
         let mut analysis = match self.document.kind {
-            Kind::Program => self.check_program(&open, &ledger),
-            Kind::List | Kind::Configuration => self.check_list(&open, &ledger),
+            Kind::Program => self.check_program(&disk, &ledger),
+            Kind::List | Kind::Configuration => self.check_list(&disk, &ledger),
         };
         if self.cancel.is_set() {
             return None;
         }
         analysis.version = self.document.version;
         let files = ledger.files().into_iter();
-        analysis.reads = files.map(|path| absolute(&path).unwrap_or(path)).collect();
+        analysis.reads = files
+            .map(|path| disk.absolute(&path).unwrap_or(path))
+            .collect();
         Some(analysis)
     }
 
-    fn check_program(&self, open: &OpenTexts, ledger: &Ledger) -> Analysis {
+    fn check_program(&self, disk: &Disk, ledger: &Ledger) -> Analysis {
         let input = Input::Open(self.document.open_text());
         input.note(ledger);
-        let mut machines = Machines::new(MachineOptions::default(), ledger).with_open(open);
+        let mut machines = Machines::new(MachineOptions::default(), ledger).on_disk(disk);
         let loaded = match machines.for_folder(input.folder()) {
             Ok(loaded) => loaded,
             Err(error) => return failed(&error),
@@ -129,14 +131,14 @@ impl Job {
         }
     }
 
-    fn check_list(&self, open: &OpenTexts, ledger: &Ledger) -> Analysis {
+    fn check_list(&self, disk: &Disk, ledger: &Ledger) -> Analysis {
         let path = &self.document.path;
         ledger.reads("list", path);
         let build = match self.document.kind {
-            Kind::List => self.build(open),
+            Kind::List => self.build(disk),
             Kind::Program | Kind::Configuration => None,
         };
-        let mut report = match check_list_file(path, build, open) {
+        let mut report = match check_list_file(path, build, disk) {
             Ok(report) => report,
             Err(error) => return failed(&error),
         };
@@ -158,10 +160,10 @@ impl Job {
     }
 
     /// The build of the machine that a list belongs to, where a configuration says so.
-    fn build(&self, open: &OpenTexts) -> Option<crate::comp::CncBuild> {
+    fn build(&self, disk: &Disk) -> Option<crate::comp::CncBuild> {
         let folder = self.document.path.parent()?;
         let unheard = Ledger::default();
-        let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(open);
+        let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(disk);
         machines.for_folder(folder).ok()?.machine.build
     }
 }

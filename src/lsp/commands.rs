@@ -13,13 +13,13 @@ use super::view::View;
 use super::wording::editor;
 use crate::comp::{Kind, KindSet};
 use crate::host::{
-    Alone, ArchiveAuditor, AuditOptions, Axes, Input, Ledger, MachineOptions, Machines, Naming,
-    OpenText, OpenTexts, find_programs, run_alone,
+    Alone, ArchiveAuditor, AuditOptions, Axes, Disk, Input, Ledger, MachineOptions, Machines,
+    Naming, OpenText, find_programs, run_alone,
 };
 use crate::report::audit::{AuditReport, MachineAudit};
 use crate::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_audit, render_run};
 use crate::session::{Options, SessionOptions};
-use crate::text::{LineSource, TextLines};
+use crate::text::LineSource;
 use crate::timeline::{Record, Sink};
 
 /// The timeline of a program as an HTML report.
@@ -57,14 +57,11 @@ pub(super) fn execute(view: &View, params: ExecuteCommandParams) -> Result<Shown
 }
 
 /// The texts that are open, and the files besides.
-struct Texts(OpenTexts);
+struct Texts(Disk);
 
 impl Sources for Texts {
     fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>> {
-        match self.0.of(std::path::Path::new(name)) {
-            Some(text) => Some(Box::new(TextLines::new(text))),
-            None => crate::host::reopen(name),
-        }
+        self.0.lines(name)
     }
 }
 
@@ -87,10 +84,10 @@ fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
     let document = view
         .document(&subject.uri)
         .ok_or_else(|| Refusal::Params(format!("`{}` is not open", subject.uri.0)))?;
-    let open = OpenTexts::new(view.documents.iter().map(|it| it.open_text()));
+    let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
     let input = Input::Open(document.open_text());
     let unheard = Ledger::default();
-    let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(&open);
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let loaded = machines.for_folder(input.folder())?;
     let alone = Alone {
         options: SessionOptions::default()
@@ -115,7 +112,7 @@ fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         programs: &loaded.programs,
     };
     let mut page = Vec::new();
-    render_run(&sink.digest, &given, &mut Texts(open), &mut page)
+    render_run(&sink.digest, &given, &mut Texts(disk), &mut page)
         .map_err(|error| Refusal::Failed(error.to_string()))?;
     Ok(Shown {
         html: String::from_utf8_lossy(&page).into_owned(),
@@ -130,12 +127,12 @@ fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         Some(folder) if !path.is_dir() => folder.to_owned(),
         _ => path,
     };
-    let open = OpenTexts::new(view.documents.iter().map(|it| it.open_text()));
+    let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
     let unheard = Ledger::default();
-    let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(&open);
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let found = find_programs(&[folder], |folder| machines.extensions(folder));
     let inputs = found.inputs.into_iter().map(|input| match &input {
-        Input::File(path) => match open.of(path) {
+        Input::File(path) => match disk.text(path) {
             Some(text) => Input::Open(OpenText {
                 path: path.clone(),
                 text: Arc::clone(text),
@@ -165,7 +162,7 @@ fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         machines: audits.collect(),
     };
     let mut page = Vec::new();
-    render_audit(&report, &mut Texts(open), &mut page)
+    render_audit(&report, &mut Texts(disk), &mut page)
         .map_err(|error| Refusal::Failed(error.to_string()))?;
     Ok(Shown {
         html: String::from_utf8_lossy(&page).into_owned(),

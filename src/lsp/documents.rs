@@ -8,7 +8,7 @@ use gen_lsp_types::{Position, Range, TextDocumentContentChangeEvent, TextDocumen
 
 use super::encoding::Encoding;
 use super::uri::{path_of, uri_of};
-use crate::host::{CONFIG_NAME, OpenText, absolute};
+use crate::host::{CONFIG_NAME, Disk, OpenText};
 use crate::text::{LineIndex, Span};
 
 /// What a text is.
@@ -188,7 +188,9 @@ impl Documents {
 
     /// The file of a name in messages, which may be seen from the current folder.
     pub(super) fn path(name: &str) -> PathBuf {
-        absolute(Path::new(name)).unwrap_or_else(|| PathBuf::from(name))
+        Disk::default()
+            .absolute(Path::new(name))
+            .unwrap_or_else(|| PathBuf::from(name))
     }
 }
 

@@ -8,9 +8,7 @@ use super::documents::{Document, Kind};
 use super::encoding::whole_line;
 use super::hints::left;
 use super::view::View;
-use crate::host::{
-    ArchiveAuditor, AuditOptions, Input, Ledger, MachineOptions, Machines, OpenTexts,
-};
+use crate::host::{ArchiveAuditor, AuditOptions, Disk, Input, Ledger, MachineOptions, Machines};
 use crate::session::{Limits, Options};
 
 /// The lenses over a text.
@@ -49,9 +47,9 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
 /// The axes that a program moves in the state that it finds (R10.1); `None` where that cannot be
 /// found out.
 fn inherited(view: &View, document: &Document) -> Option<String> {
-    let open = OpenTexts::new(view.documents.iter().map(|it| it.open_text()));
+    let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
     let unheard = Ledger::default();
-    let mut machines = Machines::new(MachineOptions::default(), &unheard).with_open(&open);
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let limits = Limits::default().with_blocks(view.client.settings.max_blocks);
     let options = AuditOptions::new(Options::default().with_limits(limits));
     let inputs = vec![Input::Open(document.open_text())];

@@ -1,0 +1,14 @@
+//! A text that stands in for a file (R12.2).
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A text that is at hand, and the file that it stands in for, which may hold another one or not be
+/// there at all.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct OpenText {
+    /// The file.
+    pub path: PathBuf,
+    /// The text.
+    pub text: Arc<String>,
+}

@@ -1,0 +1,86 @@
+//! What a release consists of, as far as texts can show it; `dist/build` makes it.
+
+#![cfg(feature = "toml")]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+fn read(path: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The texts of a list in a TOML file.
+fn list(text: &str, key: &str) -> BTreeSet<String> {
+    let document: toml::Table = text.parse().expect("TOML");
+    let found = document
+        .get(key)
+        .or_else(|| document.get("licenses").and_then(|table| table.get(key)));
+    let items = found.and_then(toml::Value::as_array).expect("a list");
+    let words = items.iter().map(|item| item.as_str().expect("a text"));
+    words.map(str::to_owned).collect()
+}
+
+/// The lines of the README between two headings.
+fn section(heading: &str) -> String {
+    let readme = read("README.md");
+    let (_, from) = readme.split_once(heading).expect("the heading is there");
+    let end = from.find("\n## ").unwrap_or(from.len());
+    from[..end].to_owned()
+}
+
+#[test]
+fn what_is_given_away_has_the_licences_that_are_allowed() {
+    // R13.2
+    assert_eq!(
+        list(&read("dist/about.toml"), "accepted"),
+        list(&read("deny.toml"), "allow")
+    );
+}
+
+#[test]
+fn the_readme_begins_with_what_a_release_has() {
+    // R13.2
+    let install = section("## Get started");
+    let version = env!("CARGO_PKG_VERSION");
+    let archives = [
+        "frictcomp.html".to_owned(),
+        format!("frictcomp-{version}-x86_64-pc-windows-gnu.zip"),
+        format!("frictcomp-{version}-win32-x64.vsix"),
+        format!("frictcomp-{version}-cp310-abi3-"),
+        format!("frictcomp-{version}-x86_64-unknown-linux-musl.tar.gz"),
+        format!("frictcomp-c-{version}-x86_64-unknown-linux-gnu.tar.gz"),
+        "SHA256SUMS".to_owned(),
+    ];
+    let source = install
+        .find("cargo run --release")
+        .expect("from the source");
+    for archive in &archives {
+        let at = install.find(archive.as_str());
+        assert!(at.is_some_and(|at| at < source), "{archive}: {at:?}");
+    }
+}
+
+#[test]
+fn a_release_is_made_by_the_script_alone() {
+    // R13.2
+    let workflow = read(".github/workflows/release.yml");
+    assert!(workflow.contains("- run: dist/build\n"));
+    let script = read("dist/build");
+    for target in [
+        "x86_64-unknown-linux-musl",
+        "aarch64-unknown-linux-musl",
+        "x86_64-pc-windows-gnu",
+    ] {
+        assert!(script.contains(target), "{target}");
+    }
+    for content in [
+        "completions",
+        "man --output",
+        "THIRD-PARTY-LICENSES.txt",
+        "SHA256SUMS",
+    ] {
+        assert!(script.contains(content), "{content}");
+    }
+}

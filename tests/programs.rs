@@ -229,7 +229,13 @@ fn wrong_programs_raise_their_code() {
             assert_eq!(name, "before.nc", "the name begins with a code");
             continue;
         };
-        let found = program_codes(&path);
+        let mut found = program_codes(&path);
+        // What is never executed is read by `check` alone.
+        let path = shown(&path);
+        let mut check = vec!["check", "--format", "ndjson"];
+        check.extend(seen_machine(&path));
+        check.push(&path);
+        found.extend(codes(&check));
         assert!(found.contains_key(code.as_str()), "{name}: {found:?}");
     }
 }

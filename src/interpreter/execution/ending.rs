@@ -108,6 +108,9 @@ impl Interpreter {
         let Some(unit) = self.programs.units().first() else {
             return;
         };
+        for other in unit.index.other_mains() {
+            notes.push(other);
+        }
         let file = unit.index.source.name().clone();
         let mut unread_up_to = 0;
         for place in 0..unit.index.entries.len() {

@@ -41,8 +41,9 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         let index = Index::new(source, self.options.limits.nesting);
-        let main = index.main();
-        let name = main.and_then(|main| index.sections[main].name.clone());
+        let name = index
+            .main
+            .and_then(|main| index.sections[main].name.clone());
         self.programs.clear();
         self.sought = None;
         self.programs.hold(index);
@@ -50,20 +51,19 @@ impl Interpreter {
             self.state.parked = Some(Step::Begin);
             return RunOutcome::Paused;
         }
-        self.begin(main, finder, observer)
+        self.begin(finder, observer)
     }
 
-    /// Runs the program that was announced, from the start of a section on.
+    /// Runs the program that was announced, from the start of its section on.
     pub(in crate::interpreter) fn begin(
         &mut self,
-        main: Option<usize>,
         finder: &mut dyn Finder,
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         if self.is_refused() {
             return self.refuse(observer);
         }
-        match main {
+        match self.programs.index(0).main {
             Some(section) => self.enter(0, section),
             None => self.lost.extend(self.programs.index(0).no_main_program()),
         }
@@ -83,8 +83,7 @@ impl Interpreter {
         }
         let outcome = match self.state.parked.take() {
             Some(Step::Begin) => {
-                let main = self.programs.index(0).main();
-                return self.begin(main, finder, observer);
+                return self.begin(finder, observer);
             }
             Some(step) => match self.follow(step) {
                 ControlFlow::Break(by) => RunOutcome::Ended(by),

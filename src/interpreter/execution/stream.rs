@@ -11,7 +11,7 @@ use std::sync::Arc;
 use crate::diagnostic::Collected;
 use crate::interpreter::programs::builder::REAL_TIME_LOOP;
 use crate::interpreter::programs::finder::Finder;
-use crate::interpreter::programs::index::{Index, LabelName, ProgramId};
+use crate::interpreter::programs::index::{Index, LabelName, ProgramId, never_run};
 use crate::interpreter::run::at::{At, Shown};
 use crate::interpreter::run::event::{EndedBy, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
@@ -87,7 +87,7 @@ impl Interpreter {
                 let progress = Progress { stage, notes };
                 return self.go_on_with(rest, progress, finder, observer);
             }
-            if let Stretch::Program { name, .. } = raw.stretch {
+            if let Stretch::Program { name, local } = raw.stretch {
                 let faults = block.faults.drain(..);
                 self.lost
                     .extend(faults.map(|fault| raw.opening_said(&file, fault)));
@@ -107,6 +107,9 @@ impl Interpreter {
                 // Another program of the file: never executed, as where the text is whole.
                 if self.options.stop != StopPolicy::CheckAll {
                     break;
+                }
+                if !local {
+                    notes.push(never_run(raw.place(&file, name)));
                 }
                 if !matches!(stage, Stage::Beyond(_)) {
                     stage = Stage::Beyond(None);
@@ -240,10 +243,11 @@ impl Interpreter {
             return self.whole(rest, finder, observer);
         }
         // The blocks so far stood in front of the first one of the index, and so does the frame.
-        self.programs
-            .hold_first(Index::new(rest, self.options.limits.nesting));
+        let mut index = Index::new(rest, self.options.limits.nesting);
+        index.main = Some(0);
+        self.programs.hold_first(index);
         match stage {
-            Stage::Before | Stage::Announced => self.begin(Some(0), finder, observer),
+            Stage::Before | Stage::Announced => self.begin(finder, observer),
             Stage::Running if self.is_refused() => self.refuse(observer),
             Stage::Running => {
                 if let Some(sought) = self.sought.take() {

@@ -1,13 +1,14 @@
 //! How the index of a program is made: control blocks are paired, labels and jumps noted.
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use super::index::{Entry, EntryIndex, Index, LabelName, Links, Section};
 use crate::diagnostic::{Advice, Budget, Code, Collected, Diagnostic};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
 use crate::syntax::{BlockReader, FastPath, Fault, LostRemarks, Stretch, is_statement};
-use crate::text::{SourceFile, Span, TextLines};
+use crate::text::{Place, SourceFile, Span, TextLines};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
@@ -87,7 +88,7 @@ impl Index {
                 lost: LostRemarks::default(),
                 interpreted: BTreeMap::new(),
                 openings: Collected::default(),
-                first_local: None,
+                main: None,
                 refused: Collected::default(),
             },
             nesting: nesting as usize,
@@ -133,18 +134,16 @@ impl Builder {
         let first = self.index.source.lines().first();
         let mut reader = BlockReader::new(TextLines::new(&text), first, FastPath::On);
         let mut block = Block::default();
-        self.section(None, false);
+        self.section(None, None, false);
         while let Some(raw) = reader.next(&mut block) {
             match raw.stretch {
                 Stretch::Program { name, local } => {
                     self.close_section();
-                    self.section(Some(name.of(raw.text).to_owned()), local);
-                    let file = self.index.source.name();
+                    let file = Arc::clone(self.index.source.name());
+                    let opening = raw.place(&file, name);
+                    self.section(Some(name.of(raw.text).to_owned()), Some(opening), local);
                     for fault in block.faults.drain(..) {
-                        self.index.openings.push(raw.opening_said(file, fault));
-                    }
-                    if local && self.index.first_local.is_none() {
-                        self.index.first_local = Some(raw.place(file, name));
+                        self.index.openings.push(raw.opening_said(&file, fault));
                     }
                 }
                 Stretch::Block => {
@@ -162,6 +161,7 @@ impl Builder {
         }
         self.index.lost = reader.lost_remarks().clone();
         self.close_section();
+        self.index.main = main_of(&self.index.sections);
         self.check_jumps();
         for (statement, opener) in std::mem::take(&mut self.inner) {
             let end = self.index.links(opener).end;
@@ -183,7 +183,7 @@ impl Builder {
         Span::new(self.index.entries.len(), self.index.entries.len()).start
     }
 
-    fn section(&mut self, name: Option<String>, local: bool) {
+    fn section(&mut self, name: Option<String>, opening: Option<Place>, local: bool) {
         let start = self.at();
         if let Some(name) = name.as_ref().filter(|_| local) {
             let number = self.index.sections.len();
@@ -193,6 +193,7 @@ impl Builder {
         self.index.sections.push(Section {
             name,
             local,
+            opening,
             start,
             end: start,
         });
@@ -446,4 +447,14 @@ fn stray(kind: Kind, at: Statement<'_>) -> Fault {
         at.span,
         format!("`{word}` without an open `{opener}`"),
     )
+}
+
+/// The section that a run of a file begins with: blocks in front of any `%` line, else the first
+/// program that is no local subprogram.
+fn main_of(sections: &[Section]) -> Option<usize> {
+    let is_main = |section: &Section| match section.name {
+        None => section.end > section.start,
+        Some(_) => !section.local,
+    };
+    sections.iter().position(is_main)
 }

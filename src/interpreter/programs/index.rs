@@ -43,6 +43,8 @@ pub(in crate::interpreter) struct Entry {
 pub(in crate::interpreter) struct Section {
     pub(in crate::interpreter) name: Option<String>,
     pub(in crate::interpreter) local: bool,
+    /// Its name in the `%` line, where it has one.
+    pub(in crate::interpreter) opening: Option<Place>,
     pub(in crate::interpreter) start: EntryIndex,
     pub(in crate::interpreter) end: EntryIndex,
 }
@@ -100,8 +102,8 @@ pub(in crate::interpreter) struct Index {
     pub(in crate::interpreter) interpreted: BTreeMap<EntryIndex, EntryIndex>,
     /// What there is to say about the `%` lines.
     pub(in crate::interpreter) openings: Collected,
-    /// The name of the first local subprogram.
-    pub(in crate::interpreter) first_local: Option<Place>,
+    /// The section that a run of the file executes.
+    pub(in crate::interpreter) main: Option<usize>,
     /// What keeps the program from running at all.
     pub(in crate::interpreter) refused: Collected,
 }
@@ -121,28 +123,21 @@ impl Index {
         })
     }
 
-    /// The section that a run of the file begins with: blocks in front of any `%` line, else the
-    /// first program that is no local subprogram.
-    pub(in crate::interpreter) fn main(&self) -> Option<usize> {
-        let has_blocks = |section: &&Section| section.end > section.start;
-        self.sections
-            .iter()
-            .take(1)
-            .find(|section| section.name.is_none() && has_blocks(section))
-            .map(|_| 0)
-            .or_else(|| {
-                self.sections
-                    .iter()
-                    .position(|section| !section.local && section.name.is_some())
-            })
-    }
-
-    /// FC323 where the file has local subprograms and [`Index::main`] finds nothing to run.
+    /// FC323 where the file has nothing but local subprograms.
     pub(in crate::interpreter) fn no_main_program(&self) -> Option<Diagnostic> {
-        let place = self.first_local.clone()?;
+        let first_local = self.sections.iter().find(|section| section.local)?;
+        let place = first_local.opening.clone()?;
         let message = "the file has no main program, only local subprograms; nothing of it was run";
         let said = Diagnostic::new(Code::Fc323, place, message);
         Some(said.with_help("begin the main program with `%NAME`"))
+    }
+
+    /// FC324 for every main program but the one that runs.
+    pub(in crate::interpreter) fn other_mains(&self) -> impl Iterator<Item = Diagnostic> {
+        let others = self.sections.iter().enumerate();
+        let others =
+            others.filter(|(number, section)| !section.local && self.main != Some(*number));
+        others.filter_map(|(_, section)| Some(never_run(section.opening.clone()?)))
     }
 
     /// A local subprogram by its name.
@@ -260,4 +255,13 @@ impl Index {
         let lines = TextLines::starting_at(self.source.text(), entry.offset as usize);
         Some(BlockReader::new(lines, entry.line, FastPath::On))
     }
+}
+
+/// FC324: a main program, by its name in its `%` line, after the one that its file runs.
+pub(in crate::interpreter) fn never_run(name: Place) -> Diagnostic {
+    let named = name.span.of(&name.text).to_owned();
+    let message = format!("the main program `{named}` is never run: another one stands before it");
+    Diagnostic::new(Code::Fc324, name, message).with_help(format!(
+        "give it a file of its own, or make it a subprogram with `%L {named}`"
+    ))
 }

@@ -217,7 +217,7 @@ impl Programs {
             unit
         };
         let index = &self.units[unit].index;
-        match index.main() {
+        match index.main {
             Some(section) => Ok(Some(ProgramId { unit, section })),
             None if index.local_names().next().is_some() => Err(Box::new(
                 Fault::new(

@@ -112,6 +112,16 @@ impl Inherits {
             Self::No | Self::Unknown => None,
         }
     }
+
+    /// The word of tables: `yes`, `perhaps`, `no` or `unknown`.
+    pub fn as_str(&self) -> &'static str {
+        match self {
+            Self::No => "no",
+            Self::Motion(motion) if motion.perhaps => "perhaps",
+            Self::Motion(_) => "yes",
+            Self::Unknown => "unknown",
+        }
+    }
 }
 
 impl Serialize for Inherits {

@@ -122,6 +122,9 @@ pub enum CircleError {
         /// Cycles of the speed loop in which a force was limited, of both axes together.
         saturated_cycles: u64,
     },
+    /// Who watches has stopped the simulation.
+    #[error("the simulation was stopped")]
+    Stopped,
 }
 
 impl CircleError {
@@ -140,6 +143,7 @@ impl CircleError {
             Self::Unstable { .. } => {
                 "lower `Kv` or `Kp` of the plant, or check the units of its values: they are SI"
             }
+            Self::Stopped => "start it again",
         }
     }
 }

@@ -108,22 +108,26 @@ enum Command {
 
 /// Runs the tool with its arguments, the name of the program first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    ExitCode::from(status(arguments))
+}
+
+/// Runs the tool and gives its exit status, for a process that goes on after it.
+pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let hidden = hidden(&arguments);
     let parsed = description().try_get_matches_from(arguments);
     let parsed = parsed.and_then(|matches| Arguments::from_arg_matches(&matches));
     let arguments = match parsed {
         Ok(arguments) => arguments,
-        Err(error) => return ExitCode::from(say_usage(&error, &hidden)),
+        Err(error) => return say_usage(&error, &hidden),
     };
     survive_file_size_limit();
     clean_up_when_stopped(exit::FAILED);
     let console = Console::new(arguments.color, arguments.width);
-    let status = dispatch(&arguments.command, console).unwrap_or_else(|failure| {
+    dispatch(&arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
         exit::FAILED
-    });
-    ExitCode::from(status)
+    })
 }
 
 /// The arguments that hold what cannot be seen, each with what is shown in its place (R9.76).

@@ -19,10 +19,9 @@ use super::start::StartArgs;
 use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::host::{
-    AxesAhead, Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile, Surroundings,
+    Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile, Surroundings, expect_axes,
     open_session, run_programs, switched_axes,
 };
-use crate::machine::AxisSet;
 use crate::report::html::GivenForRun;
 use crate::report::{
     Blocks, Listeners, Positions, Report, Runs, SharedReport, TextOptions, TimelineFormat,
@@ -207,9 +206,7 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
         }
     }
     let (mut session, changed) = open_session(&loaded, options, state.as_ref())?;
-    if loaded.machine.axis_set == AxisSet::AsTheyOccur {
-        session.expect_axes(AxesAhead::of(&inputs, []).names());
-    }
+    expect_axes(&mut session, &loaded, &inputs);
     let said: Vec<Diagnostic> = loaded.errors().chain(&changed).cloned().collect();
     let mut start = Start {
         programs: Programs {

@@ -141,6 +141,14 @@ impl ArchiveAuditor {
         self.options.workers.min(most)
     }
 
+    /// `Break` where who watches wants the work to stop.
+    fn flow(&self) -> ControlFlow<()> {
+        if self.machines.iter().any(|it| it.watch.is_stopped()) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
     /// Runs every program twice. Gives the archive of each machine, and what cannot be read.
     pub fn audit(&self) -> (Vec<Archive>, Vec<HostError>) {
         let auditors = self.auditors();
@@ -155,7 +163,7 @@ impl ArchiveAuditor {
                 Ok((machine, program)) => archives[machine].push(program),
                 Err(error) => errors.push(error),
             }
-            ControlFlow::Continue(())
+            self.flow()
         });
         (archives, errors)
     }
@@ -191,7 +199,7 @@ impl ArchiveAuditor {
                 Ok(change) => changes.push(change),
                 Err(error) => errors.push(error),
             }
-            ControlFlow::Continue(())
+            self.flow()
         });
         (changes, errors)
     }
@@ -208,6 +216,9 @@ impl ArchiveAuditor {
             match auditors[*machine].step(&mut sequences[*machine], input) {
                 Ok(step) => steps.push(step),
                 Err(error) => errors.push(error),
+            }
+            if self.flow().is_break() {
+                break;
             }
         }
         (steps, errors)
@@ -277,7 +288,7 @@ impl<'a> ProgramAuditor<'a> {
         let mut heard = Heard::default();
         let mut listener = |event: Event<'_>| {
             if self.loaded.watch.is_on() {
-                heard.event(&event, self.loaded);
+                heard.event(&event, self.loaded)?;
             }
             observer.event(event)
         };
@@ -304,11 +315,14 @@ struct Heard {
 }
 
 impl Heard {
-    fn event(&mut self, event: &Event<'_>, loaded: &LoadedMachine) {
+    fn event(&mut self, event: &Event<'_>, loaded: &LoadedMachine) -> ControlFlow<()> {
         let Event::Executed(executed) = event else {
-            return;
+            return ControlFlow::Continue(());
         };
         self.blocks += 1;
+        if self.blocks.is_multiple_of(STEP) && loaded.watch.is_stopped() {
+            return ControlFlow::Break(());
+        }
         if executed.level.is_none() {
             let passes = self.tracker.reach(executed.line);
             if self.blocks.is_multiple_of(STEP) {
@@ -320,5 +334,6 @@ impl Heard {
                 loaded.watch.show_program(done, reached, passes);
             }
         }
+        ControlFlow::Continue(())
     }
 }

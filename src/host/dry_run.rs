@@ -115,6 +115,14 @@ pub fn open_session(
     Ok((Session::new(machine, options), Vec::new()))
 }
 
+/// Lists from the start the axes that a look over the programs finds, where no machine is described
+/// (R9.74).
+pub fn expect_axes(session: &mut Session, loaded: &LoadedMachine, inputs: &[Input]) {
+    if loaded.machine.axis_set == AxisSet::AsTheyOccur {
+        session.expect_axes(AxesAhead::of(inputs, []).names());
+    }
+}
+
 /// Programs that run one after the other.
 #[derive(Debug, Clone, Copy)]
 pub struct Programs<'a> {
@@ -196,8 +204,8 @@ pub fn run_alone(
         options.switched = switched_axes([input]);
     }
     let mut session = Session::new(loaded.machine.clone(), options);
-    if alone.axes == Axes::Ahead && loaded.machine.axis_set == AxisSet::AsTheyOccur {
-        session.expect_axes(AxesAhead::of([input], []).names());
+    if alone.axes == Axes::Ahead {
+        expect_axes(&mut session, loaded, std::slice::from_ref(input));
     }
     let mut flow = begin(&mut session, loaded, sink);
     if flow.is_continue() {

@@ -55,7 +55,8 @@ pub use discovery::{
 };
 pub use disk::Disk;
 pub use dry_run::{
-    Alone, Axes, Played, Programs, Surroundings, open_session, run_alone, run_program, run_programs,
+    Alone, Axes, Played, Programs, Surroundings, expect_axes, open_session, run_alone, run_program,
+    run_programs,
 };
 pub use error::HostError;
 pub use finder::{ProgramFinder, Reach};
@@ -79,12 +80,9 @@ pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_t
 pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs};
 pub use watch::{Done, Progress, Watch, Watcher};
+pub use workers::{in_order, processors};
 
-#[cfg(feature = "cli")]
-pub(crate) use axes_ahead::AxesAhead;
 #[cfg(feature = "cli")]
 pub(crate) use parameter_files::is_configuration;
 #[cfg(feature = "cli")]
 pub(crate) use watch::{LineTracker, Reached};
-#[cfg(feature = "cli")]
-pub(crate) use workers::{in_order, processors};

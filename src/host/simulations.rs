@@ -15,7 +15,10 @@ pub fn compare(test: &CircularTest, watch: &Watch) -> Result<Comparison, CircleE
         of: "circle",
         watch,
     };
-    let laps = runs.of_each(&Job::ALL, |&job| test.run(job));
+    let laps = runs.of_each(&Job::ALL, |&job| {
+        runs.wanted()?;
+        test.run(job)
+    });
     Ok(Comparison::of(
         laps.into_iter().collect::<Result<Vec<_>, _>>()?,
     ))
@@ -36,6 +39,14 @@ struct Runs<'a> {
 }
 
 impl Runs<'_> {
+    /// Refuses a run that nobody wants any more.
+    fn wanted(&self) -> Result<(), CircleError> {
+        if self.watch.is_stopped() {
+            return Err(CircleError::Stopped);
+        }
+        Ok(())
+    }
+
     fn of_each<T: Sync, R: Send>(&self, pieces: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
         workers::map(pieces, work, |done| {
             self.watch.show(|| Done::Runs {
@@ -54,8 +65,10 @@ impl Simulations for Runs<'_> {
         simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
     ) -> Result<Vec<Heights>, CircleError> {
         let pieces: Vec<usize> = (0..count).collect();
-        self.of_each(&pieces, |&at| simulation(at))
-            .into_iter()
-            .collect()
+        let made = self.of_each(&pieces, |&at| {
+            self.wanted()?;
+            simulation(at)
+        });
+        made.into_iter().collect()
     }
 }

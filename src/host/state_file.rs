@@ -91,30 +91,33 @@ impl StateFile {
     /// # Errors
     /// It cannot be read, is damaged, or comes from a later version.
     pub fn load(&self) -> Result<Option<SavedState>, HostError> {
-        let text = match read_bytes(&self.path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(HostError::read(&self.path, error)),
-        };
-        let damaged = |error| self.unusable(&format!("it is damaged ({error})"));
+        match Self::read(&self.path) {
+            Err(HostError::Read { reason, .. }) if reason.kind() == io::ErrorKind::NotFound => {
+                Ok(None)
+            }
+            read => read.map(Some),
+        }
+    }
+
+    /// The state in a file, which is not locked: it is replaced in one step, so it is always whole.
+    ///
+    /// # Errors
+    /// It cannot be read, is damaged, or comes from a later version.
+    pub fn read(path: &Path) -> Result<SavedState, HostError> {
+        let text = read_bytes(path).map_err(|error| HostError::read(path, error))?;
+        let damaged = |error| unusable(path, &format!("it is damaged ({error})"));
         // A later version may have keys that this one does not know: its number comes first.
         let Schema { schema } = serde_json::from_slice(&text).map_err(damaged)?;
         if schema > STATE_SCHEMA {
-            return Err(self.refused(&StateError::Schema { found: schema }));
+            let later = StateError::Schema { found: schema };
+            return Err(unusable(path, &later.to_string()));
         }
-        serde_json::from_slice(&text).map(Some).map_err(damaged)
+        serde_json::from_slice(&text).map_err(damaged)
     }
 
     /// The error for a state that the session does not take. The file stays as it is.
     pub fn refused(&self, error: &StateError) -> HostError {
-        self.unusable(&error.to_string())
-    }
-
-    fn unusable(&self, reason: &str) -> HostError {
-        HostError::State {
-            path: self.path.clone(),
-            reason: reason.to_owned(),
-        }
+        unusable(&self.path, &error.to_string())
     }
 
     /// Replaces the state when the outputs take their place. Whenever the tool is killed, the old or
@@ -128,6 +131,13 @@ impl StateFile {
         // Whoever looks at the file sees what it holds (R9.76).
         let text = format!("{}\n", shown_json(&text));
         outputs.begin(&self.path)?.bytes(text.as_bytes())
+    }
+}
+
+fn unusable(path: &Path, reason: &str) -> HostError {
+    HostError::State {
+        path: path.to_owned(),
+        reason: reason.to_owned(),
     }
 }
 

@@ -19,6 +19,11 @@ pub trait Watcher: fmt::Debug + Send + Sync {
 
     /// Hears how far the work is.
     fn show(&self, progress: &Progress);
+
+    /// Whether the work is to stop. It then ends early, and its result is worth nothing.
+    fn is_stopped(&self) -> bool {
+        false
+    }
 }
 
 /// How far long work is.
@@ -134,6 +139,11 @@ impl Watch {
     /// Whether somebody watches.
     pub fn is_on(&self) -> bool {
         self.watcher.is_some()
+    }
+
+    /// Whether who watches wants the work to stop.
+    pub fn is_stopped(&self) -> bool {
+        self.watcher.as_ref().is_some_and(|it| it.is_stopped())
     }
 
     /// Shows how far work is that runs no program.
@@ -262,6 +272,9 @@ impl Sink for Watched<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         if let Record::Block(row) = record {
             self.step(row);
+            if self.blocks.is_multiple_of(STEP) && self.watch.is_stopped() {
+                return ControlFlow::Break(());
+            }
         }
         self.sink.record(record)
     }

@@ -13,7 +13,7 @@ const AHEAD: usize = 16;
 type Job<T, R> = (T, SyncSender<R>);
 
 /// As many workers as there are processors for this process.
-pub(crate) fn processors() -> NonZeroUsize {
+pub fn processors() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
@@ -38,7 +38,7 @@ pub(super) fn map<T: Sync, R: Send>(
 /// The items are drawn by this thread, and never so fast that more than a bounded number of results
 /// wait. `Break` ends the work. Where the system starts fewer threads, those do the work; without
 /// any, this thread does it.
-pub(crate) fn in_order<T: Send, R: Send>(
+pub fn in_order<T: Send, R: Send>(
     items: impl Iterator<Item = T>,
     workers: NonZeroUsize,
     work: impl Fn(T) -> R + Sync,

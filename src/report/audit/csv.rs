@@ -1,7 +1,7 @@
 //! An audit as a table: one row a program, axis and kind.
 
 use super::subject::AuditReport;
-use crate::audit::{Inherits, Site};
+use crate::audit::Site;
 use crate::report::csv::field;
 
 const HEADER: &str = "machine,file,axis,kind,effect,by_file,by_line,reason,inherits,inherits_file,inherits_line,motion\n";
@@ -13,12 +13,6 @@ pub fn render_csv(report: &AuditReport) -> String {
         for program in machine.archive.programs() {
             for axis in &program.axes {
                 let motion = axis.inherits.motion();
-                let inherits = match (&axis.inherits, motion.is_some_and(|it| it.perhaps)) {
-                    (Inherits::Motion(_), true) => "perhaps",
-                    (Inherits::Motion(_), false) => "yes",
-                    (Inherits::Unknown, _) => "unknown",
-                    _ => "no",
-                };
                 let (by_file, by_line) = place(axis.by.as_ref());
                 let (in_file, in_line) = place(motion.map(|motion| &motion.site));
                 let reason = axis.reason.as_ref().map_or("", |it| it.message.as_str());
@@ -31,7 +25,7 @@ pub fn render_csv(report: &AuditReport) -> String {
                     by_file,
                     &by_line,
                     reason,
-                    inherits,
+                    axis.inherits.as_str(),
                     in_file,
                     &in_line,
                     motion.map_or("", |motion| motion.motion.as_str()),

@@ -1,0 +1,334 @@
+from collections.abc import Iterator, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, TypeAlias, final, overload
+
+__all__ = [
+    "Audit",
+    "audit",
+    "check",
+    "command",
+    "Limits",
+    "Machine",
+    "Fix",
+    "Message",
+    "Messages",
+    "Text",
+    "run",
+    "State",
+    "ProgramRun",
+    "Timeline",
+]
+
+_Path: TypeAlias = str | PathLike[str]
+_Program: TypeAlias = str | bytes | PathLike[str] | Text
+_Kinds: TypeAlias = str | Sequence[str]
+_State: TypeAlias = Literal["active", "ineffective", "inactive", "unconfigured", "unknown"]
+_Severity: TypeAlias = Literal["error", "warning", "info"]
+
+@final
+class Text:
+    """The text of a program, in place of a file.
+
+    ``path`` says for which file it stands: called programs and the configuration are looked for
+    from its folder, and messages name it. Bytes are decoded as a file is: UTF-8, UTF-16 with its
+    mark, else code page 1252.
+    """
+
+    def __new__(cls, text: str | bytes, path: _Path | None = None) -> Text: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def path(self) -> str: ...
+
+@final
+class Machine:
+    """The machine that programs run on.
+
+    Without arguments it is described by the nearest ``frictcomp.toml``, from the folder of the
+    program upwards, as on the command line. ``config`` names another one, ``isolated`` takes none.
+    ``startup`` takes the axes from a start-up list. ``enable`` assumes P-AXIS-00522 = 1 and an
+    accepted value list for axes. ``variables`` are values that only the machine knows,
+    ``{"V.E.PART": 3}``. ``allow_outside`` lets programs call others in any folder.
+    """
+
+    def __new__(
+        cls,
+        config: _Path | None = None,
+        *,
+        startup: _Path | None = None,
+        isolated: bool = False,
+        enable: Sequence[str] | None = None,
+        variables: Mapping[str, float | str] | None = None,
+        allow_outside: bool = False,
+    ) -> Machine: ...
+
+@final
+class Fix:
+    """A change of the text that does what a message advises.
+
+    The text from ``line``, ``column`` up to ``end_line``, ``end_column`` is replaced.
+    """
+
+    @property
+    def file(self) -> str: ...
+    @property
+    def line(self) -> int: ...
+    @property
+    def column(self) -> int: ...
+    @property
+    def end_line(self) -> int: ...
+    @property
+    def end_column(self) -> int: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def safety(self) -> Literal["safe", "guess"]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Message:
+    """One message about a program or a list, with the fields of a record of ``--format ndjson``.
+
+    ``str(message)`` is ``file:line:column: severity[CODE] message``.
+    """
+
+    @property
+    def program(self) -> int | None:
+        """The program of the session, from 1; None where the message is about a list."""
+    @property
+    def seq(self) -> int | None:
+        """The executed block of the program, from 1."""
+    @property
+    def code(self) -> str: ...
+    @property
+    def severity(self) -> _Severity: ...
+    @property
+    def file(self) -> str: ...
+    @property
+    def line(self) -> int:
+        """From 1."""
+    @property
+    def column(self) -> int:
+        """From 1, in characters."""
+    @property
+    def end_line(self) -> int: ...
+    @property
+    def end_column(self) -> int: ...
+    @property
+    def axis(self) -> str | None:
+        """The axis that it is about."""
+    @property
+    def message(self) -> str: ...
+    @property
+    def help(self) -> list[str]:
+        """What to do."""
+    @property
+    def fixes(self) -> list[Fix]:
+        """Changes of the text, each of which alone does what is advised."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Messages(Sequence[Message]):
+    """Messages in their order, and a table of them for pandas, polars and DuckDB."""
+
+    @property
+    def errors(self) -> int:
+        """How many errors there are, those that are left out included."""
+    @property
+    def warnings(self) -> int: ...
+    @property
+    def left_out(self) -> dict[str, int]:
+        """How many messages of a severity are not listed: a file says so many and no more."""
+    @property
+    def remark(self) -> str | None:
+        """That no machine is described, where that matters."""
+    def raise_for_errors(self) -> None:
+        """Raises ``Error`` where there is a message of severity error."""
+    def __len__(self) -> int: ...
+    @overload
+    def __getitem__(self, index: int, /) -> Message: ...
+    @overload
+    def __getitem__(self, index: slice, /) -> list[Message]: ...
+    def __iter__(self) -> Iterator[Message]: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+@final
+class ProgramRun:
+    """How a program of a run went."""
+
+    @property
+    def program(self) -> int:
+        """Its number in the session, from 1."""
+    @property
+    def file(self) -> str: ...
+    @property
+    def name(self) -> str | None:
+        """The name after ``%``."""
+    @property
+    def by(self) -> str | None:
+        """Why it ended: ``M30`` or ``M2``, ``text`` without either, ``error``, ``budget``.
+
+        None where an interrupt or the end of the session came first.
+        """
+    @property
+    def blocks(self) -> int:
+        """How many blocks were executed."""
+    @property
+    def start(self) -> dict[str, _State]:
+        """Friction compensation before its first block, by axis."""
+    @property
+    def end(self) -> dict[str, _State]:
+        """Friction compensation after its end, by axis."""
+
+@final
+class Timeline:
+    """The timeline of a run: one row for each executed block.
+
+    pandas, polars and DuckDB take it without a copy: ``polars.DataFrame(timeline)``,
+    ``pandas.DataFrame.from_arrow(timeline)``, ``duckdb.sql("select * from timeline")``. The columns
+    are those of ``frictcomp run --format csv``, with ``level`` as in NDJSON.
+    """
+
+    @property
+    def columns(self) -> list[str]: ...
+    @property
+    def axes(self) -> list[str]:
+        """The axes that have a column."""
+    @property
+    def messages(self) -> Messages: ...
+    @property
+    def programs(self) -> list[ProgramRun]: ...
+    @property
+    def unrun(self) -> int:
+        """How many programs did not run because an earlier one stopped the session."""
+    @property
+    def friction(self) -> dict[str, _State]:
+        """Friction compensation of each axis at the end."""
+    @property
+    def state(self) -> State:
+        """What the next run starts with."""
+    @property
+    def opaque(self) -> dict[str, int]:
+        """What was accepted and passed over, and how often."""
+    @property
+    def is_assumed(self) -> bool:
+        """Whether the states rest on an assumption about what only the machine knows (FC902)."""
+    def raise_for_errors(self) -> None:
+        """Raises ``Error`` where there is a message of severity error."""
+    def __len__(self) -> int:
+        """How many blocks were executed."""
+    def __bool__(self) -> Literal[True]: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+@final
+class State:
+    """What a run leaves and the next one starts with: states, variables, value lists."""
+
+    @staticmethod
+    def load(path: _Path) -> State:
+        """Reads a state file, also one of the command line."""
+    def save(self, path: _Path) -> None:
+        """Writes a state file, which the command line takes, too."""
+    @staticmethod
+    def from_json(text: str) -> State: ...
+    def to_json(self) -> str:
+        """The text of a state file."""
+    @property
+    def axes(self) -> list[str]: ...
+    @property
+    def away(self) -> list[tuple[str, str]]:
+        """The axes that are not as at the start of the control, each with the kind."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[object, tuple[str]]: ...
+
+@final
+class Limits:
+    """What a dry run skips and where it ends; what is left out is as on the command line.
+
+    ``blocks`` bounds the executed blocks, ``work`` what macros, strings and unknown conditions cost
+    beyond them, ``values`` the values that a program holds; ``calls``, ``nesting`` and ``macros``
+    bound the depth of calls, control blocks and macros. ``skip`` are the levels of skipped blocks.
+    """
+
+    def __new__(
+        cls,
+        *,
+        blocks: int | None = None,
+        work: int | None = None,
+        values: int | None = None,
+        calls: int | None = None,
+        nesting: int | None = None,
+        macros: int | None = None,
+        skip: Sequence[int] | None = None,
+    ) -> Limits: ...
+
+@final
+class Audit:
+    """What the order of programs does: one row for each program, axis and kind.
+
+    The table has the columns of ``frictcomp audit --format csv``.
+    """
+
+    @property
+    def records(self) -> list[dict[str, Any]]:
+        """The records of ``frictcomp audit --format ndjson``."""
+    @property
+    def columns(self) -> list[str]: ...
+    @property
+    def messages(self) -> Messages:
+        """What keeps the control from taking its lists."""
+    @property
+    def programs(self) -> int: ...
+    @property
+    def hazards(self) -> int:
+        """The pairs of a program that leaves an axis away from home and one that inherits it."""
+    @property
+    def has_warnings(self) -> bool:
+        """Whether something is to be mended, or cannot be told."""
+    def __len__(self) -> int: ...
+    def __bool__(self) -> Literal[True]: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+
+def run(
+    program: _Program | Sequence[_Program],
+    *,
+    machine: Machine | _Path | None = None,
+    state: State | _Path | None = None,
+    keep_going: bool = False,
+    kinds: _Kinds | None = None,
+    positions: bool = False,
+    limits: Limits | None = None,
+) -> Timeline:
+    """Runs programs one after the other in one session of the control.
+
+    A program is a path, or a text: a ``str`` with a line end, ``bytes``, or ``Text``. ``state`` is
+    what an earlier run left; the path of a state file is read and, at the end, written, as
+    ``--state`` does. An error of the control stops the session unless ``keep_going``. ``kinds``
+    adds columns such as ``X.LEAD``, ``positions`` adds ``X_pos`` in mm or degrees.
+    """
+
+def check(
+    programs: _Program | Sequence[_Program],
+    *,
+    machine: Machine | _Path | None = None,
+    limits: Limits | None = None,
+) -> Messages:
+    """All messages of programs and of the programs below folders.
+
+    Each program runs from the start of the control. ``Error`` where one of them cannot be read.
+    """
+
+def audit(
+    programs: _Program | Sequence[_Program],
+    *,
+    machine: Machine | _Path | None = None,
+    kinds: _Kinds | None = None,
+    limits: Limits | None = None,
+) -> Audit:
+    """Which programs leave an axis away from home, and which move it in the state that they find."""
+
+def command(arguments: Sequence[_Path]) -> int:
+    """Runs the command line, the name of the program first; gives its exit status."""

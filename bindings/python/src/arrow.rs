@@ -1,0 +1,62 @@
+//! Tables that leave Rust as a stream of Arrow batches, without a copy.
+
+use std::ffi::CStr;
+use std::sync::Arc;
+
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{ArrayRef, RecordBatch, RecordBatchIterator};
+use arrow_schema::{Field, Schema, SchemaRef};
+use pyo3::prelude::*;
+use pyo3::types::PyCapsule;
+
+/// The name that the `PyCapsule` interface of Arrow gives a stream.
+const STREAM: &CStr = c"arrow_array_stream";
+
+/// A table in batches. Its buffers live as long as anybody has a part of them.
+#[derive(Debug, Clone)]
+pub(crate) struct Table {
+    pub(crate) schema: SchemaRef,
+    pub(crate) batches: Vec<RecordBatch>,
+}
+
+/// A column: its name and its values.
+pub(crate) type Column = (&'static str, ArrayRef);
+
+impl Table {
+    /// A table of one batch. Only the named columns may lack values.
+    pub(crate) fn of(columns: Vec<Column>, nullable: &[&str]) -> Self {
+        let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) = columns
+            .into_iter()
+            .map(|(name, array)| {
+                let kind = array.data_type().clone();
+                (Field::new(name, kind, nullable.contains(&name)), array)
+            })
+            .unzip();
+        let schema = Arc::new(Schema::new(fields));
+        let batch = RecordBatch::try_new(Arc::clone(&schema), arrays);
+        Self {
+            schema,
+            batches: vec![
+                batch.expect("the columns have one length and lack nothing they may not"),
+            ],
+        }
+    }
+
+    /// How many rows it has.
+    pub(crate) fn rows(&self) -> usize {
+        self.batches.iter().map(RecordBatch::num_rows).sum()
+    }
+
+    /// The names of its columns.
+    pub(crate) fn columns(&self) -> Vec<String> {
+        let fields = self.schema.fields().iter();
+        fields.map(|field| field.name().clone()).collect()
+    }
+
+    /// A stream of the batches for whoever takes it; dropped with the capsule if nobody does.
+    pub(crate) fn stream<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
+        let batches = self.batches.clone().into_iter().map(Ok);
+        let reader = RecordBatchIterator::new(batches, self.schema.clone());
+        PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(reader)), STREAM)
+    }
+}

@@ -1,0 +1,229 @@
+//! `frictcomp.audit`: what the order of programs does.
+
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, StringArray, UInt32Array};
+use frictcomp::audit::{AxisAudit, ProgramAudit};
+use frictcomp::host::{ArchiveAuditor, AuditOptions, Ledger, MachineOptions, Machines};
+use frictcomp::report::audit::{AuditReport, MachineAudit, records};
+use pyo3::prelude::*;
+use pyo3::types::PyCapsule;
+use serde_json::Value;
+
+use crate::arrow::{Column, Table};
+use crate::failure::Failure;
+use crate::json::parsed;
+use crate::kinds::Kinds;
+use crate::limits::{self, PyLimits};
+use crate::machine::{machine_options, remark_without_machine};
+use crate::messages::{PyMessage, PyMessages, Said};
+use crate::program::Programs;
+use crate::work::{Stop, interruptible};
+
+/// What an archive does.
+#[pyclass(frozen, name = "Audit", module = "frictcomp")]
+pub(crate) struct PyAudit {
+    table: Table,
+    records: String,
+    messages: Py<PyMessages>,
+    programs: usize,
+    hazards: u64,
+    has_warnings: bool,
+}
+
+/// The same, away from Python.
+struct Audited {
+    report: AuditReport,
+    said: Said,
+}
+
+/// Runs each program twice and says which ones leave an axis away from home, and which inherit it.
+#[pyfunction]
+#[pyo3(signature = (programs, *, machine=None, kinds=None, limits=None))]
+pub(crate) fn audit(
+    programs: &Bound<'_, PyAny>,
+    machine: Option<&Bound<'_, PyAny>>,
+    kinds: Option<Kinds>,
+    limits: Option<&Bound<'_, PyLimits>>,
+) -> PyResult<PyAudit> {
+    let py = programs.py();
+    let options = AuditOptions::new(limits::options(limits)).with_kinds(Kinds::of(kinds)?);
+    let programs = Programs::of(programs)?;
+    let machine = machine_options(machine)?;
+    let Audited { report, said } =
+        interruptible(py, move |stop| audited(programs, machine, options, stop))?;
+    Ok(PyAudit {
+        table: table(&report),
+        records: Value::from(records(&report)).to_string(),
+        messages: Py::new(py, PyMessages::new(said))?,
+        programs: report.programs(),
+        hazards: report.hazards(),
+        has_warnings: report.has_warnings(),
+    })
+}
+
+fn audited(
+    programs: Programs,
+    machine: MachineOptions,
+    options: AuditOptions,
+    stop: &Stop,
+) -> Result<Audited, Failure> {
+    let machines = Machines::new(machine, &Ledger::default()).on_disk(&programs.disk);
+    let mut machines = machines.watched_by(Arc::new(stop.clone()));
+    let (inputs, mut errors) = programs.found(&mut machines);
+    machines.look_ahead(&inputs);
+    let (auditor, no_machine) = ArchiveAuditor::new(inputs, &mut machines, options);
+    errors.extend(no_machine);
+    let (archives, unread) = auditor.audit();
+    errors.extend(unread);
+    if let Some(failure) = Failure::of_several(errors) {
+        return Err(failure);
+    }
+    let undescribed = auditor.programs().iter().filter_map(|(input, machine)| {
+        let loaded = &auditor.machines()[*machine];
+        (!loaded.machine.is_described()).then_some(input)
+    });
+    let machines = auditor.machines().iter();
+    let errors = machines.flat_map(|loaded| loaded.errors().map(PyMessage::of));
+    let said = Said {
+        messages: errors.collect(),
+        remark: remark_without_machine(undescribed),
+        ..Said::default()
+    };
+    let machines = auditor.machines().iter().zip(archives);
+    let machines = machines.map(|(loaded, archive)| {
+        let origin = loaded.origin.as_deref();
+        MachineAudit::new(origin.map(|it| it.display().to_string()), archive)
+    });
+    Ok(Audited {
+        report: AuditReport {
+            machines: machines.collect(),
+        },
+        said,
+    })
+}
+
+/// What a program does to an axis.
+struct Row<'a> {
+    machine: &'a MachineAudit,
+    program: &'a ProgramAudit,
+    axis: &'a AxisAudit,
+}
+
+/// The columns of `audit --format csv`: a row a program, axis and kind.
+fn table(report: &AuditReport) -> Table {
+    let machines = report.machines.iter();
+    let rows = machines.flat_map(|machine| {
+        let programs = machine.archive.programs().iter();
+        programs.flat_map(move |program| {
+            let axes = program.axes.iter();
+            axes.map(move |axis| Row {
+                machine,
+                program,
+                axis,
+            })
+        })
+    });
+    let rows: Vec<Row<'_>> = rows.collect();
+    let text = |of: fn(&Row<'_>) -> Option<String>| -> ArrayRef {
+        Arc::new(rows.iter().map(of).collect::<StringArray>())
+    };
+    let line = |of: fn(&Row<'_>) -> Option<u32>| -> ArrayRef {
+        Arc::new(rows.iter().map(of).collect::<UInt32Array>())
+    };
+    let columns: Vec<Column> = vec![
+        ("machine", text(|it| it.machine.origin.clone())),
+        ("file", text(|it| Some(it.program.file.clone()))),
+        ("axis", text(|it| Some(it.axis.axis.clone()))),
+        ("kind", text(|it| Some(it.axis.kind.to_string()))),
+        (
+            "effect",
+            text(|it| Some(it.axis.effect.as_str().to_owned())),
+        ),
+        (
+            "by_file",
+            text(|it| Some(it.axis.by.as_ref()?.file.to_string())),
+        ),
+        ("by_line", line(|it| Some(it.axis.by.as_ref()?.line))),
+        (
+            "reason",
+            text(|it| Some(it.axis.reason.as_ref()?.message.clone())),
+        ),
+        (
+            "inherits",
+            text(|it| Some(it.axis.inherits.as_str().to_owned())),
+        ),
+        (
+            "inherits_file",
+            text(|it| Some(it.axis.inherits.motion()?.site.file.to_string())),
+        ),
+        (
+            "inherits_line",
+            line(|it| Some(it.axis.inherits.motion()?.site.line)),
+        ),
+        (
+            "motion",
+            text(|it| Some(it.axis.inherits.motion()?.motion.as_str().to_owned())),
+        ),
+    ];
+    let by = ["machine", "by_file", "by_line", "reason"];
+    let inherited = ["inherits_file", "inherits_line", "motion"];
+    Table::of(columns, &[&by[..], &inherited].concat())
+}
+
+#[pymethods]
+impl PyAudit {
+    /// The records of `audit --format ndjson`.
+    #[getter]
+    fn records<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        parsed(py, &self.records)
+    }
+
+    #[getter]
+    fn columns(&self) -> Vec<String> {
+        self.table.columns()
+    }
+
+    #[getter]
+    fn messages(&self, py: Python<'_>) -> Py<PyMessages> {
+        self.messages.clone_ref(py)
+    }
+
+    #[getter]
+    fn programs(&self) -> usize {
+        self.programs
+    }
+
+    #[getter]
+    fn hazards(&self) -> u64 {
+        self.hazards
+    }
+
+    #[getter]
+    fn has_warnings(&self) -> bool {
+        self.has_warnings
+    }
+
+    fn __len__(&self) -> usize {
+        self.table.rows()
+    }
+
+    fn __bool__(&self) -> bool {
+        true
+    }
+
+    #[pyo3(signature = (requested_schema=None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        let _ = requested_schema;
+        self.table.stream(py)
+    }
+
+    fn __repr__(&self) -> String {
+        let (programs, hazards) = (self.programs, self.hazards);
+        format!("<frictcomp.Audit: {programs} programs, {hazards} hazards>")
+    }
+}

@@ -1,0 +1,125 @@
+//! `frictcomp.check`: the messages of programs and folders of programs.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use frictcomp::Severity;
+use frictcomp::host::{
+    Alone, Axes, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines, Naming,
+    in_order, processors, run_alone,
+};
+use frictcomp::session::{Findings, Options, SessionOptions, StopPolicy};
+use frictcomp::timeline::{Record, Sink};
+use pyo3::prelude::*;
+
+use crate::failure::Failure;
+use crate::limits::{self, PyLimits};
+use crate::machine::{machine_options, remark_without_machine};
+use crate::messages::{PyMessage, PyMessages, Said};
+use crate::program::Programs;
+use crate::work::{Stop, interruptible};
+
+/// What programs have to say, each run from the start of the control.
+#[pyfunction]
+#[pyo3(signature = (programs, *, machine=None, limits=None))]
+pub(crate) fn check(
+    programs: &Bound<'_, PyAny>,
+    machine: Option<&Bound<'_, PyAny>>,
+    limits: Option<&Bound<'_, PyLimits>>,
+) -> PyResult<PyMessages> {
+    let job = Job {
+        programs: Programs::of(programs)?,
+        machine: machine_options(machine)?,
+        run: limits::options(limits).with_stop(StopPolicy::CheckAll),
+    };
+    let said = interruptible(programs.py(), move |stop| job.done(stop))?;
+    Ok(PyMessages::new(said))
+}
+
+/// Everything that a check needs, away from Python.
+struct Job {
+    programs: Programs,
+    machine: MachineOptions,
+    run: Options,
+}
+
+/// A program with its machine.
+type Pair<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
+
+/// What one program has to say.
+struct Found {
+    loaded: Arc<LoadedMachine>,
+    findings: Findings,
+    /// How many more messages there are, by severity (R2.85).
+    unsaid: BTreeMap<Severity, u64>,
+}
+
+impl Job {
+    fn done(self, stop: &Stop) -> Result<Said, Failure> {
+        let mut machines =
+            Machines::new(self.machine, &Ledger::default()).on_disk(&self.programs.disk);
+        let (inputs, mut errors) = self.programs.found(&mut machines);
+        machines.look_ahead(&inputs);
+        let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
+        let pairs: Vec<Pair<'_>> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
+        let undescribed = pairs.iter().filter_map(|(input, loaded)| {
+            let loaded = loaded.as_ref().ok()?;
+            (!loaded.machine.is_described()).then_some(*input)
+        });
+        let mut said = Said {
+            remark: remark_without_machine(undescribed),
+            ..Said::default()
+        };
+        let mut listed: Vec<Option<PathBuf>> = Vec::new();
+        let check = |(input, loaded): Pair<'_>| check_file((input, loaded?), self.run, stop);
+        in_order(pairs.into_iter(), processors(), check, |found| {
+            match found {
+                Ok(found) => {
+                    if !listed.contains(&found.loaded.origin) {
+                        listed.push(found.loaded.origin.clone());
+                        let errors = found.loaded.errors();
+                        said.messages.extend(errors.map(PyMessage::of));
+                    }
+                    let findings = found.findings.diagnostics();
+                    said.messages.extend(findings.map(PyMessage::of));
+                    said.leave_out(&found.unsaid);
+                }
+                Err(error) => errors.push(error),
+            }
+            stop.flow()
+        });
+        match Failure::of_several(errors) {
+            Some(failure) => Err(failure),
+            None => Ok(said),
+        }
+    }
+}
+
+/// Runs one program from the start of the control.
+fn check_file(
+    (input, loaded): (&Input, Arc<LoadedMachine>),
+    run: Options,
+    stop: &Stop,
+) -> Result<Found, HostError> {
+    let options = SessionOptions::from(run)
+        .with_levels(loaded.levels.clone())
+        .with_settings(loaded.settings.clone());
+    let alone = Alone {
+        options,
+        naming: Naming::AsGiven,
+        axes: Axes::AsTheyOccur,
+    };
+    let mut findings = Findings::default();
+    let mut sink = |record: &Record<'_>| {
+        findings.record(record)?;
+        stop.flow()
+    };
+    let session = run_alone(input, &loaded, alone, &mut sink)?;
+    let unsaid = findings.unsaid(session.counts());
+    Ok(Found {
+        loaded,
+        findings,
+        unsaid,
+    })
+}

@@ -1,0 +1,120 @@
+//! Why something could not be done, as an exception of Python.
+
+use std::path::PathBuf;
+
+use frictcomp::Diagnostic;
+use frictcomp::host::HostError;
+use frictcomp::session::StateError;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyType};
+
+use crate::messages::{PyMessage, PyMessages};
+
+/// Why something could not be done.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    message: String,
+    help: Option<String>,
+    file: Option<PathBuf>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Failure {
+    /// A sentence in lower case.
+    pub(crate) fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            help: None,
+            file: None,
+            diagnostics: Vec::new(),
+        }
+    }
+
+    /// The same with what to do about it.
+    pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
+        let help = Some(help.into());
+        Self { help, ..self }
+    }
+
+    /// A state that a session does not take.
+    pub(crate) fn of_state(error: StateError) -> Self {
+        Self::new(format!("the state cannot be used: {error}"))
+            .with_help("begin without a state, or give the machine that it was made on")
+    }
+
+    /// What to say where several things could not be done.
+    pub(crate) fn of_several(errors: Vec<HostError>) -> Option<Self> {
+        let count = errors.len();
+        let mut failures = errors.into_iter().map(Self::from);
+        let mut first = failures.next()?;
+        if count > 1 {
+            first.message = format!("{count} errors, the first of them: {}", first.message);
+        }
+        first
+            .diagnostics
+            .extend(failures.flat_map(|more| more.diagnostics));
+        Some(first)
+    }
+
+    /// The exception `frictcomp.Error`.
+    pub(crate) fn into_error(self, py: Python<'_>) -> PyErr {
+        self.raised(py).unwrap_or_else(|error| error)
+    }
+
+    fn raised(self, py: Python<'_>) -> PyResult<PyErr> {
+        let messages = self.diagnostics.iter().map(PyMessage::of);
+        let given = PyDict::new(py);
+        given.set_item("help", self.help)?;
+        given.set_item("file", self.file.map(|it| it.display().to_string()))?;
+        given.set_item("messages", messages.collect::<Vec<_>>())?;
+        error(py, &self.message, &given)
+    }
+}
+
+/// Raises the first error among messages, with all of them.
+pub(crate) fn raised_for(py: Python<'_>, messages: &PyMessages) -> PyResult<()> {
+    let errors: Vec<PyMessage> = messages.listed_errors().cloned().collect();
+    let Some(first) = errors.first() else {
+        return Ok(());
+    };
+    let message = first.to_string();
+    let given = PyDict::new(py);
+    given.set_item("messages", errors)?;
+    Err(error(py, &message, &given)?)
+}
+
+fn error(py: Python<'_>, message: &str, given: &Bound<'_, PyDict>) -> PyResult<PyErr> {
+    static ERROR: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    let class = ERROR.import(py, "frictcomp._error", "Error")?;
+    Ok(PyErr::from_value(class.call((message,), Some(given))?))
+}
+
+impl From<HostError> for Failure {
+    fn from(error: HostError) -> Self {
+        let file = match &error {
+            HostError::Read { path, .. }
+            | HostError::Write { path, .. }
+            | HostError::FolderAsProgram(path)
+            | HostError::FolderAsList(path)
+            | HostError::NoFolder(path)
+            | HostError::StateNotRegular(path)
+            | HostError::StateInUse(path)
+            | HostError::State { path, .. }
+            | HostError::NotAStartupList { path, .. } => Some(path.clone()),
+            _ => None,
+        };
+        Self {
+            message: error.to_string(),
+            help: error.help(),
+            file,
+            diagnostics: error.diagnostics().to_vec(),
+        }
+    }
+}
+
+/// An argument with a value that makes no sense.
+pub(crate) fn refused(message: impl Into<String>) -> PyErr {
+    PyValueError::new_err(message.into())
+}

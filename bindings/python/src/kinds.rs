@@ -1,0 +1,40 @@
+//! Kinds of compensation, as Python names them.
+
+use frictcomp::comp::{Kind, KindSet};
+use frictcomp::diagnostic::UnknownName;
+use pyo3::prelude::*;
+
+use crate::failure::refused;
+
+/// `"FRICT"`, `"all"`, or several kinds.
+#[derive(Debug, FromPyObject)]
+pub(crate) enum Kinds {
+    /// One word.
+    One(String),
+    /// Several.
+    Several(Vec<String>),
+}
+
+impl Kinds {
+    /// The kinds, by default friction compensation.
+    pub(crate) fn of(given: Option<Self>) -> PyResult<KindSet> {
+        given.map_or(Ok(KindSet::of(Kind::Frict)), |kinds| kinds.set())
+    }
+
+    fn set(&self) -> PyResult<KindSet> {
+        match self {
+            Self::One(word) if word.eq_ignore_ascii_case("all") => Ok(KindSet::ALL),
+            Self::One(word) => word.split(',').map(kind).collect(),
+            Self::Several(words) => words.iter().map(|word| kind(word)).collect(),
+        }
+    }
+}
+
+fn kind(word: &str) -> PyResult<Kind> {
+    let word = word.trim();
+    word.parse().map_err(|_| {
+        let unknown = UnknownName::new(word, Kind::ALL.iter().map(|kind| kind.as_str()));
+        let help = unknown.help("kinds are").unwrap_or_default();
+        refused(format!("`{word}` is not a kind of compensation; {help}"))
+    })
+}

@@ -1,0 +1,44 @@
+//! The Python module `frictcomp._engine`: what `frictcomp` does, as Python classes and functions.
+//! What they do is said where Python's users read it, in `python/frictcomp/_engine.pyi`.
+
+mod arrow;
+mod audit;
+mod check;
+mod command;
+mod failure;
+mod json;
+mod kinds;
+mod limits;
+mod machine;
+mod messages;
+mod program;
+mod run;
+mod state;
+mod states;
+mod timeline;
+mod work;
+
+/// The module.
+#[pyo3::pymodule]
+mod _engine {
+    #[pymodule_export]
+    use super::audit::{PyAudit, audit};
+    #[pymodule_export]
+    use super::check::check;
+    #[pymodule_export]
+    use super::command::command;
+    #[pymodule_export]
+    use super::limits::PyLimits;
+    #[pymodule_export]
+    use super::machine::PyMachine;
+    #[pymodule_export]
+    use super::messages::{PyFix, PyMessage, PyMessages};
+    #[pymodule_export]
+    use super::program::PyText;
+    #[pymodule_export]
+    use super::run::run;
+    #[pymodule_export]
+    use super::state::PyState;
+    #[pymodule_export]
+    use super::timeline::{PyProgramRun, PyTimeline};
+}

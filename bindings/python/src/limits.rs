@@ -1,0 +1,66 @@
+//! What limits a dry run.
+
+use frictcomp::session::{Limits, Options};
+use pyo3::prelude::*;
+
+use crate::failure::refused;
+
+/// The deepest nesting of macros that can be allowed.
+const MACROS: u32 = 64;
+
+/// The highest level of skipped blocks.
+const LEVELS: u16 = 10;
+
+/// What a dry run skips and where it ends, with the numbers of the command line.
+#[pyclass(frozen, name = "Limits", module = "frictcomp")]
+pub(crate) struct PyLimits(Options);
+
+#[pymethods]
+impl PyLimits {
+    #[new]
+    #[pyo3(signature = (*, blocks=None, work=None, values=None, calls=None, nesting=None, macros=None, skip=None))]
+    // Each is an argument of its own for Python.
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        blocks: Option<u64>,
+        work: Option<u64>,
+        values: Option<u32>,
+        calls: Option<u32>,
+        nesting: Option<u32>,
+        macros: Option<u32>,
+        skip: Option<Vec<u16>>,
+    ) -> PyResult<Self> {
+        let mut limits = Limits::default();
+        limits.blocks = blocks.unwrap_or(limits.blocks);
+        limits.work = work.unwrap_or(limits.work);
+        limits.values = values.unwrap_or(limits.values);
+        limits.calls = calls.unwrap_or(limits.calls);
+        limits.nesting = nesting.unwrap_or(limits.nesting);
+        limits.macros = macros.unwrap_or(limits.macros);
+        if limits.blocks == 0 || [limits.values, limits.calls, limits.nesting].contains(&0) {
+            return Err(refused("a limit of 0 lets nothing run"));
+        }
+        if !(1..=MACROS).contains(&limits.macros) {
+            return Err(refused(format!(
+                "macros can be nested from 1 to {MACROS} deep"
+            )));
+        }
+        let mut levels = 0;
+        for level in skip.unwrap_or_default() {
+            if !(1..=LEVELS).contains(&level) {
+                return Err(refused(format!(
+                    "{level} is not a level from 1 to {LEVELS}"
+                )));
+            }
+            levels |= 1 << level;
+        }
+        Ok(Self(
+            Options::default().with_limits(limits).with_skip(levels),
+        ))
+    }
+}
+
+/// How programs run within limits.
+pub(crate) fn options(limits: Option<&Bound<'_, PyLimits>>) -> Options {
+    limits.map_or_else(Options::default, |limits| limits.get().0)
+}

@@ -1,0 +1,140 @@
+//! The machine of the programs, as Python describes it.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use frictcomp::host::{
+    ConfigurationChoice, Elsewhere, Input, Ledger, LoadedMachine, MachineOptions, Machines,
+    switched_axes,
+};
+use frictcomp::machine::{Machine, Setting};
+use frictcomp::session::undescribed;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+use crate::failure::{Failure, refused};
+use crate::program::Programs;
+
+/// Where the machine comes from, and what is different from its configuration.
+#[pyclass(frozen, name = "Machine", module = "frictcomp")]
+pub(crate) struct PyMachine(MachineOptions);
+
+/// The value of a variable.
+#[derive(FromPyObject)]
+enum Given {
+    Number(f64),
+    Text(String),
+}
+
+#[pymethods]
+impl PyMachine {
+    #[new]
+    #[pyo3(signature = (config=None, *, startup=None, isolated=false, enable=None, variables=None, allow_outside=false))]
+    // Each is an argument of its own for Python.
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        config: Option<PathBuf>,
+        startup: Option<PathBuf>,
+        isolated: bool,
+        enable: Option<Vec<String>>,
+        variables: Option<HashMap<String, Given>>,
+        allow_outside: bool,
+    ) -> PyResult<Self> {
+        let mut options = MachineOptions::default();
+        options.configuration = match (config, isolated) {
+            (Some(_), true) => {
+                return Err(refused(
+                    "a machine has a `config` or is `isolated`, not both",
+                ));
+            }
+            (Some(path), false) => ConfigurationChoice::File(path),
+            (None, true) => ConfigurationChoice::Isolated,
+            (None, false) => ConfigurationChoice::Nearest,
+        };
+        options.startup = startup;
+        options.enable = enable.unwrap_or_default();
+        if allow_outside {
+            options.elsewhere = Elsewhere::Allowed;
+        }
+        for (name, value) in variables.unwrap_or_default() {
+            let value = match value {
+                Given::Number(number) if !number.is_finite() => {
+                    return Err(refused(format!(
+                        "the variable `{name}` cannot be {number}; leave out what is not known"
+                    )));
+                }
+                Given::Number(number) => Setting::Number(number),
+                Given::Text(text) => Setting::Text(text),
+            };
+            options.settings.push((name, value));
+        }
+        options.settings.sort_by(|one, other| one.0.cmp(&other.0));
+        Ok(Self(options))
+    }
+
+    fn __repr__(&self) -> String {
+        let described = match (&self.0.startup, &self.0.configuration) {
+            (Some(path), _) | (None, ConfigurationChoice::File(path)) => {
+                format!("'{}'", path.display())
+            }
+            (None, ConfigurationChoice::Isolated) => "without a configuration".to_owned(),
+            _ => "of the nearest frictcomp.toml".to_owned(),
+        };
+        format!("<frictcomp.Machine {described}>")
+    }
+}
+
+/// What `machine=` says: nothing, a `Machine`, a configuration or a start-up list.
+pub(crate) fn machine_options(given: Option<&Bound<'_, PyAny>>) -> PyResult<MachineOptions> {
+    let Some(given) = given else {
+        return Ok(MachineOptions::default());
+    };
+    if let Ok(machine) = given.cast::<PyMachine>() {
+        return Ok(machine.get().0.clone());
+    }
+    let path: PathBuf = given.extract().map_err(|_| {
+        PyTypeError::new_err(
+            "a machine is a `frictcomp.Machine`, or the path of a frictcomp.toml or of a start-up list",
+        )
+    })?;
+    let mut options = MachineOptions::default();
+    if is_configuration(&path) {
+        options.configuration = ConfigurationChoice::File(path);
+    } else {
+        options.startup = Some(path);
+    }
+    Ok(options)
+}
+
+fn is_configuration(path: &Path) -> bool {
+    let extension = path.extension();
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// The machine of a session: that of its first program.
+pub(crate) fn machine_of(
+    options: MachineOptions,
+    programs: &Programs,
+    left: Vec<String>,
+) -> Result<Arc<LoadedMachine>, Failure> {
+    let mut machines = Machines::new(options, &Ledger::default()).on_disk(&programs.disk);
+    machines.look_ahead(&programs.inputs);
+    if !left.is_empty() {
+        // Other runs of the same machine name the others.
+        machines.expect_more(left);
+    }
+    let first = programs.inputs.first().expect("there is a program");
+    Ok(machines.for_folder(first.folder())?)
+}
+
+/// That no machine is described, where programs switch compensation without one (R1.37).
+pub(crate) fn remark_without_machine<'a>(
+    programs: impl IntoIterator<Item = &'a Input>,
+) -> Option<String> {
+    let axes = switched_axes(programs);
+    if axes.is_empty() {
+        return None;
+    }
+    Some(undescribed(&Machine::unconfigured(), &axes)?.to_string())
+}

@@ -1,0 +1,310 @@
+//! Messages, one by one and as a table.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use arrow_array::builder::{ListBuilder, StringBuilder};
+use arrow_array::{ArrayRef, StringArray, UInt32Array, UInt64Array};
+use frictcomp::diagnostic::{Advice, Fix};
+use frictcomp::{Diagnostic, Severity};
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::{PyCapsule, PyList, PySlice};
+
+use crate::arrow::{Column, Table};
+use crate::failure::raised_for;
+
+/// A change of the text that does what a message advises.
+#[pyclass(frozen, get_all, eq, name = "Fix", module = "frictcomp")]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PyFix {
+    file: String,
+    line: u32,
+    column: u32,
+    end_line: u32,
+    end_column: u32,
+    text: String,
+    safety: &'static str,
+}
+
+/// One message about a program or a list.
+#[pyclass(frozen, get_all, eq, name = "Message", module = "frictcomp")]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PyMessage {
+    program: Option<u32>,
+    seq: Option<u64>,
+    code: &'static str,
+    severity: &'static str,
+    file: String,
+    line: u32,
+    column: u32,
+    end_line: u32,
+    end_column: u32,
+    axis: Option<String>,
+    message: String,
+    help: Vec<String>,
+    fixes: Vec<PyFix>,
+}
+
+/// What was said.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Said {
+    /// The messages in their order.
+    pub(crate) messages: Vec<PyMessage>,
+    /// What stands above everything else: that no machine is described (R1.37).
+    pub(crate) remark: Option<String>,
+    /// How many more messages there are, by severity (R2.85).
+    pub(crate) left_out: BTreeMap<&'static str, u64>,
+}
+
+impl Said {
+    /// So many more messages of a program are not listed.
+    pub(crate) fn leave_out(&mut self, unsaid: &BTreeMap<Severity, u64>) {
+        for (severity, more) in unsaid.iter().filter(|(_, more)| **more > 0) {
+            *self.left_out.entry(severity.as_str()).or_default() += more;
+        }
+    }
+
+    /// So many messages there are, listed or not.
+    pub(crate) fn count_all(&mut self, counts: &BTreeMap<Severity, u64>) {
+        for (severity, all) in counts {
+            let word = severity.as_str();
+            let messages = self.messages.iter();
+            let listed = messages.filter(|it| it.severity == word).count() as u64;
+            if *all > listed {
+                self.left_out.insert(word, all - listed);
+            }
+        }
+    }
+}
+
+/// Messages in their order.
+#[pyclass(frozen, sequence, name = "Messages", module = "frictcomp")]
+pub(crate) struct PyMessages(Said);
+
+impl PyFix {
+    fn of(fix: &Fix) -> Self {
+        let (start, end) = (fix.place.start(), fix.place.end());
+        Self {
+            file: fix.place.file.to_string(),
+            line: start.line,
+            column: start.column,
+            end_line: end.line,
+            end_column: end.column,
+            text: fix.text.clone(),
+            safety: fix.safety.as_str(),
+        }
+    }
+}
+
+#[pymethods]
+impl PyFix {
+    fn __repr__(&self) -> String {
+        let (line, column) = (self.line, self.column);
+        format!(
+            "<frictcomp.Fix {}:{line}:{column}: {:?}>",
+            self.file, self.text
+        )
+    }
+}
+
+impl PyMessage {
+    /// A message that belongs to no block.
+    pub(crate) fn of(said: &Diagnostic) -> Self {
+        let (start, end) = (said.place.start(), said.place.end());
+        Self {
+            program: None,
+            seq: None,
+            code: said.code.as_str(),
+            severity: said.severity.as_str(),
+            file: said.place.file.to_string(),
+            line: start.line,
+            column: start.column,
+            end_line: end.line,
+            end_column: end.column,
+            axis: said.axis.clone(),
+            message: said.message.clone(),
+            help: said.advice.iter().map(Advice::to_string).collect(),
+            fixes: said.fixes.iter().map(PyFix::of).collect(),
+        }
+    }
+
+    /// A message about an executed block of a program, or about the end of the program.
+    pub(crate) fn of_block(said: &Diagnostic, program: u32, seq: u64) -> Self {
+        Self {
+            program: Some(program),
+            seq: Some(seq),
+            ..Self::of(said)
+        }
+    }
+
+    /// Whether it is an error.
+    pub(crate) fn is_error(&self) -> bool {
+        self.severity == "error"
+    }
+}
+
+/// `file:line:column: severity[CODE] message`.
+impl fmt::Display for PyMessage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (line, column) = (self.line, self.column);
+        let (file, severity, code) = (&self.file, self.severity, self.code);
+        write!(
+            f,
+            "{file}:{line}:{column}: {severity}[{code}] {}",
+            self.message
+        )
+    }
+}
+
+#[pymethods]
+impl PyMessage {
+    fn __str__(&self) -> String {
+        self.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        let (file, line, column) = (&self.file, self.line, self.column);
+        format!("<frictcomp.Message {} {file}:{line}:{column}>", self.code)
+    }
+}
+
+impl PyMessages {
+    /// These messages.
+    pub(crate) fn new(said: Said) -> Self {
+        Self(said)
+    }
+
+    /// The errors that are listed.
+    pub(crate) fn listed_errors(&self) -> impl Iterator<Item = &PyMessage> {
+        self.0.messages.iter().filter(|message| message.is_error())
+    }
+
+    /// How many of a severity there are, listed or not.
+    fn count_of(&self, severity: &str) -> u64 {
+        let messages = self.0.messages.iter();
+        let listed = messages.filter(|it| it.severity == severity).count() as u64;
+        listed + self.0.left_out.get(severity).copied().unwrap_or_default()
+    }
+
+    /// `1 error, 2 warnings`.
+    pub(crate) fn counted(&self) -> String {
+        let counts = ["error", "warning"].map(|severity| {
+            let count = self.count_of(severity);
+            let plural = if count == 1 { "" } else { "s" };
+            format!("{count} {severity}{plural}")
+        });
+        counts.join(", ")
+    }
+
+    fn table(&self) -> Table {
+        let messages = &self.0.messages;
+        let text = |of: fn(&PyMessage) -> Option<&str>| -> ArrayRef {
+            Arc::new(messages.iter().map(of).collect::<StringArray>())
+        };
+        let number = |of: fn(&PyMessage) -> Option<u32>| -> ArrayRef {
+            Arc::new(messages.iter().map(of).collect::<UInt32Array>())
+        };
+        let mut help = ListBuilder::new(StringBuilder::new());
+        for message in messages {
+            help.append_value(message.help.iter().map(Some));
+        }
+        let seq: UInt64Array = messages.iter().map(|it| it.seq).collect();
+        let columns: Vec<Column> = vec![
+            ("program", number(|it| it.program)),
+            ("seq", Arc::new(seq)),
+            ("code", text(|it| Some(it.code))),
+            ("severity", text(|it| Some(it.severity))),
+            ("file", text(|it| Some(&it.file))),
+            ("line", number(|it| Some(it.line))),
+            ("column", number(|it| Some(it.column))),
+            ("end_line", number(|it| Some(it.end_line))),
+            ("end_column", number(|it| Some(it.end_column))),
+            ("axis", text(|it| it.axis.as_deref())),
+            ("message", text(|it| Some(&it.message))),
+            ("help", Arc::new(help.finish())),
+        ];
+        Table::of(columns, &["program", "seq", "axis"])
+    }
+}
+
+#[pymethods]
+impl PyMessages {
+    fn __len__(&self) -> usize {
+        self.0.messages.len()
+    }
+
+    fn __getitem__<'py>(&self, at: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let py = at.py();
+        if let Ok(slice) = at.cast::<PySlice>() {
+            let count = isize::try_from(self.0.messages.len()).unwrap_or(isize::MAX);
+            let part = slice.indices(count)?;
+            let mut at = part.start;
+            let mut messages = Vec::new();
+            for _ in 0..part.slicelength {
+                messages.extend(
+                    usize::try_from(at)
+                        .ok()
+                        .and_then(|at| self.0.messages.get(at))
+                        .cloned(),
+                );
+                at += part.step;
+            }
+            return Ok(PyList::new(py, messages)?.into_any());
+        }
+        let at: isize = at.extract()?;
+        let count = isize::try_from(self.0.messages.len()).unwrap_or(isize::MAX);
+        let at = if at < 0 { at.saturating_add(count) } else { at };
+        let message = usize::try_from(at)
+            .ok()
+            .and_then(|at| self.0.messages.get(at));
+        let message = message.ok_or_else(|| PyIndexError::new_err("there is no such message"))?;
+        Ok(Bound::new(py, message.clone())?.into_any())
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        PyList::new(py, self.0.messages.iter().cloned())?
+            .try_iter()
+            .map(Bound::into_any)
+    }
+
+    #[pyo3(signature = (requested_schema=None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        // The interface lets the producer ignore it.
+        let _ = requested_schema;
+        self.table().stream(py)
+    }
+
+    #[getter]
+    fn errors(&self) -> u64 {
+        self.count_of("error")
+    }
+
+    #[getter]
+    fn warnings(&self) -> u64 {
+        self.count_of("warning")
+    }
+
+    #[getter]
+    fn left_out(&self) -> BTreeMap<&'static str, u64> {
+        self.0.left_out.clone()
+    }
+
+    #[getter]
+    fn remark(&self) -> Option<&str> {
+        self.0.remark.as_deref()
+    }
+
+    fn raise_for_errors(&self, py: Python<'_>) -> PyResult<()> {
+        raised_for(py, self)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<frictcomp.Messages: {}>", self.counted())
+    }
+}

@@ -1,0 +1,153 @@
+//! Programs, as Python names them: paths and texts.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use frictcomp::host::{Disk, HostError, Input, Machines, OpenText, find_programs};
+use frictcomp::text::decode;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
+
+use crate::failure::Failure;
+
+/// The name of a text that stands in for no file.
+const NAMELESS: &str = "<text>";
+
+/// The text of a program, in place of its file.
+#[pyclass(frozen, name = "Text", module = "frictcomp")]
+pub(crate) struct PyText(OpenText);
+
+#[pymethods]
+impl PyText {
+    #[new]
+    #[pyo3(signature = (text, path=None))]
+    fn new(text: &Bound<'_, PyAny>, path: Option<PathBuf>) -> PyResult<Self> {
+        let text = match text.cast::<PyBytes>() {
+            Ok(bytes) => decode(bytes.as_bytes().to_vec()),
+            Err(_) => text.extract()?,
+        };
+        Ok(Self(OpenText {
+            path: path.unwrap_or_else(|| NAMELESS.into()),
+            text: Arc::new(text),
+        }))
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.0.text
+    }
+
+    #[getter]
+    fn path(&self) -> String {
+        self.0.path.display().to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<frictcomp.Text '{}'>", self.path())
+    }
+}
+
+/// The programs that were given.
+pub(crate) struct Programs {
+    pub(crate) inputs: Vec<Input>,
+    /// The disk with the texts among them, so that one may call another.
+    pub(crate) disk: Disk,
+}
+
+impl Programs {
+    /// One program, or a list of them.
+    pub(crate) fn of(given: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let inputs = inputs(given)?;
+        if inputs.is_empty() {
+            return Err(Failure::new("no program was given")
+                .with_help("name a program, or a list of them")
+                .into_error(given.py()));
+        }
+        let texts = inputs.iter().filter_map(|input| match input {
+            Input::Open(open) => Some(open.clone()),
+            _ => None,
+        });
+        let disk = Disk::with_open(texts);
+        Ok(Self { inputs, disk })
+    }
+
+    /// The programs, with those of the folders among them, each once; and what gave no program.
+    pub(crate) fn found(self, machines: &mut Machines) -> (Vec<Input>, Vec<HostError>) {
+        let (mut found, mut errors) = (Vec::new(), Vec::new());
+        for input in self.inputs {
+            match input {
+                Input::File(path) => {
+                    let below = find_programs(&[path], |folder| machines.extensions(folder));
+                    found.extend(below.inputs);
+                    errors.extend(below.failures);
+                }
+                text => found.push(text),
+            }
+        }
+        let mut seen = BTreeSet::new();
+        found.retain(|input| seen.insert(input.clone()));
+        (found, errors)
+    }
+
+    /// Says which program cannot be run, before any of them is.
+    pub(crate) fn probe(&self) -> Result<(), Failure> {
+        for input in &self.inputs {
+            input.probe().map_err(|error| match input {
+                Input::File(path) if looks_like_a_text(&path.to_string_lossy()) => {
+                    Failure::from(error).with_help("give a text of one line as `frictcomp.Text`")
+                }
+                _ => error.into(),
+            })?;
+        }
+        Ok(())
+    }
+}
+
+fn inputs(given: &Bound<'_, PyAny>) -> PyResult<Vec<Input>> {
+    if let Ok(list) = given.cast::<PyList>() {
+        return list.iter().map(|it| input(&it)).collect();
+    }
+    if let Ok(tuple) = given.cast::<PyTuple>() {
+        return tuple.iter().map(|it| input(&it)).collect();
+    }
+    Ok(vec![input(given)?])
+}
+
+/// A path, or a text: a string with a line end, bytes, or `Text`.
+fn input(given: &Bound<'_, PyAny>) -> PyResult<Input> {
+    let nameless = |text: String| {
+        Input::Open(OpenText {
+            path: NAMELESS.into(),
+            text: Arc::new(text),
+        })
+    };
+    if let Ok(text) = given.cast::<PyText>() {
+        return Ok(Input::Open(text.get().0.clone()));
+    }
+    if let Ok(bytes) = given.cast::<PyBytes>() {
+        return Ok(nameless(decode(bytes.as_bytes().to_vec())));
+    }
+    if given.is_instance_of::<PyString>()
+        && let Ok(text) = given.extract::<String>()
+        && text.contains(['\n', '\r'])
+    {
+        return Ok(nameless(text));
+    }
+    let path: PathBuf = given.extract().map_err(|_| {
+        let class = given.get_type();
+        let name = class
+            .name()
+            .map_or_else(|_| "this".into(), |it| it.to_string());
+        PyTypeError::new_err(format!(
+            "a program is a path, a text with line ends, bytes or `frictcomp.Text`, not `{name}`"
+        ))
+    })?;
+    Ok(Input::File(path))
+}
+
+/// Whether a path that leads nowhere may have been meant as a text.
+fn looks_like_a_text(path: &str) -> bool {
+    path.contains(['[', '%', ';']) || path.contains("M30")
+}

@@ -1,0 +1,96 @@
+//! `frictcomp.run`: programs one after the other in one session.
+
+use frictcomp::host::{
+    self, MachineOptions, Naming, Surroundings, expect_axes, open_session, run_programs,
+    switched_axes,
+};
+use frictcomp::session::{Options, SessionOptions, StopPolicy};
+use frictcomp::{Diagnostic, Session};
+use pyo3::prelude::*;
+
+use crate::failure::Failure;
+use crate::kinds::Kinds;
+use crate::limits::{self, PyLimits};
+use crate::machine::{machine_of, machine_options};
+use crate::program::Programs;
+use crate::state::{self, Start};
+use crate::timeline::{PyTimeline, Recorded, Recorder, Shown};
+use crate::work::{Stop, interruptible};
+
+/// Runs programs and gives their timeline.
+#[pyfunction]
+#[pyo3(signature = (program, *, machine=None, state=None, keep_going=false, kinds=None, positions=false, limits=None))]
+// Each is an argument of its own for Python.
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn run(
+    program: &Bound<'_, PyAny>,
+    machine: Option<&Bound<'_, PyAny>>,
+    state: Option<&Bound<'_, PyAny>>,
+    keep_going: bool,
+    kinds: Option<Kinds>,
+    positions: bool,
+    limits: Option<&Bound<'_, PyLimits>>,
+) -> PyResult<PyTimeline> {
+    let job = Job {
+        programs: Programs::of(program)?,
+        machine: machine_options(machine)?,
+        start: Start::of(state)?,
+        run: limits::options(limits).with_stop(if keep_going {
+            StopPolicy::KeepGoing
+        } else {
+            StopPolicy::FirstError
+        }),
+        shown: Shown {
+            kinds: Kinds::of(kinds)?,
+            positions,
+        },
+    };
+    let recorded = interruptible(program.py(), move |stop| job.done(stop))?;
+    PyTimeline::new(program.py(), recorded)
+}
+
+/// Everything that a run needs, away from Python.
+struct Job {
+    programs: Programs,
+    machine: MachineOptions,
+    start: Start,
+    run: Options,
+    shown: Shown,
+}
+
+impl Job {
+    /// What was recorded.
+    fn done(self, stop: &Stop) -> Result<Recorded, Failure> {
+        let inputs = &self.programs.inputs;
+        self.programs.probe()?;
+        let loaded = machine_of(self.machine, &self.programs, self.start.axes())?;
+        let mut options = SessionOptions::from(self.run)
+            .with_levels(loaded.levels.clone())
+            .with_settings(loaded.settings.clone());
+        if !loaded.machine.is_described() {
+            options = options.with_switched(switched_axes(inputs));
+        }
+        let file = self.start.lock()?;
+        let (mut session, changed) = match self.start {
+            Start::Left(saved) => {
+                let resumed = Session::resume(loaded.machine.clone(), options, (*saved).clone());
+                resumed.map_err(Failure::of_state)?
+            }
+            _ => open_session(&loaded, options, file.as_ref())?,
+        };
+        expect_axes(&mut session, &loaded, inputs);
+        let said: Vec<Diagnostic> = loaded.errors().chain(&changed).cloned().collect();
+        let programs = host::Programs {
+            inputs,
+            said: &said,
+        };
+        let surroundings = Surroundings::new(&loaded, Naming::AsGiven);
+        let mut recorder = Recorder::new(self.shown, stop);
+        let played = run_programs(&mut session, programs, &surroundings, &mut recorder)?;
+        let saved = session.save();
+        if let (true, Some(file)) = (played.flow.is_continue(), &file) {
+            state::save(file, &saved)?;
+        }
+        Ok(recorder.finish(session.state(), saved, played.unrun))
+    }
+}

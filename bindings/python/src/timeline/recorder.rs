@@ -1,0 +1,139 @@
+//! Takes the records of a session.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use frictcomp::comp::Kind;
+use frictcomp::session::SavedState;
+use frictcomp::timeline::{Footing, Record, Sink, StateView};
+
+use super::PyProgramRun;
+use super::rows::{Rows, Shown};
+use crate::arrow::Table;
+use crate::messages::{PyMessage, Said};
+use crate::work::Stop;
+
+/// What a session left behind.
+pub(crate) struct Recorded {
+    pub(crate) table: Table,
+    pub(crate) axes: Vec<String>,
+    pub(crate) programs: Vec<PyProgramRun>,
+    pub(crate) said: Said,
+    pub(crate) friction: BTreeMap<String, &'static str>,
+    pub(crate) opaque: BTreeMap<String, u64>,
+    pub(crate) is_assumed: bool,
+    pub(crate) state: SavedState,
+    pub(crate) unrun: usize,
+}
+
+/// Records a session until it ends or is stopped.
+pub(crate) struct Recorder {
+    rows: Rows,
+    programs: Vec<PyProgramRun>,
+    said: Said,
+    opaque: BTreeMap<String, u64>,
+    is_assumed: bool,
+    stop: Stop,
+}
+
+impl Recorder {
+    /// Nothing yet.
+    pub(crate) fn new(shown: Shown, stop: &Stop) -> Self {
+        Self {
+            rows: Rows::new(shown),
+            programs: Vec::new(),
+            said: Said::default(),
+            opaque: BTreeMap::new(),
+            is_assumed: false,
+            stop: stop.clone(),
+        }
+    }
+
+    /// What was recorded, with the state at the end and how many programs did not run.
+    pub(crate) fn finish(self, end: StateView<'_>, state: SavedState, unrun: usize) -> Recorded {
+        Recorded {
+            axes: end.axes().map(|(_, name)| name.to_owned()).collect(),
+            friction: friction(end),
+            table: self.rows.into_table(end),
+            programs: self.programs,
+            said: self.said,
+            opaque: self.opaque,
+            is_assumed: self.is_assumed,
+            state,
+            unrun,
+        }
+    }
+
+    fn messages(&mut self, record: &Record<'_>) {
+        let (program, seq) = match record {
+            Record::Block(row) => (row.program, row.seq),
+            Record::End(end) => {
+                for note in end.notes {
+                    self.rows.push_code(note.diagnostic.code.as_str());
+                    let message = PyMessage::of_block(&note.diagnostic, end.program, note.seq);
+                    self.said.messages.push(message);
+                }
+                return;
+            }
+            _ => return,
+        };
+        for said in record.diagnostics() {
+            let said = said.diagnostic();
+            self.said
+                .messages
+                .push(PyMessage::of_block(said, program, seq));
+        }
+    }
+}
+
+impl Sink for Recorder {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Session { remark, .. } => self.said.remark = remark.map(str::to_owned),
+            Record::Machine(said) => self.said.messages.push(PyMessage::of(said)),
+            Record::Program {
+                program,
+                file,
+                name,
+                state,
+            } => self.programs.push(PyProgramRun {
+                program: *program,
+                file: (*file).to_owned(),
+                name: name.map(str::to_owned),
+                by: None,
+                blocks: 0,
+                start: friction(*state),
+                end: BTreeMap::new(),
+            }),
+            Record::Block(row) => {
+                self.rows.push(row);
+                if !row.diagnostics.is_empty() {
+                    self.messages(record);
+                }
+            }
+            Record::End(end) => {
+                self.messages(record);
+                self.rows.end();
+                if let Some(run) = self.programs.last_mut() {
+                    run.by = Some(end.by.as_str());
+                    run.blocks = end.seq;
+                    run.end = friction(end.state);
+                }
+            }
+            Record::Summary(summary) => {
+                self.said.count_all(&summary.counts);
+                self.opaque = summary.opaque.clone();
+                self.is_assumed = summary.footing == Footing::Assumed;
+            }
+            _ => {}
+        }
+        self.stop.flow()
+    }
+}
+
+/// Friction compensation of each listed axis.
+fn friction(state: StateView<'_>) -> BTreeMap<String, &'static str> {
+    let axes = state.axes();
+    axes.map(|(axis, name)| (name.to_owned(), state.state(axis, Kind::Frict).as_str()))
+        .collect()
+}

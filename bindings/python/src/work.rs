@@ -1,0 +1,89 @@
+//! Long work, which Python can interrupt.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use frictcomp::host::{Progress, Watcher};
+use pyo3::prelude::*;
+
+use crate::failure::Failure;
+
+/// How long an interrupt waits at most before it is seen.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The stack of the thread: as much as the main thread of a program has elsewhere.
+const STACK: usize = 8 << 20;
+
+/// Whether the work is wanted no more.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// `Break` where it is wanted no more.
+    pub(crate) fn flow(&self) -> ControlFlow<()> {
+        if self.0.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn want(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Watcher for Stop {
+    fn is_due(&self) -> bool {
+        false
+    }
+
+    fn show(&self, _: &Progress) {}
+
+    fn is_stopped(&self) -> bool {
+        self.flow().is_break()
+    }
+}
+
+/// Does work on a thread of its own while other threads of Python run. Signals are handled
+/// meanwhile: where a handler raises, as that of Ctrl+C does, its exception is raised at once, and
+/// the work ends as soon as it looks at `Stop`.
+pub(crate) fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&Stop) -> Result<T, Failure> + Send + 'static,
+) -> PyResult<T> {
+    let stop = Stop::default();
+    let (sender, results) = mpsc::sync_channel(1);
+    let results = Mutex::new(results);
+    let wait = || {
+        let results = results.lock().unwrap_or_else(PoisonError::into_inner);
+        results.recv_timeout(PATIENCE)
+    };
+    let of_worker = stop.clone();
+    let worker = thread::Builder::new().stack_size(STACK).spawn(move || {
+        // Nobody waits for it after an interrupt.
+        let _ = sender.send(work(&of_worker));
+    });
+    let worker = worker.map_err(|error| {
+        Failure::new(format!("no thread can be started: {error}")).into_error(py)
+    })?;
+    loop {
+        match py.detach(wait) {
+            Ok(result) => return result.map_err(|failure| failure.into_error(py)),
+            Err(RecvTimeoutError::Timeout) => {
+                if let Err(interrupt) = py.check_signals() {
+                    stop.want();
+                    return Err(interrupt);
+                }
+            }
+            Err(RecvTimeoutError::Disconnected) => match worker.join() {
+                Err(panic) => std::panic::resume_unwind(panic),
+                Ok(()) => unreachable!("the work sends its result before it ends"),
+            },
+        }
+    }
+}

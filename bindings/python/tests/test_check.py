@@ -1,0 +1,34 @@
+"""Messages of whole folders: the same as those of the command."""
+
+from __future__ import annotations
+
+import polars
+import pytest
+from conftest import records
+from test_run import of_messages, wordless
+
+import frictcomp
+
+
+@pytest.mark.parametrize("folder", ["programs/ok", "programs/err", "programs/demo"])
+def test_messages_are_those_of_the_command(folder: str) -> None:
+    told = [it for it in records("check", "--format", "ndjson", folder) if it["record"] == "diagnostic"]
+    messages = frictcomp.check(folder)
+    assert [wordless(it) for it in of_messages(messages)] == [wordless(it) for it in told]
+    table = polars.DataFrame(messages)
+    assert table.height == len(messages) == len(told)
+    assert table["code"].to_list() == [it["code"] for it in told]
+    assert table["help"].to_list() == [it.help for it in messages]
+
+
+def test_messages_are_a_sequence() -> None:
+    messages = frictcomp.check("programs/demo/friction.nc")
+    assert [it.code for it in messages] == ["FC401", "FC401"]
+    assert messages[0] == messages[-2] and messages[:1] == [messages[0]]
+    assert str(messages[0]).startswith("programs/demo/friction.nc:3:5: warning[FC401] ")
+    with pytest.raises(IndexError):
+        messages[2]
+    messages.raise_for_errors()
+    with pytest.raises(frictcomp.Error) as caught:
+        frictcomp.check("programs/err/FC202-frikt.nc").raise_for_errors()
+    assert (caught.value.code, caught.value.line) == ("FC202", caught.value.messages[0].line)

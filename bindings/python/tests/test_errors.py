@@ -1,0 +1,154 @@
+"""What cannot be done is an exception with its place; nothing hangs, crashes or is silently fine."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import frictcomp
+
+
+def test_an_error_has_its_place(tmp_path: Path) -> None:
+    config = tmp_path / "frictcomp.toml"
+    config.write_text('[[axis]]\nname = "X"\nfrict_komp = true\n')
+    with pytest.raises(frictcomp.Error) as caught:
+        frictcomp.run("N10 M30\n", machine=config)
+    error = caught.value
+    assert (error.file, error.line, error.column) == (str(config), 3, 1)
+    assert error.code == error.messages[0].code
+    assert "frict_komp" in str(error)
+    back = pickle.loads(pickle.dumps(error))
+    assert isinstance(back, frictcomp.Error)
+    assert (str(back), back.line, back.code) == (str(error), error.line, error.code)
+
+
+def test_errors_of_the_control_are_messages_until_they_are_raised() -> None:
+    timeline = frictcomp.run(
+        ["programs/demo/unset/friction.nc", "programs/demo/friction.nc"],
+    )
+    assert timeline.messages.errors == 1 and timeline.unrun == 1
+    assert [it.by for it in timeline.programs] == ["error"]
+    with pytest.raises(frictcomp.Error) as caught:
+        timeline.raise_for_errors()
+    assert (caught.value.code, caught.value.line) == ("P-ERR-70495", 2)
+    kept = frictcomp.run("programs/demo/unset/friction.nc", keep_going=True)
+    assert kept.programs[0].by == "M30"
+
+
+@pytest.mark.parametrize("call", [frictcomp.run, frictcomp.check, frictcomp.audit])
+def test_files_that_are_not_there_are_errors(call: Callable[[Any], object], tmp_path: Path) -> None:
+    missing = tmp_path / "none.nc"
+    with pytest.raises(frictcomp.Error) as caught:
+        call(missing)
+    assert caught.value.file == str(missing)
+    with pytest.raises(frictcomp.Error):
+        call([])
+    with pytest.raises(frictcomp.Error):
+        call("X[COMP OFF FRICT]")
+    # One file that is missing is no all-clear for the others.
+    with pytest.raises(frictcomp.Error):
+        call(["programs/demo/friction.nc", missing])
+
+
+def test_a_text_of_one_line_is_not_taken_for_a_file() -> None:
+    with pytest.raises(frictcomp.Error, match=r"frictcomp\.Text"):
+        frictcomp.run("X[COMP OFF FRICT]")
+    timeline = frictcomp.run(
+        frictcomp.Text("X[COMP OFF FRICT]"), machine=frictcomp.Machine(isolated=True, enable=["X"])
+    )
+    assert timeline.friction == {"X": "inactive"}
+
+
+@pytest.mark.parametrize("wrong", [None, 5, 1.5, object(), {"a": 1}, [None], [["a.nc"]], {"a.nc"}])
+def test_wrong_types_are_type_errors(wrong: Any) -> None:
+    for call in (frictcomp.run, frictcomp.check, frictcomp.audit):
+        with pytest.raises(TypeError):
+            call(wrong)
+
+
+def test_wrong_arguments_are_refused() -> None:
+    text: Any = "N10 M30\n"
+    wrong: list[dict[str, Any]] = [
+        {"machine": 5},
+        {"state": 5},
+        {"kinds": 5},
+        {"limits": {"blocks": 5}},
+        {"positions": "yes"},
+        {"nonsense": True},
+    ]
+    for arguments in wrong:
+        with pytest.raises(TypeError):
+            frictcomp.run(text, **arguments)
+    with pytest.raises(ValueError, match="did you mean `FRICT`"):
+        frictcomp.run(text, kinds="FRIKT")
+    with pytest.raises(ValueError):
+        frictcomp.Machine("a.toml", isolated=True)
+    for number in (float("nan"), float("inf")):
+        with pytest.raises(ValueError):
+            frictcomp.Machine(variables={"V.E.A": number})
+    with pytest.raises(ValueError):
+        frictcomp.Limits(blocks=0)
+    with pytest.raises(ValueError):
+        frictcomp.Limits(macros=1000)
+    with pytest.raises(ValueError):
+        frictcomp.Limits(skip=[11])
+    for huge in (-1, 2**64):
+        with pytest.raises(OverflowError):
+            frictcomp.Limits(blocks=huge)
+    with pytest.raises(frictcomp.Error):
+        frictcomp.run(text, machine=frictcomp.Machine(isolated=True, enable=["X["]))
+    with pytest.raises(frictcomp.Error):
+        frictcomp.run("a\0.nc")
+
+
+def test_bytes_that_are_no_utf8_are_code_page_1252() -> None:
+    data = b"N10 X1 (\xdcberlauf)\nN20 M30\n"
+    for program in (data, frictcomp.Text(data)):
+        timeline = frictcomp.run(program, machine=frictcomp.Machine(isolated=True))
+        assert list(timeline.programs[0].start) == ["X"]
+    with pytest.raises(UnicodeEncodeError):
+        frictcomp.Text("N10 \udcdc\n")
+    assert len(frictcomp.run(b"\x00\xff\xfe\n")) <= 1
+
+
+def test_what_is_not_known_is_a_value() -> None:
+    text = "N10 $IF V.E.PART == 3\nN20 X[COMP OFF FRICT]\nN30 $ENDIF\nN40 G01 X5 F100\nN50 M30\n"
+    machine = frictcomp.Machine(isolated=True, enable=["X"])
+    timeline = frictcomp.run(text, machine=machine)
+    assert timeline.friction == {"X": "unknown"}
+    assert {it.code for it in timeline.messages} >= {"FC901"}
+    known = frictcomp.Machine(isolated=True, enable=["X"], variables={"V.E.PART": 4})
+    assert frictcomp.run(text, machine=known).friction == {"X": "active"}
+
+
+def test_no_machine_is_said_above_everything_else() -> None:
+    text = "N10 X[COMP ON FRICT]\nN20 M30\n"
+    alone = frictcomp.Machine(isolated=True)
+    timeline = frictcomp.run(text, machine=alone)
+    assert timeline.messages.remark and "no machine" in timeline.messages.remark
+    remark = frictcomp.check(text, machine=alone).remark
+    assert remark == timeline.messages.remark
+    assert frictcomp.audit(text, machine=alone).messages.remark == remark
+
+
+def test_limits_end_a_run() -> None:
+    text = "N10 $WHILE 1\nN20 X1\nN30 $ENDWHILE\nN40 M30\n"
+    timeline = frictcomp.run(text, limits=frictcomp.Limits(blocks=100))
+    assert len(timeline) <= 100
+    assert timeline.programs[0].by == "budget"
+    assert [it.code for it in timeline.messages] == ["FC910"]
+
+
+def test_messages_that_are_left_out_are_counted() -> None:
+    text = "".join(f"N{n} Y[COMP ON FRICT] X1\n" for n in range(20_000)) + "M30\n"
+    machine = frictcomp.Machine(isolated=True, enable=["X"])
+    messages = frictcomp.check(text, machine=machine)
+    assert len(messages) < 20_000 == messages.errors
+    listed = sum(it.severity == "error" for it in messages)
+    assert listed + messages.left_out["error"] == messages.errors
+    timeline = frictcomp.run(text, machine=machine, keep_going=True)
+    assert timeline.messages.errors == 20_000

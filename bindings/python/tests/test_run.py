@@ -1,0 +1,170 @@
+"""Timelines: the same values as those of the command, in every library that takes them."""
+
+from __future__ import annotations
+
+import gc
+from typing import Any
+
+import duckdb
+import pandas
+import polars
+import pyarrow
+import pytest
+from conftest import programs, records
+
+import frictcomp
+
+FRICTION = "programs/demo/friction.nc"
+
+
+def test_a_timeline_is_a_table_of_blocks() -> None:
+    timeline = frictcomp.run(FRICTION)
+    assert len(timeline) == 5
+    blocks = polars.DataFrame(timeline)
+    assert blocks.columns == timeline.columns
+    assert blocks.columns == [
+        *["program", "seq", "file", "line", "n", "level", "text"],
+        *["X", "Y", "Z", "changes", "codes"],
+    ]
+    inactive = blocks.filter(polars.col("X") == "inactive")
+    assert inactive["line"].to_list() == [5, 6]
+    assert blocks["codes"].to_list() == [[], [], [], [], ["FC401", "FC401"]]
+    assert blocks["changes"].to_list()[1] == [
+        {"axis": "Y", "kind": "FRICT", "from": "active", "to": "inactive"}
+    ]
+
+
+def of_messages(messages: frictcomp.Messages) -> list[dict[str, Any]]:
+    """Messages as records of the command."""
+    told = []
+    for it in messages:
+        record: dict[str, Any] = {"record": "diagnostic"}
+        if it.program is not None:
+            record |= {"program": it.program, "seq": it.seq}
+        names = ["code", "severity", "file", "line", "column", "end_line", "end_column", "axis"]
+        record |= {name: getattr(it, name) for name in [*names, "message", "help"]}
+        if it.fixes:
+            names = ["file", "line", "column", "end_line", "end_column", "text", "safety"]
+            record["fixes"] = [{name: getattr(fix, name) for name in names} for fix in it.fixes]
+        told.append(record)
+    return told
+
+
+def wordless(record: dict[str, Any]) -> dict[str, Any]:
+    """A record without advice, which names options on the command line only."""
+    return {name: value for name, value in record.items() if name != "help"}
+
+
+@pytest.mark.parametrize("name", programs("programs/ok", "programs/err", "programs/demo"))
+def test_values_are_those_of_the_command(name: str) -> None:
+    told = records("run", "--format", "ndjson", "--kinds", "all", name)
+    timeline = frictcomp.run(name, kinds="all")
+    rows = polars.DataFrame(timeline).to_dicts()
+    blocks = [it for it in told if it["record"] == "block"]
+    assert len(rows) == len(blocks)
+    for row, block in zip(rows, blocks, strict=True):
+        for key in ["program", "seq", "file", "line", "n", "text", "changes"]:
+            assert row[key] == block[key], key
+        assert row["level"] == block.get("level")
+        # An axis has its state before a program names it, too.
+        for axis, state in block["friction"].items():
+            assert row[axis] == state
+        for axis, states in block["compensation"].items():
+            for kind, state in states.items():
+                assert row[axis if kind == "FRICT" else f"{axis}.{kind}"] == state
+        assert all(row[axis] is not None for axis in timeline.axes)
+    diagnostics = [wordless(it) for it in told if it["record"] == "diagnostic"]
+    assert [wordless(it) for it in of_messages(timeline.messages)] == diagnostics
+    (summary,) = [it for it in told if it["record"] == "summary"]
+    assert timeline.friction == summary["friction"]
+    assert timeline.opaque == summary["opaque"]
+    assert timeline.messages.errors == summary["errors"]
+    assert timeline.messages.warnings == summary["warnings"]
+    ends = [it for it in told if it["record"] == "end"]
+    assert [(it.by, it.blocks, it.end) for it in timeline.programs] == [
+        (it["by"], it["seq"], it["friction"]) for it in ends
+    ]
+    assert timeline.messages.remark == told[0].get("remark") or "--" in told[0]["remark"]
+
+
+def test_pandas_duckdb_and_pyarrow_take_it_too() -> None:
+    timeline = frictcomp.run(FRICTION)
+    table = pyarrow.table(timeline)
+    assert pyarrow.types.is_dictionary(table.schema.field("X").type)
+    frame = pandas.DataFrame.from_arrow(timeline)
+    assert list(frame["X"]) == ["active", "active", "active", "inactive", "inactive"]
+    assert table.to_pandas()["Y"].dtype == "category"
+    database = duckdb.connect()
+    database.register("blocks", timeline)
+    off = database.execute("select line from blocks where X = 'inactive' order by line")
+    assert off.fetchall() == [(5,), (6,)]
+    left = database.execute("select line from blocks where list_contains(codes, 'FC401')")
+    assert left.fetchall() == [(6,)]
+    # By the name of a variable, as analysts write it.
+    counted = duckdb.sql("select count(*) from timeline")
+    assert counted and counted.fetchall() == [(5,)]
+
+
+def test_buffers_outlive_the_timeline() -> None:
+    timeline = frictcomp.run(FRICTION)
+    stream = timeline.__arrow_c_stream__()
+    unused = timeline.__arrow_c_stream__()
+    table = pyarrow.table(timeline)
+    del timeline
+    gc.collect()
+
+    class Kept:
+        def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+            return stream
+
+    taken = pyarrow.table(Kept())
+    del unused
+    gc.collect()
+    assert taken.equals(table)
+    assert taken["text"].to_pylist()[0].startswith("N15")
+    # The stream of a capsule can be taken once.
+    with pytest.raises((ValueError, pyarrow.ArrowInvalid)):
+        pyarrow.table(Kept())
+
+
+def test_a_text_is_run_as_a_file_is() -> None:
+    with open(FRICTION, "rb") as file:
+        data = file.read()
+    of_file = polars.DataFrame(frictcomp.run(FRICTION)).drop("file")
+    texts: list[str | bytes | frictcomp.Text] = [data.decode(), data, frictcomp.Text(data, FRICTION)]
+    for program in texts:
+        timeline = frictcomp.run(program, machine="programs/demo/frictcomp.toml")
+        assert polars.DataFrame(timeline).drop("file").equals(of_file)
+    named = frictcomp.run(frictcomp.Text(data, FRICTION))
+    assert polars.DataFrame(named)["file"].unique().to_list() == [FRICTION]
+
+
+def test_programs_run_one_after_the_other() -> None:
+    timeline = frictcomp.run([FRICTION, "programs/demo/next.nc"])
+    assert [it.file for it in timeline.programs] == [FRICTION, "programs/demo/next.nc"]
+    assert timeline.programs[1].start == timeline.programs[0].end
+    assert timeline.programs[1].start["X"] == "inactive"
+
+
+def test_positions_are_missing_where_they_are_not_known() -> None:
+    text = "N10 G90 X1.5\nN20 G91 Y1\nN30 M30\n"
+    timeline = frictcomp.run(text, machine=frictcomp.Machine(enable=["X"]), positions=True)
+    blocks = polars.DataFrame(timeline)
+    assert blocks["X_pos"].to_list() == [1.5, 1.5, 1.5]
+    assert blocks["Y_pos"].to_list() == [None, None, None]
+    assert blocks["frame"].to_list() == ["machine"] * 3
+
+
+def test_long_programs_come_in_batches() -> None:
+    count = 300_000
+    lines = [f"N{n} X{n % 7}" for n in range(count)]
+    lines[200_000] = "X[COMP OFF FRICT]"
+    text = "\n".join([*lines, "M30"])
+    timeline = frictcomp.run(text, machine=frictcomp.Machine(enable=["X"]))
+    blocks = polars.DataFrame(timeline)
+    assert blocks["n"].head(3).to_list() == [0, 1, 2]
+    assert blocks["text"].to_list() == text.split("\n")
+    assert (blocks["X"] == "inactive").sum() == count + 1 - 200_000
+    assert blocks["seq"].to_list() == list(range(1, count + 2))
+    # X was moved before it was switched: what is left of that is said at the end.
+    assert blocks["codes"].to_list()[-1] == ["FC407"]

@@ -36,6 +36,16 @@ enum Stage {
     Beyond(Option<EndedBy>),
 }
 
+impl Stage {
+    /// Another program of the file begins.
+    fn beyond(self) -> Self {
+        match self {
+            Self::Beyond(_) => self,
+            _ => Self::Beyond(None),
+        }
+    }
+}
+
 /// How far the program has come, and what there is to say about blocks after its end.
 struct Progress {
     stage: Stage,
@@ -108,12 +118,8 @@ impl Interpreter {
                 if self.options.stop != StopPolicy::CheckAll {
                     break;
                 }
-                if !local {
-                    notes.push(never_run(raw.place(&file, name)));
-                }
-                if !matches!(stage, Stage::Beyond(_)) {
-                    stage = Stage::Beyond(None);
-                }
+                notes.extend((!local).then(|| never_run(raw.place(&file, name))));
+                stage = stage.beyond();
                 continue;
             }
             match stage {

@@ -107,7 +107,7 @@ fn a_program_from_a_pipe_says_what_it_says_from_a_file() {
         let shown = path
             .strip_prefix(env!("CARGO_MANIFEST_DIR"))
             .expect("below the root");
-        let name = shown.to_str().expect("UTF-8");
+        let name = &shown.to_str().expect("UTF-8").replace('\\', "/");
         let arguments = ["run", "--config", machine, "--format", "ndjson"];
         let run = |file| [&arguments[..], &[file]].concat();
         let from_file = output(&run(name), b"");

@@ -86,7 +86,7 @@ fn each_axis_has_its_own_list() {
              frict_comp.table[0].in 0\nfrict_comp.table[0].out {output}\nEnde\n"
         );
         fs::write(&path, text).expect("written");
-        path.to_str().expect("text").to_owned()
+        path.to_str().expect("text").replace('\\', "/")
     };
     let [x, y] = [("a.lis", 110), ("b.lis", 0)].map(|(name, output)| write(name, output));
     let [for_x, for_y] = [format!("--value-list=X={x}"), format!("--value-list=Y={y}")];

@@ -195,7 +195,6 @@ fn text_has_the_width_that_was_asked_for() {
     assert!(refused(&["--width", "0", "check", "a.nc"]).contains("from 20 to 1000"));
 }
 
-#[cfg(unix)]
 #[test]
 fn a_closed_pipe_is_quiet() {
     // R9.26

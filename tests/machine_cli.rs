@@ -228,8 +228,7 @@ fn init_writes_what_loads_without_a_message() {
     let made = tool(&cnc, &["init"]);
     assert_eq!(made.status.code(), Some(0), "{}", said(&made));
     assert!(
-        said(&made).starts_with("wrote `./frictcomp.toml`")
-            || said(&made).starts_with("wrote `.\\frictcomp.toml`"),
+        said(&made).starts_with("wrote `./frictcomp.toml`"),
         "{}",
         said(&made)
     );

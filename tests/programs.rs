@@ -62,8 +62,13 @@ fn frictcomp(arguments: &[&str]) -> Output {
 
 /// The path from the root of the repository, with forward slashes.
 fn shown(path: &Path) -> String {
-    let below = path.strip_prefix(root()).expect("below the root");
-    below.to_string_lossy().replace('\\', "/")
+    let shown = |below: &Path| below.to_string_lossy().replace('\\', "/");
+    if let Ok(below) = path.strip_prefix(root()) {
+        return shown(below);
+    }
+    // On Windows the same folder has names of several forms.
+    let root = root().canonicalize().expect("it is there");
+    shown(path.strip_prefix(root).expect("below the root"))
 }
 
 /// Programs about a machine that is not described see no configuration (R1.37).

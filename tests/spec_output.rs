@@ -381,7 +381,7 @@ fn a_second_run_waits_for_the_first() {
         .expect("it starts");
     std::thread::sleep(Duration::from_millis(300));
     assert!(child.try_wait().expect("a state").is_none(), "it waits");
-    lock.unlock().expect("free");
+    drop(lock);
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(output.status.code(), Some(0));
 }

@@ -10,7 +10,6 @@ mod folder;
 
 mod unbreakable {
     mod encodings;
-    #[cfg(unix)]
     mod kill;
     #[cfg(unix)]
     mod resources;

@@ -33,6 +33,7 @@ use crate::report::audit::{
 };
 use crate::report::html::render_audit;
 use crate::session::StopPolicy;
+use crate::text::shown_path;
 
 /// Show what the order of programs does: which ones leave an axis away from home, and which move it
 /// in the state that they find
@@ -251,7 +252,7 @@ fn report(auditor: &ArchiveAuditor, archives: Vec<Archive>) -> AuditReport {
     let machines = auditor.machines().iter().zip(archives);
     let machines = machines.map(|(loaded, archive)| {
         let origin = loaded.origin.as_deref();
-        MachineAudit::new(origin.map(|it| it.display().to_string()), archive)
+        MachineAudit::new(origin.map(shown_path), archive)
     });
     AuditReport {
         machines: machines.collect(),

@@ -27,6 +27,7 @@ use crate::report::html::render_circle;
 use crate::report::pictures::circle;
 use crate::report::svg::Frame;
 use crate::simulation::FrictionModel;
+use crate::text::shown_path;
 use crate::trace::{ChannelSelection, Unit};
 
 /// Drive a circle with two simulated axes, with friction compensation off and on
@@ -214,7 +215,7 @@ fn given_lists(
     given: &[AxisList],
     ledger: &Ledger,
 ) -> Result<([FrictionList; 2], ListOrigin), Failure> {
-    let name = |list: &AxisList| list.path.display().to_string();
+    let name = |list: &AxisList| shown_path(&list.path);
     if let [both @ AxisList { axis: None, .. }] = given {
         let list = value_list(&both.path, ledger)?;
         return Ok(([list.clone(), list], ListOrigin::File(name(both))));

@@ -1,6 +1,6 @@
 //! `frictcomp diff`: which blocks change the compensation state between two versions.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -23,6 +23,7 @@ use crate::report::fitted;
 use crate::report::html::render_versions;
 use crate::report::versions::{ContoursReport, VersionsReport, render_json, render_text};
 use crate::session::StopPolicy;
+use crate::text::shown_path;
 use crate::versions::{
     Agreement, ContourAgreement, ContourComparison, Version, VersionComparison, VersionContour,
 };
@@ -96,8 +97,8 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     };
     let is_described = machines.loaded().all(|it| it.machine.is_described());
     let report = VersionsReport {
-        old: shown(&args.old),
-        new: shown(&args.new),
+        old: shown_path(&args.old),
+        new: shown_path(&args.new),
         remark: (!is_described)
             .then(|| undescribed_remark(&inputs))
             .flatten(),
@@ -146,10 +147,6 @@ fn contours(
         plane,
         plant: args.simulation.plant().to_owned(),
     })
-}
-
-fn shown(path: &Path) -> String {
-    path.display().to_string()
 }
 
 /// What a version switches.

@@ -20,6 +20,7 @@ use crate::host::{Disk, Ledger, read_list};
 use crate::machine::ListsReport;
 use crate::report::drives::render_drives;
 use crate::report::{ListingFormat, command_line};
+use crate::text::shown_path;
 
 /// Check that the torque of friction compensation reaches the drives, and that the actual torque
 /// comes back
@@ -78,7 +79,7 @@ fn evidence(args: &DriveArgs, ledger: &Ledger) -> Result<Evidence, Failure> {
                 return Err(Failure::new(format!(
                     "there is no device `{}` in `{}`",
                     given.slave,
-                    path.display()
+                    shown_path(path)
                 ))
                 .with_help(format!("its drives are {}", names.join(", "))));
             }
@@ -125,7 +126,7 @@ fn collect(report: &ListsReport, drives: &[DriveReport], said: &mut Vec<Diagnost
 }
 
 fn no_axis(path: &Path) -> Failure {
-    Failure::new(format!("`{}` describes no axis", path.display()))
+    Failure::new(format!("`{}` describes no axis", shown_path(path)))
         .with_help("name a start-up list, axis lists or a `frictcomp.toml`")
 }
 

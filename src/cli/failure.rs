@@ -9,10 +9,11 @@ use crate::diagnostic::Diagnostic;
 use crate::host::{HostError, TraceError};
 use crate::motion::CycleError;
 use crate::report::visible_line;
+use crate::text::shown_path;
 
 /// A path as it is shown in a text of several lines (R9.76).
 pub(super) fn shown(path: &Path) -> String {
-    visible_line(&path.to_string_lossy()).into_owned()
+    visible_line(&shown_path(path)).into_owned()
 }
 
 /// One clear sentence, what to do, and where the reason is in the user's file.
@@ -73,7 +74,7 @@ fn options_for(error: &HostError) -> Option<String> {
         HostError::FolderAsProgram(folder) => {
             return Some(format!(
                 "name its programs, or use `frictcomp check {}`, which searches folders",
-                folder.display()
+                shown_path(folder)
             ));
         }
         HostError::NotAStartupList { path, .. } if crate::host::is_configuration(path) => {

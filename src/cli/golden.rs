@@ -23,6 +23,7 @@ use crate::host::{
 use crate::report::contour::{AgreedContour, render_agreed};
 use crate::report::{Report, Text, TextChange, TextOptions, render_unified};
 use crate::session::StopPolicy;
+use crate::text::shown_path;
 
 const TIMELINE: AgreedKind = AgreedKind {
     extension: "timeline",
@@ -161,13 +162,13 @@ impl Bench<'_> {
         let now = |program: &Input| result(program, (args, &mut self.machines), ledger);
         for updated in self.agreed.update::<Failure>(&self.files, ledger, now)? {
             for path in &updated.written {
-                console.remark(&format!("wrote `{}`", path.display()));
+                console.remark(&format!("wrote `{}`", shown_path(path)));
             }
             if updated.failures.is_empty() {
                 written += updated.written.len();
                 continue;
             }
-            let (folder, count) = (updated.folder.display(), args.counted(updated.files));
+            let (folder, count) = (shown_path(updated.folder), args.counted(updated.files));
             for failure in updated.failures {
                 failures.push(failure);
             }

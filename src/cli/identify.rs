@@ -23,6 +23,7 @@ use crate::report::on_circles::{self, OnCirclesReport};
 use crate::report::pictures::friction_curve;
 use crate::report::svg::Frame;
 use crate::report::{fitted, visible_line};
+use crate::text::shown_path;
 
 /// Find the friction of an axis in a recorded trace and make a value list of it
 ///
@@ -114,7 +115,7 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     let recording = read(trace)?;
     let identified = identify(&recording.track, &options)?;
     let report = IdentifyReport {
-        name: trace.display().to_string(),
+        name: shown_path(trace),
         axis: args.channels.axis.clone(),
         recording,
         identified,
@@ -153,11 +154,7 @@ fn circles(
 ) -> Result<OnCirclesReport, Failure> {
     let tracks: Vec<Track> = recordings.iter().map(|it| it.track.clone()).collect();
     let report = OnCirclesReport {
-        names: args
-            .traces
-            .iter()
-            .map(|path| path.display().to_string())
-            .collect(),
+        names: args.traces.iter().map(|path| shown_path(path)).collect(),
         axis: args.channels.axis.clone(),
         found: identify_circles(&tracks)?,
         recordings,

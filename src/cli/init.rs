@@ -10,6 +10,7 @@ use super::failure::Failure;
 use crate::host::{CONFIG_NAME, HostError, outline_of, write_new};
 use crate::machine::Outline;
 use crate::report::configuration::render_configuration;
+use crate::text::shown_path;
 
 /// Write a commented `frictcomp.toml` to start from
 ///
@@ -33,7 +34,11 @@ pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
     }
     let outline = outline_of(&args.folder, args.startup.as_deref())?;
     write_new(&target, &render_configuration(&outline))?;
-    Console::talk(&format!("wrote `{}`: {}", target.display(), told(&outline)));
+    Console::talk(&format!(
+        "wrote `{}`: {}",
+        shown_path(&target),
+        told(&outline)
+    ));
     Console::talk("next: `frictcomp config show` shows the machine that it describes");
     Ok(exit::CLEAN)
 }

@@ -19,6 +19,7 @@ use crate::lists::FrictionList;
 use crate::machine::Machine;
 use crate::report::command_line;
 use crate::session::undescribed;
+use crate::text::shown_path;
 
 /// The machine, as the user gives it on the command line.
 #[derive(Debug, Clone, Args)]
@@ -113,7 +114,7 @@ pub(super) fn remark(loaded: &LoadedMachine) -> Option<String> {
             several => parts.push(format!("{several} {noun}s")),
         }
     }
-    let origin = loaded.origin.as_ref()?.display();
+    let origin = shown_path(loaded.origin.as_ref()?);
     (!parts.is_empty()).then(|| {
         let parts = parts.join(", ");
         format!("lists: {parts} (`frictcomp lists {origin}` shows them)")
@@ -138,7 +139,7 @@ pub(super) fn value_list(path: &Path, ledger: &Ledger) -> Result<FrictionList, F
     let read = read_value_list(path, ledger)?;
     let count = read.diagnostics.len();
     if count > 0 {
-        let name = path.display();
+        let name = shown_path(path);
         Console::talk(&format!(
             "lists: {count} remarks (`frictcomp lists {name}` shows them)"
         ));

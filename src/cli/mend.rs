@@ -20,6 +20,7 @@ use crate::host::{
 };
 use crate::report::{TextChange, render_unified};
 use crate::session::{ProposedFixes, SafeFixes, StopPolicy};
+use crate::text::shown_path;
 
 /// How often a change may call for another one.
 const MOST_PASSES: usize = 10;
@@ -95,7 +96,7 @@ impl Bench<'_> {
         let name = |input: &Input| match input {
             Input::Stdin => Some("standard input".to_owned()),
             Input::File(path) if path.exists() && !path.is_file() => {
-                Some(format!("`{}`", path.display()))
+                Some(format!("`{}`", shown_path(path)))
             }
             Input::File(_) | Input::Open(_) => None,
         };

@@ -48,6 +48,7 @@ mod trace;
 mod tune;
 mod values;
 mod verify;
+mod wildcards;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -113,7 +114,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Runs the tool and gives its exit status, for a process that goes on after it.
 pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let mut arguments: Vec<OsString> = arguments.into_iter().collect();
+    if cfg!(windows) {
+        arguments = wildcards::expanded(arguments);
+    }
     let hidden = hidden(&arguments);
     let parsed = description().try_get_matches_from(arguments);
     let parsed = parsed.and_then(|matches| Arguments::from_arg_matches(&matches));

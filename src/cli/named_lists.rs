@@ -9,6 +9,7 @@ use super::machine::elsewhere;
 use crate::comp::CncBuild;
 use crate::host::{CONFIG_NAME, Disk, Grounds, check_list_file, is_configuration, nearest_config};
 use crate::machine::ListsReport;
+use crate::text::shown_path;
 
 /// The lists of a command.
 #[derive(Debug, Args)]
@@ -54,7 +55,7 @@ impl NamedLists {
         if self.cnc_build.is_some() && is_configuration(path) {
             let message = format!(
                 "the build of `{}` is given in the file itself",
-                path.display()
+                shown_path(path)
             );
             return Err(Failure::new(message).with_help("leave `--cnc-build` out"));
         }

@@ -8,6 +8,7 @@ use super::console::{Console, Target};
 use super::failure::Failure;
 use crate::host::{Ledger, OutputFile, OutputFiles, StateFile};
 use crate::session::SavedState;
+use crate::text::shown_path;
 
 /// The name that stands for standard output.
 const STDOUT: &str = "-";
@@ -105,7 +106,7 @@ impl Outputs {
     /// Everything is written: every file takes its place, and is named on stderr.
     pub(super) fn finish(self) -> Result<(), Failure> {
         let console = self.console;
-        let placed = |path: &Path| console.remark(&format!("wrote `{}`", path.display()));
+        let placed = |path: &Path| console.remark(&format!("wrote `{}`", shown_path(path)));
         Ok(self.files.finish(placed)?)
     }
 }

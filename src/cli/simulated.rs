@@ -15,6 +15,7 @@ use crate::host::{ContourSetup, Ledger, LoadedMachine, Naming, NoDrivenContour, 
 use crate::motion::{PlannerOptions, check_cycle};
 use crate::session::StopPolicy;
 use crate::simulation::FrictionModel;
+use crate::text::shown_path;
 
 /// What drives the path of a program.
 #[derive(Debug, Clone, Args)]
@@ -76,7 +77,7 @@ impl SimulationArgs {
     ) -> Result<ContourSetup, Failure> {
         let given = self.value_list.iter().map(|(axis, path)| {
             let list = value_list(path, ledger)?;
-            Ok((axis.clone(), path.display().to_string(), list))
+            Ok((axis.clone(), shown_path(path), list))
         });
         let mut session = execution.options(loaded, StopPolicy::FirstError);
         session.start = self.start.positions(&loaded.machine)?;

@@ -14,6 +14,7 @@ use crate::report::html::render_trace;
 use crate::report::pictures::channels;
 use crate::report::svg::Frame;
 use crate::report::trace::{TraceReport, render_json, render_text};
+use crate::text::shown_path;
 use crate::trace::{ChannelQuantity, ChannelSelection, Choice};
 
 /// List the channels of a recorded trace: rates, lengths, ranges, gaps
@@ -56,7 +57,7 @@ pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
         Ok(Choice::all(channels, time))
     })?;
     let report = TraceReport {
-        name: args.file.display().to_string(),
+        name: shown_path(&args.file),
         recording: &recording,
     };
     if let Some(mut svg) = svg {

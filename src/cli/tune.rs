@@ -26,7 +26,7 @@ use crate::report::svg::Frame;
 use crate::report::tune::{TuneReport, render_json, render_text, round, tuned_range};
 use crate::report::visible_line;
 use crate::simulation::{FrictionModel, Plant};
-use crate::text::{Place, Span};
+use crate::text::{Place, Span, shown_path};
 
 /// Circles that are tuned at once, at most.
 const MAX_CIRCLES: usize = 32;
@@ -302,7 +302,7 @@ fn axis_lists(
     std::fs::create_dir_all(folder).map_err(|error| {
         Failure::new(format!(
             "the folder `{}` cannot be made: {error}",
-            folder.display()
+            shown_path(folder)
         ))
     })?;
     let loaded = args.machine.machines(ledger).for_folder(Path::new("."))?;

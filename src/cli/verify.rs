@@ -17,6 +17,7 @@ use crate::host::{Ledger, read_axis};
 use crate::identify::{Predictor, verify};
 use crate::report::fitted;
 use crate::report::verify::{VerifyReport, render_json, render_text};
+use crate::text::shown_path;
 
 /// Compare a recorded torque with what a value list predicts
 ///
@@ -64,8 +65,8 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     };
     let verified = verify(&recording.track, &predictor)?;
     let report = VerifyReport {
-        trace: args.trace.display().to_string(),
-        list: args.value_list.display().to_string(),
+        trace: shown_path(&args.trace),
+        list: shown_path(&args.value_list),
         recording,
         verified,
     };

@@ -16,6 +16,7 @@ use super::watch::{Watch, Watcher};
 use crate::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
 use crate::lists::Parameter;
 use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
+use crate::text::shown_path;
 
 /// The name of the configuration file.
 pub const CONFIG_NAME: &str = "frictcomp.toml";
@@ -95,7 +96,10 @@ impl LoadedMachine {
             settings: configuration.settings,
             levels: configuration.levels,
             reach: Reach {
-                program_dirs: folders.map(|written| folder.join(written)).collect(),
+                // Written on Windows, read anywhere.
+                program_dirs: folders
+                    .map(|written| folder.join(written.replace('\\', "/")))
+                    .collect(),
                 project: folder.to_owned(),
                 elsewhere: Elsewhere::Kept,
             },
@@ -272,7 +276,7 @@ impl Machines {
         let mut lists = ListsOnDisk::new(&self.disk);
         let configuration = Configuration::from_startup(text, &mut lists);
         let wrong = configuration.diagnostics.iter().find(|said| {
-            let whole_file = *said.place.file == *path.display().to_string();
+            let whole_file = *said.place.file == *shown_path(path);
             said.code == Code::Fc125 && whole_file && said.place.start().line == 1
         });
         if let Some(wrong) = wrong

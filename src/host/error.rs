@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::in_use::{device, told};
 use super::trace_error::TraceError;
 use crate::diagnostic::{Diagnostic, UnknownName};
 use crate::simulation::UnknownPreset;
+use crate::text::shown_path;
 
 /// Why the work with files could not be done: one sentence in lower case.
 #[derive(Debug, Error)]
@@ -30,7 +32,7 @@ pub enum HostError {
         reason: io::Error,
     },
     /// A change that the code page of a file cannot write.
-    #[error("`{}` cannot be changed: {reason}", .path.display())]
+    #[error("`{}` cannot be changed: {reason}", shown_path(.path))]
     Unwritable {
         /// The file.
         path: PathBuf,
@@ -38,19 +40,19 @@ pub enum HostError {
         reason: String,
     },
     /// A file that somebody else changed while it was worked on.
-    #[error("`{}` has changed since it was read; nothing was written", .0.display())]
+    #[error("`{}` has changed since it was read; nothing was written", shown_path(.0))]
     ChangedMeanwhile(PathBuf),
     /// A full disk.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),
     /// A folder where a program is wanted.
-    #[error("`{}` is a folder, not a program", .0.display())]
+    #[error("`{}` is a folder, not a program", shown_path(.0))]
     FolderAsProgram(PathBuf),
     /// A folder where a list is wanted.
-    #[error("`{}` is a folder, not a list", .0.display())]
+    #[error("`{}` is a folder, not a list", shown_path(.0))]
     FolderAsList(PathBuf),
     /// A folder of which a part may not be read.
-    #[error("`{}` cannot be searched completely: {reason}", .folder.display())]
+    #[error("`{}` cannot be searched completely: {reason}", shown_path(.folder))]
     Search {
         /// The folder that is searched.
         folder: PathBuf,
@@ -58,7 +60,7 @@ pub enum HostError {
         reason: String,
     },
     /// A folder of texts.
-    #[error("there is no program below `{}`", .folder.display())]
+    #[error("there is no program below `{}`", shown_path(.folder))]
     NoPrograms {
         /// The folder that was searched.
         folder: PathBuf,
@@ -66,7 +68,7 @@ pub enum HostError {
         extensions: Vec<String>,
     },
     /// A `frictcomp.toml` with a mistake.
-    #[error("the configuration `{}` cannot be used", .path.display())]
+    #[error("the configuration `{}` cannot be used", shown_path(.path))]
     Configuration {
         /// The file.
         path: PathBuf,
@@ -82,16 +84,16 @@ pub enum HostError {
         message: String,
     },
     /// A folder that is not there.
-    #[error("there is no folder `{}`", .0.display())]
+    #[error("there is no folder `{}`", shown_path(.0))]
     NoFolder(PathBuf),
     /// A file that is there already and stays as it is.
-    #[error("`{}` already exists and is not changed", .0.display())]
+    #[error("`{}` already exists and is not changed", shown_path(.0))]
     AlreadyThere(PathBuf),
     /// Start-up lists of which nobody says which one the machine has.
     #[error("there are several start-up lists: {}", listed(.0))]
     SeveralStartupLists(Vec<PathBuf>),
     /// A link to a file that nobody handed over.
-    #[error("`{}` is a link that leads out of the given folders", .0.display())]
+    #[error("`{}` is a link that leads out of the given folders", shown_path(.0))]
     LeadsOut(PathBuf),
     /// A program without a place beside it.
     #[error("standard input has no `.{0}` file beside it")]
@@ -114,7 +116,7 @@ pub enum HostError {
         other: String,
     },
     /// An output that is an input.
-    #[error("`{output}` would overwrite the {what} `{}`", .input.display())]
+    #[error("`{output}` would overwrite the {what} `{}`", shown_path(.input))]
     Overwrites {
         /// The output.
         output: String,
@@ -124,13 +126,13 @@ pub enum HostError {
         input: PathBuf,
     },
     /// A folder where the state is wanted.
-    #[error("`{}` cannot hold a state: it is not a regular file", .0.display())]
+    #[error("`{}` cannot hold a state: it is not a regular file", shown_path(.0))]
     StateNotRegular(PathBuf),
     /// A state that another run has locked.
-    #[error("another run uses the state file `{}`", .0.display())]
+    #[error("another run uses the state file `{}`", shown_path(.0))]
     StateInUse(PathBuf),
     /// A state that is damaged, or of another machine.
-    #[error("the state file `{}` cannot be used: {reason}", .path.display())]
+    #[error("the state file `{}` cannot be used: {reason}", shown_path(.path))]
     State {
         /// The file.
         path: PathBuf,
@@ -138,7 +140,7 @@ pub enum HostError {
         reason: String,
     },
     /// A value list that the control would not take.
-    #[error("the value list `{}` cannot be used: {reason}", .path.display())]
+    #[error("the value list `{}` cannot be used: {reason}", shown_path(.path))]
     ValueList {
         /// The file.
         path: PathBuf,
@@ -151,7 +153,7 @@ pub enum HostError {
     #[error(transparent)]
     NoPlant(UnknownPreset),
     /// A plant file with a mistake.
-    #[error("the plant `{}` cannot be used", .path.display())]
+    #[error("the plant `{}` cannot be used", shown_path(.path))]
     Plant {
         /// The file.
         path: PathBuf,
@@ -175,13 +177,13 @@ impl HostError {
         if reason.kind() == io::ErrorKind::IsADirectory {
             return Self::FolderAsProgram(path.to_owned());
         }
-        let path = path.to_owned();
+        let (path, reason) = (path.to_owned(), told(reason));
         Self::Read { path, reason }
     }
 
     /// A file that cannot be written.
     pub fn write(path: &Path, reason: io::Error) -> Self {
-        let path = path.to_owned();
+        let (path, reason) = (path.to_owned(), told(reason));
         Self::Write { path, reason }
     }
 
@@ -201,6 +203,7 @@ impl HostError {
             Self::Read { reason, .. } => match reason.kind() {
                 io::ErrorKind::NotFound => "check the path; it is taken from the current folder",
                 io::ErrorKind::PermissionDenied => "check your permission to read it",
+                io::ErrorKind::ResourceBusy => "close it there, then try again",
                 _ => return None,
             },
             Self::Write { reason, .. } => match reason.kind() {
@@ -208,6 +211,7 @@ impl HostError {
                 io::ErrorKind::PermissionDenied => {
                     "check your permission to write there, or name another file"
                 }
+                io::ErrorKind::ResourceBusy => "close it there and try again, or name another file",
                 io::ErrorKind::IsADirectory => "name a file in it",
                 _ => return None,
             },
@@ -242,28 +246,37 @@ impl HostError {
 fn listed(paths: &[PathBuf]) -> String {
     let names: Vec<String> = paths
         .iter()
-        .map(|path| format!("`{}`", path.display()))
+        .map(|path| format!("`{}`", shown_path(path)))
         .collect();
     names.join(", ")
 }
 
 fn reading(path: &Path, reason: &io::Error) -> String {
-    let shown = path.display();
+    let shown = shown_path(path);
+    if let Some(device) = device(path).filter(|_| cfg!(windows)) {
+        return format!("`{shown}` cannot be read: `{device}` is the name of a device on Windows");
+    }
     match reason.kind() {
         io::ErrorKind::NotFound => format!("there is no file `{shown}`"),
         io::ErrorKind::PermissionDenied => format!("`{shown}` cannot be read: permission denied"),
+        io::ErrorKind::ResourceBusy => {
+            format!("`{shown}` cannot be read: another program has it open")
+        }
         _ => format!("`{shown}` cannot be read: {reason}"),
     }
 }
 
 fn writing(path: &Path, reason: &io::Error) -> String {
-    let shown = path.display();
+    let shown = shown_path(path);
     match reason.kind() {
         io::ErrorKind::NotFound => {
             format!("`{shown}` cannot be written: its folder does not exist")
         }
         io::ErrorKind::PermissionDenied => {
             format!("`{shown}` cannot be written: permission denied")
+        }
+        io::ErrorKind::ResourceBusy => {
+            format!("`{shown}` cannot be written: another program has it open")
         }
         io::ErrorKind::IsADirectory => format!("`{shown}` cannot be written: it is a folder"),
         _ => format!("`{shown}` cannot be written: {reason}"),

@@ -18,6 +18,7 @@ use super::walk::find_programs;
 use crate::diagnostic::Code;
 use crate::lists::ListKind;
 use crate::machine::{Configuration, NoLists, Outline, check_list};
+use crate::text::shown_path;
 
 /// How deep below the folder a start-up list is looked for.
 const DEPTH: usize = 4;
@@ -39,7 +40,7 @@ pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, Host
         return Ok(Outline::of_programs(programs(folder)));
     };
     check_startup(&path)?;
-    Ok(Outline::Startup(slashed(&seen_from(folder, &path)?)))
+    Ok(Outline::Startup(shown_path(&seen_from(folder, &path)?)))
 }
 
 /// Creates a file as a whole; one that is there stays.
@@ -92,7 +93,7 @@ fn check_startup(path: &Path) -> Result<(), HostError> {
     let wrong = configuration
         .diagnostics
         .iter()
-        .find(|said| said.code == Code::Fc125 && *said.place.file == *path.display().to_string());
+        .find(|said| said.code == Code::Fc125 && *said.place.file == *shown_path(path));
     match wrong {
         Some(wrong) if configuration.files.len() == 1 => Err(HostError::NotAStartupList {
             path: path.to_owned(),
@@ -119,14 +120,4 @@ fn programs(folder: &Path) -> impl Iterator<Item = String> {
         Input::Open(open) => Some(open.text.to_string()),
         Input::Stdin => None,
     })
-}
-
-/// A path with `/` between its parts.
-fn slashed(path: &Path) -> String {
-    let shown = path.to_string_lossy();
-    if cfg!(windows) {
-        shown.replace('\\', "/")
-    } else {
-        shown.into_owned()
-    }
 }

@@ -12,7 +12,7 @@ use super::open_text::OpenText;
 use super::read::{read_text, read_whole};
 use super::steady::Steady;
 use crate::syntax::FlowScan;
-use crate::text::{LineSource, SourceFile, decode};
+use crate::text::{LineSource, SourceFile, decode, shown_path};
 
 /// The name of standard input in records and diagnostics.
 const STDIN: &str = "<stdin>";
@@ -31,7 +31,7 @@ impl Naming {
     pub fn name(self, path: &Path) -> String {
         match (self, path.file_name()) {
             (Self::FileName, Some(name)) => name.to_string_lossy().into_owned(),
-            _ => path.display().to_string(),
+            _ => shown_path(path),
         }
     }
 }

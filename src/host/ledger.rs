@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::error::HostError;
+use crate::text::shown_path;
 
 /// The files that a piece of work reads. Its copies are the same ledger: called programs are known only
 /// while others run already.
@@ -27,7 +28,7 @@ pub(super) struct Claim {
 
 impl Claim {
     fn shown(&self) -> String {
-        format!("{} {}", self.name, self.path.display())
+        format!("{} {}", self.name, shown_path(&self.path))
     }
 }
 

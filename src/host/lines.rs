@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::read::{MOST_KEPT, too_big};
 use crate::syntax::{FlowScan, MAX_LINE};
-use crate::text::{LineSource, PhysicalLine, decode_lines, line_end};
+use crate::text::{LineSource, PhysicalLine, decode_lines, line_end, wide};
 
 /// Bytes that are read at once.
 const BUFFER: usize = 128 * 1024;
@@ -14,6 +14,9 @@ const BUFFER: usize = 128 * 1024;
 const KEPT: usize = 4 * (MAX_LINE + 1);
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// So many bytes tell UTF-16 without a byte order mark; as long as none of them is zero, it is not.
+const TELLING: usize = 4;
 
 /// How lines end.
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +82,7 @@ impl<R: Read> LineReader<R> {
             failure: None,
             most_kept: MOST_KEPT,
         };
-        while lines.unread.len() < BYTE_ORDER_MARK.len() && !lines.at_end {
+        while lines.is_undecided() && !lines.at_end {
             lines.fill();
         }
         if lines.buffer[lines.unread.clone()].starts_with(BYTE_ORDER_MARK) {
@@ -88,10 +91,15 @@ impl<R: Read> LineReader<R> {
         lines
     }
 
-    /// Whether the text begins with a byte order mark of UTF-16.
-    pub(super) fn is_wide(&self) -> bool {
+    /// Whether more bytes are needed to tell how the text is encoded.
+    fn is_undecided(&self) -> bool {
         let first = &self.buffer[self.unread.clone()];
-        first.starts_with(b"\xff\xfe") || first.starts_with(b"\xfe\xff")
+        first.len() < BYTE_ORDER_MARK.len() || first.len() < TELLING && first.contains(&0)
+    }
+
+    /// Whether the text is UTF-16.
+    pub(super) fn is_wide(&self) -> bool {
+        wide(&self.buffer[self.unread.clone()]).is_some()
     }
 
     /// The same lines, of which those of a text that cannot be given out as it comes are an error.

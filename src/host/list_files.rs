@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use super::disk::Disk;
 use super::error::HostError;
 use crate::machine::{ListFiles, NoList};
-use crate::text::SourceFile;
+use crate::text::{SourceFile, shown_path};
 
 /// The lists on a disk.
 #[derive(Debug, Clone, Default)]
@@ -25,7 +25,7 @@ impl ListFiles for ListsOnDisk {
         let spelt = as_spelt(path, &self.0);
         let found = spelt.as_deref().unwrap_or(path);
         match self.0.read(found) {
-            Ok(text) => Ok(SourceFile::new(found.to_string_lossy().into_owned(), text)),
+            Ok(text) => Ok(SourceFile::new(shown_path(found), text)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Err(NoList::Missing),
             Err(error) => Err(NoList::Unreadable(error.to_string())),
         }
@@ -35,11 +35,11 @@ impl ListFiles for ListsOnDisk {
     fn above(&self, folder: &str) -> Option<String> {
         let path = Path::new(folder);
         match path.components().next_back() {
-            Some(Component::Normal(_)) => Some(path.parent()?.to_string_lossy().into_owned()),
+            Some(Component::Normal(_)) => Some(shown_path(path.parent()?)),
             None | Some(Component::CurDir | Component::ParentDir) => {
                 let above = path.join("..");
                 let (here, there) = (self.0.real(path).ok()?, self.0.real(&above).ok()?);
-                (here != there).then(|| above.to_string_lossy().replace('\\', "/"))
+                (here != there).then(|| shown_path(&above))
             }
             Some(Component::RootDir | Component::Prefix(_)) => None,
         }
@@ -55,7 +55,7 @@ pub fn read_list(path: &Path, disk: &Disk) -> Result<SourceFile, HostError> {
         io::ErrorKind::IsADirectory => HostError::FolderAsList(path.to_owned()),
         _ => HostError::read(path, error),
     })?;
-    Ok(SourceFile::new(path.display().to_string(), text))
+    Ok(SourceFile::new(shown_path(path), text))
 }
 
 /// The path as it is spelt on the disk. The control's disk does not tell upper from lower case.

@@ -8,7 +8,7 @@ use super::error::HostError;
 use super::read::{read_bytes, read_text};
 use super::unfinished::UnfinishedFile;
 use crate::diagnostic::{Fix, edits};
-use crate::text::{EncodedText, SourceFile, decode};
+use crate::text::{EncodedText, SourceFile, decode, shown_path};
 
 /// A file and what changes make of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -75,7 +75,7 @@ impl MendedFile {
 /// The file cannot be read, or its code page has no way to write a change.
 pub fn mend(path: &Path, fixes: &[Fix]) -> Result<Option<MendedFile>, HostError> {
     let encoded = read_encoded(path)?;
-    let source = SourceFile::new(path.display().to_string(), encoded.text());
+    let source = SourceFile::new(shown_path(path), encoded.text());
     let edits = edits(&source, fixes).into_iter();
     let changes: Vec<_> = edits.map(|it| (it.span.range(), it.text)).collect();
     MendedFile::new(path, &encoded, &changes)

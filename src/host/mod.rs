@@ -22,6 +22,7 @@ mod figures;
 mod finder;
 mod first_look;
 mod grounds;
+mod in_use;
 mod input;
 mod interrupt;
 mod ledger;

@@ -9,6 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::error::HostError;
 use super::ledger::{Claim, Ledger};
 use super::unfinished::{UnfinishedFile, take_away_left};
+use crate::text::shown_path;
 
 /// The files that a piece of work writes. Dropped before [`finish`](Self::finish), nothing was
 /// written.
@@ -182,7 +183,7 @@ impl OutputFile {
     fn named(&self, error: io::Error) -> io::Error {
         match error.kind() {
             io::ErrorKind::BrokenPipe | io::ErrorKind::Interrupted => error,
-            kind => io::Error::new(kind, format!("{error} (`{}`)", self.path.display())),
+            kind => io::Error::new(kind, format!("{error} (`{}`)", shown_path(&self.path))),
         }
     }
 }
@@ -190,6 +191,11 @@ impl OutputFile {
 /// Whether a path names what can only be opened, not replaced: a device, a pipe, or an open file of
 /// this process.
 fn is_device(path: &Path) -> bool {
+    if cfg!(windows) {
+        return path
+            .to_str()
+            .is_some_and(|name| name.eq_ignore_ascii_case("nul"));
+    }
     let system = ["/dev", "/proc"].iter().any(|root| path.starts_with(root));
     let is_special = std::fs::metadata(path).is_ok_and(|it| !it.is_file() && !it.is_dir());
     is_special || (cfg!(unix) && system && !path.starts_with("/dev/shm"))

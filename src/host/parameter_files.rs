@@ -11,7 +11,7 @@ use crate::comp::CncBuild;
 use crate::lists::{FrictionList, ReadList};
 use crate::machine::{ListsReport, check_configuration, check_list};
 use crate::simulation::{Plant, Preset};
-use crate::text::SourceFile;
+use crate::text::{SourceFile, shown_path};
 
 /// Reads the values that a list by itself would give the control.
 ///
@@ -19,7 +19,7 @@ use crate::text::SourceFile;
 /// The file cannot be read, or the control would not take it.
 pub fn read_value_list(path: &Path, ledger: &Ledger) -> Result<ReadList, HostError> {
     ledger.reads("value list", path);
-    let source = SourceFile::new(path.display().to_string(), read_text(path)?);
+    let source = SourceFile::new(shown_path(path), read_text(path)?);
     FrictionList::read(source).map_err(|refused| HostError::ValueList {
         path: path.to_owned(),
         reason: refused.reason,

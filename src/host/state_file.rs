@@ -51,13 +51,14 @@ impl StateFile {
 
     fn lock_within(path: &Path, patience: Duration) -> Result<Self, HostError> {
         // A link stays a link: the file that it names is replaced.
-        let path = target(path).map_err(|error| HostError::write(path, error))?;
-        let beside = Self::lock_path(&path);
-        for path in [&path, &beside] {
+        let file = target(path).map_err(|error| HostError::write(path, error))?;
+        let beside = Self::lock_path(&file);
+        for path in [path, &beside] {
             if path.exists() && !path.is_file() {
-                return Err(HostError::StateNotRegular(path.clone()));
+                return Err(HostError::StateNotRegular(path.to_owned()));
             }
         }
+        let path = path.to_owned();
         let lock = File::options()
             .create(true)
             .truncate(false)

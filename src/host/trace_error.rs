@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use crate::circle::RecordedError;
 use crate::current::CyclesError;
+use crate::text::shown_path;
 use crate::trace::{NotAligned, SelectError, TraceProblem};
 
 /// Why a trace cannot be read.
@@ -21,10 +22,10 @@ pub enum TraceError {
         problem: TraceProblem,
     },
     /// A project of TwinCAT Scope, whose form is not public.
-    #[error("`{}` is a file of TwinCAT Scope that only Scope reads", .0.display())]
+    #[error("`{}` is a file of TwinCAT Scope that only Scope reads", shown_path(.0))]
     Closed(PathBuf),
     /// Channels that cannot be brought to one clock.
-    #[error("the trace `{}`: {reason}", .path.display())]
+    #[error("the trace `{}`: {reason}", shown_path(.path))]
     Apart {
         /// The file.
         path: PathBuf,
@@ -32,7 +33,7 @@ pub enum TraceError {
         reason: NotAligned,
     },
     /// Rows that are not CNC cycles.
-    #[error("the trace `{}`: {reason}", .path.display())]
+    #[error("the trace `{}`: {reason}", shown_path(.path))]
     Cycles {
         /// The file.
         path: PathBuf,
@@ -40,10 +41,10 @@ pub enum TraceError {
         reason: CyclesError,
     },
     /// Channels of a commanded trace that were not sampled together.
-    #[error("the trace `{}`: its channels were sampled at different times", .0.display())]
+    #[error("the trace `{}`: its channels were sampled at different times", shown_path(.0))]
     SeveralClocks(PathBuf),
     /// Points that make no circle.
-    #[error("`{}`: {reason}", .path.display())]
+    #[error("`{}`: {reason}", shown_path(.path))]
     Circle {
         /// The file.
         path: PathBuf,
@@ -75,7 +76,7 @@ impl TraceError {
 
 /// A problem with the place that it has.
 fn said(path: &Path, problem: &TraceProblem) -> String {
-    let path = path.display();
+    let path = shown_path(path);
     match (problem, problem.line()) {
         (TraceProblem::Select(SelectError::Lacks { lacks, .. }), _) => {
             let text = problem.to_string();

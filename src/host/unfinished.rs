@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tempfile::{NamedTempFile, TempPath};
 
+use super::in_use::{device, patiently, told_of_replacing};
 use super::interrupt::Unfinished;
 use super::ledger::folder;
 
@@ -126,9 +127,17 @@ impl UnfinishedFile {
         };
         let mut unfinished = Unfinished::lock();
         let path = file.to_path_buf();
-        let persisted = persist(file, &self.target);
+        let mut file = Some(file);
+        let persisted = patiently(|| match file.take() {
+            Some(waiting) => persist(waiting, &self.target).map_err(|failed| {
+                file = Some(failed.path);
+                failed.error
+            }),
+            None => Ok(()),
+        });
+        drop(file);
         unfinished.forget(&path);
-        persisted?;
+        persisted.map_err(told_of_replacing)?;
         #[cfg(unix)]
         File::open(folder(&self.target))?.sync_all()?;
         Ok(())
@@ -169,8 +178,12 @@ impl Drop for UnfinishedFile {
 /// # Errors
 /// It may not be written.
 pub(super) fn target(path: &Path) -> io::Result<PathBuf> {
+    if let Some(device) = device(path).filter(|_| cfg!(windows)) {
+        let reason = format!("`{device}` is the name of a device on Windows");
+        return Err(io::Error::other(reason));
+    }
     let Ok(found) = std::fs::symlink_metadata(path) else {
-        return Ok(path.to_owned());
+        return Ok(place(path));
     };
     if found.is_symlink() && !path.exists() {
         let reason = "it is a link to a file that does not exist";
@@ -185,6 +198,14 @@ pub(super) fn target(path: &Path) -> io::Result<PathBuf> {
         return Err(io::Error::other("it is read-only"));
     }
     Ok(target)
+}
+
+/// The place of a new file. On Windows a path from the root on may be longer than others.
+fn place(path: &Path) -> PathBuf {
+    let found = || Some(folder(path).canonicalize().ok()?.join(path.file_name()?));
+    found()
+        .filter(|_| cfg!(windows))
+        .unwrap_or_else(|| path.to_owned())
 }
 
 /// A new file in a folder, which nobody takes for one that was left.

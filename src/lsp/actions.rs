@@ -14,7 +14,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Fix, Safety, edits};
 use crate::host::read_text;
 use crate::session::allow_here;
-use crate::text::{LineIndex, SourceFile};
+use crate::text::{LineIndex, SourceFile, shown_path};
 
 /// The actions at a place of a text.
 pub(super) fn code_actions(
@@ -147,7 +147,7 @@ fn fix_all(view: &View, document: &Document) -> Option<CodeAction> {
 /// The first safe change of each message about a text. A comment that silences nothing in one run may
 /// be needed in another: it goes only if no run needs it (R9.82).
 fn safe_fixes(view: &View, document: &Document) -> Vec<Fix> {
-    let name = document.path.display().to_string();
+    let name = shown_path(&document.path);
     let mut proposed: HashMap<&Fix, (Code, usize)> = HashMap::new();
     let mut runs = 0;
     for analysis in view.analyses.values() {

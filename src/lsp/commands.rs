@@ -19,7 +19,7 @@ use crate::host::{
 use crate::report::audit::{AuditReport, MachineAudit};
 use crate::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_audit, render_run};
 use crate::session::{Options, SessionOptions};
-use crate::text::LineSource;
+use crate::text::{LineSource, shown_path};
 use crate::timeline::{Record, Sink};
 
 /// The timeline of a program as an HTML report.
@@ -156,7 +156,7 @@ fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         .zip(archives)
         .map(|(loaded, archive)| {
             let origin = loaded.origin.as_deref();
-            MachineAudit::new(origin.map(|it| it.display().to_string()), archive)
+            MachineAudit::new(origin.map(shown_path), archive)
         });
     let report = AuditReport {
         machines: audits.collect(),

@@ -6,6 +6,7 @@ use super::analysis::Run;
 use super::documents::{Document, Kind};
 use super::states::Pass;
 use super::view::View;
+use crate::text::shown_path;
 
 /// The hints in a part of a text.
 pub(super) fn inlay_hints(view: &View, params: &InlayHintParams) -> Option<Vec<InlayHint>> {
@@ -17,7 +18,7 @@ pub(super) fn inlay_hints(view: &View, params: &InlayHintParams) -> Option<Vec<I
     let run = analysis.run.as_ref()?;
     let lines = params.range.start.line..=params.range.end.line;
     let mut hints = Vec::new();
-    let name = document.path.display().to_string();
+    let name = shown_path(&document.path);
     for (line, passes) in run.states.switching(&name) {
         if lines.contains(&(line - 1)) {
             hints.push(hint(view, document, line, &changes(run, &passes)));

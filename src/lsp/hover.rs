@@ -12,6 +12,7 @@ use super::states::{Pass, StateBook};
 use super::view::View;
 use crate::comp::{CompCommand, Selection, State};
 use crate::syntax::parse_comp;
+use crate::text::shown_path;
 
 /// What is said about the place under the pointer.
 pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
@@ -42,7 +43,7 @@ fn program(view: &View, document: &Document, position: Position) -> Option<Strin
             continue;
         }
         if main.uri != document.uri {
-            let caller = main.path.display();
+            let caller = shown_path(&main.path);
             let _ = writeln!(text, "\nCalled from `{caller}`:\n");
         }
         text += &table(&run.states, &passes);

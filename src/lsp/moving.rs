@@ -9,6 +9,7 @@ use super::view::View;
 use crate::comp::{Kind, State};
 use crate::host::{Alone, Axes, Disk, Input, Ledger, MachineOptions, Machines, Naming, run_alone};
 use crate::interpreter::{Centre, CircularArc, Form, Motion, Motions, Travel, Turn};
+use crate::text::shown_path;
 use crate::timeline::{Record, Row, Sink};
 
 /// Angles that differ by less are the same.
@@ -48,7 +49,7 @@ pub(super) fn moves(view: &View, document: &Document, line: u32) -> Vec<AxisMove
     let mut sink = Moves {
         view,
         line,
-        file: document.path.display().to_string(),
+        file: shown_path(&document.path),
         directions: vec![Direction::None; loaded.machine.axes.len()],
         found: Vec::new(),
     };

@@ -10,6 +10,7 @@ use super::client::Client;
 use super::documents::{Document, Documents};
 use super::lane::Cancel;
 use super::messages::Translator;
+use crate::text::shown_path;
 
 /// What a question is answered from. A copy is cheap, and stays as it is.
 #[derive(Clone)]
@@ -46,7 +47,7 @@ impl View {
     /// The runs that came through a file, each with the name of the file there: that of the file
     /// itself first, then those of programs that call it.
     pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &Run, String)> {
-        let name = document.path.display().to_string();
+        let name = shown_path(&document.path);
         let mut runs = Vec::new();
         for (uri, analysis) in &self.analyses {
             let (Some(run), Some(main)) = (&analysis.run, self.document(&Uri(uri.clone()))) else {

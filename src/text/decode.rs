@@ -1,6 +1,6 @@
 //! Bytes of files as text: UTF-8, the code page 1252 of old systems, or UTF-16.
 
-use encoding_rs::WINDOWS_1252;
+use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 /// The text of a file, decoded as a stream of its lines is. A byte order mark at its start is passed
 /// over.
@@ -22,16 +22,24 @@ pub fn decode(bytes: Vec<u8>) -> String {
     text
 }
 
-/// The text of bytes whose byte order mark says UTF-16, as some editors of Windows save.
+/// The text of bytes in UTF-16.
 fn decode_wide(bytes: &[u8]) -> Option<String> {
-    let (encoding, mark) = encoding_rs::Encoding::for_bom(bytes)?;
-    let is_wide = encoding != encoding_rs::UTF_8;
-    is_wide.then(|| {
-        encoding
-            .decode_without_bom_handling(&bytes[mark..])
-            .0
-            .into_owned()
-    })
+    let (encoding, mark) = wide(bytes)?;
+    let (text, _) = encoding.decode_without_bom_handling(&bytes[mark..]);
+    Some(text.into_owned())
+}
+
+/// The UTF-16 of a text, as Notepad and PowerShell write it, and the length of its byte order mark.
+/// Where an editor has left the mark away, two letters tell: no text of letters begins with such
+/// zeros.
+pub(crate) fn wide(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
+    match bytes {
+        [0xff, 0xfe, ..] => Some((UTF_16LE, 2)),
+        [0xfe, 0xff, ..] => Some((UTF_16BE, 2)),
+        [1..=0xff, 0, 1..=0xff, 0, ..] => Some((UTF_16LE, 0)),
+        [0, 1..=0xff, 0, 1..=0xff, ..] => Some((UTF_16BE, 0)),
+        _ => None,
+    }
 }
 
 /// A line in UTF-8; `None` where it is one of code page 1252.

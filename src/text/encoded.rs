@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-use super::decode::{decode, utf8_line};
+use super::decode::{decode, utf8_line, wide};
 
 /// A text with the bytes of its file.
 #[derive(Debug, Clone)]
@@ -86,9 +86,12 @@ impl EncodedText {
 /// Which lines of a file have which code page, as [`decode`] takes them.
 fn stretches(bytes: &[u8]) -> Vec<Stretch> {
     let stretch = |page, text, bytes| Stretch { page, text, bytes };
-    let (page, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
-    if page != UTF_8 || std::str::from_utf8(bytes).is_ok() {
+    if let Some((page, mark)) = wide(bytes) {
         return vec![stretch(page, 0, mark)];
+    }
+    let mark = Encoding::for_bom(bytes).map_or(0, |(_, mark)| mark);
+    if std::str::from_utf8(bytes).is_ok() {
+        return vec![stretch(UTF_8, 0, mark)];
     }
     let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
     // A mark before a line of an old system is no mark.
@@ -149,7 +152,7 @@ mod tests {
     #[test]
     fn nothing_but_the_replacement_changes() {
         // R9.82
-        let cases: [(&[u8], &[u8]); 7] = [
+        let cases: [(&[u8], &[u8]); 9] = [
             (b"(\xc3\x9c) on\r\n\xc3\x9c", b"(\xc3\x9c) ON\r\n\xc3\x9c"),
             (
                 b"\xef\xbb\xbf(\xc3\x9c) on\r",
@@ -170,6 +173,9 @@ mod tests {
                 b"\xfe\xff\xd8\x3d\xde\0\0o\0n",
                 b"\xfe\xff\xd8\x3d\xde\0\0O\0N",
             ),
+            // Without a byte order mark.
+            (b"N\0 \0o\0n\0\xdc\0", b"N\0 \0O\0N\0\xdc\0"),
+            (b"\0N\0 \0o\0n\0\xdc", b"\0N\0 \0O\0N\0\xdc"),
         ];
         for (before, after) in cases {
             let found = changed(before, "on", "ON");

@@ -14,12 +14,14 @@ mod hidden;
 mod index;
 mod lines;
 mod place;
+#[cfg(any(feature = "report", feature = "host"))]
+mod shown_path;
 mod span;
 
 #[cfg(any(feature = "report", feature = "host"))]
 pub use decode::decode;
 #[cfg(feature = "host")]
-pub(crate) use decode::decode_lines;
+pub(crate) use decode::{decode_lines, wide};
 #[cfg(any(feature = "report", feature = "host"))]
 pub use encoded::{EncodedText, NotEncodable};
 pub use file::SourceFile;
@@ -33,4 +35,6 @@ pub(crate) use lines::line_end;
 pub use lines::{LineSource, PhysicalLine, TextLines};
 pub use place::Place;
 pub(crate) use place::StartsInOrder;
+#[cfg(any(feature = "report", feature = "host"))]
+pub(crate) use shown_path::shown_path;
 pub use span::{Position, Span};

@@ -222,7 +222,9 @@ impl Client {
 
 /// The URI of a file.
 pub(crate) fn uri(path: &Path) -> String {
-    format!("file://{}", path.display())
+    let path = path.display().to_string().replace('\\', "/");
+    // A drive of Windows stands after a slash, which other paths begin with.
+    format!("file:///{}", path.trim_start_matches('/'))
 }
 
 /// The codes of messages, `own` for those of the server itself, with their lines from 0.

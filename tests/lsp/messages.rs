@@ -9,13 +9,13 @@ use crate::lsp_client::{Client, codes, uri};
 
 /// What `check` says about a program, in the manner of the editor: code, severity, range, message.
 fn checked(bench: &Bench, name: &str) -> Vec<(String, String, [u64; 4], String)> {
-    let path = bench.folder().join(name);
-    let text = bench.stdout(&["check", "--format", "ndjson", &path.display().to_string()]);
+    let path = bench.folder().join(name).display().to_string();
+    let path = path.replace('\\', "/");
+    let text = bench.stdout(&["check", "--format", "ndjson", &path]);
     let records = text
         .lines()
         .map(|line| serde_json::from_str::<Value>(line).expect("JSON"));
-    let records = records
-        .filter(|it| it["record"] == "diagnostic" && it["file"] == path.display().to_string());
+    let records = records.filter(|it| it["record"] == "diagnostic" && it["file"] == path);
     let number = |it: &Value| it.as_u64().expect("a number") - 1;
     let mut said: Vec<_> = records
         .map(|it| {

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::interpreter::StopPolicy;
 use crate::lists::Parameter;
 use crate::machine::{AxisReport, Setting};
+use crate::text::shown_path;
 
 /// What the report tells beside the records.
 #[derive(Debug, Clone, Copy, Default)]
@@ -38,7 +39,7 @@ impl GivenForRun<'_> {
     /// What was given in the words of the command line: names and values.
     pub(super) fn settings(&self) -> Vec<(&'static str, String)> {
         let mut settings = vec![match self.machine {
-            Some(path) => ("machine", path.display().to_string()),
+            Some(path) => ("machine", shown_path(path)),
             None => ("machine", "not configured".to_owned()),
         }];
         if !self.enabled.is_empty() {
@@ -52,7 +53,7 @@ impl GivenForRun<'_> {
             ("variable", format!("{name} = {value}"))
         }));
         settings.push(match self.state {
-            Some(path) => ("--state", path.display().to_string()),
+            Some(path) => ("--state", shown_path(path)),
             None => (
                 "state at start",
                 "that of a restart of the control".to_owned(),

@@ -1,0 +1,64 @@
+//! Wildcards, which `cmd` and PowerShell leave to the programs that they start.
+
+use std::ffi::OsString;
+
+use glob::{MatchOptions, glob_with};
+
+/// Upper and lower case are the same, and a name is no more than one part of a path.
+const AS_WINDOWS: MatchOptions = MatchOptions {
+    case_sensitive: false,
+    require_literal_separator: true,
+    require_literal_leading_dot: false,
+};
+
+/// The arguments, with the files that match in place of each that has a `*` or a `?`. What matches
+/// nothing stays, and is said to be no file.
+pub(super) fn expanded(arguments: Vec<OsString>) -> Vec<OsString> {
+    arguments.into_iter().flat_map(matching).collect()
+}
+
+fn matching(argument: OsString) -> Vec<OsString> {
+    let pattern = argument.to_str().filter(|text| is_pattern(text));
+    // A name can hold `[`, unlike the others, and means itself.
+    let pattern = pattern.map(|text| text.replace('[', "[[]"));
+    let Some(paths) = pattern.and_then(|it| glob_with(&it, AS_WINDOWS).ok()) else {
+        return vec![argument];
+    };
+    let found: Result<Vec<OsString>, _> = paths
+        .map(|path| path.map(std::path::PathBuf::into_os_string))
+        .collect();
+    match found {
+        Ok(found) if !found.is_empty() => found,
+        // A folder that cannot be read may hide a program.
+        _ => vec![argument],
+    }
+}
+
+fn is_pattern(argument: &str) -> bool {
+    argument.contains(['*', '?']) && !argument.starts_with('-')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wildcards_are_the_files_that_match() {
+        // R13.1
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name).into_os_string();
+        std::fs::create_dir(path("sub")).unwrap();
+        for name in ["b.NC", "a.nc", "a[1].nc", "a1.nc", "c.txt", "sub/d.nc"] {
+            std::fs::write(path(name), "").unwrap();
+        }
+        let found = |pattern: &str| expanded(vec![path(pattern)]);
+        let all = ["a.nc", "a1.nc", "a[1].nc", "b.NC"].map(path);
+        assert_eq!(found("*.nc"), all);
+        assert_eq!(found("s*/?.NC"), [path("sub/d.nc")]);
+        assert_eq!(found("a[1].nc"), [path("a[1].nc")]);
+        assert_eq!(found("?[1].nc"), [path("a[1].nc")]);
+        assert_eq!(found("*.mpf"), [path("*.mpf")], "nothing is passed over");
+        let option = OsString::from("--columns=*");
+        assert_eq!(expanded(vec![option.clone()]), [option]);
+    }
+}

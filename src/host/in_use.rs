@@ -1,0 +1,121 @@
+//! What stands in the way of a file on Windows alone: programs that keep files open, which no other
+//! program may then replace, and names that belong to devices.
+
+use std::io;
+use std::path::Path;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long a file may be in use: virus scanners and the search of Windows look at new files for
+/// moments, spreadsheets keep them.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How often it is tried again.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// Another program has the file open and lets nobody else have it, or has locked a part of it.
+const IN_USE: [i32; 2] = [32, 33];
+
+/// So says the system, too, where a file is to be replaced that another program has open.
+const ACCESS_DENIED: i32 = 5;
+
+/// Replaces or moves a file; what another program is in the way of is tried again for some time.
+pub(super) fn patiently<T>(attempt: impl FnMut() -> io::Result<T>) -> io::Result<T> {
+    let may_pass = |code| cfg!(windows) && (IN_USE.contains(&code) || code == ACCESS_DENIED);
+    repeated(attempt, may_pass, PATIENCE)
+}
+
+fn repeated<T>(
+    mut attempt: impl FnMut() -> io::Result<T>,
+    may_pass: impl Fn(i32) -> bool,
+    patience: Duration,
+) -> io::Result<T> {
+    let start = Instant::now();
+    loop {
+        match attempt() {
+            Err(error)
+                if error.raw_os_error().is_some_and(&may_pass) && start.elapsed() < patience =>
+            {
+                thread::sleep(PAUSE);
+            }
+            result => return result,
+        }
+    }
+}
+
+/// The same error, with a kind of its own where another program has the file open.
+pub(super) fn told(error: io::Error) -> io::Error {
+    let code = error.raw_os_error();
+    if cfg!(windows) && code.is_some_and(|code| IN_USE.contains(&code)) {
+        return io::ErrorKind::ResourceBusy.into();
+    }
+    error
+}
+
+/// The same for a file beside which a new one could be written: that alone is denied by whoever has
+/// it open.
+pub(super) fn told_of_replacing(error: io::Error) -> io::Error {
+    if cfg!(windows) && error.raw_os_error() == Some(ACCESS_DENIED) {
+        return io::ErrorKind::ResourceBusy.into();
+    }
+    told(error)
+}
+
+/// The device that a path means on Windows, whatever its folder and its extension: `aux.nc` is none
+/// that could be written.
+pub(super) fn device(path: &Path) -> Option<&'static str> {
+    const DEVICES: [&str; 26] = [
+        "CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$", "COM0", "COM1", "COM2", "COM3", "COM4",
+        "COM5", "COM6", "COM7", "COM8", "COM9", "LPT0", "LPT1", "LPT2", "LPT3", "LPT4", "LPT5",
+        "LPT6", "LPT7", "LPT8", "LPT9",
+    ];
+    let name = path.file_name()?.to_str()?;
+    let stem = name.split(['.', ':']).next()?.trim_end();
+    DEVICES.into_iter().find(|it| it.eq_ignore_ascii_case(stem))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_passes_is_tried_again() {
+        // R13.1
+        let mut left = 3;
+        let mut attempt = || {
+            left -= 1;
+            match left {
+                0 => Ok(()),
+                _ => Err(io::Error::from_raw_os_error(32)),
+            }
+        };
+        assert!(repeated(&mut attempt, |code| code == 32, PATIENCE).is_ok());
+        let mut count = 0;
+        let mut attempt = || -> io::Result<()> {
+            count += 1;
+            Err(io::Error::from_raw_os_error(2))
+        };
+        assert!(repeated(&mut attempt, |code| code == 32, PATIENCE).is_err());
+        assert_eq!(count, 1, "what does not pass is said at once");
+        let mut attempt = || -> io::Result<()> { Err(io::Error::from_raw_os_error(32)) };
+        assert!(repeated(&mut attempt, |_| true, Duration::ZERO).is_err());
+    }
+
+    #[test]
+    fn names_of_devices_are_known_in_any_form() {
+        // R13.1
+        for (path, found) in [
+            ("con", Some("CON")),
+            ("out/aux.nc", Some("AUX")),
+            ("Nul.tar.gz", Some("NUL")),
+            ("lpt1 .txt", Some("LPT1")),
+            ("com1:", Some("COM1")),
+            ("console.nc", None),
+            ("aux-1.nc", None),
+            ("aux/a.nc", None),
+            ("com10", None),
+        ] {
+            assert_eq!(device(Path::new(path)), found, "{path}");
+        }
+    }
+}

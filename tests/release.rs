@@ -50,7 +50,7 @@ fn the_readme_begins_with_what_a_release_has() {
         format!("frictcomp-{version}-win32-x64.vsix"),
         format!("frictcomp-{version}-cp310-abi3-"),
         format!("frictcomp-{version}-x86_64-unknown-linux-musl.tar.gz"),
-        format!("frictcomp-c-{version}-x86_64-unknown-linux-gnu.tar.gz"),
+        format!("frictcomp-c-{version}-x86_64-pc-windows-gnu.zip"),
         "SHA256SUMS".to_owned(),
     ];
     let source = install

@@ -16,13 +16,13 @@ use crate::host::{Ledger, OutputFile, read_axis};
 use crate::identify::{
     AxisRecording, IdentifyError, IdentifyOptions, Track, Wanted, identify, identify_circles,
 };
-use crate::lists::{FrictionList, ListHead, Points, write_value_list};
+use crate::report::fitted;
 use crate::report::html::render_identification;
 use crate::report::identify::{IdentifyReport, render_json, render_text};
 use crate::report::on_circles::{self, OnCirclesReport};
 use crate::report::pictures::friction_curve;
 use crate::report::svg::Frame;
-use crate::report::{fitted, visible_line};
+use crate::report::value_lists::{IdentifiedFrom, render_identified};
 use crate::text::shown_path;
 
 /// Find the friction of an axis in a recorded trace and make a value list of it
@@ -121,15 +121,13 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         identified,
     };
     if let Some(mut list) = list {
-        let made = Made {
+        let made = IdentifiedFrom {
             axis: report.axis.as_deref(),
             from: &report.name,
             unit: report.unit(),
         };
-        write_text(
-            &mut list,
-            &made.list(&report.identified.list(), args.cnc_build),
-        )?;
+        let found = report.identified.list();
+        write_text(&mut list, &render_identified(&found, made, args.cnc_build))?;
     }
     if let Some(mut svg) = svg {
         write_text(&mut svg, &friction_curve(&report).render(Frame::Alone))?;
@@ -160,12 +158,13 @@ fn circles(
         recordings,
     };
     if let Some(mut list) = list {
-        let made = Made {
+        let made = IdentifiedFrom {
             axis: report.axis.as_deref(),
             from: &report.names.join(", "),
             unit: report.unit(),
         };
-        write_text(&mut list, &made.list(&report.found.list(), args.cnc_build))?;
+        let found = report.found.list();
+        write_text(&mut list, &render_identified(&found, made, args.cnc_build))?;
     }
     Ok(report)
 }
@@ -202,41 +201,6 @@ fn options(args: &IdentifyArgs) -> Result<IdentifyOptions, Failure> {
         };
     }
     Ok(options)
-}
-
-/// What a value list was made of.
-struct Made<'a> {
-    axis: Option<&'a str>,
-    from: &'a str,
-    unit: &'a str,
-}
-
-impl Made<'_> {
-    /// The value list, written for a build.
-    fn list(&self, list: &FrictionList, build: Option<CncBuild>) -> String {
-        let axis = self
-            .axis
-            .map(|axis| format!(" of axis {}", visible_line(axis)));
-        let made = format!(
-            "Friction{} identified from {}",
-            axis.unwrap_or_default(),
-            visible_line(self.from)
-        );
-        let unit = format!("Outputs are in {}", visible_line(self.unit));
-        let points = Points::of_build(build);
-        let mut remarks = vec![made.as_str(), unit.as_str()];
-        if points == Points::Real {
-            remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
-        }
-        // `--axis` takes a name or a number.
-        let number = self.axis.and_then(|axis| axis.parse().ok());
-        let head = ListHead {
-            remarks: &remarks,
-            number,
-            name: self.axis.filter(|_| number.is_none()),
-        };
-        write_value_list(list, points, &head)
-    }
 }
 
 impl From<IdentifyError> for Failure {

@@ -12,18 +12,17 @@ use super::machine::MachineArgs;
 use super::outputs::{Outputs, write_text};
 use super::progress;
 use super::result::Format;
-use crate::circle::{
-    Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task, TunedAxis,
-};
+use crate::circle::{Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task};
 use crate::comp::CncBuild;
 use crate::current::Reading;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::host::{Ledger, OutputFile, find_plant, memory_for_simulation, tune};
-use crate::lists::{AxisType, ListHead, Points, write_value_list};
+use crate::lists::{AxisType, ListHead, Points};
 use crate::machine::Axis;
 use crate::report::pictures::tuning;
 use crate::report::svg::Frame;
-use crate::report::tune::{TuneReport, render_json, render_text, round, tuned_range};
+use crate::report::tune::{TuneReport, render_json, render_text, round};
+use crate::report::value_lists::render_tuned;
 use crate::report::visible_line;
 use crate::simulation::{FrictionModel, Plant};
 use crate::text::{Place, Span, shown_path};
@@ -190,18 +189,17 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     }
     if let Some(first) = reports.first() {
         let [x, y] = &first.tuned.axes;
-        let lists = Lists {
-            report: first,
-            build: args.cnc_build,
-        };
         if let Some(mut file) = list {
-            write_text(&mut file, &lists.of(x, &ListHead::default()))?;
+            write_text(
+                &mut file,
+                &render_tuned(first, x, args.cnc_build, &ListHead::default()),
+            )?;
             if x != y {
                 console.remark("Y has a list of its own: `--output-dir` writes both");
             }
         }
         for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
-            let text = lists.of(axis, &of_axis.head());
+            let text = render_tuned(first, axis, args.cnc_build, &of_axis.head());
             write_text(&mut of_axis.file, &text)?;
         }
     }
@@ -231,47 +229,6 @@ fn check_list(plant: &Plant) -> Result<(), Failure> {
     let help =
         "enter MP1511 and MP1512 of the report in the control and in `[stiction]` of the plant";
     Err(Failure::new(message).with_help(help))
-}
-
-/// The tuned value lists of a plant, written for a build.
-struct Lists<'a> {
-    report: &'a TuneReport,
-    build: Option<CncBuild>,
-}
-
-impl Lists<'_> {
-    /// The list of an axis; nothing where it has none.
-    fn of(&self, axis: &TunedAxis, head: &ListHead<'_>) -> String {
-        let Some(list) = axis.list() else {
-            return String::new();
-        };
-        let points = Points::of_build(self.build);
-        let made = format!(
-            "Friction compensation for the plant {}, tuned with the model {}",
-            visible_line(&self.report.plant),
-            self.report.model
-        );
-        let range = tuned_range(&self.report.tuned);
-        let [x, y] = &self.report.tuned.axes;
-        let whose = match axis {
-            both if x == y && both == x => "both axes",
-            one if one == x => "its X axis",
-            _ => "its Y axis",
-        };
-        let table = format!("The table is the friction curve of {whose}");
-        let mut remarks = vec![made.as_str(), range.as_str(), table.as_str()];
-        if axis.is_shaped {
-            remarks.push("Below 1 mm/s it is shaped for the reversals");
-        }
-        if points == Points::Real {
-            remarks.push("Outputs with decimals need the build V3.1.3132.0 or V4.29.0");
-        }
-        let head = ListHead {
-            remarks: &remarks,
-            ..*head
-        };
-        write_value_list(list, points, &head)
-    }
 }
 
 /// The file of the list of an axis, and whose it is.

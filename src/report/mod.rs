@@ -38,6 +38,7 @@ mod timeline_format;
 pub mod trace;
 pub mod tune;
 mod unified;
+pub mod value_lists;
 pub mod verify;
 pub mod versions;
 mod view;

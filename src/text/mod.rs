@@ -36,5 +36,5 @@ pub use lines::{LineSource, PhysicalLine, TextLines};
 pub use place::Place;
 pub(crate) use place::StartsInOrder;
 #[cfg(any(feature = "report", feature = "host"))]
-pub(crate) use shown_path::shown_path;
+pub use shown_path::shown_path;
 pub use span::{Position, Span};

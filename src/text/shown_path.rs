@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// The name of a file in messages and records: on every system with `/` between its parts, as git
 /// writes them, so that a report or an agreed result does not depend on where it was made.
-pub(crate) fn shown_path(path: &Path) -> String {
+pub fn shown_path(path: &Path) -> String {
     let written = path.to_string_lossy();
     if cfg!(windows) {
         slashed(&written)

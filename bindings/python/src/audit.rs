@@ -6,6 +6,7 @@ use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{AxisAudit, ProgramAudit};
 use frictcomp::host::{ArchiveAuditor, AuditOptions, Ledger, MachineOptions, Machines};
 use frictcomp::report::audit::{AuditReport, MachineAudit, records};
+use frictcomp::text::shown_path;
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use serde_json::Value;
@@ -93,7 +94,7 @@ fn audited(
     let machines = auditor.machines().iter().zip(archives);
     let machines = machines.map(|(loaded, archive)| {
         let origin = loaded.origin.as_deref();
-        MachineAudit::new(origin.map(|it| it.display().to_string()), archive)
+        MachineAudit::new(origin.map(shown_path), archive)
     });
     Ok(Audited {
         report: AuditReport {

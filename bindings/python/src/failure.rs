@@ -3,8 +3,12 @@
 use std::path::PathBuf;
 
 use frictcomp::Diagnostic;
+use frictcomp::circle::CircleError;
+use frictcomp::current::FollowError;
 use frictcomp::host::HostError;
+use frictcomp::identify::IdentifyError;
 use frictcomp::session::StateError;
+use frictcomp::text::shown_path;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -44,6 +48,26 @@ impl Failure {
             .with_help("begin without a state, or give the machine that it was made on")
     }
 
+    /// An axis whose current cannot be computed.
+    pub(crate) fn of_axes(error: FollowError) -> Self {
+        let help = match &error {
+            FollowError::NoAxis(unknown) => unknown.help("its axes are"),
+            _ => Some("name its compensation value list with `value_list=`".to_owned()),
+        };
+        let failure = Self::new(error.to_string());
+        Self { help, ..failure }
+    }
+
+    /// A circle that cannot be simulated.
+    pub(crate) fn of_circle(error: CircleError) -> Self {
+        Self::new(error.to_string()).with_help(error.help())
+    }
+
+    /// A recording in which there is nothing to be found.
+    pub(crate) fn of_identification(error: IdentifyError) -> Self {
+        Self::new(error.to_string()).with_help(error.help())
+    }
+
     /// What to say where several things could not be done.
     pub(crate) fn of_several(errors: Vec<HostError>) -> Option<Self> {
         let count = errors.len();
@@ -67,7 +91,7 @@ impl Failure {
         let messages = self.diagnostics.iter().map(PyMessage::of);
         let given = PyDict::new(py);
         given.set_item("help", self.help)?;
-        given.set_item("file", self.file.map(|it| it.display().to_string()))?;
+        given.set_item("file", self.file.as_deref().map(shown_path))?;
         given.set_item("messages", messages.collect::<Vec<_>>())?;
         error(py, &self.message, &given)
     }

@@ -5,7 +5,9 @@ mod arrow;
 mod audit;
 mod check;
 mod command;
+mod current;
 mod failure;
+mod identify;
 mod json;
 mod kinds;
 mod limits;
@@ -13,9 +15,11 @@ mod machine;
 mod messages;
 mod program;
 mod run;
+mod simulated;
 mod state;
 mod states;
 mod timeline;
+mod words;
 mod work;
 
 /// The module.
@@ -28,6 +32,10 @@ mod _engine {
     #[pymodule_export]
     use super::command::command;
     #[pymodule_export]
+    use super::current::{PyAxisCurrent, PyCurrents, current};
+    #[pymodule_export]
+    use super::identify::{PyIdentified, identify};
+    #[pymodule_export]
     use super::limits::PyLimits;
     #[pymodule_export]
     use super::machine::PyMachine;
@@ -37,6 +45,8 @@ mod _engine {
     use super::program::PyText;
     #[pymodule_export]
     use super::run::run;
+    #[pymodule_export]
+    use super::simulated::{PyTuned, circle, tune};
     #[pymodule_export]
     use super::state::PyState;
     #[pymodule_export]

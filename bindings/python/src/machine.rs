@@ -10,6 +10,7 @@ use frictcomp::host::{
 };
 use frictcomp::machine::{Machine, Setting};
 use frictcomp::session::undescribed;
+use frictcomp::text::shown_path;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
@@ -76,7 +77,7 @@ impl PyMachine {
     fn __repr__(&self) -> String {
         let described = match (&self.0.startup, &self.0.configuration) {
             (Some(path), _) | (None, ConfigurationChoice::File(path)) => {
-                format!("'{}'", path.display())
+                format!("'{}'", shown_path(path))
             }
             (None, ConfigurationChoice::Isolated) => "without a configuration".to_owned(),
             _ => "of the nearest frictcomp.toml".to_owned(),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use frictcomp::host::{Disk, HostError, Input, Machines, OpenText, find_programs};
-use frictcomp::text::decode;
+use frictcomp::text::{decode, shown_path};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
@@ -41,7 +41,7 @@ impl PyText {
 
     #[getter]
     fn path(&self) -> String {
-        self.0.path.display().to_string()
+        shown_path(&self.0.path)
     }
 
     fn __repr__(&self) -> String {
@@ -71,6 +71,17 @@ impl Programs {
         });
         let disk = Disk::with_open(texts);
         Ok(Self { inputs, disk })
+    }
+
+    /// Exactly one program.
+    pub(crate) fn one(given: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let programs = Self::of(given)?;
+        if programs.inputs.len() > 1 {
+            return Err(Failure::new("several programs were given")
+                .with_help("give one program")
+                .into_error(given.py()));
+        }
+        Ok(programs)
     }
 
     /// The programs, with those of the folders among them, each once; and what gave no program.

@@ -8,7 +8,7 @@ use arrow_schema::DataType;
 use frictcomp::comp::State;
 
 /// The states in the order of their numbers. Unknown is one of them: nothing is ever missing.
-const STATES: [State; 5] = [
+pub(crate) const STATES: [State; 5] = [
     State::Active,
     State::Ineffective,
     State::Inactive,

@@ -24,12 +24,19 @@ CALLS = {
     "run": f"frictcomp.run(program, state=state, {LONG})",
     "check": f"frictcomp.check(program, {LONG})",
     "audit": f"frictcomp.audit([frictcomp.Text(program, f'{{n}}.nc') for n in range(9)], {LONG})",
+    "current": f"frictcomp.current(BACK_AND_FORTH, ['X'], max_cycles=10**12, {LONG})",
+    "circle": "[frictcomp.circle(radius_mm=1000, feed_mm_per_min=500) for _ in range(1000)]",
+    "tune": "frictcomp.tune(feeds=[500, 1000, 2000, 5000], radii=[50, 100, 200, 400])",
 }
 
 SCRIPT = """
 import sys, time, frictcomp
 state = sys.argv[1]
 program = "{program}"
+BACK_AND_FORTH = frictcomp.Text(
+    "N10 G90 X0 F1000\\nN20 $WHILE 1 == 1\\nN30 G01 X50\\nN40 X0\\nN50 $ENDWHILE\\n",
+    "programs/demo/current/reversal.nc",
+)
 print("ready", flush=True)
 try:
     {call}

@@ -2,7 +2,8 @@
 
 ``run`` executes programs without a machine and gives their timeline: which axis has friction
 compensation active after each block. The timeline is a table that pandas, polars and DuckDB take
-without a copy. ``check`` gives the messages of whole folders.
+without a copy. ``check`` gives the messages of whole folders, ``audit`` what the order of programs
+does. ``current``, ``circle``, ``tune`` and ``identify`` are about the compensation itself.
 
     import frictcomp, polars
     timeline = frictcomp.run("part.nc")
@@ -16,7 +17,10 @@ from importlib.metadata import version as _version
 
 from ._engine import (
     Audit,
+    AxisCurrent,
+    Currents,
     Fix,
+    Identified,
     Limits,
     Machine,
     Message,
@@ -25,9 +29,14 @@ from ._engine import (
     State,
     Text,
     Timeline,
+    Tuned,
     audit,
     check,
+    circle,
+    current,
+    identify,
     run,
+    tune,
 )
 from ._error import Error
 
@@ -35,8 +44,11 @@ __version__ = _version("frictcomp")
 
 __all__ = [
     "Audit",
+    "AxisCurrent",
+    "Currents",
     "Error",
     "Fix",
+    "Identified",
     "Limits",
     "Machine",
     "Message",
@@ -45,7 +57,12 @@ __all__ = [
     "State",
     "Text",
     "Timeline",
+    "Tuned",
     "audit",
     "check",
+    "circle",
+    "current",
+    "identify",
     "run",
+    "tune",
 ]

@@ -2,11 +2,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, TypeAlias, final, overload
 
+import numpy
+from numpy.typing import NDArray
+
 __all__ = [
     "Audit",
     "audit",
     "check",
     "command",
+    "AxisCurrent",
+    "Currents",
+    "current",
+    "Identified",
+    "identify",
     "Limits",
     "Machine",
     "Fix",
@@ -14,6 +22,9 @@ __all__ = [
     "Messages",
     "Text",
     "run",
+    "Tuned",
+    "circle",
+    "tune",
     "State",
     "ProgramRun",
     "Timeline",
@@ -292,6 +303,91 @@ class Audit:
     def __bool__(self) -> Literal[True]: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
+@final
+class Currents:
+    """The additive currents of axes over the path of a program, cycle by cycle."""
+
+    @property
+    def t(self) -> NDArray[numpy.float64]:
+        """The time of each cycle since the beginning of the program in s."""
+    @property
+    def line(self) -> NDArray[numpy.uint32]:
+        """The line of the block that is executed."""
+    @property
+    def axes(self) -> list[str]: ...
+    @property
+    def messages(self) -> Messages:
+        """What stopped the program or the trace, and what the trace simplifies."""
+    @property
+    def left_out(self) -> int:
+        """How many motions are not in the trace, because their start or end is not known."""
+    def __getitem__(self, key: str, /) -> AxisCurrent: ...
+    def __len__(self) -> int:
+        """How many cycles there are."""
+    def __bool__(self) -> Literal[True]: ...
+
+@final
+class AxisCurrent:
+    """The additive current of one axis in each cycle, with the columns of ``frictcomp current``."""
+
+    @property
+    def axis(self) -> str: ...
+    @property
+    def x(self) -> NDArray[numpy.float64]:
+        """The commanded position in 0.1 µm or 0.0001°."""
+    @property
+    def v(self) -> NDArray[numpy.float64]:
+        """The commanded velocity in µm/s or 0.001°/s."""
+    @property
+    def w_before(self) -> NDArray[numpy.float64]:
+        """The weight of the decay before a reversal, 0 to 1."""
+    @property
+    def w_after(self) -> NDArray[numpy.float64]:
+        """The weight of the build-up after a reversal, 0 to 1."""
+    @property
+    def current(self) -> NDArray[numpy.float64]:
+        """The additive current in drive units. ``Error`` where it is not known in every cycle."""
+    @property
+    def output(self) -> NDArray[numpy.int16]:
+        """The integer that the drive gets. ``Error`` where it is not known in every cycle."""
+    @property
+    def comp(self) -> NDArray[numpy.str_]:
+        """The state of friction compensation in each cycle."""
+    def filled(self, unknown: float) -> NDArray[numpy.float64]:
+        """The current, and the given value in the cycles in which it is not known."""
+    @property
+    def unknown_cycles(self) -> int:
+        """In how many cycles the current is not known."""
+    @property
+    def saturated_cycles(self) -> int:
+        """In how many cycles the output was cut to 16 bit."""
+    @property
+    def cycles_at_rest(self) -> int:
+        """In how many cycles at standstill it matters what the control adds there."""
+
+@final
+class Tuned:
+    """The parameters of a value list that leave the smallest glitch on a simulated machine."""
+
+    @property
+    def record(self) -> Any:
+        """The document of ``frictcomp tune --format json``."""
+    def value_list(self, axis: Literal["X", "Y"] = "X", *, cnc_build: str | None = None) -> str:
+        """The value list of an axis as a file of the control.
+
+        Outputs are whole numbers unless ``cnc_build``, such as ``"3.1.3132.0"``, accepts fractions.
+        """
+
+@final
+class Identified:
+    """The friction of an axis, and the value list that is made of it."""
+
+    @property
+    def record(self) -> Any:
+        """The document of ``frictcomp identify --format json``."""
+    def value_list(self, *, cnc_build: str | None = None) -> str:
+        """The value list as a file of the control."""
+
 def run(
     program: _Program | Sequence[_Program],
     *,
@@ -329,6 +425,79 @@ def audit(
     limits: Limits | None = None,
 ) -> Audit:
     """Which programs leave an axis away from home, and which move it in the state that they find."""
+
+def current(
+    program: _Program,
+    axes: Sequence[str],
+    *,
+    machine: Machine | _Path | None = None,
+    value_list: _Path | None = None,
+    cycle_time_ms: float | None = None,
+    reading: str | None = None,
+    start: Sequence[tuple[str, float]] | None = None,
+    max_cycles: int = 3_600_000,
+    limits: Limits | None = None,
+) -> Currents:
+    """The additive current of axes over the path of a program, as NumPy arrays.
+
+    ``value_list`` replaces the lists of the machine. ``start`` says where axes stand at first,
+    ``[("X", 0.0)]``, in mm or degrees. ``reading`` is that of ``--reading``. The trace ends after
+    ``max_cycles``, which a message says.
+    """
+
+def circle(
+    *,
+    radius_mm: float | None = None,
+    feed_mm_per_min: float | None = None,
+    plant: str = "stiff",
+    model: str | None = None,
+    value_list: _Path | Mapping[str, _Path] | None = None,
+    cycle_time_ms: float | None = None,
+    reading: str | None = None,
+    traces: Sequence[_Path] | None = None,
+    centre: Literal["common", "own"] | None = None,
+) -> Any:
+    """A circular test: the document of ``frictcomp circle --format json``.
+
+    Two simulated axes drive the circle with compensation off and on; with ``traces``, recorded
+    circles are judged instead, with the radius and the feed that were commanded.
+    """
+
+def tune(
+    *,
+    plant: str = "stiff",
+    feeds: Sequence[float] | None = None,
+    radii: Sequence[float] | None = None,
+    model: str | None = None,
+    cycle_time_ms: float | None = None,
+    reading: str | None = None,
+    free: Sequence[str] | None = None,
+    shaping: bool = True,
+    cnc_build: str | None = None,
+) -> Tuned:
+    """Searches the value list with the smallest worst glitch over all feeds in mm/min and radii in mm."""
+
+def identify(
+    traces: _Path | Sequence[_Path],
+    *,
+    axis: str | None = None,
+    time: str | None = None,
+    position: str | None = None,
+    velocity: str | None = None,
+    torque: str | None = None,
+    units: Mapping[str, str] | None = None,
+    cycle_time_ms: float | None = None,
+    circles: bool = False,
+    points: int | None = None,
+    max_error: float | None = None,
+    feed_mm_per_min: float = 1000.0,
+) -> Identified:
+    """Finds the friction of an axis in a recording, and the points of a value list.
+
+    ``time``, ``position``, ``velocity`` and ``torque`` name channels, ``units`` their units where
+    the file does not. With ``circles`` the recordings are circles at two or more feeds.
+    ``points`` bounds the points of the list, ``max_error`` its error in per cent of the friction.
+    """
 
 def command(arguments: Sequence[_Path]) -> int:
     """Runs the command line, the name of the program first; gives its exit status."""

@@ -1,0 +1,215 @@
+//! `frictcomp.identify`: from recorded torque to a value list.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+use frictcomp::host::read_axis;
+use frictcomp::identify::{IdentifyOptions, Wanted, identify as find, identify_circles};
+use frictcomp::lists::FrictionList;
+use frictcomp::motion::check_cycle;
+use frictcomp::report::identify::{IdentifyReport, render_json};
+use frictcomp::report::on_circles::{self, OnCirclesReport};
+use frictcomp::report::value_lists::{IdentifiedFrom, render_identified};
+use frictcomp::text::shown_path;
+use frictcomp::trace::{ChannelSelection, Unit};
+use pyo3::prelude::*;
+
+use crate::failure::{Failure, refused};
+use crate::json;
+use crate::words::meant_if_given;
+use crate::work::interruptible;
+
+/// The friction of an axis, and the value list that is made of it.
+#[pyclass(frozen, name = "Identified", module = "frictcomp")]
+pub(crate) struct PyIdentified {
+    record: String,
+    list: FrictionList,
+    axis: Option<String>,
+    from: String,
+    unit: String,
+}
+
+/// The recordings of an axis.
+struct Recorded {
+    traces: Vec<PathBuf>,
+    selection: ChannelSelection,
+    cycle_s: Option<f64>,
+}
+
+/// Finds the friction of an axis in recordings.
+#[pyfunction]
+#[pyo3(signature = (traces, *, axis=None, time=None, position=None, velocity=None, torque=None, units=None, cycle_time_ms=None, circles=false, points=None, max_error=None, feed_mm_per_min=1000.0))]
+// Each is an argument of its own for Python.
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn identify(
+    py: Python<'_>,
+    traces: Traces,
+    axis: Option<String>,
+    time: Option<String>,
+    position: Option<String>,
+    velocity: Option<String>,
+    torque: Option<String>,
+    units: Option<HashMap<String, String>>,
+    cycle_time_ms: Option<f64>,
+    circles: bool,
+    points: Option<usize>,
+    max_error: Option<f64>,
+    feed_mm_per_min: f64,
+) -> PyResult<PyIdentified> {
+    let options = options(points, max_error, feed_mm_per_min)?;
+    let cycle = cycle_time_ms.map(|ms| check_cycle(ms / 1000.0)).transpose();
+    let mut selection = ChannelSelection {
+        axis,
+        time,
+        position,
+        velocity,
+        torque,
+        units: Vec::new(),
+    };
+    for (channel, unit) in units.unwrap_or_default() {
+        let known = Unit::parse(&unit).ok_or_else(|| {
+            refused(format!(
+                "`{unit}` is not a known unit; known are {}",
+                Unit::NAMED
+            ))
+        })?;
+        selection.units.push((channel, known));
+    }
+    let recorded = Recorded {
+        traces: traces.paths(),
+        selection,
+        cycle_s: cycle.map_err(|error| Failure::new(error.to_string()).into_error(py))?,
+    };
+    interruptible(py, move |_| {
+        if circles {
+            recorded.on_circles()
+        } else {
+            recorded.at_speeds(&options)
+        }
+    })
+}
+
+/// One recording, or several.
+#[derive(FromPyObject)]
+pub(crate) enum Traces {
+    /// One.
+    One(PathBuf),
+    /// Several.
+    Several(Vec<PathBuf>),
+}
+
+impl Traces {
+    fn paths(self) -> Vec<PathBuf> {
+        match self {
+            Self::One(path) => vec![path],
+            Self::Several(paths) => paths,
+        }
+    }
+}
+
+impl Recorded {
+    /// Constant speeds in one recording.
+    fn at_speeds(self, options: &IdentifyOptions) -> Result<PyIdentified, Failure> {
+        let [trace] = self.traces.as_slice() else {
+            let count = self.traces.len();
+            return Err(Failure::new(format!("{count} traces were given"))
+                .with_help("give one trace of constant speeds, or `circles=True` for circles"));
+        };
+        let recording = read_axis(trace, &self.selection, self.cycle_s)?;
+        let report = IdentifyReport {
+            name: shown_path(trace),
+            axis: self.selection.axis.clone(),
+            identified: find(&recording.track, options).map_err(Failure::of_identification)?,
+            recording,
+        };
+        Ok(PyIdentified {
+            record: render_json(&report),
+            list: report.identified.list(),
+            unit: report.unit().to_owned(),
+            axis: report.axis,
+            from: report.name,
+        })
+    }
+
+    /// Circles at several feeds.
+    fn on_circles(self) -> Result<PyIdentified, Failure> {
+        let recordings = self
+            .traces
+            .iter()
+            .map(|trace| Ok::<_, Failure>(read_axis(trace, &self.selection, self.cycle_s)?));
+        let recordings: Vec<_> = recordings.collect::<Result<_, _>>()?;
+        let tracks: Vec<_> = recordings.iter().map(|it| it.track.clone()).collect();
+        let names = self.traces.iter().map(|path| shown_path(path));
+        let report = OnCirclesReport {
+            names: names.collect(),
+            axis: self.selection.axis.clone(),
+            found: identify_circles(&tracks).map_err(Failure::of_identification)?,
+            recordings,
+        };
+        Ok(PyIdentified {
+            record: on_circles::render_json(&report),
+            list: report.found.list(),
+            unit: report.unit().to_owned(),
+            from: report.names.join(", "),
+            axis: report.axis,
+        })
+    }
+}
+
+/// What is wanted.
+fn options(points: Option<usize>, max_error: Option<f64>, feed: f64) -> PyResult<IdentifyOptions> {
+    const MOST: usize = 20;
+    const LARGEST: f64 = 50.0;
+    let mut options = IdentifyOptions::default();
+    if !(feed > 0.0 && feed.is_finite()) {
+        return Err(refused(format!("a feed of {feed} mm/min cannot be used")));
+    }
+    options.working_speed = feed / 60.0;
+    if let Some(points) = points {
+        if !(2..=200).contains(&points) {
+            return Err(refused("a value list has from 2 to 200 points"));
+        }
+        options.wanted = Wanted::Points(points);
+    }
+    if let Some(percent) = max_error {
+        if !(percent > 0.0 && percent <= LARGEST) {
+            return Err(refused(format!(
+                "an error of {percent} % cannot be wanted; give per cent of the friction, 1 for instance"
+            )));
+        }
+        options.accuracy = percent / 100.0;
+        options.wanted = Wanted::Error {
+            part: options.accuracy,
+            most: points.unwrap_or(MOST),
+        };
+    }
+    Ok(options)
+}
+
+#[pymethods]
+impl PyIdentified {
+    /// The document of `identify --format json`.
+    #[getter]
+    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        json::parsed(py, &self.record)
+    }
+
+    /// The value list as a file of the control.
+    #[pyo3(signature = (*, cnc_build=None))]
+    fn value_list(&self, cnc_build: Option<&str>) -> PyResult<String> {
+        let made = IdentifiedFrom {
+            axis: self.axis.as_deref(),
+            from: &self.from,
+            unit: &self.unit,
+        };
+        Ok(render_identified(
+            &self.list,
+            made,
+            meant_if_given(cnc_build)?,
+        ))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<frictcomp.Identified from {}>", self.from)
+    }
+}

@@ -1,0 +1,285 @@
+//! `frictcomp.circle` and `frictcomp.tune`: circular tests, and the parameters that suit them.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use frictcomp::circle::{
+    Circle, CircularTest, CommandedCircle, FreeParameter, Method, PathCentre, PlaneAxis, Ranges,
+    Shaping, Task,
+};
+use frictcomp::comp::CncBuild;
+use frictcomp::current::Reading;
+use frictcomp::host::{
+    CircleChannels, Ledger, Watch, compare, find_plant, memory_for_simulation, read_circles,
+    read_value_list, tune as search,
+};
+use frictcomp::lists::{FrictionList, ListHead, Points};
+use frictcomp::motion::check_cycle;
+use frictcomp::report::circle::{CircleReport, ListOrigin, render_json};
+use frictcomp::report::tune::{TuneReport, render_json as render_tune};
+use frictcomp::report::value_lists::render_tuned;
+use frictcomp::simulation::FrictionModel;
+use frictcomp::text::shown_path;
+use frictcomp::trace::ChannelSelection;
+use pyo3::prelude::*;
+
+use crate::failure::{Failure, refused};
+use crate::json;
+use crate::words::{meant, meant_if_given};
+use crate::work::{Stop, interruptible};
+
+/// Circles that are tuned at once, at most.
+const MAX_CIRCLES: usize = 32;
+
+/// One value list for both axes, or one for each.
+#[derive(FromPyObject)]
+pub(crate) enum Lists {
+    /// For both.
+    Both(PathBuf),
+    /// By the axis, `X` and `Y`.
+    Each(HashMap<String, PathBuf>),
+}
+
+/// Drives a circle with two simulated axes, with compensation off and on, or judges recorded ones.
+#[pyfunction]
+#[pyo3(signature = (*, radius_mm=None, feed_mm_per_min=None, plant="stiff", model=None, value_list=None, cycle_time_ms=None, reading=None, traces=None, centre=None))]
+// Each is an argument of its own for Python.
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn circle<'py>(
+    py: Python<'py>,
+    radius_mm: Option<f64>,
+    feed_mm_per_min: Option<f64>,
+    plant: &str,
+    model: Option<&str>,
+    value_list: Option<Lists>,
+    cycle_time_ms: Option<f64>,
+    reading: Option<&str>,
+    traces: Option<Vec<PathBuf>>,
+    centre: Option<&str>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let centre: PathCentre = meant(centre)?;
+    let report = if let Some(traces) = traces {
+        let commanded = CommandedCircle {
+            radius_mm,
+            feed_mm_per_min,
+        };
+        interruptible(py, move |_| {
+            let channels = CircleChannels {
+                names: [None, None],
+                selection: ChannelSelection::default(),
+            };
+            let recording = read_circles(&traces, &channels, commanded, centre)?;
+            Ok(render_json(&CircleReport::recorded(recording)))
+        })?
+    } else {
+        let usual = Circle::default();
+        let circle = Circle {
+            radius_mm: radius_mm.unwrap_or(usual.radius_mm),
+            feed_mm_per_min: feed_mm_per_min.unwrap_or(usual.feed_mm_per_min),
+            cycle_time_s: seconds(py, cycle_time_ms)?.unwrap_or(usual.cycle_time_s),
+        };
+        let (model, reading) = (meant(model)?, meant(reading)?);
+        let plant = plant.to_owned();
+        interruptible(py, move |stop| {
+            let simulated = Simulated {
+                circle,
+                plant,
+                model,
+                reading,
+            };
+            simulated.driven(value_list, centre, stop)
+        })?
+    };
+    json::parsed(py, &report)
+}
+
+/// What is simulated.
+struct Simulated {
+    circle: Circle,
+    plant: String,
+    model: FrictionModel,
+    reading: Reading,
+}
+
+impl Simulated {
+    fn driven(
+        self,
+        lists: Option<Lists>,
+        centre: PathCentre,
+        stop: &Stop,
+    ) -> Result<String, Failure> {
+        memory_for_simulation()?;
+        let plant = find_plant(&self.plant, &Ledger::default())?;
+        let (compensation, origin) = match lists {
+            None => (Method::of_plant(&plant), ListOrigin::Plant),
+            Some(lists) => {
+                let (lists, origin) = read(lists)?;
+                (lists.map(|list| Some(list.into())), origin)
+            }
+        };
+        let test = CircularTest {
+            circle: self.circle,
+            plant,
+            model: self.model,
+            compensation,
+            reading: self.reading,
+        };
+        let watch = Watch::by(Arc::new(stop.clone()));
+        let comparison = compare(&test, &watch).map_err(Failure::of_circle)?;
+        let report = CircleReport::simulated(test, comparison.about(centre), origin);
+        Ok(render_json(&report))
+    }
+}
+
+fn read(lists: Lists) -> Result<([FrictionList; 2], ListOrigin), Failure> {
+    let list = |path: &PathBuf| Ok::<_, Failure>(read_value_list(path, &Ledger::default())?.list);
+    let name = |path: &PathBuf| shown_path(path);
+    match &lists {
+        Lists::Both(path) => {
+            let both = list(path)?;
+            Ok(([both.clone(), both], ListOrigin::File(name(path))))
+        }
+        Lists::Each(each) => match (each.get("X"), each.get("Y"), each.len()) {
+            (Some(x), Some(y), 2) => Ok((
+                [list(x)?, list(y)?],
+                ListOrigin::EachAxis([name(x), name(y)]),
+            )),
+            _ => Err(Failure::new("there is not one value list for each axis")
+                .with_help("give one path for both, or `{'X': …, 'Y': …}`")),
+        },
+    }
+}
+
+fn seconds(py: Python<'_>, milliseconds: Option<f64>) -> PyResult<Option<f64>> {
+    let checked = milliseconds.map(|ms| check_cycle(ms / 1000.0)).transpose();
+    checked.map_err(|error| Failure::new(error.to_string()).into_error(py))
+}
+
+/// The parameters with the smallest glitch.
+#[pyclass(frozen, name = "Tuned", module = "frictcomp")]
+pub(crate) struct PyTuned {
+    report: TuneReport,
+    record: String,
+}
+
+/// Searches the value lists with the smallest glitch on a simulated machine.
+#[pyfunction]
+#[pyo3(signature = (*, plant="stiff", feeds=None, radii=None, model=None, cycle_time_ms=None, reading=None, free=None, shaping=true, cnc_build=None))]
+// Each is an argument of its own for Python.
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn tune(
+    py: Python<'_>,
+    plant: &str,
+    feeds: Option<Vec<f64>>,
+    radii: Option<Vec<f64>>,
+    model: Option<&str>,
+    cycle_time_ms: Option<f64>,
+    reading: Option<&str>,
+    free: Option<Vec<String>>,
+    shaping: bool,
+    cnc_build: Option<&str>,
+) -> PyResult<PyTuned> {
+    let feeds = feeds.unwrap_or_else(|| vec![500.0, 1000.0, 2000.0, 5000.0]);
+    let radii = radii.unwrap_or_else(|| vec![100.0]);
+    let cycle = seconds(py, cycle_time_ms)?.unwrap_or(Circle::default().cycle_time_s);
+    let circles = radii.iter().flat_map(|&radius_mm| {
+        feeds.iter().map(move |&feed_mm_per_min| Circle {
+            radius_mm,
+            feed_mm_per_min,
+            cycle_time_s: cycle,
+        })
+    });
+    let circles: Vec<Circle> = circles.take(MAX_CIRCLES + 1).collect();
+    if circles.is_empty() || circles.len() > MAX_CIRCLES {
+        return Err(refused(format!(
+            "give from 1 to {MAX_CIRCLES} pairs of feed and radius"
+        )));
+    }
+    let build: Option<CncBuild> = meant_if_given(cnc_build)?;
+    let (model, reading): (FrictionModel, Reading) = (meant(model)?, meant(reading)?);
+    let ranges = ranges(free.unwrap_or_default())?;
+    let plant = plant.to_owned();
+    let report = interruptible(py, move |stop| {
+        memory_for_simulation()?;
+        let plant = find_plant(&plant, &Ledger::default())?;
+        let name = plant.name.clone();
+        let task = Task {
+            plant,
+            model,
+            circles,
+            ranges,
+            reading,
+            points: Points::of_build(build),
+            shaping: if shaping {
+                Shaping::Allowed
+            } else {
+                Shaping::None
+            },
+        };
+        let watch = Watch::by(Arc::new(stop.clone()));
+        Ok(TuneReport {
+            plant: name,
+            model: model.as_str(),
+            reading: reading.to_string(),
+            tuned: search(&task, &watch).map_err(Failure::of_circle)?,
+        })
+    })?;
+    Ok(PyTuned {
+        record: render_tune(std::slice::from_ref(&report)),
+        report,
+    })
+}
+
+/// The parameters that may leave their documented ranges.
+fn ranges(free: Vec<String>) -> PyResult<Ranges> {
+    free.iter().try_fold(Ranges::default(), |ranges, name| {
+        Ok(ranges.free(match name.as_str() {
+            "position_delay" => FreeParameter::PositionDelay,
+            "reversal_lookahead" => FreeParameter::ReversalLookahead,
+            "mp1511" => FreeParameter::Mp1511,
+            "mp1512" => FreeParameter::Mp1512,
+            _ => {
+                return Err(refused(format!(
+                    "`{name}` is none of position_delay, reversal_lookahead, mp1511 and mp1512"
+                )));
+            }
+        }))
+    })
+}
+
+#[pymethods]
+impl PyTuned {
+    /// The document of `tune --format json`.
+    #[getter]
+    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        json::parsed(py, &self.record)
+    }
+
+    /// The value list of an axis as a file of the control.
+    #[pyo3(signature = (axis="X", *, cnc_build=None))]
+    fn value_list(&self, py: Python<'_>, axis: &str, cnc_build: Option<&str>) -> PyResult<String> {
+        let mut lists = PlaneAxis::ALL.into_iter().zip(&self.report.tuned.axes);
+        let found = lists.find(|(plane, _)| plane.as_str() == axis);
+        let (_, tuned) = found.ok_or_else(|| refused("the axes are `X` and `Y`"))?;
+        if tuned.list().is_none() {
+            return Err(Failure::new(format!(
+                "the plant `{}` compensates stiction, which has no value list",
+                self.report.plant
+            ))
+            .with_help("enter MP1511 and MP1512 of the record in the control")
+            .into_error(py));
+        }
+        let head = ListHead::default();
+        Ok(render_tuned(
+            &self.report,
+            tuned,
+            meant_if_given(cnc_build)?,
+            &head,
+        ))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<frictcomp.Tuned for the plant '{}'>", self.report.plant)
+    }
+}

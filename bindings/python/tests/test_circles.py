@@ -1,0 +1,70 @@
+"""Circles, tuning and identification: the documents of the command."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import command
+
+import frictcomp
+
+
+def document(*arguments: str) -> Any:
+    """The JSON document that the command prints."""
+    return json.loads(command(*arguments, "--format", "json").stdout)
+
+
+def test_a_circle_is_that_of_the_command() -> None:
+    options = ["--radius", "20", "--feed", "2000", "--plant", "mid"]
+    told = frictcomp.circle(radius_mm=20, feed_mm_per_min=2000, plant="mid")
+    assert told == document("circle", *options)
+
+
+def test_tuned_lists_are_those_of_the_command(tmp_path: Path) -> None:
+    path = tmp_path / "x.lis"
+    options = ["--feeds", "2000", "--radii", "20", "--no-shaping", "--output", str(path)]
+    told = document("tune", *options)
+    tuned = frictcomp.tune(feeds=[2000], radii=[20], shaping=False)
+    assert tuned.record == told
+    assert tuned.value_list() == path.read_text("utf-8")
+
+
+def test_an_identified_list_is_that_of_the_command(tmp_path: Path) -> None:
+    path = tmp_path / "x.lis"
+    name = "programs/demo/recordings/friction_x.csv"
+    channels = ["--velocity", "SetVelo", "--torque", "ActTorque"]
+    told = document("identify", name, *channels, "--output", str(path))
+    identified = frictcomp.identify(name, velocity="SetVelo", torque="ActTorque")
+    assert identified.record == told
+    assert identified.value_list() == path.read_text("utf-8")
+
+
+def test_what_makes_no_sense_is_refused() -> None:
+    for radius in (0.0, -1.0, float("nan"), float("inf"), 1e300):
+        with pytest.raises(frictcomp.Error):
+            frictcomp.circle(radius_mm=radius)
+        with pytest.raises(frictcomp.Error):
+            frictcomp.tune(radii=[radius])
+    with pytest.raises(frictcomp.Error):
+        frictcomp.circle(plant="no-such-plant")
+    with pytest.raises(frictcomp.Error):
+        frictcomp.circle(value_list={"X": "a.lis"})
+    with pytest.raises(ValueError):
+        frictcomp.circle(model="no-such-model")
+    for wrong in ([], [1.0] * 33):
+        with pytest.raises(ValueError):
+            frictcomp.tune(feeds=wrong)
+    with pytest.raises(ValueError):
+        frictcomp.tune(free=["scaling_factor"])
+    with pytest.raises(frictcomp.Error):
+        frictcomp.identify("none.csv")
+    with pytest.raises(frictcomp.Error):
+        frictcomp.identify([])
+    for error in (0.0, -1.0, float("nan"), 99.0):
+        with pytest.raises(ValueError):
+            frictcomp.identify("none.csv", max_error=error)
+    with pytest.raises(ValueError):
+        frictcomp.identify("none.csv", units={"v": "furlongs"})

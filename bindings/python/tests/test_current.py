@@ -1,0 +1,78 @@
+"""Currents as arrays: the numbers of the command."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+from typing import Any
+
+import numpy
+import pytest
+from conftest import command
+
+import frictcomp
+
+REVERSAL = "programs/demo/current/reversal.nc"
+
+
+def test_arrays_are_the_columns_of_the_command() -> None:
+    currents = frictcomp.current(REVERSAL, ["X"])
+    assert currents.axes == ["X"] and len(currents) > 50
+    x = currents["X"]
+    told = command("current", REVERSAL, "--axis", "X", "--columns", "comp,line")
+    rows = list(csv.DictReader(io.StringIO(told.stdout)))
+    assert len(rows) == len(currents)
+    columns: dict[str, Any] = {"t": currents.t, "line": currents.line}
+    for name in ["x", "v", "w_before", "w_after", "current", "output"]:
+        columns[name] = getattr(x, name)
+    for name, values in columns.items():
+        assert values.shape == (len(rows),)
+        assert numpy.array_equal(values, [float(row[name]) for row in rows]), name
+    assert list(x.comp) == [row["comp"] for row in rows]
+    assert x.unknown_cycles == 0
+    assert numpy.array_equal(x.filled(numpy.nan), x.current)
+    with pytest.raises(KeyError):
+        currents["Q"]
+
+
+def test_a_current_that_is_not_known_is_not_given() -> None:
+    text = Path(REVERSAL).read_text("utf-8").splitlines(keepends=True)
+    first = next(at for at, line in enumerate(text) if "G01" in line or "G1" in line)
+    condition = "$IF V.E.PART == 3\nX[COMP OFF FRICT]\n$ENDIF\n"
+    program = frictcomp.Text("".join([*text[:first], condition, *text[first:]]), REVERSAL)
+    x = frictcomp.current(program, ["X"])["X"]
+    assert x.unknown_cycles > 0
+    for read in ("current", "output"):
+        with pytest.raises(frictcomp.Error, match="not known"):
+            getattr(x, read)
+    assert set(x.comp) >= {"unknown"}
+    assert numpy.isnan(x.filled(numpy.nan)).sum() == x.unknown_cycles
+
+
+def test_arrays_outlive_their_currents() -> None:
+    currents = frictcomp.current(REVERSAL, ["X"])
+    kept, copied = currents["X"].current, currents["X"].current.copy()
+    del currents
+    assert numpy.array_equal(kept, copied)
+
+
+def test_what_cannot_be_computed_is_an_error() -> None:
+    with pytest.raises(frictcomp.Error, match="no axis `QQ`"):
+        frictcomp.current(REVERSAL, ["QQ"])
+    with pytest.raises(frictcomp.Error):
+        frictcomp.current(REVERSAL, [])
+    with pytest.raises(frictcomp.Error):
+        frictcomp.current([REVERSAL, REVERSAL], ["X"])  # type: ignore[arg-type]
+    for cycle in (0, -1, float("nan"), 1e9):
+        with pytest.raises(frictcomp.Error):
+            frictcomp.current(REVERSAL, ["X"], cycle_time_ms=cycle)
+    with pytest.raises(frictcomp.Error):
+        frictcomp.current(REVERSAL, ["X"], start=[("X", float("nan"))])
+    with pytest.raises(ValueError):
+        frictcomp.current(REVERSAL, ["X"], reading="standstill=maybe")
+    with pytest.raises(frictcomp.Error) as caught:
+        frictcomp.current(REVERSAL, ["X"], value_list="none.lis")
+    assert caught.value.file == "none.lis"
+    cut = frictcomp.current(REVERSAL, ["X"], max_cycles=10)
+    assert 0 < len(cut) <= 10 and cut.messages

@@ -129,7 +129,7 @@ fn every_main_program_but_the_one_that_runs_is_named() {
     // R2.11
     let bench = tempfile::tempdir().expect("a folder");
     let path = bench.path().join("part.nc");
-    let file = path.to_str().expect("UTF-8");
+    let file = &path.to_str().expect("UTF-8").replace('\\', "/");
     for (program, never_run) in [
         ("%A\nM30\n", &[][..]),
         ("%A\nM30\n%B\nM30\n%L C\nM17\n%D\n", &["B", "D"]),

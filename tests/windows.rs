@@ -182,6 +182,41 @@ mod only {
 
     use super::*;
 
+    /// The code page of the console in which the test runs; 0 without one.
+    fn code_page() -> u32 {
+        let said = std::process::Command::new("cmd")
+            .args(["/c", "chcp"])
+            .output();
+        let said = String::from_utf8(said.expect("cmd starts").stdout).expect("ASCII");
+        let digits: String = said.chars().filter(char::is_ascii_digit).collect();
+        digits.parse().expect("a number")
+    }
+
+    #[test]
+    fn text_in_a_pipe_has_the_code_page_of_the_console() {
+        // R13.1
+        let comment = "(\u{dc}bergr\u{f6}\u{df}e)";
+        let bench = Bench::new(&[]);
+        let program = format!("N10 {comment}\r\nN20 X[COMP OFF FRICT]\r\nN30 M30\r\n");
+        bench.write("a.nc", &program);
+        let text = bench.call(&["run", "a.nc"]).stdout;
+        let page = code_page();
+        let (umlauts, mark): (&[u8], &[u8]) = match page {
+            437 | 850 => (b"(\x9abergr\x94\xe1e)", b"inactive <"),
+            1252 => (b"(\xdcbergr\xf6\xdfe)", b"inactive <"),
+            0 | 65001 => (comment.as_bytes(), "inactive \u{25c4}".as_bytes()),
+            other => panic!("code page {other}"),
+        };
+        let holds = |part: &[u8]| text.windows(part.len()).any(|it| it == part);
+        let shown = String::from_utf8_lossy(&text);
+        assert!(holds(umlauts) && holds(mark), "{page}: {shown}");
+        let records = bench.records(&["a.nc"]);
+        assert!(records[2].contains(comment), "{page}: {}", records[2]);
+        let said = bench.call(&["run", "\u{dc}.nc"]).stderr;
+        let is_unicode = matches!(page, 0 | 65001);
+        assert_eq!(String::from_utf8(said).is_ok(), is_unicode, "{page}");
+    }
+
     #[test]
     fn wildcards_are_expanded() {
         // R13.1
@@ -223,6 +258,27 @@ mod only {
             files, 5,
             "a machine, a program, the state and its lock, the output"
         );
+    }
+
+    #[test]
+    fn no_output_takes_its_place_where_one_cannot() {
+        // R9.70, R13.1
+        let bench = Bench::new(&[("a.nc", SWITCH_OFF)]);
+        bench.write("out.txt", "old");
+        bench.write("page.html", "old");
+        let mut options = fs::File::options();
+        let open = options
+            .read(true)
+            .share_mode(3)
+            .open(bench.folder().join("page.html"));
+        let open = open.expect("open");
+        let output = bench.call(&["run", "-o", "out.txt", "--html", "page.html", "a.nc"]);
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("`page.html` cannot be written"), "{said}");
+        drop(open);
+        assert_eq!(bench.read("out.txt"), "old");
+        assert_eq!(bench.read("page.html"), "old");
     }
 
     #[test]

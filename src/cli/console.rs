@@ -5,6 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use anstream::{AutoStream, ColorChoice};
 use clap::ValueEnum;
 
+use super::code_page::{CodePage, Encoded};
 use super::failure::Failure;
 use super::painted::painted;
 use super::progress::{OverProgress, clear};
@@ -36,6 +37,16 @@ pub(super) struct Console {
     /// What `--width` says.
     width: Option<usize>,
     remarks: Remarks,
+    written: Written,
+}
+
+/// What goes to standard output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Written {
+    /// Text for people.
+    Text,
+    /// Records for programs, which are UTF-8 everywhere.
+    Records,
 }
 
 /// What becomes of remarks beside the results.
@@ -87,7 +98,13 @@ impl Console {
             color,
             width,
             remarks: Remarks::Said,
+            written: Written::Text,
         }
+    }
+
+    /// The same console, to whose standard output this goes.
+    pub(super) fn writing(self, written: Written) -> Self {
+        Self { written, ..self }
     }
 
     /// The columns that text may use: what the user says, else the terminal, else `COLUMNS`, else
@@ -133,11 +150,20 @@ impl Console {
                 width,
             },
             // Old Windows consoles need their own calls; elsewhere nothing stands between.
-            writer: match paint(choice) {
-                Paint::Styled => Box::new(OverProgress(AutoStream::new(stdout, choice))),
-                Paint::Plain if stdout.is_terminal() => Box::new(OverProgress(stdout)),
-                Paint::Plain => Box::new(stdout),
+            writer: match (self.code_page(&stdout), paint(choice)) {
+                (Some(page), _) => Box::new(Encoded::new(stdout, page)),
+                (None, Paint::Styled) => Box::new(OverProgress(AutoStream::new(stdout, choice))),
+                (None, Paint::Plain) if stdout.is_terminal() => Box::new(OverProgress(stdout)),
+                (None, Paint::Plain) => Box::new(stdout),
             },
+        }
+    }
+
+    /// The code page of the text that goes to standard output, where that is not UTF-8.
+    fn code_page(self, stdout: &io::Stdout) -> Option<CodePage> {
+        match self.written {
+            Written::Text => CodePage::behind(stdout),
+            Written::Records => None,
         }
     }
 
@@ -165,7 +191,7 @@ impl Console {
     /// Says a line on stderr. When nobody listens, nothing is lost.
     pub(super) fn talk(line: &str) {
         clear();
-        let _ = writeln!(io::stderr().lock(), "{}", leading(line));
+        let _ = writeln!(stderr(ColorChoice::Never), "{}", leading(line));
     }
 
     /// Says a line on stderr, unless the user wants only what counts.
@@ -183,7 +209,7 @@ impl Console {
             paint: paint(choice),
             width: self.width(terminal_size::terminal_size_of(&stderr)),
         };
-        let mut writer = AutoStream::new(stderr.lock(), choice);
+        let mut writer = self::stderr(choice);
         for diagnostic in diagnostics {
             let mut diagnostic = diagnostic.clone();
             diagnostic.reword(Some(command_line));
@@ -200,7 +226,7 @@ impl Console {
             paint: paint(choice),
             width: self.width(terminal_size::terminal_size_of(&stderr)),
         };
-        let mut writer = AutoStream::new(stderr.lock(), choice);
+        let mut writer = self::stderr(choice);
         let (bold, plain) = match look.paint {
             Paint::Plain => (anstyle::Style::new(), anstyle::Style::new()),
             Paint::Styled => (
@@ -222,6 +248,16 @@ impl Console {
             Color::Always => ColorChoice::Always,
             Color::Never => ColorChoice::Never,
         }
+    }
+}
+
+/// Standard error, in the characters of those who read it.
+fn stderr(choice: ColorChoice) -> Box<dyn Write> {
+    let stderr = io::stderr();
+    match (CodePage::behind(&stderr), paint(choice)) {
+        (Some(page), _) => Box::new(Encoded::new(stderr.lock(), page)),
+        (None, Paint::Plain) => Box::new(stderr.lock()),
+        (None, Paint::Styled) => Box::new(AutoStream::new(stderr.lock(), choice)),
     }
 }
 

@@ -4,6 +4,7 @@ mod audit;
 mod channels;
 mod check;
 mod circle;
+mod code_page;
 mod codes;
 mod completions;
 mod config;
@@ -54,9 +55,10 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use console::{Color, Console};
+use code_page::{CodePage, Encoded};
+use console::{Color, Console, Written};
 use failure::Failure;
 
 use crate::host::{clean_up_when_stopped, survive_file_size_limit};
@@ -120,18 +122,34 @@ pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
     let hidden = hidden(&arguments);
     let parsed = description().try_get_matches_from(arguments);
-    let parsed = parsed.and_then(|matches| Arguments::from_arg_matches(&matches));
-    let arguments = match parsed {
-        Ok(arguments) => arguments,
+    let parsed = parsed.and_then(|matches| {
+        let arguments = Arguments::from_arg_matches(&matches)?;
+        Ok((arguments, written(&matches)))
+    });
+    let (arguments, written) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => return say_usage(&error, &hidden),
     };
     survive_file_size_limit();
     clean_up_when_stopped(exit::FAILED);
-    let console = Console::new(arguments.color, arguments.width);
+    let console = Console::new(arguments.color, arguments.width).writing(written);
     dispatch(&arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
         exit::FAILED
     })
+}
+
+/// What a command writes, as its `--format` says.
+fn written(matches: &ArgMatches) -> Written {
+    let Some((_, command)) = matches.subcommand() else {
+        let format = matches.try_get_raw("format").ok().flatten();
+        let format = format.and_then(|mut given| given.next()?.to_str());
+        return match format {
+            None | Some("text" | "concise") => Written::Text,
+            Some(_) => Written::Records,
+        };
+    };
+    written(command)
 }
 
 /// The arguments that hold what cannot be seen, each with what is shown in its place (R9.76).
@@ -143,7 +161,12 @@ fn hidden(arguments: &[OsString]) -> Vec<(String, String)> {
 
 /// Prints help, the version, or what is wrong with the arguments.
 fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
-    if error.use_stderr() && hidden.is_empty() {
+    let page = if error.use_stderr() {
+        CodePage::behind(&std::io::stderr())
+    } else {
+        CodePage::behind(&std::io::stdout())
+    };
+    if error.use_stderr() && hidden.is_empty() && page.is_none() {
         let _ = error.print();
         return exit::FAILED;
     }
@@ -156,7 +179,14 @@ fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
         visible(&text).lines().for_each(Console::talk);
         return exit::FAILED;
     }
-    match error.print().and_then(|()| std::io::stdout().flush()) {
+    let printed = match page {
+        Some(page) => {
+            let text = error.render().to_string();
+            Encoded::new(std::io::stdout(), page).write_all(text.as_bytes())
+        }
+        None => error.print(),
+    };
+    match printed.and_then(|()| std::io::stdout().flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Console::new(Color::Auto, None).explain(&Failure::output(error));
             exit::FAILED

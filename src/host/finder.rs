@@ -11,7 +11,7 @@ use super::grounds::{Elsewhere, Grounds};
 use super::input::{Input, Naming};
 use super::ledger::{Ledger, PROGRAM};
 use super::open_text::OpenText;
-use super::paths::{Entry, normal};
+use super::paths::{Entry, normal, spelt_as};
 use crate::session::{Finder, NoProgram};
 use crate::text::SourceFile;
 
@@ -214,7 +214,10 @@ impl ProgramFinder {
         // Going by the name alone, `..` after a link leads to a different file.
         let shown = Some(normal(path))
             .filter(|shown| self.disk.real(shown).is_ok_and(|shown| shown == real));
-        let shown = shown.unwrap_or_else(|| path.to_owned());
+        let mut shown = shown.unwrap_or_else(|| path.to_owned());
+        if cfg!(windows) {
+            shown = spelt_as(&shown, &real);
+        }
         let mut name = self.naming.name(&shown);
         let mut parts = shown.iter().rev().skip(1);
         while self.known.contains_key(&name) {

@@ -43,6 +43,30 @@ fn repeated<T>(
     }
 }
 
+/// Whether a file may be replaced, as far as that is known before: on Windows whoever has it open may
+/// stand in the way.
+#[cfg(windows)]
+pub(super) fn check_replaceable(path: &Path) -> io::Result<()> {
+    use std::os::windows::fs::OpenOptionsExt;
+
+    /// The right to replace a file, which must be granted by all who have it open.
+    const DELETE: u32 = 0x0001_0000;
+    let open = || std::fs::File::options().access_mode(DELETE).open(path);
+    match patiently(open) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(told_of_replacing(error)),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(not(windows))]
+#[allow(
+    clippy::unnecessary_wraps,
+    reason = "elsewhere nobody stands in the way"
+)]
+pub(super) fn check_replaceable(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
 /// The same error, with a kind of its own where another program has the file open.
 pub(super) fn told(error: io::Error) -> io::Error {
     let code = error.raw_os_error();

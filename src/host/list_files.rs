@@ -5,6 +5,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::disk::Disk;
 use super::error::HostError;
+use super::paths::spelt_as;
 use crate::machine::{ListFiles, NoList};
 use crate::text::{SourceFile, shown_path};
 
@@ -61,7 +62,8 @@ pub fn read_list(path: &Path, disk: &Disk) -> Result<SourceFile, HostError> {
 /// The path as it is spelt on the disk. The control's disk does not tell upper from lower case.
 fn as_spelt(path: &Path, disk: &Disk) -> Option<PathBuf> {
     if disk.entry(path).is_ok() {
-        return Some(path.to_owned());
+        let real = disk.real(path).ok().filter(|_| cfg!(windows));
+        return Some(real.map_or_else(|| path.to_owned(), |real| spelt_as(path, &real)));
     }
     let mut spelt = PathBuf::new();
     for part in path.components() {

@@ -103,6 +103,7 @@ pub fn write_mended<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> Resu
         let mut file = UnfinishedFile::begin(path).map_err(failed)?;
         file.write_all(&mended.bytes).map_err(failed)?;
         file.sync().map_err(failed)?;
+        file.check_place().map_err(failed)?;
         unfinished.push((path, file));
     }
     for (path, mut file) in unfinished {

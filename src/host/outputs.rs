@@ -107,6 +107,14 @@ impl OutputFiles {
         }
         // What the programs called is known now.
         self.ledger.check(&self.claims)?;
+        // All take their place, or none.
+        for file in &self.open {
+            if let Place::Beside(beside) = &*file.place() {
+                beside
+                    .check_place()
+                    .map_err(|error| HostError::write(&file.path, error))?;
+            }
+        }
         for file in &self.open {
             if let Place::Beside(beside) = &mut *file.place() {
                 beside

@@ -1,5 +1,6 @@
 //! Paths as they are written, and what they lead to.
 
+use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 
 /// What a path leads to.
@@ -42,9 +43,36 @@ pub(super) fn normal(path: &Path) -> PathBuf {
     normal
 }
 
+/// The path with the letters that its last parts have on the disk, as its real path shows them: where
+/// a disk does not tell upper from lower case, a path is right in any.
+pub(super) fn spelt_as(path: &Path, real: &Path) -> PathBuf {
+    let mut parts: Vec<&OsStr> = path.iter().collect();
+    let lower = |part: &OsStr| part.to_string_lossy().to_lowercase();
+    for (part, on_disk) in parts.iter_mut().rev().zip(real.iter().rev()) {
+        if lower(part) != lower(on_disk) {
+            break;
+        }
+        *part = on_disk;
+    }
+    parts.iter().collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_path_has_the_letters_of_the_disk() {
+        // R13.1
+        for (path, real, wanted) in [
+            ("CYCLES/SUB.NC", "/mill/cycles/Sub.nc", "cycles/Sub.nc"),
+            ("../Mill/a.nc", "/mill/a.nc", "../mill/a.nc"),
+            ("link.nc", "/mill/a.nc", "link.nc"),
+        ] {
+            let spelt = spelt_as(Path::new(path), Path::new(real));
+            assert_eq!(spelt, Path::new(wanted), "{path}");
+        }
+    }
 
     #[test]
     fn paths_are_made_normal_by_name() {

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tempfile::{NamedTempFile, TempPath};
 
-use super::in_use::{device, patiently, told_of_replacing};
+use super::in_use::{check_replaceable, device, patiently, told_of_replacing};
 use super::interrupt::Unfinished;
 use super::ledger::folder;
 
@@ -101,6 +101,14 @@ impl UnfinishedFile {
         Ok(())
     }
 
+    /// Whether the old file can be replaced, as far as that is known before.
+    ///
+    /// # Errors
+    /// Another program has it open.
+    pub(super) fn check_place(&self) -> io::Result<()> {
+        check_replaceable(&self.target)
+    }
+
     /// The file takes the old one's place.
     ///
     /// # Errors
@@ -189,7 +197,11 @@ pub(super) fn target(path: &Path) -> io::Result<PathBuf> {
         let reason = "it is a link to a file that does not exist";
         return Err(io::Error::other(reason));
     }
-    let target = std::fs::canonicalize(path)?;
+    let target = if found.is_symlink() {
+        std::fs::canonicalize(path)?
+    } else {
+        place(path)
+    };
     let metadata = std::fs::metadata(&target)?;
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
@@ -200,12 +212,11 @@ pub(super) fn target(path: &Path) -> io::Result<PathBuf> {
     Ok(target)
 }
 
-/// The place of a new file. On Windows a path from the root on may be longer than others.
+/// The place of a file that is no link. On Windows a path from the root on may be longer than others.
 fn place(path: &Path) -> PathBuf {
-    let found = || Some(folder(path).canonicalize().ok()?.join(path.file_name()?));
-    found()
-        .filter(|_| cfg!(windows))
-        .unwrap_or_else(|| path.to_owned())
+    let whole = || Some(folder(path).canonicalize().ok()?.join(path.file_name()?));
+    let whole = if cfg!(windows) { whole() } else { None };
+    whole.unwrap_or_else(|| path.to_owned())
 }
 
 /// A new file in a folder, which nobody takes for one that was left.

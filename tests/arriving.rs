@@ -132,9 +132,13 @@ fn every_main_program_but_the_one_that_runs_is_named() {
     let file = &path.to_str().expect("UTF-8").replace('\\', "/");
     for (program, never_run) in [
         ("%A\nM30\n", &[][..]),
-        ("%A\nM30\n%B\nM30\n%L C\nM17\n%D\n", &["B", "D"]),
+        ("%A\nM30\n%B\nM30\n%L C\nM17\n%D\nX1\n", &["B", "D"]),
         ("X1\n%A\nM30\n", &["A"]),
-        ("%L A\nM17\n%B\nM30\n%C\n", &["C"]),
+        ("%L A\nM17\n%B\nM30\n%C\nM30\n", &["C"]),
+        // A `%` alone ends a file, as on tape.
+        ("%A\nM30\n%\n", &[]),
+        ("%A\nM30\n%L B\nM17\n%\n", &[]),
+        ("%A\nM30\n%B\n%C\nM30\n", &["C"]),
         // Flow: the text is in memory, from there on or from the start.
         ("%A\nM30\n%B\n$IF 1 == 1\n$ENDIF\nM30\n", &["B"]),
         ("%A\nX1\n$IF 1 == 1\n$ENDIF\n%B\nM30\n", &["B"]),

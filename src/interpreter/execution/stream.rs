@@ -88,7 +88,11 @@ impl Interpreter {
         let mut block = std::mem::take(&mut self.work.block);
         let mut stage = Stage::Before;
         let mut notes = Collected::default();
+        let mut never_begun = None;
         while let Some(raw) = reader.next(&mut block) {
+            if raw.stretch == Stretch::Block {
+                notes.extend(never_begun.take().map(never_run));
+            }
             if !raw.plain && needs_rest(&raw, &block) {
                 let (mut text, first) = opening(&raw);
                 reader.append_rest(&mut text);
@@ -118,7 +122,7 @@ impl Interpreter {
                 if self.options.stop != StopPolicy::CheckAll {
                     break;
                 }
-                notes.extend((!local).then(|| never_run(raw.place(&file, name))));
+                never_begun = (!local).then(|| raw.place(&file, name));
                 stage = stage.beyond();
                 continue;
             }
@@ -171,15 +175,28 @@ impl Interpreter {
         }
         self.note_lost(&file, reader.lost_remarks());
         self.work.block = block;
+        let progress = Progress { stage, notes };
+        self.after_lines(&file, &progress, finder, observer)
+    }
+
+    /// All lines were read: a program without any block begins and ends here.
+    fn after_lines(
+        &mut self,
+        file: &str,
+        progress: &Progress,
+        finder: &mut dyn Finder,
+        observer: &mut dyn Observer,
+    ) -> RunOutcome {
+        let stage = progress.stage;
         if matches!(stage, Stage::Before) && self.announce(None, observer).is_break() {
             return RunOutcome::Paused;
         }
         if let Stage::Before | Stage::Announced = stage
-            && let Some(outcome) = self.begin_lines(&file, finder, observer)
+            && let Some(outcome) = self.begin_lines(file, finder, observer)
         {
             return outcome;
         }
-        self.end_of_lines(stage, &notes, observer)
+        self.end_of_lines(stage, &progress.notes, observer)
     }
 
     /// Whether a block is passed over on the way to the one that M17 returned to.

@@ -132,11 +132,12 @@ impl Index {
         Some(said.with_help("begin the main program with `%NAME`"))
     }
 
-    /// FC324 for every main program but the one that runs.
+    /// FC324 for every main program with blocks but the one that runs. A `%` alone may end a file.
     pub(in crate::interpreter) fn other_mains(&self) -> impl Iterator<Item = Diagnostic> {
         let others = self.sections.iter().enumerate();
-        let others =
-            others.filter(|(number, section)| !section.local && self.main != Some(*number));
+        let others = others.filter(|(number, section)| {
+            !section.local && section.end > section.start && self.main != Some(*number)
+        });
         others.filter_map(|(_, section)| Some(never_run(section.opening.clone()?)))
     }
 
@@ -259,9 +260,12 @@ impl Index {
 
 /// FC324: a main program, by its name in its `%` line, after the one that its file runs.
 pub(in crate::interpreter) fn never_run(name: Place) -> Diagnostic {
-    let named = name.span.of(&name.text).to_owned();
-    let message = format!("the main program `{named}` is never run: another one stands before it");
+    let (shown, call) = match name.span.of(&name.text) {
+        "" => ("without a name".to_owned(), "%L NAME".to_owned()),
+        named => (format!("`{named}`"), format!("%L {named}")),
+    };
+    let message = format!("the main program {shown} is never run: another one stands before it");
     Diagnostic::new(Code::Fc324, name, message).with_help(format!(
-        "give it a file of its own, or make it a subprogram with `%L {named}`"
+        "give it a file of its own, or make it a subprogram with `{call}`"
     ))
 }

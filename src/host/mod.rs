@@ -79,7 +79,7 @@ pub use switched_axes::switched_axes;
 pub use trace_error::TraceError;
 pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace};
 pub use unread::{UnreadVariable, unread_variables};
-pub use walk::{FoundPrograms, find_programs};
+pub use walk::{FoundPrograms, find_programs, is_program};
 pub use watch::{Done, Progress, Watch, Watcher};
 pub use workers::{in_order, processors};
 

@@ -67,7 +67,7 @@ impl FoundPrograms {
             if !entry.file_type().is_some_and(|kind| kind.is_file()) {
                 continue;
             }
-            if is_program(entry.path(), extensions) {
+            if has_extension(entry.path(), extensions) {
                 self.inputs.push(Input::File(shown(entry.path())));
             } else {
                 self.passed_over += 1;
@@ -82,14 +82,21 @@ impl FoundPrograms {
     }
 }
 
-fn is_program(path: &Path, extensions: &[String]) -> bool {
-    path.extension()
-        .and_then(|extension| extension.to_str())
-        .is_some_and(|extension| {
-            extensions
-                .iter()
-                .any(|known| known.eq_ignore_ascii_case(extension))
-        })
+/// Whether a file of a folder is a program by its name; `extensions` are those that the configuration of
+/// the folder names.
+pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
+    match extensions {
+        Some(extensions) => has_extension(path, extensions),
+        None => has_extension(path, &EXTENSIONS),
+    }
+}
+
+fn has_extension(path: &Path, extensions: &[impl AsRef<str>]) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.is_some_and(|extension| {
+        let mut known = extensions.iter();
+        known.any(|known| known.as_ref().eq_ignore_ascii_case(extension))
+    })
 }
 
 /// `./a.nc` is `a.nc`.

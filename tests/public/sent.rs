@@ -382,6 +382,7 @@ sent! {
     report::audit::AuditReport,
     report::audit::Length,
     report::audit::MachineAudit,
+    report::audit::Word,
     report::circle::CircleReport,
     report::circle::ListOrigin,
     report::circle::NamedSide,

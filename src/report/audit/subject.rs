@@ -63,17 +63,25 @@ impl AuditReport {
 
 /// What a program does to an axis, as one word; the most dangerous comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::report) enum Word {
+#[non_exhaustive]
+pub enum Word {
+    /// It moves the axis as it finds it, and leaves it away from home.
     Both,
+    /// It leaves the axis away from home.
     Leaves,
+    /// It is not known offline.
     Unknown,
+    /// It moves the axis in the state that it finds.
     Inherits,
+    /// It leaves the axis at home, and does not move it before that.
     Home,
+    /// It neither switches nor moves the axis before it is set.
     Keeps,
 }
 
 impl Word {
-    pub(in crate::report) const ALL: [Self; 6] = [
+    /// Every word, the most dangerous first.
+    pub const ALL: [Self; 6] = [
         Self::Both,
         Self::Leaves,
         Self::Unknown,
@@ -82,7 +90,8 @@ impl Word {
         Self::Keeps,
     ];
 
-    pub(in crate::report) fn of(axis: &AxisAudit) -> Self {
+    /// The word for what a program does to an axis.
+    pub fn of(axis: &AxisAudit) -> Self {
         match axis.effect {
             _ if axis.leaves_away() && axis.is_inheritor() => Self::Both,
             _ if axis.leaves_away() => Self::Leaves,
@@ -93,7 +102,8 @@ impl Word {
         }
     }
 
-    pub(in crate::report) fn as_str(self) -> &'static str {
+    /// The word of the table.
+    pub fn as_str(self) -> &'static str {
         match self {
             Self::Both => "both",
             Self::Leaves => "leaves",
@@ -104,7 +114,8 @@ impl Word {
         }
     }
 
-    pub(in crate::report) fn meaning(self) -> &'static str {
+    /// What it means.
+    pub fn meaning(self) -> &'static str {
         match self {
             Self::Both => "moves the axis as it finds it, and leaves it away from home",
             Self::Leaves => "leaves the axis away from home",

@@ -1,0 +1,114 @@
+// What the engine answers, as `src/run.rs`, `src/audits.rs` and their neighbours write it.
+
+export type State = "active" | "inactive" | "ineffective" | "unconfigured" | "unknown";
+export type Severity = "error" | "warning" | "info";
+export type FileKind = "program" | "list" | "startup" | "configuration" | "other";
+export type View = "all" | "notable";
+
+export interface Diagnostic {
+  code: string;
+  severity: Severity;
+  message: string;
+  help: string[];
+  file: string;
+  line: number;
+  column: number;
+  axis: string | null;
+}
+
+/** A message, and the block after which it stands; 0 before the first. */
+export interface Message extends Diagnostic {
+  after: number;
+}
+
+/** From one block to another, both included. */
+export type Stretch = [from: number, to: number, state: State | "changing"];
+
+export interface Axis {
+  name: string;
+  home: State;
+  start: State;
+  end: State;
+  listed: boolean;
+  changes: number;
+  changedBy: { file: string; line: number; number: number | null }[];
+  bar: Stretch[];
+}
+
+export interface Machine {
+  origin: string | null;
+  isDescribed: boolean;
+  lists: number;
+  missing: number;
+  said: Diagnostic[];
+}
+
+export interface Overview {
+  program: string;
+  name: string | null;
+  axes: Axis[];
+  axesAsTheyOccur: boolean;
+  blocks: number;
+  kept: number;
+  endedBy: string | null;
+  remark: string | null;
+  errors: number;
+  warnings: number;
+  infos: number;
+  messages: Message[];
+  messagesLeftOut: number;
+  passedOver: [word: string, times: number][];
+  isAssumed: boolean;
+  machine: Machine;
+  items: number;
+  notableItems: number;
+}
+
+export interface BlockItem {
+  kind: "block";
+  block: number;
+  file: string | null;
+  line: number;
+  level: number;
+  text: string;
+  states: State[];
+  changes: number[];
+}
+
+export type Item =
+  | BlockItem
+  | { kind: "start" | "end"; states: State[] }
+  | { kind: "message"; at: number };
+
+export interface AuditCell {
+  word: string;
+  effect: string;
+  by?: { file: string; line: number };
+  reason?: { code?: string; message: string };
+}
+
+export interface Audit {
+  programs: number;
+  hazards: number;
+  warnings: boolean;
+  machines: {
+    origin: string | null;
+    axes: {
+      axis: string;
+      leavers: number;
+      inheritors: number;
+      unknown: number;
+      hazards: number;
+      cure: string;
+    }[];
+    programs: { file: string; cells: AuditCell[] }[];
+  }[];
+  failures: { message: string; help: string | null }[];
+  words: [word: string, meaning: string][];
+}
+
+/** How programs run. */
+export interface Settings {
+  enable: string[];
+  keepGoing: boolean;
+}

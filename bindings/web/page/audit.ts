@@ -1,0 +1,89 @@
+// What the order of all dropped programs does.
+
+import type { Audit, AuditCell } from "./answers";
+import { counted, fill, h } from "./dom";
+
+const CURES: Record<string, string> = {
+  none: "none needed",
+  leavers: "one block before the end of those that leave it",
+  inheritors: "one block before the first motion of those that inherit it",
+};
+
+/** Shows an audit; `open` hears the program and line that are asked for. */
+export function audit(root: HTMLElement, found: Audit, open: (file: string, line: number) => void): void {
+  const failures = found.failures.map((failure) =>
+    h("li", {}, `${failure.message}${failure.help === null ? "" : `: ${failure.help}`}`));
+  fill(
+    root,
+    h("p", { class: "lead" }, lead(found)),
+    failures.length > 0 && h("div", { class: "notice error" },
+      h("p", {}, "Not audited, so nothing is known about these:"), h("ul", {}, ...failures)),
+    ...found.machines.flatMap((machine) => [
+      found.machines.length > 1 && h("h3", {}, machine.origin ?? "No machine is described"),
+      machine.axes.length === 0
+        ? h("p", { class: "notice warning" }, "No axis has friction compensation configured here, so "
+          + "there is nothing to audit. Drop frictcomp.toml or the start-up list with its axis lists, "
+          + "or assume friction compensation.")
+        : axes(machine),
+      machine.axes.length > 0 && programs(machine, open),
+    ]),
+    h("dl", { class: "legend" }, ...found.words.flatMap(([word, meaning]) => [
+      h("dt", { class: `word ${word}` }, word), h("dd", {}, meaning)])),
+  );
+}
+
+function lead(found: Audit): string {
+  const programs = counted(found.programs, "program");
+  if (found.programs === 0) {
+    return "No program was audited.";
+  }
+  if (found.hazards > 0) {
+    return `${programs}. ${counted(found.hazards, "pair")} of programs in which one leaves an axis away from `
+      + "home and the other moves it in that state, if it is run next.";
+  }
+  if (found.warnings) {
+    return `${programs}; of some it is not known what they leave.`;
+  }
+  if (found.machines.every((machine) => machine.axes.length === 0)) {
+    return `${programs}; nothing could be audited.`;
+  }
+  return `${programs}; no axis moves away from home by what another program left.`;
+}
+
+function axes({ axes: all }: Audit["machines"][number]): HTMLElement {
+  const rows = all.map((axis) =>
+    h("tr", {},
+      h("th", { scope: "row" }, axis.axis),
+      ...[axis.leavers, axis.inheritors, axis.unknown, axis.hazards].map((count) =>
+        h("td", { class: "num" }, String(count))),
+      h("td", {}, CURES[axis.cure] ?? axis.cure)));
+  const titles = ["axis", "leave it away", "inherit it", "unknown", "hazardous pairs", "cheapest cure"];
+  return h("div", { class: "wide" }, h("table", {},
+    h("caption", { class: "unseen" }, "Axes"),
+    h("thead", {}, h("tr", {}, ...titles.map((title) => h("th", { scope: "col" }, title)))),
+    h("tbody", {}, ...rows)));
+}
+
+function programs(
+  machine: Audit["machines"][number], open: (file: string, line: number) => void,
+): HTMLElement {
+  const rows = machine.programs.map((program) =>
+    h("tr", {},
+      h("th", { scope: "row" },
+        h("button", { class: "place", onclick: () => { open(program.file, 1); } }, program.file)),
+      ...program.cells.map((cell) => h("td", {}, told(cell, program.file, open)))));
+  return h("div", { class: "wide" }, h("table", { class: "programs" },
+    h("caption", { class: "unseen" }, "Programs and axes"),
+    h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "program"),
+      ...machine.axes.map((axis) => h("th", { scope: "col" }, axis.axis)))),
+    h("tbody", {}, ...rows)));
+}
+
+function told(cell: AuditCell, file: string, open: (file: string, line: number) => void): HTMLElement {
+  const title = cell.reason?.message ?? cell.effect;
+  const by = cell.by;
+  return h("span", { class: `word ${cell.word}`, title }, cell.word,
+    by && ["both", "leaves"].includes(cell.word) && h("button", {
+      class: "place", onclick: () => { open(by.file === file ? file : by.file, by.line); },
+    }, `line ${by.line}`));
+}

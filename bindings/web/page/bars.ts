@@ -1,0 +1,56 @@
+// The states of each axis over the executed blocks.
+
+import type { Axis, Overview, Stretch } from "./answers";
+import { grouped, h, svg } from "./dom";
+import { isAway, listed } from "./states";
+
+/** A stretch told in words, at most the first few. */
+export function told(axis: Axis): string {
+  const TOLD = 6;
+  const words = axis.bar.map(([from, , state], at) =>
+    at === 0 ? state : `${state} from block ${grouped(from)}`);
+  const more = words.length - TOLD;
+  const first = words.slice(0, TOLD).join(", ");
+  return `${axis.name}: ${first || axis.start}${more > 0 ? ` and ${more} more` : ""}`;
+}
+
+/** The bars of the listed axes; `jump` hears the block that was clicked. */
+export function bars(overview: Overview, jump: (block: number) => void): HTMLElement {
+  const rows = listed(overview.axes).map((at) => {
+    const axis = overview.axes[at];
+    return axis ? row(axis, overview.kept, jump) : null;
+  });
+  const scale = h(
+    "div", { class: "scale", "aria-hidden": true },
+    h("span", {}, "block 1"), h("span", {}, grouped(overview.kept)),
+  );
+  return h("div", { class: "bars" }, ...rows, overview.kept > 1 && scale);
+}
+
+function row(axis: Axis, total: number, jump: (block: number) => void): HTMLElement {
+  const stretches = axis.bar.map((stretch) => rectangle(stretch, axis, total));
+  const picture = svg(
+    "svg",
+    {
+      role: "img", "aria-label": told(axis), viewBox: `0 0 ${Math.max(total, 1)} 10`,
+      preserveAspectRatio: "none",
+    },
+    ...stretches,
+  );
+  picture.addEventListener("click", (event) => {
+    const box = picture.getBoundingClientRect();
+    const share = (event.clientX - box.left) / Math.max(box.width, 1);
+    jump(Math.min(total, Math.max(1, Math.ceil(share * total))));
+  });
+  return h("div", { class: "bar" }, h("span", { class: "axis", "aria-hidden": true }, axis.name), picture);
+}
+
+function rectangle([from, to, state]: Stretch, axis: Axis, total: number): SVGElement {
+  const away = isAway(state, axis) ? " away" : "";
+  const title = `${axis.name} ${state}, blocks ${grouped(from)} to ${grouped(to)} of ${grouped(total)}`;
+  return svg(
+    "rect",
+    { class: `stretch ${state}${away}`, x: from - 1, y: 0, width: to - from + 1, height: 10 },
+    svg("title", {}, title),
+  );
+}

@@ -1,0 +1,489 @@
+// The page: what was dropped, which program is shown, and what the user asks about it.
+
+import type { Audit, FileKind, Overview, Settings } from "./answers";
+import { audit } from "./audit";
+import { bars } from "./bars";
+import { DEMO } from "./demo";
+import { counted, fill, grouped, h, part } from "./dom";
+import { Editor, LONGEST } from "./editor";
+import { Refused } from "./engine";
+import { type Intake, dropped, picked } from "./intake";
+import { left } from "./left";
+import { messages, told } from "./messages";
+import { besides, download, picture } from "./pictures";
+import { Cancelled, Session } from "./session";
+import { MEANINGS } from "./states";
+import { type Tab, Tabs } from "./tabs";
+import { Timeline } from "./timeline";
+import { isMissing, missing, sentence, verdict } from "./verdict";
+
+/** Work that takes longer is shown with its progress, in ms. */
+const PATIENCE = 250;
+
+/** With more programs the audit is shown first. */
+const FEW = 3;
+
+/** Narrower windows fold what is looked at once, in px. */
+const NARROW = 960;
+
+const decoder = new TextDecoder();
+const encoder = new TextEncoder();
+
+const settings: Settings = { enable: [], keepGoing: false };
+let program: string | null = null;
+let overview: Overview | null = null;
+let kinds: [path: string, kind: FileKind][] = [];
+/** Which run the last answer belongs to: later ones make earlier ones worthless. */
+let ticket = 0;
+
+const session = new Session(await code(), () => {
+  const address = URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" }));
+  return new Worker(address);
+}, (blocks, line) => {
+  const at = line > 0 ? `, line ${grouped(line)}` : "";
+  part("progress").textContent = `${counted(blocks, "block")}${at}`;
+});
+const editor = new Editor(part("editor"), (text) => { void edit(text); }, (line) => {
+  void attempt(timeline.jumpToLine(line));
+});
+const timeline = new Timeline(session, part("timeline"), {
+  edit: (line) => {
+    if (!part("editor").hidden) {
+      editor.go(line);
+    }
+  },
+});
+const tabs = new Tabs((tab) => { void attempt(show(tab)); });
+
+/** The engine, which the page carries compressed. */
+async function code(): Promise<ArrayBuffer> {
+  const carried = atob(part("engine").textContent.trim());
+  const bytes = Uint8Array.from(carried, (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+}
+
+/** Waits for work; shows progress where it takes long, and what is wrong where it fails. */
+async function attempt<T>(work: Promise<T>): Promise<T | null> {
+  const timer = window.setTimeout(() => {
+    part("working").hidden = false;
+  }, PATIENCE);
+  try {
+    const result = await work;
+    return result;
+  } catch (error) {
+    complain(error);
+    return null;
+  } finally {
+    window.clearTimeout(timer);
+    if (!session.isBusy) {
+      part("working").hidden = true;
+      part("progress").textContent = "";
+    }
+  }
+}
+
+function complain(error: unknown): void {
+  const box = part("complaint");
+  if (error instanceof Refused) {
+    const { message, help, said } = error.refusal;
+    fill(box, h("p", {}, sentence(message)), help !== null && h("p", {}, sentence(help)),
+      ...said.map((one) => h("p", {}, `${one.file}:${one.line}: ${one.message}`)));
+  } else if (error instanceof Cancelled) {
+    fill(box, h("p", {}, "Cancelled."));
+  } else {
+    fill(box, h("p", {}, error instanceof Error ? error.message : String(error)));
+  }
+  box.hidden = false;
+}
+
+/** Takes files and shows the first program, or the audit of many. */
+async function take(work: Promise<Intake> | Intake): Promise<void> {
+  part("complaint").hidden = true;
+  const intake = await work;
+  for (const { path, file, named } of intake.incoming) {
+    session.put(path, { content: new Uint8Array(await file.arrayBuffer()), named });
+  }
+  await arrived(intake.incoming.map(({ path }) => path));
+  part("left-out").textContent = intake.leftOut === 0
+    ? "" : `${counted(intake.leftOut, "file")} left out: hidden, too large, or too many.`;
+}
+
+async function arrived(paths: readonly string[]): Promise<void> {
+  kinds = await session.json<typeof kinds>({ ask: "files" });
+  part("welcome").hidden = kinds.length > 0;
+  part("work").hidden = kinds.length === 0;
+  const programs = programsOf(kinds);
+  // What the program that is shown asked for is for that program.
+  const shown = overview;
+  const isNew = (path: string): boolean =>
+    paths.includes(path) && !(shown !== null && isMissing(shown, path));
+  // A program that is dropped is meant; lists are for the one that is shown.
+  const first = programs.find((path) => isNew(path) && !/\.(spf|sub|cyc)$/i.test(path))
+    ?? programs.find(isNew);
+  const meant = first ?? program ?? programs[0] ?? null;
+  files();
+  if (meant === null) {
+    program = null;
+    part("program").hidden = true;
+    part("no-program").hidden = kinds.length === 0;
+    return;
+  }
+  await open(meant);
+  if (first !== undefined && programs.length > FEW) {
+    tabs.show("audit");
+  } else {
+    tabs.show(tabs.current);
+  }
+}
+
+function programsOf(all: typeof kinds): string[] {
+  return all.flatMap(([path, kind]) => (kind === "program" ? [path] : []));
+}
+
+/** The list of files. */
+function files(): void {
+  const programs = programsOf(kinds);
+  const lists = kinds.filter(([, kind]) => ["list", "startup", "configuration"].includes(kind));
+  const others = kinds.length - programs.length - lists.length;
+  fill(
+    part("files"),
+    h("h2", {}, counted(programs.length, "program")),
+    h("ul", {}, ...programs.map((path) => h("li", {}, h("button", {
+      "aria-current": path === program ? "true" : null,
+      title: path,
+      onclick: () => { void openTimeline(path); },
+    }, ...pathParts(path))))),
+    lists.length === 0 ? h("h2", {}, "No list") : h("details", { open: window.innerWidth > NARROW },
+      h("summary", {}, h("h2", {}, counted(lists.length, "list"))),
+      h("ul", {}, ...lists.map(([path]) => h("li", { title: path }, ...pathParts(path))))),
+    others > 0 && h("p", { class: "quiet" }, `${counted(others, "other file")} not looked at`),
+  );
+  const needed = overview ? missing(overview) : [];
+  fill(part("missing"), needed.length > 0 && h("div", { class: "notice warning" },
+    h("h2", {}, "Not dropped"), h("ul", {}, ...needed.map((name) => h("li", {}, name)))));
+}
+
+/** A path that may be broken after each folder. */
+function pathParts(path: string): (HTMLElement | string)[] {
+  const parts = path.split("/");
+  const name = parts.pop() ?? "";
+  return [...parts.flatMap((folder) => [h("span", { class: "quiet" }, `${folder}/`), h("wbr")]), name];
+}
+
+async function openTimeline(path: string, line?: number): Promise<void> {
+  await open(path);
+  tabs.show("timeline");
+  if (line !== undefined) {
+    await attempt(timeline.jumpToLine(line));
+  }
+}
+
+/** Runs a program and shows it. */
+async function open(path: string): Promise<void> {
+  const isOther = path !== program;
+  program = path;
+  part("no-program").hidden = true;
+  part("program").hidden = false;
+  if (isOther && !part("editor").hidden) {
+    await fillEditor();
+  }
+  await rerun();
+}
+
+async function rerun(): Promise<void> {
+  part("complaint").hidden = true;
+  await run();
+}
+
+async function run(): Promise<void> {
+  const path = program;
+  if (path === null) {
+    return;
+  }
+  const mine = ++ticket;
+  const found = await attempt(session.json<Overview>({ ask: "run", program: path, settings }));
+  if (mine !== ticket) {
+    return;
+  }
+  if (!found) {
+    // What is shown below would belong to something else.
+    overview = null;
+    timeline.forget();
+    part("result").hidden = true;
+    part("title").textContent = path;
+    return;
+  }
+  overview = found;
+  part("result").hidden = false;
+  await result(found);
+}
+
+async function result(found: Overview): Promise<void> {
+  part("title").textContent = found.program;
+  part("facts").textContent = [
+    found.name === null ? null : `%${found.name}`,
+    counted(found.blocks, "executed block"),
+    counted(found.errors, "error"),
+    counted(found.warnings, "warning"),
+  ].filter((fact) => fact !== null).join(" · ");
+  fill(part("verdict"), ...verdict(found).map(({ weight, text }) =>
+    h("p", { class: `notice ${weight}` }, text)));
+  fill(part("left"), left(found, (line) => { void openTimeline(found.program, line); }));
+  fill(part("bars"), bars(found, (block) => {
+    tabs.show("timeline");
+    void attempt(timeline.jump(block));
+  }));
+  part("tab-messages").textContent = `Messages (${grouped(found.messages.length)})`;
+  part("tab-audit").textContent = `Audit (${grouped(programsOf(kinds).length)})`;
+  fill(part("panel-messages"), messages(found, (message) => {
+    tabs.show("timeline");
+    void attempt(timeline.jump(message.after));
+  }), passedOver(found));
+  files();
+  machine(found);
+  await timeline.show(found);
+}
+
+function passedOver(found: Overview): HTMLElement | null {
+  if (found.passedOver.length === 0) {
+    return null;
+  }
+  const words = found.passedOver.map(([word, times]) => `${word} ×${grouped(times)}`).join(", ");
+  return h("p", { class: "quiet" }, `Passed over without effect on the states: ${words}`);
+}
+
+function machine(found: Overview): void {
+  const { origin, isDescribed, lists, said } = found.machine;
+  const from = origin === null ? "No machine is described: neither frictcomp.toml nor one start-up list "
+    + "was dropped. Every axis has the documented default, P-AXIS-00522 = 0."
+    : `Described by ${origin}; ${counted(lists, "file")} read.`;
+  fill(
+    part("machine"),
+    h("p", {}, from),
+    !isDescribed && origin !== null && h("p", {}, "It names no axis with friction compensation."),
+    said.length > 0 && h("h3", {}, "About the lists"),
+    said.length > 0 && h("ul", { class: "messages" }, ...said.map((one) =>
+      h("li", { class: one.severity }, told(one)))),
+  );
+}
+
+/** What a tab shows that is not there before it is asked for. */
+async function show(tab: Tab): Promise<void> {
+  const root = part(`panel-${tab}`);
+  if (program === null) {
+    return;
+  }
+  switch (tab) {
+    case "audit": {
+      const found = await session.json<Audit>({ ask: "audit", enable: settings.enable });
+      audit(part("audit"), found, (file, line) => { void openTimeline(file, line); });
+      break;
+    }
+    case "current": {
+      const answer = await session.json<{ svg: string | null; notes: string[] }>(
+        { ask: "current", program, settings, start: positions() });
+      picture(part("current"), answer.svg, `Additive current of ${program} over time`,
+        h("ul", { class: "notes" }, ...answer.notes.map((note) => h("li", {}, sentence(note)))));
+      break;
+    }
+    case "circle":
+      await circle();
+      break;
+    case "timeline":
+      if (overview) {
+        await timeline.show(overview);
+      }
+      break;
+    case "messages":
+    case "machine":
+      root.scrollTop = 0;
+      break;
+  }
+}
+
+/** Where axes stand at the start: `X0, Y-12.5, Z1=30`. */
+function positions(): [axis: string, position: number][] {
+  const words = (part("start") as HTMLInputElement).value.split(/[\s,;]+/);
+  return words.flatMap((word): [string, number][] => {
+    const found = /^([A-Za-z]\w*)=(.+)$|^([A-Za-z])(.+)$/.exec(word);
+    const [axis, position] = [found?.[1] ?? found?.[3], Number(found?.[2] ?? found?.[4])];
+    return axis !== undefined && Number.isFinite(position) ? [[axis.toUpperCase(), position]] : [];
+  });
+}
+
+function circleSettings(): object {
+  const value = (id: string): string => (part(id) as HTMLInputElement | HTMLSelectElement).value;
+  return {
+    program,
+    radiusMm: Number(value("radius")),
+    feedMmPerMin: Number(value("feed")),
+    plant: value("plant"),
+  };
+}
+
+async function circle(): Promise<void> {
+  const answer = await session.json<{ svg: string; text: string; lists: string }>(
+    { ask: "circle", ...circleSettings() });
+  picture(part("circle"), answer.svg, "Simulated circular test, compensation off and on",
+    h("p", {}, answer.lists), h("pre", { class: "figures", tabindex: 0 }, answer.text));
+}
+
+async function fillEditor(): Promise<void> {
+  const file = program === null ? undefined : session.files.get(program);
+  if (!file) {
+    return;
+  }
+  const isLong = file.content.length > LONGEST;
+  part("too-long").hidden = !isLong;
+  part("editor").classList.toggle("long", isLong);
+  if (!isLong) {
+    editor.show(decoder.decode(await session.ask({ ask: "text", path: program })));
+  }
+}
+
+async function edit(text: string): Promise<void> {
+  const file = program === null ? undefined : session.files.get(program);
+  if (program !== null && file) {
+    session.put(program, { content: encoder.encode(text), named: file.named });
+    part("edited").hidden = false;
+    await rerun();
+  }
+}
+
+async function save(question: object, ending: string, type: string): Promise<void> {
+  const bytes = await attempt(session.ask(question));
+  if (bytes) {
+    download(besides(program ?? "frictcomp", ending), bytes, type);
+  }
+}
+
+/** Ends all work. What was shown before is shown again, unless it is its own run that was ended. */
+function cancel(): void {
+  session.cancel();
+  window.setTimeout(() => {
+    if (overview) {
+      void run();
+    }
+  });
+}
+
+function on(id: string, event: string, act: (event: Event) => void): void {
+  part(id).addEventListener(event, act);
+}
+
+function listen(): void {
+  for (const id of ["pick-files", "pick-more"]) {
+    on(id, "click", () => { part("file-input").click(); });
+  }
+  for (const id of ["pick-folder", "pick-more-folder"]) {
+    on(id, "click", () => { part("folder-input").click(); });
+  }
+  for (const id of ["file-input", "folder-input"]) {
+    on(id, "change", (event) => {
+      const input = event.target as HTMLInputElement;
+      const files = [...(input.files ?? [])];
+      input.value = "";
+      void attempt(take(picked(files)));
+    });
+  }
+  on("demo", "click", () => {
+    const incoming = DEMO.map(([path, text]) => ({ path, file: new Blob([text]), named: false }));
+    void attempt(take({ incoming, leftOut: 0 }));
+  });
+  on("clear", "click", () => {
+    void attempt(session.clear().then(() => {
+      program = null;
+      overview = null;
+      timeline.forget();
+      part("editor").hidden = true;
+      part("edit").setAttribute("aria-pressed", "false");
+      part("split").classList.remove("editing");
+      part("edited").hidden = true;
+      tabs.show("timeline");
+      return arrived([]);
+    }));
+  });
+  on("cancel", "click", cancel);
+  on("notable", "change", (event) => {
+    const isOn = (event.target as HTMLInputElement).checked;
+    void attempt(timeline.look(isOn ? "notable" : "all"));
+  });
+  on("previous", "click", () => { void attempt(timeline.step(false)); });
+  on("next", "click", () => { void attempt(timeline.step(true)); });
+  on("edit", "click", () => {
+    const isOpen = part("editor").hidden !== false;
+    part("editor").hidden = !isOpen;
+    part("edit").setAttribute("aria-pressed", String(isOpen));
+    part("split").classList.toggle("editing", isOpen);
+    if (isOpen) {
+      void attempt(fillEditor().then(() => { editor.focus(); }));
+    } else {
+      part("too-long").hidden = true;
+    }
+  });
+  on("keep-going", "change", (event) => {
+    settings.keepGoing = (event.target as HTMLInputElement).checked;
+    void rerun();
+  });
+  on("assume", "change", (event) => {
+    const value = (event.target as HTMLInputElement).value;
+    settings.enable = value.split(/[\s,;]+/).filter((name) => name !== "");
+    void rerun();
+  });
+  on("current-form", "submit", (event) => {
+    event.preventDefault();
+    void attempt(show("current"));
+  });
+  on("circle-form", "submit", (event) => {
+    event.preventDefault();
+    void attempt(circle());
+  });
+  on("save-report", "click", () => {
+    void save({ ask: "report", program, settings }, ".report.html", "text/html");
+  });
+  on("save-records", "click", () => {
+    void save({ ask: "records", program, settings }, ".ndjson", "application/x-ndjson");
+  });
+  on("save-audit", "click", () => {
+    void save({ ask: "auditReport", enable: settings.enable }, ".audit.html", "text/html");
+  });
+  on("save-circle", "click", () => {
+    void save({ ask: "circleReport", ...circleSettings() }, ".circle.html", "text/html");
+  });
+  listenForDrops();
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && session.isBusy) {
+      cancel();
+    }
+  });
+}
+
+function listenForDrops(): void {
+  // Anything dropped beside the place for it would be opened instead of the page.
+  document.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    document.body.classList.add("dragging");
+  });
+  document.addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) {
+      document.body.classList.remove("dragging");
+    }
+  });
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    document.body.classList.remove("dragging");
+    if (event.dataTransfer) {
+      void attempt(take(dropped(event.dataTransfer)));
+    }
+  });
+}
+
+for (const legend of document.querySelectorAll("dl.states")) {
+  fill(legend, ...MEANINGS.flatMap(([state, meaning]) => [
+    h("dt", { class: `state ${state}` }, h("span", { class: "word" }, state === "away" ? "away from home" : state)),
+    h("dd", {}, meaning)]));
+}
+part("version").textContent = VERSION;
+listen();
+document.body.classList.add("ready");

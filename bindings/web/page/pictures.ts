@@ -1,0 +1,36 @@
+// Pictures of the engine. They are shown as images, in which nothing can become active.
+
+import { fill, h } from "./dom";
+
+/** The places of pictures that are shown, to be given back. */
+const shown = new WeakMap<Element, string>();
+
+/** Shows a picture with its notes in the place of the one that is there. */
+export function picture(root: HTMLElement, svg: string | null, told: string, ...below: HTMLElement[]): void {
+  const before = shown.get(root);
+  if (before !== undefined) {
+    URL.revokeObjectURL(before);
+    shown.delete(root);
+  }
+  if (svg === null) {
+    fill(root, ...below);
+    return;
+  }
+  const address = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  shown.set(root, address);
+  fill(root, h("img", { class: "picture", src: address, alt: told }), ...below);
+}
+
+/** Hands a file to the user. */
+export function download(name: string, bytes: Uint8Array<ArrayBuffer>, type: string): void {
+  const address = URL.createObjectURL(new Blob([bytes], { type }));
+  const link = h("a", { href: address, download: name });
+  link.click();
+  window.setTimeout(() => { URL.revokeObjectURL(address); }, 10_000);
+}
+
+/** The name of a file of its own beside a program. */
+export function besides(program: string, ending: string): string {
+  const name = program.split("/").pop() ?? "program";
+  return `${name.replace(/[^\p{L}\p{N}._-]+/gu, "_")}${ending}`;
+}

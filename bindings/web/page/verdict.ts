@@ -1,0 +1,105 @@
+// What a run comes to, in sentences. Nothing is called well that was not looked at.
+
+import type { Axis, Message, Overview } from "./answers";
+import { counted, grouped } from "./dom";
+import { isAway } from "./states";
+
+export type Weight = "error" | "warning" | "info" | "good";
+
+export interface Sentence {
+  weight: Weight;
+  text: string;
+}
+
+/** The files that a run asked for and that were not dropped. */
+export function missing(overview: Overview): string[] {
+  const called = overview.messages.filter((message) => message.code === "FC320");
+  const lists = overview.machine.said.filter((said) => said.code === "FC123");
+  return [...new Set([...lists, ...called].map((said) => quoted(said.message)))];
+}
+
+/** What a message quotes first. */
+function quoted(message: string): string {
+  return /`([^`]+)`/.exec(message)?.[1] ?? message;
+}
+
+function names(axes: readonly Axis[]): string {
+  return axes.map((axis) => axis.name).join(", ");
+}
+
+/** Whether a run asked for a file of this path. */
+export function isMissing(overview: Overview, path: string): boolean {
+  const last = (name: string): string => name.split(/[/\\]/).pop()?.toLowerCase() ?? "";
+  return missing(overview).some((name) => last(name) === last(path));
+}
+
+/** What a run comes to: the sentence that counts, and what it rests on. */
+export function verdict(overview: Overview): Sentence[] {
+  const axes = overview.axes.filter((axis) => axis.listed);
+  const sentences: Sentence[] = [];
+  const say = (weight: Weight, text: string): void => {
+    sentences.push({ weight, text });
+  };
+  // What stands before the first block is about the lists.
+  const failed = overview.messages.filter((message: Message) =>
+    message.severity === "error" && message.after > 0);
+  const stop = failed[0];
+  const isWhole = overview.endedBy !== null && !["error", "budget"].includes(overview.endedBy);
+  if (overview.endedBy === "budget") {
+    say("error", "A limit of frictcomp ended the run: what follows was not executed.");
+  } else if (!isWhole) {
+    const where = stop ? ` at line ${grouped(stop.line)}` : "";
+    say("error", `The run stops${where}, as the control would: what follows was not executed.`);
+  } else if (failed.length > 0) {
+    say("error", `${counted(failed.length, "error")}: the control would have stopped.`);
+  }
+  const away = axes.filter((axis) => isAway(axis.end, axis));
+  const unknown = axes.filter((axis) => axis.end === "unknown");
+  if (away.length > 0) {
+    const left = away.map((axis) => `${axis.name} ${axis.end}`).join(", ");
+    say("warning", `Left for the next program: ${left}. The control starts with ${
+      away.map((axis) => `${axis.name} ${axis.home}`).join(", ")}.`);
+  }
+  if (unknown.length > 0) {
+    say("warning", `Not known at the end: ${names(unknown)}. Only the machine decides it.`);
+  }
+  if (overview.remark !== null) {
+    say("warning", sentence(overview.remark));
+  }
+  const { machine } = overview;
+  if (machine.missing > 0) {
+    say("warning", `${counted(machine.missing, "list")} not found: parameters that they would give have `
+      + "their documented defaults. Drop the lists, too.");
+  }
+  const broken = machine.said.filter((said) => said.severity === "error").length;
+  if (broken > 0) {
+    say("error", `${counted(broken, "error")} in the lists: the control would not take them so.`);
+  }
+  for (const lost of overview.messages.filter((message) => message.code === "FC320")) {
+    say("error", `${sentence(lost.message)} Drop that file, too.`);
+  }
+  if (overview.isAssumed) {
+    say("warning", "The states rest on an assumption about what only the machine knows.");
+  }
+  if (overview.kept < overview.blocks) {
+    say("info", `The timeline shows the first ${grouped(overview.kept)} of ${
+      counted(overview.blocks, "block")}; messages and the end are those of all.`);
+  }
+  if (overview.messagesLeftOut > 0) {
+    say("info", `${counted(overview.messagesLeftOut, "more message")} not shown.`);
+  }
+  const isClear = sentences.length === 0 && overview.errors + overview.warnings === 0;
+  if (isClear && machine.isDescribed && axes.length > 0) {
+    say("good", "Every axis ends as the control starts it.");
+  } else if (away.length === 0 && unknown.length === 0 && isWhole && machine.isDescribed) {
+    say("info", "Every axis ends as the control starts it, as far as the program was understood: see the messages.");
+  }
+  return sentences;
+}
+
+/** A clause in lower case as a sentence. */
+export function sentence(text: string): string {
+  const first = text.charAt(0);
+  const whole = first === "`" ? text : first.toUpperCase() + text.slice(1);
+  return /[.!?]$/.test(whole) ? whole : `${whole}.`;
+}

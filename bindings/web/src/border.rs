@@ -1,0 +1,90 @@
+//! What the page calls, and the one thing that it is told meanwhile.
+//!
+//! The page asks for room, writes the bytes of a question or a file into it and calls [`ask`] or [`put`].
+//! The answer stays until the next question; its place and length are asked for.
+
+#![allow(unsafe_code, reason = "exported names are unsafe attributes")]
+
+use std::cell::RefCell;
+
+use crate::engine::Engine;
+
+thread_local! {
+    static BORDER: RefCell<Border> = RefCell::default();
+}
+
+/// The engine, and the bytes on their way in and out.
+#[derive(Default)]
+struct Border {
+    engine: Engine,
+    sent: Vec<u8>,
+    answer: Vec<u8>,
+}
+
+#[cfg(target_family = "wasm")]
+unsafe extern "C" {
+    /// Tells the page how far a run is: executed blocks, and the line of the main program.
+    safe fn progress(blocks: f64, line: u32);
+}
+
+/// Nobody watches.
+#[cfg(not(target_family = "wasm"))]
+fn progress(_: f64, _: u32) {}
+
+/// Tells the page how far a run is.
+pub(crate) fn show_progress(blocks: u32, line: u32) {
+    progress(f64::from(blocks), line);
+}
+
+/// Makes room for so many bytes and says where it is.
+#[unsafe(no_mangle)]
+extern "C" fn reserve(length: usize) -> *mut u8 {
+    BORDER.with_borrow_mut(|border| {
+        border.sent = vec![0; length];
+        border.sent.as_mut_ptr()
+    })
+}
+
+/// Takes a file: its path, so many bytes, and behind it what it holds. `named` is 1 for a file that the
+/// user picked by itself.
+#[unsafe(no_mangle)]
+extern "C" fn put(path_length: usize, named: u32) {
+    BORDER.with_borrow_mut(|border| {
+        let mut path = std::mem::take(&mut border.sent);
+        let content = path.split_off(path_length.min(path.len()));
+        border
+            .engine
+            .put(&String::from_utf8_lossy(&path), content, named == 1);
+    });
+}
+
+/// Answers a question; 0 where it is refused, and the answer says why.
+#[unsafe(no_mangle)]
+extern "C" fn ask() -> u32 {
+    BORDER.with_borrow_mut(|border| {
+        let question = std::mem::take(&mut border.sent);
+        border.answer = Vec::new();
+        match border.engine.ask(&question) {
+            Ok(answer) => {
+                border.answer = answer;
+                1
+            }
+            Err(refusal) => {
+                border.answer = serde_json::to_vec(&refusal).unwrap_or_default();
+                0
+            }
+        }
+    })
+}
+
+/// Where the answer is.
+#[unsafe(no_mangle)]
+extern "C" fn answer() -> *const u8 {
+    BORDER.with_borrow(|border| border.answer.as_ptr())
+}
+
+/// How many bytes the answer has.
+#[unsafe(no_mangle)]
+extern "C" fn answer_length() -> usize {
+    BORDER.with_borrow(|border| border.answer.len())
+}

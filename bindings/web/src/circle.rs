@@ -1,0 +1,116 @@
+//! The simulated circular test with the value lists of the machine.
+
+use std::str::FromStr;
+
+use frictcomp::circle::{Circle, CircularTest, Method};
+use frictcomp::current::Reading;
+use frictcomp::host::{Watch, compare};
+use frictcomp::machine::{Machine, Parameterisation};
+use frictcomp::report::circle::{CircleReport, ListOrigin, render_text};
+use frictcomp::report::html::render_circle;
+use frictcomp::report::pictures::circle;
+use frictcomp::report::svg::Frame;
+use frictcomp::simulation::{FrictionModel, Preset};
+use serde::{Deserialize, Serialize};
+
+use crate::dropped::Dropped;
+use crate::refusal::Refusal;
+use crate::run::json;
+
+/// What is driven.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct CircleSettings {
+    /// A program on the machine whose value lists are used.
+    program: Option<String>,
+    radius_mm: f64,
+    feed_mm_per_min: f64,
+    /// The drives: `stiff`, `mid`, `soft`.
+    plant: String,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    svg: String,
+    /// The figures, as on the command line.
+    text: String,
+    /// Where the value lists come from.
+    lists: String,
+}
+
+fn simulate(
+    dropped: &mut Dropped,
+    settings: &CircleSettings,
+) -> Result<(CircleReport, String), Refusal> {
+    let preset =
+        Preset::from_str(&settings.plant).map_err(|error| Refusal::new(error.to_string()))?;
+    let plant = preset.plant();
+    let machine = match &settings.program {
+        Some(program) => {
+            let input = dropped.program(program)?;
+            Some(dropped.machine(&input, &[])?)
+        }
+        None => None,
+    };
+    let lists = machine.and_then(|loaded| lists_of(&loaded.machine));
+    let (compensation, origin, told) = match lists {
+        Some((methods, names)) => {
+            let told = format!("Compensation on: X {}, Y {}.", names[0], names[1]);
+            (methods, ListOrigin::EachAxis(names), told)
+        }
+        None => (
+            Method::of_plant(&plant),
+            ListOrigin::Plant,
+            "The machine has no accepted value list for X or Y: the lists here are the friction curves of the simulated drives, not yours.".to_owned(),
+        ),
+    };
+    let test = CircularTest {
+        circle: Circle {
+            radius_mm: settings.radius_mm,
+            feed_mm_per_min: settings.feed_mm_per_min,
+            ..Circle::default()
+        },
+        plant,
+        model: FrictionModel::default(),
+        compensation,
+        reading: Reading::default(),
+    };
+    let comparison =
+        compare(&test, &Watch::default()).map_err(|error| Refusal::new(error.to_string()))?;
+    Ok((CircleReport::simulated(test, comparison, origin), told))
+}
+
+/// The value lists of X and Y, where any of them was accepted.
+fn lists_of(machine: &Machine) -> Option<([Option<Method>; 2], [String; 2])> {
+    let list = |name: &str| {
+        let axis = machine.axes.iter().find(|axis| axis.name == name)?;
+        match &axis.friction {
+            Parameterisation::Accepted(list) => Some(Method::from(list.clone())),
+            _ => None,
+        }
+    };
+    let lists = ["X", "Y"].map(list);
+    let names = lists.each_ref().map(|list| match list {
+        Some(_) => "list of the machine".to_owned(),
+        None => "none".to_owned(),
+    });
+    lists.iter().any(Option::is_some).then_some((lists, names))
+}
+
+/// The picture and the figures.
+pub(crate) fn answer(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
+    let (report, lists) = simulate(dropped, settings)?;
+    Ok(json(&Answer {
+        svg: circle(&report).render(Frame::Alone),
+        text: render_text(&report),
+        lists,
+    }))
+}
+
+/// The report as a page.
+pub(crate) fn report(dropped: &mut Dropped, settings: &CircleSettings) -> Result<Vec<u8>, Refusal> {
+    let (report, _) = simulate(dropped, settings)?;
+    let mut written = Vec::new();
+    render_circle(&report, &mut written).map_err(|error| Refusal::new(error.to_string()))?;
+    Ok(written)
+}

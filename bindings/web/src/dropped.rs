@@ -1,0 +1,195 @@
+//! The dropped files: programs, lists and configurations on a disk in memory.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use frictcomp::host::{
+    Disk, Input, Ledger, LoadedMachine, MachineOptions, Machines, OpenText, is_program,
+    nearest_config,
+};
+use frictcomp::lists::ListKind;
+use frictcomp::machine::{NoLists, check_list};
+use frictcomp::text::{SourceFile, decode};
+use serde::Serialize;
+
+use crate::refusal::Refusal;
+
+/// What a file is to the page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Kind {
+    Program,
+    List,
+    Startup,
+    Configuration,
+    /// It was in a folder, and its extension is not that of a program.
+    Other,
+}
+
+/// A dropped file.
+#[derive(Debug)]
+struct DroppedFile {
+    text: Arc<String>,
+    kind: Kind,
+}
+
+/// All dropped files.
+#[derive(Debug, Default)]
+pub(crate) struct Dropped {
+    files: BTreeMap<PathBuf, DroppedFile>,
+    /// The disk with them, once somebody asked for it.
+    disk: Option<Disk>,
+}
+
+impl Dropped {
+    /// Takes a file in place of one of the same path. `named` says that the user picked it by itself: what
+    /// is no list is a program then, whatever its extension.
+    pub(crate) fn put(&mut self, path: &str, content: Vec<u8>, named: bool) {
+        let path = PathBuf::from(path.trim_start_matches('/'));
+        let text = Arc::new(decode(content));
+        let kind = match self.files.get(&path) {
+            // A text that is edited stays what it was.
+            Some(before) if before.kind == Kind::Program => Kind::Program,
+            _ => kind_of(&path, &text, named),
+        };
+        self.files.insert(path, DroppedFile { text, kind });
+        self.disk = None;
+    }
+
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The files with what they are; the extensions of a configuration count.
+    pub(crate) fn files(&mut self) -> Vec<(String, Kind)> {
+        let disk = self.disk();
+        let mut machines =
+            Machines::new(MachineOptions::default(), &Ledger::default()).on_disk(&disk);
+        let files = self.files.iter().map(|(path, file)| {
+            let kind = match file.kind {
+                Kind::Other => {
+                    let folder = path.parent().unwrap_or(path);
+                    match machines.extensions(folder) {
+                        Some(extensions) if is_program(path, Some(&extensions)) => Kind::Program,
+                        _ => Kind::Other,
+                    }
+                }
+                kind => kind,
+            };
+            (path.display().to_string(), kind)
+        });
+        files.collect()
+    }
+
+    pub(crate) fn disk(&mut self) -> Disk {
+        let files = &self.files;
+        let disk = self.disk.get_or_insert_with(|| {
+            Disk::in_memory(files.iter().map(|(path, file)| OpenText {
+                path: path.clone(),
+                text: Arc::clone(&file.text),
+            }))
+        });
+        disk.clone()
+    }
+
+    /// A program by its path.
+    pub(crate) fn program(&self, path: &str) -> Result<Input, Refusal> {
+        let path = Path::new(path);
+        let file = self.files.get(path).ok_or_else(|| {
+            Refusal::new(format!("there is no program `{}`", path.display()))
+                .with_help("drop it again")
+        })?;
+        Ok(Input::Open(OpenText {
+            path: path.to_owned(),
+            text: Arc::clone(&file.text),
+        }))
+    }
+
+    /// How the machine of programs is found: from the nearest `frictcomp.toml` as on the command line, or,
+    /// where none was dropped, from the only start-up list.
+    pub(crate) fn options(&mut self, folder: &Path, enable: &[String]) -> MachineOptions {
+        let disk = self.disk();
+        let mut options = MachineOptions::default();
+        options.enable = enable.to_vec();
+        if nearest_config(folder, &disk).is_none() {
+            options.startup = self.only_startup();
+        }
+        options
+    }
+
+    /// The start-up list, where there is one and no other.
+    fn only_startup(&self) -> Option<PathBuf> {
+        let mut startups = self
+            .files
+            .iter()
+            .filter(|(_, file)| file.kind == Kind::Startup);
+        let (path, _) = startups.next()?;
+        startups.next().is_none().then(|| path.clone())
+    }
+
+    /// The machine of a program.
+    pub(crate) fn machine(
+        &mut self,
+        input: &Input,
+        enable: &[String],
+    ) -> Result<Arc<LoadedMachine>, Refusal> {
+        let options = self.options(input.folder(), enable);
+        let mut machines = Machines::new(options, &Ledger::default()).on_disk(&self.disk());
+        machines.look_ahead(std::slice::from_ref(input));
+        Ok(machines.for_folder(input.folder())?)
+    }
+}
+
+fn kind_of(path: &Path, text: &str, named: bool) -> Kind {
+    let extension = path.extension().unwrap_or_default();
+    if extension.eq_ignore_ascii_case("toml") {
+        return Kind::Configuration;
+    }
+    if extension.eq_ignore_ascii_case("lis") {
+        let list = SourceFile::new(path.display().to_string(), text);
+        return match check_list(list, None, &mut NoLists).kind {
+            Some(ListKind::Startup) => Kind::Startup,
+            _ => Kind::List,
+        };
+    }
+    if named || is_program(path, None) {
+        Kind::Program
+    } else {
+        Kind::Other
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_told_apart() {
+        let mut dropped = Dropped::default();
+        dropped.put("a/part.nc", b"M30".to_vec(), false);
+        dropped.put("a/notes.txt", b"hello".to_vec(), false);
+        dropped.put("picked.txt", b"M30".to_vec(), true);
+        dropped.put(
+            "a/hochlauf.lis",
+            b"kanal_anzahl 1\nlisten.achse_anzahl 1\n".to_vec(),
+            false,
+        );
+        let kinds: Vec<Kind> = dropped.files().into_iter().map(|(_, kind)| kind).collect();
+        assert_eq!(
+            kinds,
+            [Kind::Startup, Kind::Other, Kind::Program, Kind::Program]
+        );
+        assert!(dropped.program("a/part.nc").is_ok() && dropped.program("b.nc").is_err());
+        assert!(dropped.options(Path::new("a"), &[]).startup.is_some());
+        dropped.put(
+            "a/frictcomp.toml",
+            b"extensions = [\"txt\"]".to_vec(),
+            false,
+        );
+        assert_eq!(dropped.options(Path::new("a"), &[]).startup, None);
+        dropped.clear();
+        assert_eq!(dropped.files(), []);
+    }
+}

@@ -1,0 +1,21 @@
+//! The engine inside `frictcomp.html`: the dropped files as a disk in memory, and answers to the
+//! questions of the page about them.
+//!
+//! The page and the engine share nothing but bytes (`border`). A question is JSON; an answer is JSON, a
+//! page, a picture or records, as the question wants.
+
+mod audits;
+mod bars;
+mod border;
+mod circle;
+mod current;
+mod dropped;
+mod engine;
+mod lines;
+mod questions;
+mod refusal;
+mod rows;
+mod run;
+mod timeline;
+mod wording;
+mod written;

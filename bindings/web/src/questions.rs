@@ -1,0 +1,71 @@
+//! What the page asks.
+
+use serde::Deserialize;
+
+use crate::circle::CircleSettings;
+use crate::run::{RunSettings, View};
+
+/// A question of the page.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "ask", rename_all = "camelCase")]
+pub(crate) enum Question {
+    /// Forget every file.
+    Clear,
+    /// The files and what they are, in JSON.
+    Files,
+    /// The text of a file.
+    Text { path: String },
+    /// Run a program and show it: the overview in JSON.
+    Run {
+        program: String,
+        #[serde(default)]
+        settings: RunSettings,
+    },
+    /// Items of the timeline that is shown, in JSON.
+    Items {
+        view: View,
+        from: usize,
+        count: usize,
+    },
+    /// Where a block stands in a view.
+    Place { view: View, block: u64 },
+    /// The next block with a change or a message, or the one before.
+    Notable { block: u64, forward: bool },
+    /// The block that first executes a line of the program.
+    BlockOfLine { line: u32 },
+    /// The records of a program, line by line.
+    Records {
+        program: String,
+        #[serde(default)]
+        settings: RunSettings,
+    },
+    /// The report of a program as a page.
+    Report {
+        program: String,
+        #[serde(default)]
+        settings: RunSettings,
+    },
+    /// What the order of all programs does, in JSON.
+    Audit {
+        #[serde(default)]
+        enable: Vec<String>,
+    },
+    /// The report of the audit as a page.
+    AuditReport {
+        #[serde(default)]
+        enable: Vec<String>,
+    },
+    /// The additive current of a program: picture and notes, in JSON.
+    Current {
+        program: String,
+        /// Where axes stand at the start, in mm or degrees.
+        #[serde(default)]
+        start: Vec<(String, f64)>,
+        #[serde(default)]
+        settings: RunSettings,
+    },
+    /// A simulated circular test: picture and figures, in JSON.
+    Circle(CircleSettings),
+    /// The report of the circular test as a page.
+    CircleReport(CircleSettings),
+}

@@ -1,0 +1,48 @@
+//! Why a question has no answer.
+
+use frictcomp::diagnostic::{Diagnostic, UnknownName};
+use frictcomp::host::HostError;
+use serde::Serialize;
+
+/// Why a question has no answer: a sentence, what to do, and what a configuration has to say.
+#[derive(Debug, Serialize)]
+pub(crate) struct Refusal {
+    pub(crate) message: String,
+    pub(crate) help: Option<String>,
+    pub(crate) said: Vec<Diagnostic>,
+}
+
+impl Refusal {
+    pub(crate) fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            help: None,
+            said: Vec::new(),
+        }
+    }
+
+    pub(crate) fn with_help(self, help: impl Into<String>) -> Self {
+        Self {
+            help: Some(help.into()),
+            ..self
+        }
+    }
+
+    /// A name that nothing has.
+    pub(crate) fn unknown(message: impl Into<String>, unknown: &UnknownName) -> Self {
+        Self {
+            help: unknown.help("its axes are"),
+            ..Self::new(message)
+        }
+    }
+}
+
+impl From<HostError> for Refusal {
+    fn from(error: HostError) -> Self {
+        Self {
+            help: error.help(),
+            said: error.diagnostics().to_vec(),
+            ..Self::new(error.to_string())
+        }
+    }
+}

@@ -1,0 +1,471 @@
+//! A run of a program, and what the page asks about it.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use frictcomp::comp::KindSet;
+use frictcomp::comp::{Kind, State};
+use frictcomp::diagnostic::Wording;
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::host::{Alone, Axes, Disk, LoadedMachine, Naming, run_alone};
+use frictcomp::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
+use frictcomp::report::{TimelineFormat, TimelineOptions, command_line};
+use frictcomp::session::{Limits, Options, SessionOptions, StopPolicy};
+use frictcomp::text::LineSource;
+use frictcomp::timeline::EndedBy;
+use serde::{Deserialize, Serialize};
+
+use crate::bars::{Stretch, bar};
+use crate::dropped::Dropped;
+use crate::lines::Lines;
+use crate::refusal::Refusal;
+use crate::rows::MOST_ROWS;
+use crate::timeline::Timeline;
+use crate::wording::page;
+
+/// How programs run.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub(crate) struct RunSettings {
+    /// The axes on which friction compensation is assumed.
+    pub(crate) enable: Vec<String>,
+    /// Whether a failing command is passed over.
+    pub(crate) keep_going: bool,
+    /// The largest number of executed blocks, where it is not the usual one.
+    pub(crate) max_blocks: Option<u64>,
+}
+
+/// Which blocks are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum View {
+    All,
+    /// Those with a change or a message.
+    Notable,
+}
+
+/// A run that the page shows.
+#[derive(Debug)]
+pub(crate) struct Shown {
+    timeline: Timeline,
+    /// The rows with a change or a message.
+    notable: Vec<u32>,
+    program: String,
+    disk: Disk,
+    /// The lines of the files that were looked at.
+    lines: HashMap<u16, Option<Lines>>,
+}
+
+/// What the page shows above the timeline.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Overview<'a> {
+    program: &'a str,
+    name: Option<&'a str>,
+    axes: Vec<AxisOverview<'a>>,
+    axes_as_they_occur: bool,
+    blocks: u64,
+    /// How many blocks the timeline has, where that is less.
+    kept: usize,
+    ended_by: Option<&'static str>,
+    remark: Option<&'a str>,
+    errors: u64,
+    warnings: u64,
+    infos: u64,
+    messages: Vec<Message<'a>>,
+    messages_left_out: u64,
+    passed_over: Vec<(&'a str, u64)>,
+    is_assumed: bool,
+    machine: MachineOverview<'a>,
+    /// How many items each view of the timeline has.
+    items: usize,
+    notable_items: usize,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct AxisOverview<'a> {
+    name: &'a str,
+    /// The state after a start of the control.
+    home: StateWord,
+    start: StateWord,
+    end: StateWord,
+    listed: bool,
+    changes: u64,
+    changed_by: Vec<ChangedAt<'a>>,
+    bar: Vec<Stretch>,
+}
+
+type StateWord = &'static str;
+
+#[derive(Debug, Serialize)]
+struct ChangedAt<'a> {
+    file: &'a str,
+    line: u32,
+    number: Option<i64>,
+}
+
+#[derive(Debug, Serialize)]
+struct Message<'a> {
+    after: u64,
+    #[serde(flatten)]
+    diagnostic: &'a Diagnostic,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct MachineOverview<'a> {
+    /// The file that describes it.
+    origin: Option<String>,
+    is_described: bool,
+    lists: usize,
+    missing: usize,
+    said: &'a [Diagnostic],
+}
+
+/// One line of the timeline.
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub(crate) enum Item<'a> {
+    Start {
+        states: Vec<StateWord>,
+    },
+    Block {
+        block: usize,
+        /// The file, where it is not the program itself.
+        file: Option<&'a str>,
+        line: u32,
+        level: u8,
+        text: String,
+        states: Vec<StateWord>,
+        changes: Vec<usize>,
+    },
+    Message {
+        /// Its position among the messages.
+        at: usize,
+    },
+    End {
+        states: Vec<StateWord>,
+    },
+}
+
+/// How a program runs as on the command line, with advice in the words of a host.
+fn alone(loaded: &LoadedMachine, settings: &RunSettings, wording: Wording) -> Alone {
+    let stop = if settings.keep_going {
+        StopPolicy::KeepGoing
+    } else {
+        StopPolicy::FirstError
+    };
+    let limits = Limits::default();
+    let limits = limits.with_blocks(settings.max_blocks.unwrap_or(limits.blocks));
+    let run = Options::default().with_stop(stop).with_limits(limits);
+    Alone {
+        options: SessionOptions::from(run)
+            .with_levels(loaded.levels.clone())
+            .with_settings(loaded.settings.clone())
+            .with_wording(Some(wording)),
+        naming: Naming::AsGiven,
+        axes: Axes::Ahead,
+    }
+}
+
+/// Runs a program for the page.
+pub(crate) fn run(
+    dropped: &mut Dropped,
+    program: &str,
+    settings: &RunSettings,
+) -> Result<(Shown, Vec<u8>), Refusal> {
+    let input = dropped.program(program)?;
+    let loaded = dropped.machine(&input, &settings.enable)?;
+    let mut timeline = Timeline::default();
+    run_alone(
+        &input,
+        &loaded,
+        alone(&loaded, settings, page),
+        &mut timeline,
+    )?;
+    let mut notable = timeline.rows.changed.clone();
+    let said = timeline.said.iter().filter_map(|said| {
+        let row = said.after.checked_sub(1)?;
+        u32::try_from(row).ok().filter(|row| *row < kept(&timeline))
+    });
+    notable.extend(said);
+    notable.sort_unstable();
+    notable.dedup();
+    let shown = Shown {
+        timeline,
+        notable,
+        program: program.to_owned(),
+        disk: dropped.disk(),
+        lines: HashMap::new(),
+    };
+    let overview = json(&shown.overview(&loaded));
+    Ok((shown, overview))
+}
+
+fn kept(timeline: &Timeline) -> u32 {
+    u32::try_from(timeline.rows.kept.len().min(MOST_ROWS)).unwrap_or(u32::MAX)
+}
+
+/// An answer in JSON.
+pub(crate) fn json(answer: &impl Serialize) -> Vec<u8> {
+    serde_json::to_vec(answer).expect("keys are texts and numbers finite")
+}
+
+/// The records of a program, the same bytes as those of `frictcomp run --format ndjson`.
+pub(crate) fn records(
+    dropped: &mut Dropped,
+    program: &str,
+    settings: &RunSettings,
+) -> Result<Vec<u8>, Refusal> {
+    let input = dropped.program(program)?;
+    let loaded = dropped.machine(&input, &settings.enable)?;
+    let written = crate::written::Written::default();
+    let mut report = TimelineFormat::Ndjson.report(written.clone(), TimelineOptions::default());
+    let alone = alone(&loaded, settings, command_line);
+    run_alone(&input, &loaded, alone, &mut *report)?;
+    report
+        .finish()
+        .map_err(|error| Refusal::new(error.to_string()))?;
+    Ok(written.take())
+}
+
+/// The report of a run as a page, the same as that of `frictcomp run --html` but for the words of advice.
+pub(crate) fn report(
+    dropped: &mut Dropped,
+    program: &str,
+    settings: &RunSettings,
+) -> Result<Vec<u8>, Refusal> {
+    let input = dropped.program(program)?;
+    let loaded = dropped.machine(&input, &settings.enable)?;
+    let mut digest = RunDigest::new(KindSet::of(Kind::Frict));
+    let alone = alone(&loaded, settings, page);
+    let stop = alone.options.run.stop;
+    run_alone(&input, &loaded, alone, &mut digest)?;
+    let given = RunInputs {
+        given: GivenForRun {
+            machine: loaded.origin.as_deref(),
+            enabled: &settings.enable,
+            variables: &loaded.settings,
+            stop,
+            ..GivenForRun::default()
+        },
+        parameters: &loaded.reports,
+        programs: &loaded.programs,
+    };
+    let mut written = Vec::new();
+    render_run(&digest, &given, &mut Texts(dropped.disk()), &mut written)
+        .map_err(|error| Refusal::new(error.to_string()))?;
+    Ok(written)
+}
+
+/// The dropped files, read once more for a report.
+pub(crate) struct Texts(pub(crate) Disk);
+
+impl Sources for Texts {
+    fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>> {
+        self.0.lines(name)
+    }
+}
+
+impl Shown {
+    fn overview<'a>(&'a self, loaded: &'a LoadedMachine) -> Overview<'a> {
+        let timeline = &self.timeline;
+        let count = |severity| timeline.counts.get(&severity).copied().unwrap_or_default();
+        let messages = timeline.said.iter().map(|said| Message {
+            after: said.after,
+            diagnostic: &said.diagnostic,
+        });
+        let passed_over = timeline.opaque.iter();
+        Overview {
+            program: &self.program,
+            name: timeline.name.as_deref(),
+            axes: self.axes(),
+            axes_as_they_occur: timeline.axes_as_they_occur,
+            blocks: timeline.rows.blocks,
+            kept: timeline.rows.kept.len(),
+            ended_by: timeline.ended_by.map(EndedBy::as_str),
+            remark: timeline.remark.as_deref(),
+            errors: count(Severity::Error),
+            warnings: count(Severity::Warning),
+            infos: count(Severity::Info),
+            messages: messages.collect(),
+            messages_left_out: timeline.left_out,
+            passed_over: passed_over
+                .map(|(word, times)| (word.as_str(), *times))
+                .collect(),
+            is_assumed: timeline.is_assumed,
+            machine: MachineOverview {
+                origin: loaded.origin.as_ref().map(|it| it.display().to_string()),
+                is_described: loaded.machine.is_described(),
+                lists: loaded.lists.0,
+                missing: loaded.lists.1,
+                said: &loaded.diagnostics,
+            },
+            items: self.total(View::All),
+            notable_items: self.total(View::Notable),
+        }
+    }
+
+    fn axes(&self) -> Vec<AxisOverview<'_>> {
+        let timeline = &self.timeline;
+        let axes = timeline.axes.iter().enumerate();
+        axes.map(|(at, axis)| {
+            let mut summaries = timeline.summaries.iter();
+            let summary = summaries.find(|summary| summary.axis.get() == at);
+            let start = self.timeline.rows.states(None).get(at).copied();
+            let start = start.unwrap_or(axis.home);
+            let blocks = summary.map(|summary| summary.changed_by.as_slice());
+            AxisOverview {
+                name: &axis.name,
+                home: axis.home.as_str(),
+                start: start.as_str(),
+                end: summary.map_or(start, |summary| summary.end).as_str(),
+                listed: axis.listed,
+                changes: summary.map_or(0, |summary| summary.changes),
+                changed_by: blocks
+                    .unwrap_or_default()
+                    .iter()
+                    .map(|block| ChangedAt {
+                        file: &block.file,
+                        line: block.line,
+                        number: block.number,
+                    })
+                    .collect(),
+                bar: bar(&timeline.rows, at),
+            }
+        })
+        .collect()
+    }
+
+    /// The items of a view: the start, blocks and messages, the end.
+    fn total(&self, view: View) -> usize {
+        2 + self.shown_rows(view) + self.timeline.said.len()
+    }
+
+    fn shown_rows(&self, view: View) -> usize {
+        match view {
+            View::All => self.timeline.rows.kept.len(),
+            View::Notable => self.notable.len(),
+        }
+    }
+
+    /// How many of the first so many blocks are shown.
+    fn rank(&self, view: View, blocks: u64) -> usize {
+        let blocks = usize::try_from(blocks).unwrap_or(usize::MAX);
+        match view {
+            View::All => blocks.min(self.timeline.rows.kept.len()),
+            View::Notable => self
+                .notable
+                .partition_point(|row| usize::try_from(*row).is_ok_and(|row| row < blocks)),
+        }
+    }
+
+    /// Where the message stands.
+    fn place_of_message(&self, view: View, at: usize) -> usize {
+        1 + self.rank(view, self.timeline.said[at].after) + at
+    }
+
+    /// Where a block stands, the start for 0; where it is not shown, the one before it.
+    pub(crate) fn place(&self, view: View, block: u64) -> usize {
+        let before = &self.timeline.said;
+        let messages = before.partition_point(|said| said.after < block);
+        self.rank(view, block) + if block == 0 { 0 } else { messages }
+    }
+
+    /// The next block with a change or a message after a block, or the one before it.
+    pub(crate) fn notable(&self, block: u64, forward: bool) -> Option<u64> {
+        let numbers = self.notable.iter().map(|row| u64::from(*row) + 1);
+        if forward {
+            let mut after = numbers.skip_while(|number| *number <= block);
+            after.next()
+        } else {
+            numbers.take_while(|number| *number < block).last()
+        }
+    }
+
+    /// The block that first executes a line of the program.
+    pub(crate) fn block_of_line(&self, line: u32) -> Option<usize> {
+        let rows = self.timeline.rows.kept.iter();
+        let mut rows = rows.enumerate().filter(|(_, row)| row.level == 0);
+        let (at, _) = rows.find(|(_, row)| {
+            let last = row.line.saturating_add(u32::from(row.lines));
+            (row.line..last).contains(&line)
+        })?;
+        Some(at + 1)
+    }
+
+    /// So many items of a view from one on.
+    pub(crate) fn items(&mut self, view: View, from: usize, count: usize) -> Vec<u8> {
+        let end = self.total(view).min(from.saturating_add(count));
+        let wanted: Vec<Option<usize>> = (from..end).map(|at| self.row_at(view, at)).collect();
+        for row in wanted.into_iter().flatten() {
+            let file = self.timeline.rows.kept[row].file;
+            let name = &self.timeline.rows.files[usize::from(file)];
+            let text = self.disk.text(Path::new(name));
+            let lines = || text.map(Lines::new);
+            self.lines.entry(file).or_insert_with(lines);
+        }
+        let items: Vec<Item<'_>> = (from..end).map(|at| self.item(view, at)).collect();
+        json(&items)
+    }
+
+    /// The row of an item; `None` for the others.
+    fn row_at(&self, view: View, at: usize) -> Option<usize> {
+        let messages = self.messages_before(view, at);
+        let is_message =
+            messages < self.timeline.said.len() && self.place_of_message(view, messages) == at;
+        let rank = at.checked_sub(1 + messages)?;
+        if is_message || rank >= self.shown_rows(view) {
+            return None;
+        }
+        Some(match view {
+            View::All => rank,
+            View::Notable => usize::try_from(self.notable[rank]).ok()?,
+        })
+    }
+
+    fn messages_before(&self, view: View, at: usize) -> usize {
+        let (mut low, mut high) = (0, self.timeline.said.len());
+        while low < high {
+            let middle = low.midpoint(high);
+            if self.place_of_message(view, middle) < at {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    fn item(&self, view: View, at: usize) -> Item<'_> {
+        let rows = &self.timeline.rows;
+        let words = |states: &[State]| states.iter().map(|state| state.as_str()).collect();
+        let Some(row) = self.row_at(view, at) else {
+            if at == 0 {
+                return Item::Start {
+                    states: words(rows.states(None)),
+                };
+            }
+            let message = self.messages_before(view, at);
+            if message < self.timeline.said.len() {
+                return Item::Message { at: message };
+            }
+            return Item::End {
+                states: words(rows.current()),
+            };
+        };
+        let kept = rows.kept[row];
+        let file = rows.files[usize::from(kept.file)].as_str();
+        let lines = self.lines.get(&kept.file).and_then(Option::as_ref);
+        Item::Block {
+            block: row + 1,
+            file: (file != self.program).then_some(file),
+            line: kept.line,
+            level: kept.level,
+            text: lines.map_or_else(String::new, |it| it.shown(kept.line, kept.lines)),
+            states: words(rows.states(Some(row))),
+            changes: rows.changes(row),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! What the page shows of a run: blocks, messages, the end.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use frictcomp::comp::{AxisIndex, Kind, State};
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::machine::AxisSet;
+use frictcomp::timeline::{AxisSummary, EndedBy, Footing, Record, Sink};
+
+use crate::border::show_progress;
+use crate::rows::Rows;
+
+/// More messages are counted, not kept.
+const MOST_MESSAGES: usize = 10_000;
+
+/// Blocks between two signs of progress.
+const STEP: u64 = 1 << 15;
+
+/// A message, and the number of the block after which it stands; 0 before the first.
+#[derive(Debug)]
+pub(crate) struct Said {
+    pub(crate) after: u64,
+    pub(crate) diagnostic: Diagnostic,
+}
+
+/// One axis of the machine.
+#[derive(Debug)]
+pub(crate) struct TimelineAxis {
+    pub(crate) name: String,
+    pub(crate) home: State,
+    pub(crate) listed: bool,
+}
+
+/// A run, as far as the page shows it.
+#[derive(Debug, Default)]
+pub(crate) struct Timeline {
+    pub(crate) axes: Vec<TimelineAxis>,
+    pub(crate) axes_as_they_occur: bool,
+    pub(crate) remark: Option<String>,
+    pub(crate) name: Option<String>,
+    pub(crate) rows: Rows,
+    /// By the blocks after which they stand.
+    pub(crate) said: Vec<Said>,
+    pub(crate) left_out: u64,
+    pub(crate) ended_by: Option<EndedBy>,
+    pub(crate) counts: BTreeMap<Severity, u64>,
+    pub(crate) opaque: BTreeMap<String, u64>,
+    pub(crate) summaries: Vec<AxisSummary>,
+    pub(crate) is_assumed: bool,
+}
+
+impl Timeline {
+    fn say(&mut self, after: u64, diagnostic: &Diagnostic) {
+        if self.said.len() >= MOST_MESSAGES {
+            self.left_out += 1;
+            return;
+        }
+        self.said.push(Said {
+            after,
+            diagnostic: diagnostic.clone(),
+        });
+    }
+}
+
+impl Sink for Timeline {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match *record {
+            Record::Session { state, remark } => {
+                let home = state.machine.compensation();
+                let axes = state.machine.axes.iter().zip(state.listed).enumerate();
+                self.axes = axes
+                    .map(|(at, (axis, listed))| TimelineAxis {
+                        name: axis.name.clone(),
+                        home: home.state(AxisIndex::new(at), Kind::Frict),
+                        listed: *listed,
+                    })
+                    .collect();
+                self.axes_as_they_occur = state.machine.axis_set == AxisSet::AsTheyOccur;
+                self.remark = remark.map(str::to_owned);
+            }
+            Record::Machine(diagnostic) => self.say(0, diagnostic),
+            Record::Program { name, state, .. } => {
+                self.name = name.map(str::to_owned);
+                self.rows.see(state);
+            }
+            Record::Block(ref row) => {
+                self.rows.push(row);
+                for diagnostic in row.diagnostics {
+                    self.say(self.rows.blocks, diagnostic);
+                }
+                if self.rows.blocks.is_multiple_of(STEP) {
+                    let blocks = u32::try_from(self.rows.blocks).unwrap_or(u32::MAX);
+                    let line = if row.level.is_none() { row.line } else { 0 };
+                    show_progress(blocks, line);
+                }
+            }
+            Record::End(ref end) => {
+                for note in end.notes {
+                    self.say(note.seq, &note.diagnostic);
+                }
+                self.rows.see(end.state);
+                self.said.sort_by_key(|said| said.after);
+                self.ended_by = Some(end.by);
+            }
+            Record::Summary(summary) => {
+                self.counts.clone_from(&summary.counts);
+                self.opaque.clone_from(summary.opaque);
+                self.summaries.clone_from(&summary.axes);
+                self.is_assumed = summary.footing == Footing::Assumed;
+                for axis in &summary.axes {
+                    self.axes[axis.axis.get()].listed = true;
+                }
+            }
+            _ => {}
+        }
+        ControlFlow::Continue(())
+    }
+}

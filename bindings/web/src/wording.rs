@@ -1,0 +1,34 @@
+//! How the page words advice: what it offers, instead of an option of the command line.
+
+use frictcomp::diagnostic::Advice;
+
+/// The page's words; `None` where the general ones will do.
+pub(crate) fn page(advice: &Advice) -> Option<String> {
+    Some(match advice {
+        Advice::DescribeMachine(switched) => {
+            let assumed = match switched.as_slice() {
+                [] => String::new(),
+                axes => format!(" of {}", axes.join(", ")),
+            };
+            format!(
+                "no machine is described, so P-AXIS-00522 counts as 0 on every axis: drop frictcomp.toml or the start-up list with its axis lists, or assume friction compensation{assumed}"
+            )
+        }
+        Advice::Enable(axes) => format!(
+            "to continue as if it were set, assume friction compensation of {}",
+            axes.join(", ")
+        ),
+        Advice::Configure(axis) => format!(
+            "P-AXIS-00522 (lr_param.frict_comp) of axis `{axis}` is not set; set it to 1 in its axis list, or assume friction compensation of {axis}"
+        ),
+        Advice::SetVariable(name) => {
+            format!(
+                "give `{name}` its value in `[variables]` of frictcomp.toml, and drop that file"
+            )
+        }
+        Advice::AllowOutside => {
+            "drop the folder that holds all programs, so that their folders are known".to_owned()
+        }
+        _ => return None,
+    })
+}

@@ -1,0 +1,351 @@
+// The page in a real Chromium, opened as a file and without network.
+//
+//     node tests/browser.mjs PAGE.html COMMAND ROOT CHROMIUM [SCREENSHOTS]
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const [html, command, root, executablePath, pictures] = process.argv.slice(2);
+const address = pathToFileURL(resolve(html)).href;
+const folder = mkdtempSync(join(tmpdir(), "frictcomp-page-"));
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+
+/** Opens the page; whatever it asks of the network or says in the console is a mistake. */
+async function open(options = {}) {
+  const context = await browser.newContext({ acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(20_000);
+  page.wrong = [];
+  page.on("request", (request) => {
+    if (!/^(file|blob|data):/.test(request.url())) {
+      page.wrong.push(`request ${request.url()}`);
+    }
+  });
+  page.on("pageerror", (error) => page.wrong.push(error.message));
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) {
+      page.wrong.push(message.text());
+    }
+  });
+  page.on("dialog", (dialog) => {
+    page.wrong.push(`dialog ${dialog.message()}`);
+    void dialog.dismiss();
+  });
+  await page.goto(address);
+  await page.waitForSelector("body.ready");
+  return page;
+}
+
+async function close(page) {
+  assert.deepEqual(page.wrong, []);
+  await page.context().close();
+}
+
+/** Drops files or folders of the disk onto the page. */
+async function drop(page, ...paths) {
+  const client = await page.context().newCDPSession(page);
+  const data = { items: [], files: paths, dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"]) {
+    await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data });
+  }
+}
+
+async function dropTexts(page, files) {
+  const paths = Object.entries(files).map(([name, text]) => {
+    const path = join(folder, name);
+    mkdirSync(join(path, ".."), { recursive: true });
+    writeFileSync(path, text);
+    return path;
+  });
+  await drop(page, ...paths);
+}
+
+const run = (program, cwd) =>
+  spawnSync(command, ["run", "--format", "ndjson", program], { cwd }).stdout.toString();
+
+const rows = (page) => page.locator(".timeline tbody tr:not(.message):not(.edge)");
+
+/** The states of the blocks that are shown, as words. */
+const shownStates = (page) => rows(page).evaluateAll((all) => all.map((row) =>
+  [...row.querySelectorAll("td.states .word")].map((word) => word.textContent)));
+
+const look = async (page, name) => {
+  if (pictures) {
+    await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
+  }
+};
+
+const tests = {
+  async "the example explains itself"() {
+    const page = await open();
+    await page.getByRole("heading", { name: "Drop an NC program here" }).waitFor();
+    await page.getByText("Nothing leaves this computer").waitFor();
+    await look(page, "welcome");
+    await page.getByRole("button", { name: "Show an example" }).click();
+    await rows(page).first().waitFor();
+    const result = page.getByRole("status", { name: "Result" });
+    assert.match(await result.textContent(), /Left for the next program: X inactive, Y inactive/);
+    await look(page, "example");
+    await close(page);
+  },
+
+  async "a dropped folder has the states of the command line"() {
+    const page = await open();
+    await drop(page, join(root, "programs/demo/order"), join(root, "programs/demo/five_axis"));
+    await page.getByRole("button", { name: "order/probe.nc" }).first().click();
+    await page.waitForFunction(() => document.getElementById("title").textContent === "order/probe.nc");
+    await rows(page).first().waitFor();
+    const lines = run("order/probe.nc", join(root, "programs/demo")).trim().split("\n");
+    const records = lines.map((line) => JSON.parse(line));
+    const wanted = records.filter(({ record }) => record === "block")
+      .map(({ friction }) => Object.values(friction));
+    assert.ok(wanted.length > 3);
+    assert.deepEqual(await shownStates(page), wanted);
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Download records" }).click(),
+    ]);
+    const records_ = readFileSync(await download.path(), "utf8");
+    assert.equal(records_, run("order/probe.nc", join(root, "programs/demo")));
+    await close(page);
+  },
+
+  async "the report is that of the command line"() {
+    const page = await open();
+    await drop(page, join(root, "programs/demo/order"));
+    await page.getByRole("tab", { name: /Audit/ }).waitFor();
+    await page.getByRole("button", { name: "order/pocket.nc" }).first().click();
+    await rows(page).first().waitFor();
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Download report" }).click(),
+    ]);
+    assert.equal(download.suggestedFilename(), "pocket.nc.report.html");
+    const report = join(folder, "r.html");
+    spawnSync(command, ["run", "--html", report, "-q", "order/pocket.nc"],
+      { cwd: join(root, "programs/demo") });
+    assert.equal(readFileSync(await download.path(), "utf8"), readFileSync(report, "utf8"));
+    await close(page);
+  },
+
+  async "an edit changes the timeline"() {
+    const page = await open();
+    await page.getByRole("button", { name: "Show an example" }).click();
+    await rows(page).first().waitFor();
+    await page.getByRole("button", { name: "Edit the program" }).click();
+    const text = page.getByRole("textbox", { name: "Program text" });
+    await page.waitForFunction(() => document.querySelector("textarea").value !== "");
+    await text.fill((await text.inputValue()).replace(
+      "N55 M30", "N50 X[COMP ON FRICT]\nN51 Y[COMP ON FRICT]\nN55 M30"));
+    const result = page.getByRole("status", { name: "Result" });
+    await result.getByText("Every axis ends as the control starts it.").waitFor();
+    assert.equal(await rows(page).count(), 7);
+    await page.getByText("edited here, the file is as it was").waitFor();
+    await look(page, "edit");
+    await text.fill("N10 Z[COMP ON FRICT]\nN20 X1\nM30\n");
+    await result.getByText("The run stops at line 1").waitFor();
+    await page.getByRole("tab", { name: "Messages (1)" }).click();
+    await page.locator("#panel-messages").getByText("P-ERR-70495").waitFor();
+    await page.getByRole("button", { name: /friction\.nc:1:5/ }).click();
+    await page.locator(".timeline tr.selected").waitFor();
+    await close(page);
+  },
+
+  async "what was not dropped is named"() {
+    const page = await open();
+    await dropTexts(page, { "main.nc": "N10 L SUB.nc\nN20 X[COMP OFF FRICT]\nM30\n" });
+    const result = page.getByRole("status", { name: "Result" });
+    await result.getByText(/SUB\.nc.*Drop that file, too/).waitFor();
+    assert.match(await result.textContent(), /No machine is described/);
+    assert.doesNotMatch(await result.textContent(), /Every axis ends/);
+    const missing = page.locator("#missing");
+    assert.match(await missing.textContent(), /SUB\.nc/);
+    // The file comes, and then the start-up list without its axis lists.
+    await dropTexts(page, { "SUB.nc": "X1\nM17\n" });
+    await page.waitForFunction(() => !document.getElementById("missing").textContent.includes("SUB.nc"));
+    assert.equal(await page.locator("#title").textContent(), "main.nc");
+    await drop(page, join(root, "programs/demo/lists/hochlauf.lis"));
+    await result.getByText(/not found: parameters that they would give/).waitFor();
+    assert.match(await missing.textContent(), /axis_x\.lis/);
+    await look(page, "missing");
+    // Loose lists are found beside the start-up list.
+    await drop(page, ...["axis_x", "axis_y", "axis_z", "channel_1", "comp_x", "comp_y"].map((name) =>
+      join(root, `programs/demo/lists/${name}.lis`)));
+    await page.waitForFunction(() => document.getElementById("missing").textContent === "");
+    await page.getByRole("button", { name: /main\.nc/ }).click();
+    await result.getByText("Left for the next program: X inactive").waitFor();
+    await close(page);
+  },
+
+  async "many programs are audited"() {
+    const page = await open();
+    const lists = ["frictcomp.toml", "lists"].map((name) => join(root, "programs/demo", name));
+    const programs = {};
+    for (let at = 0; at < 50; at += 1) {
+      programs[`many/p${at}.nc`] = at % 10 === 3 ? "X[COMP OFF FRICT]\nM30\n" : "G1 X1 F100\nM30\n";
+    }
+    await dropTexts(page, {});
+    for (const [name, text] of Object.entries(programs)) {
+      mkdirSync(join(folder, "many"), { recursive: true });
+      writeFileSync(join(folder, name), text);
+    }
+    await drop(page, ...lists, join(folder, "many"));
+    await page.getByRole("tab", { name: "Audit (50)", selected: true }).waitFor();
+    await page.getByText(/50 programs\. 225 pairs of programs/).waitFor();
+    assert.equal(await page.locator("#audit table.programs tbody tr").count(), 50);
+    await look(page, "audit");
+    await page.locator("#audit").getByRole("button", { name: "line 1" }).first().click();
+    await page.locator(".timeline tr.selected").waitFor();
+    await close(page);
+  },
+
+  async "nothing in a file runs"() {
+    const page = await open();
+    const evil = "<img src=x onerror=alert(1)><script>alert(2)<_script>";
+    await dropTexts(page, {
+      [`${evil}.nc`]: `%${evil}\nN10 X[COMP OFF FRICT] ; ${evil} </script><svg onload=alert(3)>\n`
+        + `N20 L "${evil}"\nM30\n`,
+      "frictcomp.toml": "[[axis]]\nname = \"X<b>\"\n",
+    });
+    await page.waitForSelector("#complaint:not([hidden])");
+    await dropTexts(page, { "frictcomp.toml": `[[axis]]\nname = "X"\nfrict_comp = true\n# ${evil}\n` });
+    await rows(page).first().waitFor();
+    for (const tab of ["Messages", "Audit", "Current", "Circle", "Machine", "Timeline"]) {
+      await page.getByRole("tab", { name: new RegExp(tab) }).click();
+      await page.waitForTimeout(300);
+    }
+    await page.waitForFunction(() => document.getElementById("working").hidden);
+    const active = await page.evaluate(() =>
+      document.querySelectorAll("img:not(.picture), #work script, [onerror], [onload], iframe").length);
+    assert.equal(active, 0);
+    // Even a page that was tricked into a request could not make it.
+    const refused = await page.evaluate(() => fetch("https://example.org/").then(() => false, () => true));
+    assert.ok(refused);
+    page.wrong = page.wrong.filter((said) => !said.includes("example.org"));
+    await close(page);
+  },
+
+  async "a million blocks run with progress and can be cancelled"() {
+    const page = await open();
+    const lines = Array.from({ length: 1_000_000 }, (_, at) => `N${at} G1 X${at % 997} Y${at % 13}.5`);
+    lines[600_000] = "N5 X[COMP OFF FRICT]";
+    writeFileSync(join(folder, "million.nc"), lines.join("\n"));
+    await drop(page, join(folder, "million.nc"), join(root, "programs/demo/frictcomp.toml"),
+      join(root, "programs/demo/lists"));
+    await page.locator("#progress").getByText(/blocks/).waitFor({ timeout: 60_000 });
+    await page.waitForFunction(() => document.getElementById("working").hidden, null, { timeout: 60_000 });
+    await page.getByText(/1.000.000 executed blocks/).waitFor();
+    const seconds = await page.evaluate(() => new Promise((resolve) => {
+      const before = performance.now();
+      const bars = document.getElementById("bars");
+      new window.MutationObserver(() => { resolve((performance.now() - before) / 1000); })
+        .observe(bars, { childList: true });
+      document.getElementById("keep-going").click();
+    }));
+    console.log(`      1 million blocks: ${seconds.toFixed(2)} s`);
+    await page.getByRole("button", { name: "Next change" }).click();
+    await page.locator(".timeline tr.selected").getByText("X[COMP OFF FRICT]").waitFor();
+    await look(page, "million");
+    // The last line is reached by scrolling, though the list is higher than an element can be.
+    await page.locator(".scroll").evaluate((box) => { box.scrollTop = box.scrollHeight; });
+    await page.locator(".timeline").getByText("N999999 ").waitFor();
+    // A loop that takes long.
+    await dropTexts(page, { "long.nc": "$FOR P1 = 1, 90000000, 1\nX1\n$ENDFOR\nM30\n" });
+    await page.getByRole("button", { name: "Cancel" }).click();
+    await page.getByText("Cancelled").waitFor();
+    await page.getByRole("button", { name: "million.nc" }).click();
+    await page.getByText(/1.000.000 executed blocks/).waitFor({ timeout: 60_000 });
+    await close(page);
+  },
+
+  async "everything is reached by keyboard and has a name"() {
+    const page = await open();
+    const reached = [];
+    for (let at = 0; at < 5; at += 1) {
+      await page.keyboard.press("Tab");
+      reached.push(await page.evaluate(() => document.activeElement.textContent.trim()));
+    }
+    assert.deepEqual(reached.slice(0, 4),
+      ["Skip to the content", "Choose files…", "Choose a folder…", "Show an example"]);
+    await page.getByRole("button", { name: "Show an example" }).focus();
+    await page.keyboard.press("Enter");
+    await rows(page).first().waitFor();
+    await page.getByRole("tab", { name: "Timeline" }).focus();
+    await page.keyboard.press("ArrowRight");
+    await page.getByRole("tabpanel", { name: /Messages/ }).waitFor();
+    await page.keyboard.press("Home");
+    await page.getByRole("button", { name: "Next change" }).focus();
+    await page.keyboard.press("Space");
+    await page.locator(".timeline tr.selected").getByText("N25").waitFor();
+    assert.equal(await page.getByRole("img", { name: "X: active, inactive from block 4" }).count(), 1);
+    const nameless = await page.evaluate(() => {
+      const all = document.querySelectorAll("button, input:not([hidden]), select, textarea, [role=region]");
+      return [...all].filter((one) => !(one.textContent.trim() || one.ariaLabel || one.labels?.length))
+        .map((one) => one.outerHTML);
+    });
+    assert.deepEqual(nameless, []);
+    assert.equal(await page.locator("html").getAttribute("lang"), "en");
+    await close(page);
+  },
+
+  async "it fits dark, phone, magnified and paper"() {
+    const ways = {
+      light: { viewport: { width: 1280, height: 860 } },
+      dark: { viewport: { width: 1280, height: 860 }, colorScheme: "dark" },
+      phone: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true },
+      magnified: { viewport: { width: 640, height: 400 }, deviceScaleFactor: 2 },
+    };
+    for (const [name, options] of Object.entries(ways)) {
+      const page = await open(options);
+      await page.getByRole("button", { name: "Show an example" }).click();
+      await rows(page).first().waitFor();
+      for (const tab of ["timeline", "messages", "audit", "current", "circle", "machine"]) {
+        await page.locator(`#tab-${tab}`).click();
+        await page.waitForFunction(() => document.getElementById("working").hidden);
+        if (tab === "circle") {
+          await page.locator("#circle img").waitFor({ timeout: 60_000 });
+        }
+        await look(page, `${name}-${tab}`);
+        const wider = await page.evaluate(() =>
+          document.documentElement.scrollWidth - document.documentElement.clientWidth);
+        assert.ok(wider <= 0, `${name} ${tab}: ${wider} px too wide`);
+      }
+      await page.locator("#tab-timeline").click();
+      if (name === "dark") {
+        const paper = await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+        assert.equal(paper, "rgb(20, 24, 29)");
+      }
+      await page.emulateMedia({ media: "print" });
+      assert.ok(!await page.locator("#side").isVisible() && await rows(page).last().isVisible());
+      await look(page, `${name}-print`);
+      await close(page);
+    }
+  },
+};
+
+if (pictures) {
+  mkdirSync(pictures, { recursive: true });
+}
+let failed = 0;
+const only = process.env.ONLY;
+for (const [name, test] of Object.entries(tests)) {
+  if (only && !name.includes(only)) {
+    continue;
+  }
+  const before = Date.now();
+  try {
+    await test();
+    console.log(`ok    ${name} (${((Date.now() - before) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    failed += 1;
+    console.error(`FAIL  ${name}`, error);
+  }
+}
+await browser.close();
+rmSync(folder, { recursive: true });
+process.exit(failed === 0 ? 0 : 1);

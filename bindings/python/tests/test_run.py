@@ -127,6 +127,15 @@ def test_buffers_outlive_the_timeline() -> None:
         pyarrow.table(Kept())
 
 
+def test_texts_are_handed_over_and_not_copied() -> None:
+    timeline = frictcomp.run(FRICTION)
+    tables = [pyarrow.table(timeline) for _ in range(2)]
+    for name in ["text", "line", "X"]:
+        chunks = [table[name].chunk(0) for table in tables]
+        addresses = [[it and it.address for it in chunk.buffers()] for chunk in chunks]
+        assert addresses[0] == addresses[1] and addresses[0][-1]
+
+
 def test_a_text_is_run_as_a_file_is() -> None:
     with open(FRICTION, "rb") as file:
         data = file.read()
@@ -137,6 +146,17 @@ def test_a_text_is_run_as_a_file_is() -> None:
         assert polars.DataFrame(timeline).drop("file").equals(of_file)
     named = frictcomp.run(frictcomp.Text(data, FRICTION))
     assert polars.DataFrame(named)["file"].unique().to_list() == [FRICTION]
+
+
+def test_blocks_of_called_programs_name_their_files() -> None:
+    calls = 50
+    subs = [frictcomp.Text(f"N1 X{n}\nN2 M17\n", f"sub{n}.nc") for n in range(calls)]
+    lines = [f"N{n} L sub{n % calls}.nc" for n in range(3 * calls)]
+    main = frictcomp.Text("\n".join([*lines, "N1 M30"]), "main.nc")
+    timeline = frictcomp.run([main, *subs], machine=frictcomp.Machine(isolated=True))
+    first, level, n = (polars.col(it) for it in ["program", "level", "n"])
+    called = polars.DataFrame(timeline).filter((first == 1) & (level == 1) & (n == 1))
+    assert called["file"].to_list() == [f"sub{n % calls}.nc" for n in range(3 * calls)]
 
 
 def test_programs_run_one_after_the_other() -> None:

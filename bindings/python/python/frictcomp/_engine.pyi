@@ -141,7 +141,7 @@ class Message:
     def __ne__(self, other: object, /) -> bool: ...
 
 @final
-class Messages(Sequence[Message]):
+class Messages:
     """Messages in their order, and a table of them for pandas, polars and DuckDB."""
 
     @property

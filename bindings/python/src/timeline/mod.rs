@@ -84,7 +84,7 @@ impl PyTimeline {
 
     #[getter]
     fn state(&self) -> PyState {
-        PyState::new(self.recorded.state.clone())
+        self.recorded.state.clone()
     }
 
     #[getter]

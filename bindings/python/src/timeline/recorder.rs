@@ -11,6 +11,7 @@ use super::PyProgramRun;
 use super::rows::{Rows, Shown};
 use crate::arrow::Table;
 use crate::messages::{PyMessage, Said};
+use crate::state::PyState;
 use crate::work::Stop;
 
 /// What a session left behind.
@@ -22,7 +23,7 @@ pub(crate) struct Recorded {
     pub(crate) friction: BTreeMap<String, &'static str>,
     pub(crate) opaque: BTreeMap<String, u64>,
     pub(crate) is_assumed: bool,
-    pub(crate) state: SavedState,
+    pub(crate) state: PyState,
     pub(crate) unrun: usize,
 }
 
@@ -59,7 +60,7 @@ impl Recorder {
             said: self.said,
             opaque: self.opaque,
             is_assumed: self.is_assumed,
-            state,
+            state: PyState::new(state),
             unrun,
         }
     }

@@ -1,5 +1,6 @@
 //! The executed blocks of a session on their way into columns.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use arrow_array::builder::{Int64Builder, StringBuilder, UInt32Builder};
@@ -46,7 +47,9 @@ pub(crate) struct Rows {
 #[derive(Default)]
 struct Files {
     names: Vec<String>,
-    last: usize,
+    numbers: HashMap<String, i32>,
+    /// That of the last block: most blocks follow one of the same file.
+    last: i32,
 }
 
 /// Some blocks.
@@ -88,14 +91,16 @@ struct Codes {
 
 impl Files {
     fn number(&mut self, name: &str) -> i32 {
-        if self.names.get(self.last).is_none_or(|last| last != name) {
-            let known = self.names.iter().position(|known| known == name);
-            self.last = known.unwrap_or_else(|| {
-                self.names.push(name.to_owned());
-                self.names.len() - 1
-            });
+        let last = usize::try_from(self.last).unwrap_or_default();
+        if self.names.get(last).is_some_and(|last| last == name) {
+            return self.last;
         }
-        i32::try_from(self.last).expect("there are fewer files than that")
+        let next = i32::try_from(self.names.len()).expect("there are fewer files than that");
+        self.last = *self.numbers.entry(name.to_owned()).or_insert(next);
+        if self.last == next {
+            self.names.push(name.to_owned());
+        }
+        self.last
     }
 }
 

@@ -423,6 +423,12 @@ fn the_library_names_no_option() {
 }
 
 #[test]
+fn paths_are_shown_in_one_way() {
+    // R13.1: `text/shown_path.rs` writes one kind of slash.
+    assert_absent(&[".display()"], |_| true);
+}
+
+#[test]
 fn files_stay_short() {
     let long: Vec<String> = sources()
         .iter()

@@ -1,7 +1,7 @@
 //! The line on stderr that says how far a long run is (R9.27, R9.75).
 
 use std::io::{self, IsTerminal, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -11,8 +11,9 @@ use crate::host::{Progress, Watch, Watcher};
 const QUIET: Duration = Duration::from_secs(1);
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// Whether the line stands on the terminal.
-static IS_SHOWN: AtomicBool = AtomicBool::new(false);
+/// The columns of the line that stands on the terminal. It is overwritten with blanks: not every console
+/// of Windows knows a sequence that clears a line.
+static SHOWN: AtomicUsize = AtomicUsize::new(0);
 
 /// A terminal on which a long run shows its progress; the line goes when this is dropped.
 #[derive(Debug)]
@@ -49,8 +50,10 @@ impl Watcher for Terminal {
 
     fn show(&self, progress: &Progress) {
         if let Ok(mut shown) = self.shown.try_lock() {
-            let _ = write!(io::stderr().lock(), "\r{progress}\x1b[K");
-            IS_SHOWN.store(true, Ordering::Relaxed);
+            let line = progress.to_string();
+            let columns = line.chars().count();
+            let longer = SHOWN.swap(columns, Ordering::Relaxed).max(columns);
+            let _ = write!(io::stderr().lock(), "\r{line:longer$}");
             *shown = Some(Instant::now());
         }
     }
@@ -64,8 +67,9 @@ impl Drop for Terminal {
 
 /// Takes the line away before something else is written on the terminal.
 pub(super) fn clear() {
-    if IS_SHOWN.swap(false, Ordering::Relaxed) {
-        let _ = write!(io::stderr().lock(), "\r\x1b[K");
+    let columns = SHOWN.swap(0, Ordering::Relaxed);
+    if columns > 0 {
+        let _ = write!(io::stderr().lock(), "\r{:columns$}\r", "");
     }
 }
 

@@ -1,6 +1,7 @@
 //! Wildcards, which `cmd` and PowerShell leave to the programs that they start.
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 
 use glob::{MatchOptions, glob_with};
 
@@ -25,7 +26,7 @@ fn matching(argument: OsString) -> Vec<OsString> {
         return vec![argument];
     };
     let found: Result<Vec<OsString>, _> = paths
-        .map(|path| path.map(std::path::PathBuf::into_os_string))
+        .map(|path| path.map(PathBuf::into_os_string))
         .collect();
     match found {
         Ok(found) if !found.is_empty() => found,
@@ -46,12 +47,15 @@ mod tests {
     fn wildcards_are_the_files_that_match() {
         // R13.1
         let root = tempfile::tempdir().unwrap();
-        let path = |name: &str| root.path().join(name).into_os_string();
+        let path = |name: &str| root.path().join(name);
         std::fs::create_dir(path("sub")).unwrap();
         for name in ["b.NC", "a.nc", "a[1].nc", "a1.nc", "c.txt", "sub/d.nc"] {
             std::fs::write(path(name), "").unwrap();
         }
-        let found = |pattern: &str| expanded(vec![path(pattern)]);
+        let found = |pattern: &str| -> Vec<PathBuf> {
+            let found = expanded(vec![path(pattern).into_os_string()]);
+            found.into_iter().map(PathBuf::from).collect()
+        };
         let all = ["a.nc", "a1.nc", "a[1].nc", "b.NC"].map(path);
         assert_eq!(found("*.nc"), all);
         assert_eq!(found("s*/?.NC"), [path("sub/d.nc")]);

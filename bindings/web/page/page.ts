@@ -15,7 +15,7 @@ import { Cancelled, Session } from "./session";
 import { MEANINGS } from "./states";
 import { type Tab, Tabs } from "./tabs";
 import { Timeline } from "./timeline";
-import { isMissing, missing, sentence, verdict } from "./verdict";
+import { type Given, isMissing, missing, sentence, verdict } from "./verdict";
 
 /** Work that takes longer is shown with its progress, in ms. */
 const PATIENCE = 250;
@@ -33,6 +33,8 @@ const settings: Settings = { enable: [], keepGoing: false };
 let program: string | null = null;
 let overview: Overview | null = null;
 let kinds: [path: string, kind: FileKind][] = [];
+/** How many pieces of work are waited for. */
+let underWay = 0;
 /** Which run the last answer belongs to: later ones make earlier ones worthless. */
 let ticket = 0;
 
@@ -57,6 +59,10 @@ const tabs = new Tabs((tab) => { void attempt(show(tab)); });
 
 /** The engine, which the page carries compressed. */
 async function code(): Promise<ArrayBuffer> {
+  if (typeof DecompressionStream === "undefined") {
+    part("too-old").hidden = false;
+    throw new Error("no DecompressionStream");
+  }
   const carried = atob(part("engine").textContent.trim());
   const bytes = Uint8Array.from(carried, (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -65,6 +71,7 @@ async function code(): Promise<ArrayBuffer> {
 
 /** Waits for work; shows progress where it takes long, and what is wrong where it fails. */
 async function attempt<T>(work: Promise<T>): Promise<T | null> {
+  underWay += 1;
   const timer = window.setTimeout(() => {
     part("working").hidden = false;
   }, PATIENCE);
@@ -76,7 +83,8 @@ async function attempt<T>(work: Promise<T>): Promise<T | null> {
     return null;
   } finally {
     window.clearTimeout(timer);
-    if (!session.isBusy) {
+    underWay -= 1;
+    if (underWay === 0) {
       part("working").hidden = true;
       part("progress").textContent = "";
     }
@@ -219,6 +227,14 @@ async function run(): Promise<void> {
   await result(found);
 }
 
+/** What a run rests on besides the files. */
+function given(): Given {
+  return {
+    enable: settings.enable,
+    startups: kinds.filter(([, kind]) => kind === "startup").length,
+  };
+}
+
 async function result(found: Overview): Promise<void> {
   part("title").textContent = found.program;
   part("facts").textContent = [
@@ -227,7 +243,7 @@ async function result(found: Overview): Promise<void> {
     counted(found.errors, "error"),
     counted(found.warnings, "warning"),
   ].filter((fact) => fact !== null).join(" · ");
-  fill(part("verdict"), ...verdict(found).map(({ weight, text }) =>
+  fill(part("verdict"), ...verdict(found, given()).map(({ weight, text }) =>
     h("p", { class: `notice ${weight}` }, text)));
   fill(part("left"), left(found, (line) => { void openTimeline(found.program, line); }));
   fill(part("bars"), bars(found, (block) => {

@@ -11,6 +11,14 @@ export interface Sentence {
   text: string;
 }
 
+/** What a run rests on besides the files. */
+export interface Given {
+  /** The axes on which friction compensation is assumed. */
+  enable: readonly string[];
+  /** How many start-up lists were dropped. */
+  startups: number;
+}
+
 /** The files that a run asked for and that were not dropped. */
 export function missing(overview: Overview): string[] {
   const called = overview.messages.filter((message) => message.code === "FC320");
@@ -27,6 +35,8 @@ function names(axes: readonly Axis[]): string {
   return axes.map((axis) => axis.name).join(", ");
 }
 
+const HOME = "Run after a start of the control, every axis ends as it began";
+
 /** Whether a run asked for a file of this path. */
 export function isMissing(overview: Overview, path: string): boolean {
   const last = (name: string): string => name.split(/[/\\]/).pop()?.toLowerCase() ?? "";
@@ -34,7 +44,7 @@ export function isMissing(overview: Overview, path: string): boolean {
 }
 
 /** What a run comes to: the sentence that counts, and what it rests on. */
-export function verdict(overview: Overview): Sentence[] {
+export function verdict(overview: Overview, given: Given): Sentence[] {
   const axes = overview.axes.filter((axis) => axis.listed);
   const sentences: Sentence[] = [];
   const say = (weight: Weight, text: string): void => {
@@ -63,8 +73,19 @@ export function verdict(overview: Overview): Sentence[] {
   if (unknown.length > 0) {
     say("warning", `Not known at the end: ${names(unknown)}. Only the machine decides it.`);
   }
+  const idle = axes.filter((axis) => axis.end === "ineffective");
+  if (idle.length > 0) {
+    say("warning", `Switched on and without an accepted value list, so it does nothing: ${names(idle)}.`);
+  }
   if (overview.remark !== null) {
     say("warning", sentence(overview.remark));
+  }
+  if (given.enable.length > 0) {
+    say("warning", `Friction compensation is assumed on ${given.enable.join(", ")}; no list says so.`);
+  }
+  if (given.startups > 1 && overview.machine.origin === null) {
+    say("warning", `${given.startups} start-up lists were dropped, and none is used: frictcomp.toml says which `
+      + "one counts. Drop it, too, or only one of them.");
   }
   const { machine } = overview;
   if (machine.missing > 0) {
@@ -74,6 +95,10 @@ export function verdict(overview: Overview): Sentence[] {
   const broken = machine.said.filter((said) => said.severity === "error").length;
   if (broken > 0) {
     say("error", `${counted(broken, "error")} in the lists: the control would not take them so.`);
+  }
+  const remarks = machine.said.length - broken;
+  if (remarks > 0) {
+    say("info", `${counted(remarks, "remark")} about the lists: see Machine.`);
   }
   for (const lost of overview.messages.filter((message) => message.code === "FC320")) {
     say("error", `${sentence(lost.message)} Drop that file, too.`);
@@ -88,11 +113,17 @@ export function verdict(overview: Overview): Sentence[] {
   if (overview.messagesLeftOut > 0) {
     say("info", `${counted(overview.messagesLeftOut, "more message")} not shown.`);
   }
-  const isClear = sentences.length === 0 && overview.errors + overview.warnings === 0;
-  if (isClear && machine.isDescribed && axes.length > 0) {
-    say("good", "Every axis ends as the control starts it.");
-  } else if (away.length === 0 && unknown.length === 0 && isWhole && machine.isDescribed) {
-    say("info", "Every axis ends as the control starts it, as far as the program was understood: see the messages.");
+  const configured = axes.filter((axis) => axis.home !== "unconfigured");
+  if (configured.length === 0 && machine.isDescribed) {
+    say("info", "No axis of this program has friction compensation configured.");
+    return sentences;
+  }
+  const isQuiet = overview.errors + overview.warnings + overview.infos === 0;
+  const isHome = away.length === 0 && unknown.length === 0 && isWhole && machine.isDescribed;
+  if (isHome && isQuiet && sentences.length === 0) {
+    say("good", `${HOME}. The audit says what it does after other programs.`);
+  } else if (isHome && idle.length < configured.length) {
+    say("info", `${HOME}, as far as was understood: see what is said about it.`);
   }
   return sentences;
 }

@@ -143,7 +143,7 @@ const tests = {
     await text.fill((await text.inputValue()).replace(
       "N55 M30", "N50 X[COMP ON FRICT]\nN51 Y[COMP ON FRICT]\nN55 M30"));
     const result = page.getByRole("status", { name: "Result" });
-    await result.getByText("Every axis ends as the control starts it.").waitFor();
+    await result.getByText("every axis ends as it began. The audit").waitFor();
     assert.equal(await rows(page).count(), 7);
     await page.getByText("edited here, the file is as it was").waitFor();
     await look(page, "edit");
@@ -162,7 +162,7 @@ const tests = {
     const result = page.getByRole("status", { name: "Result" });
     await result.getByText(/SUB\.nc.*Drop that file, too/).waitFor();
     assert.match(await result.textContent(), /No machine is described/);
-    assert.doesNotMatch(await result.textContent(), /Every axis ends/);
+    assert.doesNotMatch(await result.textContent(), /every axis ends/);
     const missing = page.locator("#missing");
     assert.match(await missing.textContent(), /SUB\.nc/);
     // The file comes, and then the start-up list without its axis lists.
@@ -307,6 +307,9 @@ const tests = {
       for (const tab of ["timeline", "messages", "audit", "current", "circle", "machine"]) {
         await page.locator(`#tab-${tab}`).click();
         await page.waitForFunction(() => document.getElementById("working").hidden);
+        if (tab === "audit") {
+          await page.locator("#audit table.programs").waitFor();
+        }
         if (tab === "circle") {
           await page.locator("#circle img").waitFor({ timeout: 60_000 });
         }

@@ -15,12 +15,14 @@ const overview: Overview = {
   machine: { origin: "frictcomp.toml", isDescribed: true, lists: 1, missing: 0, said: [] },
 };
 
+const given = { enable: [], startups: 1 };
+
 const message = (code: string, text: string): Message => ({
   code, severity: "error", message: text, help: [], file: "a.nc", line: 4, column: 1, axis: null, after: 3,
 });
 
 const weights = (changed: Partial<Overview>): string[] =>
-  verdict({ ...overview, ...changed }).map(({ weight }) => weight);
+  verdict({ ...overview, ...changed }, given).map(({ weight }) => weight);
 
 describe("the verdict", () => {
   it("is good only where everything was looked at", () => {
@@ -28,7 +30,9 @@ describe("the verdict", () => {
     const notGood: Partial<Overview>[] = [
       { endedBy: "error", errors: 1 }, { endedBy: "budget" }, { endedBy: null }, { warnings: 1 },
       { remark: "no machine is described" }, { isAssumed: true }, { kept: 5 }, { messagesLeftOut: 1 },
-      { axes: [] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },
+      { axes: [] }, { infos: 1 },
+      { axes: [{ ...axis, home: "ineffective", end: "ineffective" }] },
+      { axes: [{ ...axis, home: "unconfigured", end: "unconfigured" }] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },
       { machine: { ...overview.machine, missing: 1 } },
       { machine: { ...overview.machine, isDescribed: false } },
       { machine: { ...overview.machine, said: [message("FC120", "wrong")] } },
@@ -36,6 +40,7 @@ describe("the verdict", () => {
     for (const changed of notGood) {
       expect(weights(changed), JSON.stringify(changed)).not.toContain("good");
     }
+    expect(verdict(overview, { ...given, enable: ["X"] }).map(({ weight }) => weight)).not.toContain("good");
   });
 
   it("names what was not dropped", () => {
@@ -46,7 +51,7 @@ describe("the verdict", () => {
     };
     expect(missing(found)).toEqual(["axis_x.lis", "SUB.nc"]);
     expect([isMissing(found, "deep/sub.NC"), isMissing(found, "other.nc")]).toEqual([true, false]);
-    expect(verdict(found).map(({ text }) => text).join(" ")).toContain("SUB.nc");
+    expect(verdict(found, given).map(({ text }) => text).join(" ")).toContain("SUB.nc");
   });
 
   it("is made of sentences", () => {

@@ -56,7 +56,7 @@ function axes({ axes: all }: Audit["machines"][number]): HTMLElement {
       h("th", { scope: "row" }, axis.axis),
       ...[axis.leavers, axis.inheritors, axis.unknown, axis.hazards].map((count) =>
         h("td", { class: "num" }, String(count))),
-      h("td", {}, CURES[axis.cure] ?? axis.cure)));
+      h("td", { class: "cure" }, CURES[axis.cure] ?? axis.cure)));
   const titles = ["axis", "leave it away", "inherit it", "unknown", "hazardous pairs", "cheapest cure"];
   return h("div", { class: "wide" }, h("table", {},
     h("caption", { class: "unseen" }, "Axes"),

@@ -63,8 +63,7 @@ struct Cell<'a> {
 
 /// Audits every program, each on the machine of its folder.
 fn audit(dropped: &mut Dropped, enable: &[String]) -> Audited {
-    // Programs of one folder have one machine; who has a start-up list instead of a configuration has one
-    // way to find it, who has neither another.
+    // Machines are found in one way at a time: those without a configuration take the only start-up list.
     let mut groups: BTreeMap<Option<PathBuf>, Vec<Input>> = BTreeMap::new();
     let mut failures = Vec::new();
     for (path, kind) in dropped.files() {

@@ -110,8 +110,8 @@ const tests = {
       page.waitForEvent("download"),
       page.getByRole("button", { name: "Download records" }).click(),
     ]);
-    const records_ = readFileSync(await download.path(), "utf8");
-    assert.equal(records_, run("order/probe.nc", join(root, "programs/demo")));
+    const downloaded = readFileSync(await download.path(), "utf8");
+    assert.equal(downloaded, run("order/probe.nc", join(root, "programs/demo")));
     await close(page);
   },
 

@@ -16,6 +16,7 @@ use frictcomp::motion::{PlannerOptions, check_cycle};
 use frictcomp::session::{Motions, Options, SessionOptions};
 use frictcomp::timeline::{Record, Sink};
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyImportError;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 
@@ -115,7 +116,11 @@ pub(crate) fn current(
 ) -> PyResult<PyCurrents> {
     let py = program.py();
     // Without NumPy nothing is computed in vain.
-    py.import("numpy").map_err(|_| {
+    py.import("numpy").map_err(|error| {
+        // Ctrl+C while it is loaded is no reason to install it.
+        if !error.is_instance_of::<PyImportError>(py) {
+            return error;
+        }
         Failure::new("the currents are NumPy arrays, and NumPy is not installed")
             .with_help("`pip install frictcomp[numpy]`")
             .into_error(py)

@@ -34,7 +34,7 @@ import sys, time, frictcomp
 state = sys.argv[1]
 program = "{program}"
 BACK_AND_FORTH = frictcomp.Text(
-    "N10 G90 X0 F1000\\nN20 $WHILE 1 == 1\\nN30 G01 X50\\nN40 X0\\nN50 $ENDWHILE\\n",
+    "N10 G90 X0 F1000\\nN20 $FOR V.P.I = 1, 100000000, 1\\nN30 G01 X50\\nN40 X0\\nN50 $ENDFOR\\n",
     "programs/demo/current/reversal.nc",
 )
 print("ready", flush=True)

@@ -258,6 +258,29 @@ fn feed_moves_that_were_left_out_are_no_all_clear() {
 }
 
 #[test]
+fn a_program_that_is_stopped_is_no_all_clear() {
+    // R2.60, R11.6: what follows an endless loop is never driven, and both commands say so.
+    let bench = bench("G00 X0 Y0\nG01 X10 F2000\n$WHILE 1 == 1\nG04 1\n$ENDWHILE\nX50\nM30\n");
+    let contour = [
+        "contour",
+        "part.nc",
+        "--fail-above",
+        "500",
+        "--format",
+        "json",
+    ];
+    let call = bench.call(&contour);
+    assert_eq!(call.status.code(), Some(1), "{call:?}");
+    let document = json(&String::from_utf8_lossy(&call.stdout));
+    assert_eq!(document["cut_short"], true);
+    let current = bench.call(&["current", "--axis", "X", "part.nc"]);
+    for call in [call, current] {
+        let said = String::from_utf8_lossy(&call.stderr).into_owned();
+        assert!(said.contains("FC910"), "{said}");
+    }
+}
+
+#[test]
 fn every_format_has_a_record_for_each_reversal() {
     // R11.6
     let bench = bench(&circle("G02", "OFF"));

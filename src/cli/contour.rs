@@ -110,6 +110,7 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let worst = contour.deviations().programmed.max_um();
     let said = said(&contour, &loaded);
     let has_moved = contour.machine_time_s() > 0.0;
+    let is_whole = !contour.is_cut_short();
     let is_known = contour.left_out_feed() == 0 && contour.time_not_of_the_machine_s() == 0.0;
     drop(contour);
     result.text(&text)?;
@@ -124,11 +125,16 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     if has_moved && !is_known && args.fail_above.is_some() {
         Console::talk("feed moves were left out: whether they stay below the limit is not known");
     }
+    if !is_whole && args.fail_above.is_some() {
+        Console::talk(
+            "the program was not driven to its end: whether the rest stays below the limit is not known",
+        );
+    }
     args.machine.say_unread(&ledger, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     let deviates = args
         .fail_above
-        .is_some_and(|limit| worst > limit || !has_moved || !is_known);
+        .is_some_and(|limit| worst > limit || !has_moved || !is_known || !is_whole);
     Ok(if failed || deviates {
         exit::FOUND
     } else {

@@ -173,6 +173,12 @@ impl<S: ContourSink> ProgramContour<S> {
         seconds(cycles, self.tracer().options.planner.cycle_s)
     }
 
+    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
+    /// follows there.
+    pub fn is_cut_short(&self) -> bool {
+        self.trace.is_cut_short()
+    }
+
     /// How many motions are left out, because it is not known where they lead or how fast.
     pub fn left_out(&self) -> u64 {
         self.trace.left_out()

@@ -163,6 +163,12 @@ impl<S: CurrentSink> ProgramCurrents<S> {
         self.trace.diagnostics()
     }
 
+    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
+    /// follows there.
+    pub fn is_cut_short(&self) -> bool {
+        self.trace.is_cut_short()
+    }
+
     /// How many motions the trace leaves out.
     pub fn left_out(&self) -> u64 {
         self.trace.left_out()

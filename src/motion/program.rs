@@ -6,6 +6,7 @@ use super::planner::{PlannerOptions, TrajectoryPlanner};
 use super::trace::TraceSink;
 use crate::comp::AxisIndex;
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::interpreter::EndedBy;
 use crate::machine::Machine;
 use crate::timeline::{Record, Sink};
 
@@ -58,6 +59,7 @@ pub struct ProgramTrace<S> {
     planner: TrajectoryPlanner,
     sink: S,
     errors: Vec<Diagnostic>,
+    is_cut_short: bool,
     over: ControlFlow<()>,
 }
 
@@ -73,6 +75,7 @@ impl<S: TraceSink> ProgramTrace<S> {
             planner: TrajectoryPlanner::new(machine, followed, options),
             sink,
             errors: Vec::new(),
+            is_cut_short: false,
             over: ControlFlow::Continue(()),
         }
     }
@@ -85,9 +88,16 @@ impl<S: TraceSink> ProgramTrace<S> {
         std::mem::replace(&mut self.over, ControlFlow::Break(()))
     }
 
-    /// The errors that the session reported, then what there is to say about the trace.
+    /// The errors that the session reported and why it stopped a program, then what there is to say about
+    /// the trace.
     pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
         (&self.errors, self.planner.diagnostics())
+    }
+
+    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
+    /// follows there.
+    pub fn is_cut_short(&self) -> bool {
+        self.is_cut_short
     }
 
     /// How many motions the trace leaves out.
@@ -123,7 +133,9 @@ impl<S: TraceSink> Sink for ProgramTrace<S> {
             }
             Record::End(ref end) => {
                 let notes = end.notes.iter().map(|note| &note.diagnostic);
-                self.errors.extend(notes.filter(error).cloned());
+                let notes = notes.filter(|said| error(said) || said.code.is_budget());
+                self.errors.extend(notes.cloned());
+                self.is_cut_short |= end.by == EndedBy::Budget;
             }
             _ => {}
         }

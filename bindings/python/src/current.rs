@@ -16,8 +16,7 @@ use frictcomp::motion::{PlannerOptions, check_cycle};
 use frictcomp::session::{Motions, Options, SessionOptions};
 use frictcomp::timeline::{Record, Sink};
 use numpy::{PyArray1, PyArrayMethods};
-use pyo3::exceptions::PyImportError;
-use pyo3::exceptions::PyKeyError;
+use pyo3::exceptions::{PyImportError, PyKeyError};
 use pyo3::prelude::*;
 
 use crate::failure::Failure;

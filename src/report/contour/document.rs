@@ -42,6 +42,7 @@ pub fn summary_record(contour: &ProgramContour<ContourRecorder<'_>>) -> Value {
         "all_off": figures(&deviations.all_off),
         "axes": axes.collect::<Vec<Value>>(),
         "left_out": contour.left_out(),
+        "cut_short": contour.is_cut_short(),
         "time_not_of_the_machine": rounded(contour.time_not_of_the_machine_s(), 6),
     })
 }

@@ -1,5 +1,5 @@
-//! What stands in the way of a file on Windows alone: programs that keep files open, which no other
-//! program may then replace, and names that belong to devices.
+//! Why Windows alone refuses a file: another program keeps it open, so that it cannot be replaced, or its
+//! name belongs to a device.
 
 use std::io;
 use std::path::Path;
@@ -43,8 +43,8 @@ fn repeated<T>(
     }
 }
 
-/// Whether a file may be replaced, as far as that is known before: on Windows whoever has it open may
-/// stand in the way.
+/// Checks beforehand, as far as possible, that a file can be replaced: on Windows a program that has it
+/// open may prevent that.
 #[cfg(windows)]
 pub(super) fn check_replaceable(path: &Path) -> io::Result<()> {
     use std::os::windows::fs::OpenOptionsExt;
@@ -61,7 +61,7 @@ pub(super) fn check_replaceable(path: &Path) -> io::Result<()> {
 #[cfg(not(windows))]
 #[allow(
     clippy::unnecessary_wraps,
-    reason = "elsewhere nobody stands in the way"
+    reason = "elsewhere an open file can be replaced"
 )]
 pub(super) fn check_replaceable(_: &Path) -> io::Result<()> {
     Ok(())

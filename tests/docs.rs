@@ -315,3 +315,28 @@ fn a_rule_is_found_in_a_text() {
         ["R1.24", "R2.50", "R3.2"]
     );
 }
+
+/// R17.8: "home" is a position to a machinist; the state at the start of the control has one name.
+#[test]
+fn no_text_calls_the_start_up_state_home() {
+    let names_home = |text: &str| {
+        let lines = text.lines().enumerate();
+        let named = lines.filter(|(_, line)| {
+            let line = line.to_lowercase();
+            [
+                "at home",
+                "from home",
+                "home state",
+                "brings home",
+                "is home",
+            ]
+            .iter()
+            .any(|phrase| line.contains(phrase))
+        });
+        named.map(|(at, _)| at + 1).collect::<Vec<_>>()
+    };
+    for file in documents().into_iter().chain(files("src", "rs")) {
+        let lines = names_home(&read(&file));
+        assert!(lines.is_empty(), "{}: {lines:?}", file.display());
+    }
+}

@@ -601,7 +601,7 @@ fn every_fix_takes_its_message_away_and_brings_no_other() {
                 );
                 for (code, times) in &is {
                     let more = *times > was.get(code).copied().unwrap_or_default();
-                    // A command that works now may leave a state that nothing brings home, and a
+                    // A command that works now may leave a state that nothing brings start_up, and a
                     // comment that is read now may silence nothing. Nobody has said yet whether an
                     // axis that was added has friction compensation.
                     let follows = fix.safety == Safety::Unsafe

@@ -47,7 +47,7 @@ fn list() -> FrictionList {
 fn band(from: f64, to: f64, state: BandState) -> Band {
     let standing = match state {
         BandState::One(state) => Standing::of(state, State::Active),
-        BandState::Changing => Standing::Home,
+        BandState::Changing => Standing::StartUp,
         other => panic!("{other:?}"),
     };
     Band {

@@ -436,15 +436,15 @@ fn the_order_of_the_shop_is_followed() {
     assert_eq!(
         lines[..2],
         [
-            "off.nc: X on → off at line 1, moves away from home at line 2 (feed)",
-            "moves.nc: X stays off, moves away from home at line 1 (rapid), left so by off.nc",
+            "off.nc: X on → off at line 1, moves outside its start-up state at line 2 (feed)",
+            "moves.nc: X stays off, moves outside its start-up state at line 1 (rapid), left so by off.nc",
         ]
     );
     assert!(
         lines[2].starts_with("stops.nc: X off → on at line 1; stops, P-ERR-70495: "),
         "{said}"
     );
-    assert_eq!(lines[3], "moves.nc: every axis at home");
+    assert_eq!(lines[3], "moves.nc: every axis in its start-up state");
     let records = text(
         &bench,
         &["audit", "--sequence", "order.txt", "--format", "ndjson"],

@@ -1,6 +1,6 @@
 %PART
 ; What the program needs is set before the first motion, and every axis is
-; brought home at the end: silent in every order of programs.
+; brought back to its start-up state at the end: silent in every order of programs.
 N10 X[COMP OFF FRICT] Y[COMP ON FRICT]
 N20 G01 X50 Y20 F1500
 N30 Y[COMP OFF FRICT]

@@ -1,4 +1,4 @@
-//! The programs of one machine together: who leaves an axis away from home, and who inherits it.
+//! The programs of one machine together: who leaves an axis away from its start-up state, and who inherits it.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub struct Archive {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MendedEnd {
-    /// The programs that leave an axis away from home.
+    /// The programs that leave an axis away from its start-up state.
     Leavers,
     /// The programs that inherit it.
     Inheritors,
@@ -34,21 +34,21 @@ pub struct AxisFinding {
     /// The kind.
     pub kind: Kind,
     /// Whether it is selected at the start of the control.
-    pub on_at_home: bool,
+    pub on_at_start_up: bool,
     /// The position of the axis and kind in [`ProgramAudit::axes`].
     pub at: usize,
-    /// The programs that leave it away from home.
+    /// The programs that leave it away from its start-up state.
     pub leavers: Vec<usize>,
     /// The programs that move the axis in the state that they find.
     pub inheritors: Vec<usize>,
     /// The programs of both lists: the second run of each differs from its first (R1.53).
     pub both: Vec<usize>,
-    /// The programs of which that is not known offline: any of them may leave it away from home.
+    /// The programs of which that is not known offline: any of them may leave it away from its start-up state.
     pub unknown: Vec<usize>,
 }
 
 impl AxisFinding {
-    /// The ordered pairs of a program that leaves the axis away from home and one that inherits it
+    /// The ordered pairs of a program that leaves the axis away from its start-up state and one that inherits it
     /// (R10.2).
     pub fn hazards(&self) -> u64 {
         let count = |list: &[usize]| u64::try_from(list.len()).unwrap_or(u64::MAX);
@@ -64,7 +64,7 @@ impl AxisFinding {
         }
     }
 
-    /// Whether programs may leave it away from home, or do, and others inherit that.
+    /// Whether programs may leave it away from its start-up state, or do, and others inherit that.
     pub fn is_worth_a_warning(&self) -> bool {
         self.hazards() > 0 || !(self.unknown.is_empty() || self.inheritors.is_empty())
     }
@@ -100,7 +100,7 @@ impl Archive {
         AxisFinding {
             axis: axis.axis.clone(),
             kind: axis.kind,
-            on_at_home: axis.on_at_home,
+            on_at_start_up: axis.on_at_start_up,
             at,
             leavers: those(AxisAudit::leaves_away),
             inheritors: those(AxisAudit::is_inheritor),
@@ -110,7 +110,7 @@ impl Archive {
     }
 
     /// What is to be mended of each program, by its position, so that no hazard is left. A program
-    /// that may leave an axis away from home, depending on a value of the machine, is a leaver here;
+    /// that may leave an axis away from its start-up state, depending on a value of the machine, is a leaver here;
     /// one that an error or a budget stops has to be mended by hand first.
     pub fn to_mend(&self, end: MendedEnd) -> BTreeMap<usize, Vec<Mending>> {
         let mut wanted: BTreeMap<usize, Vec<Mending>> = BTreeMap::new();

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 pub enum Cure {
     /// There is no hazard.
     None,
-    /// Those that leave the axis away from home: a command before the end.
+    /// Those that leave the axis away from its start-up state: a command before the end.
     Leavers,
     /// Those that inherit it: a command before the first motion.
     Inheritors,

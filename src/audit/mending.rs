@@ -20,7 +20,7 @@ pub struct Mended {
 impl Auditor {
     /// Finds the blocks that mend a program. Each place is tried out: the program with the block must
     /// have lost its part in the hazard, and every motion of the axis must have kept its state when
-    /// the program starts at home.
+    /// the program starts in its start-up state.
     ///
     /// # Errors
     /// Those of `run`.
@@ -103,22 +103,22 @@ impl<R> Trial<'_, R> {
 
     /// Where the block could stand, the best place first.
     fn candidates(&self, mending: Mending) -> Vec<Vec<u32>> {
-        let BothRuns { home, away } = &self.before;
+        let BothRuns { start_up, away } = &self.before;
         let mut places = match mending.cure {
             Cure::Inheritors => {
-                let moved = [home, away].map(|run| {
+                let moved = [start_up, away].map(|run| {
                     let observed = &run.observed[mending.at];
                     let moved = observed.inherited.as_ref().or(observed.doubtful.as_ref());
                     moved.and_then(|moved| moved.main)
                 });
-                let firsts = [home.first_line, away.first_line];
+                let firsts = [start_up.first_line, away.first_line];
                 let places = moved.into_iter().chain(firsts).flatten();
                 places.map(|line| vec![line]).collect()
             }
             Cure::Leavers | Cure::None => {
-                let mut ends = [home, away].map(|run| self.end(run)).to_vec();
+                let mut ends = [start_up, away].map(|run| self.end(run)).to_vec();
                 ends.dedup();
-                let back = home.last_lines.iter().map(|line| vec![*line]);
+                let back = start_up.last_lines.iter().map(|line| vec![*line]);
                 std::iter::once(ends).chain(back).collect::<Vec<_>>()
             }
         };
@@ -155,10 +155,10 @@ impl<R> Trial<'_, R> {
             let motions = |run: &Observation| run.observed[mending.at].motions;
             motions(before) == motions(after)
         };
-        let at_home = same(&self.before.home, &after.home);
+        let at_start_up = same(&self.before.start_up, &after.start_up);
         match mending.cure {
-            Cure::Inheritors => at_home,
-            Cure::Leavers | Cure::None => at_home && same(&self.before.away, &after.away),
+            Cure::Inheritors => at_start_up,
+            Cure::Leavers | Cure::None => at_start_up && same(&self.before.away, &after.away),
         }
     }
 }

@@ -29,17 +29,19 @@ pub struct Scope {
     subjects: Vec<AuditedKind>,
     /// For each axis, which of the subjects are its own.
     by_axis: Vec<std::ops::Range<usize>>,
-    home: Compensation,
+    start_up: Compensation,
 }
 
 impl Scope {
     /// The configured axes of a machine, and the kinds that count.
     pub fn new(machine: &Machine, kinds: KindSet) -> Self {
-        let home = machine.compensation();
+        let start_up = machine.compensation();
         let mut subjects = Vec::new();
-        let by_axis = (0..home.len()).map(AxisIndex::new).map(|axis| {
+        let by_axis = (0..start_up.len()).map(AxisIndex::new).map(|axis| {
             let from = subjects.len();
-            let configured = kinds.iter().filter(|kind| home.is_configured(axis, *kind));
+            let configured = kinds
+                .iter()
+                .filter(|kind| start_up.is_configured(axis, *kind));
             subjects.extend(configured.map(|kind| AuditedKind { axis, kind }));
             from..subjects.len()
         });
@@ -47,7 +49,7 @@ impl Scope {
         Self {
             subjects,
             by_axis,
-            home,
+            start_up,
         }
     }
 
@@ -57,13 +59,13 @@ impl Scope {
     }
 
     /// The state at the start of the control (R1.22).
-    pub fn home(&self) -> &Compensation {
-        &self.home
+    pub fn start_up(&self) -> &Compensation {
+        &self.start_up
     }
 
-    /// The same with every subject away from home: a state that programs may leave.
+    /// The same with every subject away from its start-up state: a state that programs may leave.
     pub fn away(&self) -> Compensation {
-        let mut away = self.home.clone();
+        let mut away = self.start_up.clone();
         for (position, range) in self.by_axis.iter().enumerate() {
             let axis = AxisIndex::new(position);
             let mut selected = away.selected(axis);
@@ -81,8 +83,8 @@ impl Scope {
     }
 
     /// Whether a subject is selected at the start of the control.
-    pub(super) fn is_on_at_home(&self, subject: AuditedKind) -> bool {
-        self.home.selected(subject.axis).contains(subject.kind)
+    pub(super) fn is_on_at_start_up(&self, subject: AuditedKind) -> bool {
+        self.start_up.selected(subject.axis).contains(subject.kind)
     }
 }
 
@@ -157,7 +159,7 @@ pub(super) struct Observed {
     pub(super) inherited: Option<Moved>,
     /// The first motion word after a command in a state that is unknown all the same.
     pub(super) doubtful: Option<Moved>,
-    /// The first motion word away from home.
+    /// The first motion word away from its start-up state.
     pub(super) astray: Option<Moved>,
     /// A digest of the selection at every motion word.
     pub(super) motions: u64,
@@ -324,7 +326,7 @@ impl Observation {
         for at in scope.by_axis[axis.get()].clone() {
             let subject = scope.subjects[at];
             let selected = Selected::of(executed.compensation, subject);
-            let is_home = (selected == Selected::On) == scope.is_on_at_home(subject)
+            let is_home = (selected == Selected::On) == scope.is_on_at_start_up(subject)
                 && selected != Selected::Unknown;
             let observed = &mut self.observed[at];
             // FNV-1a.

@@ -34,7 +34,7 @@ pub struct AxisAudit {
     pub kind: Kind,
     /// Whether it is selected at the start of the control.
     #[serde(skip)]
-    pub on_at_home: bool,
+    pub on_at_start_up: bool,
     /// What it makes of the selection.
     pub effect: ProgramEffect,
     /// The last command that made it so.
@@ -48,11 +48,11 @@ pub struct AxisAudit {
 }
 
 impl AxisAudit {
-    /// Whether the program leaves the axis away from home, whatever it found.
+    /// Whether the program leaves the axis away from its start-up state, whatever it found.
     pub fn leaves_away(&self) -> bool {
         match self.effect {
-            ProgramEffect::LeavesOn => !self.on_at_home,
-            ProgramEffect::LeavesOff => self.on_at_home,
+            ProgramEffect::LeavesOn => !self.on_at_start_up,
+            ProgramEffect::LeavesOff => self.on_at_start_up,
             ProgramEffect::Keeps | ProgramEffect::Unknown => false,
         }
     }
@@ -75,9 +75,9 @@ impl AxisAudit {
             && matches!(code, None | Some(Code::Fc901 | Code::Fc902))
     }
 
-    /// The command that brings the axis home.
+    /// The command that brings the axis back to its start-up state.
     pub fn way_home(&self) -> String {
-        let way = if self.on_at_home { "ON" } else { "OFF" };
+        let way = if self.on_at_start_up { "ON" } else { "OFF" };
         format!("{}[COMP {way} {}]", self.axis, self.kind.as_str())
     }
 }
@@ -90,7 +90,7 @@ pub struct ProgramAudit {
     pub file: String,
     /// What it does to each configured axis and kind, in the order of the machine's axes.
     pub axes: Vec<AxisAudit>,
-    /// Where it ends, when it starts with every axis at home.
+    /// Where it ends, when it starts with every axis in its start-up state.
     pub ending: Ending,
 }
 
@@ -139,7 +139,7 @@ impl Auditor {
         interpreter
     }
 
-    /// Runs a program twice, at home and away from it. `run` runs it on an interpreter: the host knows
+    /// Runs a program twice, with every axis in its start-up state and with every axis away from it. `run` runs it on an interpreter: the host knows
     /// where its text comes from and where called programs are.
     ///
     /// # Errors
@@ -153,7 +153,7 @@ impl Auditor {
         Ok(ProgramAudit {
             file: file.to_owned(),
             axes: runs.audit(self),
-            ending: runs.home.end.map_or(Ending::Elsewhere, Ending::At),
+            ending: runs.start_up.end.map_or(Ending::Elsewhere, Ending::At),
         })
     }
 
@@ -162,7 +162,7 @@ impl Auditor {
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<BothRuns, E> {
         Ok(BothRuns {
-            home: self.observe_from(self.scope.home().clone(), run)?,
+            start_up: self.observe_from(self.scope.start_up().clone(), run)?,
             away: self.observe_from(self.scope.away(), run)?,
         })
     }
@@ -182,10 +182,10 @@ impl Auditor {
     }
 }
 
-/// A program that starts at home, and the same that starts away from it.
+/// A program that starts in its start-up state, and the same that starts away from it.
 #[derive(Debug, Clone)]
 pub(super) struct BothRuns {
-    pub(super) home: Observation,
+    pub(super) start_up: Observation,
     pub(super) away: Observation,
 }
 
@@ -202,7 +202,7 @@ impl BothRuns {
             AxisAudit {
                 axis: auditor.name(*subject).to_owned(),
                 kind: subject.kind,
-                on_at_home: auditor.scope.is_on_at_home(*subject),
+                on_at_start_up: auditor.scope.is_on_at_start_up(*subject),
                 effect,
                 by,
                 reason,
@@ -219,21 +219,21 @@ impl BothRuns {
                 Some(EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
             )
         };
-        [&self.home, &self.away].into_iter().find(has_failed)
+        [&self.start_up, &self.away].into_iter().find(has_failed)
     }
 
     fn effect(&self, scope: &Scope, at: usize) -> ProgramEffect {
         if self.stopped().is_some() {
             return ProgramEffect::Unknown;
         }
-        let is_on = scope.is_on_at_home(scope.subjects()[at]);
+        let is_on = scope.is_on_at_start_up(scope.subjects()[at]);
         let (on, off) = if is_on {
             (Selected::On, Selected::Off)
         } else {
             (Selected::Off, Selected::On)
         };
-        match (self.home.left[at], self.away.left[at]) {
-            (home, away) if home == on && away == off => ProgramEffect::Keeps,
+        match (self.start_up.left[at], self.away.left[at]) {
+            (start_up, away) if start_up == on && away == off => ProgramEffect::Keeps,
             (Selected::On, Selected::On) => ProgramEffect::LeavesOn,
             (Selected::Off, Selected::Off) => ProgramEffect::LeavesOff,
             _ => ProgramEffect::Unknown,
@@ -248,7 +248,7 @@ impl BothRuns {
                 site: None,
             });
         }
-        let lasts = [&self.home, &self.away].map(|run| run.observed[at].last.as_ref());
+        let lasts = [&self.start_up, &self.away].map(|run| run.observed[at].last.as_ref());
         let doubt = lasts.into_iter().flatten().find_map(|last| match last {
             Deed::Doubt(reason) => Some(reason.clone()),
             Deed::Command(_) => None,
@@ -262,7 +262,7 @@ impl BothRuns {
 
     /// The last command on a subject.
     fn command(&self, at: usize) -> Option<Site> {
-        let lasts = [&self.home, &self.away].map(|run| run.observed[at].last.as_ref());
+        let lasts = [&self.start_up, &self.away].map(|run| run.observed[at].last.as_ref());
         lasts.into_iter().flatten().find_map(|last| match last {
             Deed::Command(site) => Some(site.clone()),
             Deed::Doubt(_) => None,
@@ -270,16 +270,16 @@ impl BothRuns {
     }
 
     fn inherits(&self, at: usize) -> Inherits {
-        let (home, away) = (&self.home.observed[at], &self.away.observed[at]);
+        let (start_up, away) = (&self.start_up.observed[at], &self.away.observed[at]);
         let first = |observed: &Observed| observed.inherited.as_ref().map(|it| it.motion.clone());
-        if let Some(motion) = first(home).or_else(|| first(away)) {
+        if let Some(motion) = first(start_up).or_else(|| first(away)) {
             return Inherits::Motion(motion);
         }
         // A command came first, and yet the state depends on what was found: a way that may have
         // passed the command over.
         let seq = |observed: &Observed| observed.doubtful.as_ref().map(|it| it.seq);
         if let Some(moved) = away.doubtful.as_ref()
-            && seq(home).is_none_or(|seq| seq > moved.seq)
+            && seq(start_up).is_none_or(|seq| seq > moved.seq)
         {
             let mut motion = moved.motion.clone();
             motion.perhaps = true;

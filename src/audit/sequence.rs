@@ -14,7 +14,7 @@ use crate::interpreter::{EndedBy, Event, Interpreter, Observer};
 pub struct Sequence<'a> {
     auditor: &'a Auditor,
     interpreter: Interpreter,
-    /// Who left each subject as it is, where it is not at home.
+    /// Who left each subject as it is, where it is not in its start-up state.
     left_by: Vec<Option<String>>,
 }
 
@@ -48,11 +48,11 @@ pub struct StepAxis {
     pub end: Selected,
     /// Whether it is selected at the start of the control.
     #[serde(skip)]
-    pub home: Selected,
+    pub start_up: Selected,
     /// The last command that made it what it is at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<Site>,
-    /// The first motion of the axis away from home.
+    /// The first motion of the axis away from its start-up state.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub away: Option<FirstMotion>,
     /// The program that left it so, where the motion comes before any command of this one.
@@ -65,7 +65,7 @@ impl<'a> Sequence<'a> {
     pub fn new(auditor: &'a Auditor) -> Self {
         let scope = auditor.scope();
         Self {
-            interpreter: auditor.interpreter(scope.home().clone()),
+            interpreter: auditor.interpreter(scope.start_up().clone()),
             left_by: vec![None; scope.subjects().len()],
             auditor,
         }
@@ -91,7 +91,7 @@ impl<'a> Sequence<'a> {
         let mut axes = Vec::with_capacity(scope.subjects().len());
         for (at, subject) in scope.subjects().iter().enumerate() {
             let observed = &observation.observed[at];
-            let home = Selected::of(scope.home(), *subject);
+            let start_up = Selected::of(scope.start_up(), *subject);
             let end = observation.left[at];
             let inherits = observed.inherited.as_ref().map(|moved| moved.seq);
             let away = observed.astray.as_ref();
@@ -101,7 +101,7 @@ impl<'a> Sequence<'a> {
                 kind: subject.kind,
                 start: Selected::of(&start, *subject),
                 end,
-                home,
+                start_up,
                 by: match &observed.last {
                     Some(Deed::Command(site)) => Some(site.clone()),
                     _ => None,
@@ -109,7 +109,7 @@ impl<'a> Sequence<'a> {
                 away: away.map(|moved| moved.motion.clone()),
                 left_by: self.left_by[at].clone().filter(|_| is_found),
             });
-            if end == home {
+            if end == start_up {
                 self.left_by[at] = None;
             } else if observed.last.is_some() || Selected::of(&start, *subject) != end {
                 self.left_by[at] = Some(file.to_owned());

@@ -35,11 +35,11 @@ use crate::report::html::render_audit;
 use crate::session::StopPolicy;
 use crate::text::shown_path;
 
-/// Show what the order of programs does: which ones leave an axis away from home, and which move it
+/// Show what the order of programs does: which ones leave an axis away from its start-up state, and which move it
 /// in the state that they find
 ///
-/// Each program runs twice, once with every configured axis at home and once with every one away
-/// from home. This shows what it does after any other program.
+/// Each program runs twice, once with every configured axis in its start-up state and once with every one away
+/// from it. This shows what it does after any other program.
 #[derive(Debug, Args)]
 pub(super) struct AuditArgs {
     /// Programs and folders of programs
@@ -50,7 +50,7 @@ pub(super) struct AuditArgs {
     #[arg(default_missing_value = "all", value_parser = settings::parse_kinds)]
     kinds: KindSet,
     /// Show the blocks that end the hazards as a diff: in the programs that leave an axis away from
-    /// home, in those that inherit it, or in the smaller number of programs for each axis
+    /// its start-up state, in those that inherit it, or in the smaller number of programs for each axis
     #[arg(long, value_name = "PROGRAMS", conflicts_with = "sequence")]
     fix: Option<Fix>,
     /// Write the changes of `--fix` to the programs
@@ -88,7 +88,7 @@ pub(super) struct AuditArgs {
 /// Which programs are changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Fix {
-    /// Those that leave an axis away from home: a command before the end
+    /// Those that leave an axis away from its start-up state: a command before the end
     Leavers,
     /// Those that inherit it: a command before the first motion
     Inheritors,

@@ -1,4 +1,4 @@
-//! What outlives a program: which block made each state that is not home (R1.52, R9.32).
+//! What outlives a program: which block made each state other than the start-up state (R1.52, R9.32).
 
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,7 @@ impl Maker {
     }
 }
 
-/// Whether the user has been told that a state is left away from home.
+/// Whether the user has been told that a state is left away from its start-up state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Told {
     /// Nobody said it.
@@ -46,7 +46,7 @@ pub(crate) enum Told {
     Silenced,
 }
 
-/// A state that may be away from home.
+/// A state that may be away from its start-up state.
 #[derive(Debug, Clone, Default)]
 struct Away {
     maker: Option<Maker>,
@@ -56,21 +56,21 @@ struct Away {
 /// What the programs of a session left, and the state at the start of the control.
 #[derive(Debug, Clone)]
 pub(crate) struct History {
-    home: Compensation,
+    start_up: Compensation,
     axes: Vec<[Away; Kind::ALL.len()]>,
 }
 
 impl History {
-    pub(crate) fn new(home: Compensation) -> Self {
+    pub(crate) fn new(start_up: Compensation) -> Self {
         Self {
-            axes: vec![Default::default(); home.len()],
-            home,
+            axes: vec![Default::default(); start_up.len()],
+            start_up,
         }
     }
 
     /// The state at the start of the control (R1.22).
-    pub(crate) fn home(&self, axis: AxisIndex, kind: Kind) -> State {
-        self.home.state(axis, kind)
+    pub(crate) fn start_up(&self, axis: AxisIndex, kind: Kind) -> State {
+        self.start_up.state(axis, kind)
     }
 
     /// The block that made a state, `None` where that is not known.
@@ -96,7 +96,7 @@ impl History {
         for (position, kinds) in self.axes.iter_mut().enumerate() {
             let axis = AxisIndex::new(position);
             for (kind, away) in Kind::ALL.into_iter().zip(kinds) {
-                if left.state(axis, kind) == self.home.state(axis, kind) {
+                if left.state(axis, kind) == self.start_up.state(axis, kind) {
                     *away = Away::default();
                 } else if let Some((_, site)) = &did.axis(axis).kind(kind).last {
                     *away = Away {

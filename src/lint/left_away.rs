@@ -1,4 +1,4 @@
-//! FC401: a program leaves a kind away from home (R1.50). FC407: it moved the axis before, so that
+//! FC401: a program leaves a kind away from its start-up state (R1.50). FC407: it moved the axis before, so that
 //! its second run differs from the first (R1.53).
 
 use super::linter::{EndNote, LeftAway, Linter};
@@ -15,7 +15,7 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
     for axis in (0..left.len()).map(AxisIndex::new) {
         for kind in Kind::ALL {
             let end = left.state(axis, kind);
-            if end == linter.history.home(axis, kind) {
+            if end == linter.history.start_up(axis, kind) {
                 continue;
             }
             let did = linter.memory.axis(axis).kind(kind);
@@ -77,7 +77,7 @@ impl Subject<'_> {
             "`{keyword}` of axis `{name}` is left {} after {}; the control starts with it {}",
             self.end.as_str(),
             self.ending,
-            self.linter.history.home(self.axis, self.kind).as_str()
+            self.linter.history.start_up(self.axis, self.kind).as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
@@ -87,8 +87,8 @@ impl Subject<'_> {
     /// What depends on a value that only the machine knows may be left away as well.
     fn may_be_left(&self, site: &Site) -> Diagnostic {
         let (name, keyword) = (self.linter.name(self.axis), self.kind.as_str());
-        let home = self.linter.history.home(self.axis, self.kind);
-        let away = match home {
+        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let away = match start_up {
             State::Inactive => State::Active,
             _ => State::Inactive,
         };
@@ -97,7 +97,7 @@ impl Subject<'_> {
              control starts with it {}",
             away.as_str(),
             self.ending,
-            home.as_str()
+            start_up.as_str()
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
@@ -125,10 +125,10 @@ impl Subject<'_> {
 
     /// The command that makes the state that of the start of the control.
     fn way_home(&self) -> String {
-        let home = self.linter.history.home(self.axis, self.kind);
-        let way = match (self.end, home) {
+        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let way = match (self.end, start_up) {
             (State::Inactive, _) => "ON",
-            (State::Unknown, home) if home != State::Inactive => "ON",
+            (State::Unknown, start_up) if start_up != State::Inactive => "ON",
             _ => "OFF",
         };
         let name = self.linter.name(self.axis);

@@ -17,7 +17,7 @@ pub struct EndNote {
     pub diagnostic: Diagnostic,
 }
 
-/// That a program leaves a kind of an axis away from home.
+/// That a program leaves a kind of an axis away from its start-up state.
 pub(crate) struct LeftAway {
     pub(crate) axis: AxisIndex,
     pub(crate) kind: Kind,
@@ -69,8 +69,8 @@ impl<'m> Linter<'m> {
 
     /// The state of friction compensation that the program found.
     pub(super) fn found(&self, axis: AxisIndex) -> State {
-        let home = || self.history.home(axis, Kind::Frict);
-        self.found.get(axis.get()).copied().unwrap_or_else(home)
+        let start_up = || self.history.start_up(axis, Kind::Frict);
+        self.found.get(axis.get()).copied().unwrap_or_else(start_up)
     }
 
     /// The program has a name.

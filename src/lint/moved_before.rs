@@ -18,7 +18,7 @@ pub(super) fn lint(
     let state = executed.compensation.state(axis, Kind::Frict);
     let found = linter.found(axis);
     let own = memory.kind(Kind::Frict).first.is_some();
-    if own || found == linter.history.home(axis, Kind::Frict) {
+    if own || found == linter.history.start_up(axis, Kind::Frict) {
         return None;
     }
     let name = linter.name(axis);

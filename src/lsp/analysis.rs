@@ -74,7 +74,7 @@ pub(super) struct AxisEnd {
     /// The state at the end.
     pub(super) end: State,
     /// The state at the start of the control.
-    pub(super) home: State,
+    pub(super) start_up: State,
 }
 
 impl Job {
@@ -237,7 +237,7 @@ impl Sink for Survey {
                 let ends = axes.map(|axis| AxisEnd {
                     axis: summary.state.name(axis.axis).to_owned(),
                     end: axis.end,
-                    home: axis.home,
+                    start_up: axis.start_up,
                 });
                 self.ends = ends.collect();
             }

@@ -85,7 +85,7 @@ fn changes(run: &Run, passes: &[Pass<'_>]) -> String {
 
 /// What the program leaves away from the states at the start of the control: `leaves X inactive`.
 pub(super) fn left(run: &Run) -> Option<String> {
-    let away = run.ends.iter().filter(|axis| axis.end != axis.home);
+    let away = run.ends.iter().filter(|axis| axis.end != axis.start_up);
     let away: Vec<String> = away
         .map(|axis| format!("{} {}", axis.axis, axis.end))
         .collect();

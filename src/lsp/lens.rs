@@ -28,7 +28,7 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
     };
     let mut lenses = Vec::new();
     lenses.extend(run.remark.clone().map(said));
-    let left = left(run).unwrap_or_else(|| "leaves no axis away from home".to_owned());
+    let left = left(run).unwrap_or_else(|| "leaves every axis in its start-up state".to_owned());
     lenses.push(said(left));
     lenses.extend(inherited(view, document).map(said));
     lenses.push(CodeLens {

@@ -6,7 +6,7 @@ use crate::timeline::{AxisSummary, EndedBy, Footing};
 /// What the operator has to know or to do about an axis, after its name (R1.27: the state
 /// outlives the program).
 pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
-    let untold = axis.end != axis.home && !axis.told;
+    let untold = axis.end != axis.start_up && !axis.told;
     match axis.end {
         State::Inactive if untold => Some(format!(
             " stays inactive for the next program: switch it on with {name}[COMP ON FRICT]"
@@ -43,10 +43,10 @@ pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static 
 
 /// Whether an axis is known to be as at the start of the control.
 pub(super) fn is_home(axis: &AxisSummary) -> bool {
-    axis.end == axis.home && axis.others_away.is_empty()
+    axis.end == axis.start_up && axis.others_away.is_empty()
 }
 
-/// Said where there is nothing else to say, every axis is at home and the machine is described
+/// Said where there is nothing else to say, every axis is in its start-up state and the machine is described
 /// (R1.37).
 pub(super) fn all_home(footing: Footing) -> &'static str {
     match footing {
@@ -65,13 +65,13 @@ mod tests {
     #[test]
     fn advice_follows_what_is_left() {
         // R1.27
-        let advice = |home, end| {
+        let advice = |start_up, end| {
             let axis = AxisSummary {
                 others_away: crate::comp::KindSet::NONE,
                 axis: AxisIndex::new(0),
-                start: home,
+                start: start_up,
                 end,
-                home,
+                start_up,
                 told: false,
                 changed_by: Vec::new(),
                 changes: 0,

@@ -360,12 +360,12 @@ impl Session {
             others_away: Kind::ALL
                 .into_iter()
                 .filter(|kind| *kind != Kind::Frict)
-                .filter(|kind| state.state(axis, *kind) != self.history.home(axis, *kind))
+                .filter(|kind| state.state(axis, *kind) != self.history.start_up(axis, *kind))
                 .collect(),
             axis,
             start: self.start.state(axis, Kind::Frict),
             end: state.state(axis, Kind::Frict),
-            home: self.history.home(axis, Kind::Frict),
+            start_up: self.history.start_up(axis, Kind::Frict),
             told: self.history.told(axis, Kind::Frict) != Told::No,
             changed_by: self.tally.changed_by[axis.get()].clone(),
             changes: self.tally.changes[axis.get()],
@@ -410,7 +410,7 @@ impl Session {
         let compensation = self.interpreter.compensation();
         let axis = self.machine.axis(index);
         let away =
-            |kind: &Kind| compensation.state(index, *kind) != self.history.home(index, *kind);
+            |kind: &Kind| compensation.state(index, *kind) != self.history.start_up(index, *kind);
         let position = self.interpreter.position(index).value;
         SavedAxis {
             axis: axis.name.clone(),

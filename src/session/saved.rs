@@ -92,7 +92,7 @@ pub struct SavedAxis {
     pub max_points: u32,
     /// The value list that was accepted.
     pub friction: Option<FrictionList>,
-    /// The kinds that are not at home, with the block that made them so.
+    /// The kinds that are not in its start-up state, with the block that made them so.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub away: Vec<SavedAway>,
     /// Whether a program named it, where no configuration lists the axes.
@@ -103,7 +103,7 @@ pub struct SavedAxis {
     pub position: Option<f64>,
 }
 
-/// A kind that is not at home.
+/// A kind that is not in its start-up state.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedAway {

@@ -132,8 +132,8 @@ pub struct AxisSummary {
     /// Friction compensation now.
     pub end: State,
     /// Friction compensation at the start of the control (R1.22).
-    pub home: State,
-    /// Whether the user was told that it is left away from home (FC401, FC407), or does not want to
+    pub start_up: State,
+    /// Whether the user was told that it is left away from its start-up state (FC401, FC407), or does not want to
     /// hear it.
     pub told: bool,
     /// The blocks that changed it: file, line and block number of at most the first hundred.

@@ -221,7 +221,7 @@ fn values_that_the_user_gives_are_known() {
     ");
 }
 
-/// The state of X and Y after a program, as far as it is not at home.
+/// The state of X and Y after a program, as far as it is not in its start-up state.
 fn at_the_end(files: &[&str]) -> [bool; 2] {
     let said = Bench::new().run(files);
     ["X", "Y"].map(|axis| said.contains(&format!("{axis}:active>unknown")))

@@ -373,7 +373,7 @@ fn a_lens_says_what_a_program_inherits() {
     assert_eq!(
         titles,
         [
-            "leaves no axis away from home",
+            "leaves every axis in its start-up state",
             "inherits the state of X",
             "Show timeline"
         ]

@@ -35,7 +35,10 @@ fn an_allowed_lint_takes_the_axis_out_of_the_advice() {
         let text = shown(&program.replace("X[COMP OFF FRICT]", &allowed), &[]);
         assert!(!text.contains(&format!("[{code}]")), "{text}");
         assert!(!text.contains("stays inactive"), "{text}");
-        assert!(!text.contains("Nothing to do"), "X is not at home: {text}");
+        assert!(
+            !text.contains("Nothing to do"),
+            "X is not in its start-up state: {text}"
+        );
         assert!(!text.contains("FC490"), "{text}");
     }
 }
@@ -53,7 +56,7 @@ fn an_allowed_lint_stays_allowed_in_the_state_file() {
 
 #[test]
 fn what_no_lint_says_is_advised() {
-    // R1.50: stopped by an error, found away from home.
+    // R1.50: stopped by an error, found away from its start-up state.
     let text = shown("X[COMP OFF FRICT]\nZ[COMP ON FRICT]\nM30\n", &[]);
     assert!(!text.contains("FC401"), "{text}");
     assert!(text.contains("X stays inactive"), "{text}");

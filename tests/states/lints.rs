@@ -21,7 +21,7 @@ fn what_is_left_away_from_home_is_said_at_the_last_command() {
     FC401 3:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
       help: restore it before M30: `X[COMP ON FRICT]`
     ");
-    // What a program found and did not touch, or brought home, is none of its business.
+    // What a program found and did not touch, or brought back to its start-up state, is none of its business.
     let left = "X[COMP OFF FRICT]\nM30";
     assert_snapshot!(said(&[left, "G90\nM30", "X[COMP OFF FRICT]\nX1\nX[COMP ON FRICT]\nM30"]), @"
     FC401 1:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
@@ -41,7 +41,7 @@ fn what_is_left_away_from_home_is_said_at_the_last_command() {
 
 #[test]
 fn every_kind_counts_by_itself() {
-    // R1.50 R1.53: CROSS of X falls off at program end and is at home there.
+    // R1.50 R1.53: CROSS of X falls off at program end and is in its start-up state there.
     assert_snapshot!(said(&["X[COMP OFF FRICT LEAD]\nX1\nX[COMP ON FRICT CROSS]\nM30"]), @"
     FC401 1:1 `LEAD` of axis `X` is left inactive after program end; the control starts with it active
       help: restore it before M30: `X[COMP ON LEAD]`
@@ -92,7 +92,7 @@ fn a_repeat_is_one_of_the_same_program() {
 
 #[test]
 fn who_made_it_so_is_named() {
-    // R1.52: the last command that left it away from home, of whichever program.
+    // R1.52: the last command that left it away from its start-up state, of whichever program.
     assert_snapshot!(said(&[
         "%FIRST\nN10 X[COMP OFF FRICT] (off) ; measured\nM30",
         "%SECOND\nX[COMP OFF FRICT NO_MOVE]\nX1\nM30",
@@ -123,7 +123,7 @@ fn who_made_it_so_is_named() {
 
 #[test]
 fn motion_before_the_first_command_makes_the_second_run_differ() {
-    // R1.53: also where the axis was found away from home; FC403 stands beside it.
+    // R1.53: also where the axis was found away from its start-up state; FC403 stands beside it.
     let program = "X1\nX[COMP OFF FRICT]\nX2\nM30";
     assert_snapshot!(said(&[program, program]), @"
     FC407 2:1 the second run differs from the first: line 1 moves axis `X` before the program sets `FRICT`, and line 2 leaves it inactive
@@ -143,7 +143,7 @@ fn motion_before_the_first_command_makes_the_second_run_differ() {
     FC401 1:4 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
       help: restore it before M30: `X[COMP ON FRICT]`
     ");
-    // At home in the end: no difference.
+    // At start_up in the end: no difference.
     assert_snapshot!(said(&["X1\nX[COMP OFF FRICT]\nX2\nX[COMP ON FRICT]\nM30"]), @"");
 }
 

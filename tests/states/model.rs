@@ -14,7 +14,7 @@ fn has(axis: usize, kind: usize) -> bool {
 }
 
 /// The state at the start of the control: CROSS has manual activation.
-fn home(axis: usize, kind: usize) -> bool {
+fn start_up(axis: usize, kind: usize) -> bool {
     has(axis, kind) && KINDS[kind] != "CROSS"
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct Model {
 impl Model {
     pub(crate) fn new() -> Self {
         Self {
-            on: std::array::from_fn(|axis| std::array::from_fn(|kind| home(axis, kind))),
+            on: std::array::from_fn(|axis| std::array::from_fn(|kind| start_up(axis, kind))),
             programs: 0,
             said: Vec::new(),
         }
@@ -92,7 +92,7 @@ impl Run<'_> {
             }
             self.moved[axis] = Some(seq);
             let depends =
-                self.kinds[axis][0].first.is_none() && self.model.on[axis][0] != home(axis, 0);
+                self.kinds[axis][0].first.is_none() && self.model.on[axis][0] != start_up(axis, 0);
             if depends && !block.allows.contains(&"FC403") {
                 self.say(at, "FC403", axis);
             }
@@ -145,7 +145,7 @@ impl Run<'_> {
                 let Some(last) = did.last else {
                     continue;
                 };
-                if self.model.on[axis][kind] == home(axis, kind) {
+                if self.model.on[axis][kind] == start_up(axis, kind) {
                     continue;
                 }
                 let before = self.moved[axis].is_some_and(|moved| Some(moved) < did.first);

@@ -34,7 +34,10 @@ fn it_says_who_made_a_state() {
     let away = &saved["axes"][0]["away"];
     let expected = r#"[{"kind":"FRICT","by":{"program":"FRICTION","file":"friction.nc","line":2,"text":"N10 X[COMP OFF FRICT] ; known"}}]"#;
     assert_eq!(*away, json(expected));
-    assert!(saved["axes"][2].get("away").is_none(), "Z is at home");
+    assert!(
+        saved["axes"][2].get("away").is_none(),
+        "Z is in its start-up state"
+    );
 }
 
 /// What a resumed session says about a state that was changed.
@@ -162,7 +165,7 @@ fn the_demo_says_fc403_twice_in_two_processes() {
         "{apart}"
     );
     assert!(!apart.contains("Nothing to do"), "{apart}");
-    // Nobody in this output has said how to bring them home.
+    // Nobody in this output has said how to bring them back to its start-up state.
     assert!(apart.contains("X stays inactive"), "{apart}");
 }
 

@@ -179,7 +179,7 @@ fn a_state_file_carries_a_session_on_to_the_byte() {
 
 #[test]
 fn the_recommended_style_is_silent_in_every_order() {
-    // R1.50 R1.51 R1.52 R1.53: what is needed is set first, what is not at home is brought home.
+    // R1.50 R1.51 R1.52 R1.53: what is needed is set first, what is not in its start-up state is brought back to it.
     let mut rng = Rng::with_seed(13);
     let mut style = || {
         let (mut first, mut last) = (String::from("%PART\n"), String::new());

@@ -38,8 +38,8 @@ fn what_may_be_left_is_said() {
         said_of.contains("FC401 4:1 `FRICT` of axis `X` may be left inactive after program end"),
         "{said_of}"
     );
-    let home = said(&["$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30"]);
-    assert!(!home.contains("FC401"), "{home}");
+    let start_up = said(&["$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30"]);
+    assert!(!start_up.contains("FC401"), "{start_up}");
 }
 
 #[test]

@@ -92,9 +92,9 @@ int main(int argc, char **argv)
     for (size_t message = 0; message < frictcomp_machine_message_count(machine); message++) {
         printf("%s\n", frictcomp_machine_message(machine, message));
     }
-    FrictcompCompensation *home = frictcomp_compensation_new(machine);
+    FrictcompCompensation *start_up = frictcomp_compensation_new(machine);
     FrictcompCompensation *states = frictcomp_compensation_new(machine);
-    if (home == NULL || states == NULL) {
+    if (start_up == NULL || states == NULL) {
         fprintf(stderr, "%s\n", frictcomp_last_error());
         return EXIT_FAILURE;
     }
@@ -108,14 +108,14 @@ int main(int argc, char **argv)
     frictcomp_program_end(states);
     for (size_t axis = 0; axis < frictcomp_machine_axis_count(machine); axis++) {
         FrictcompState now = frictcomp_state(states, axis, FRICTCOMP_KIND_FRICT);
-        if (now != frictcomp_state(home, axis, FRICTCOMP_KIND_FRICT)) {
+        if (now != frictcomp_state(start_up, axis, FRICTCOMP_KIND_FRICT)) {
             printf("left for the next program: %s %s\n", frictcomp_machine_axis_name(machine, axis),
                    state_name(now));
         }
     }
 
     frictcomp_compensation_free(states);
-    frictcomp_compensation_free(home);
+    frictcomp_compensation_free(start_up);
     frictcomp_machine_free(machine);
     return EXIT_SUCCESS;
 }

@@ -38,7 +38,7 @@ struct Audited {
     said: Said,
 }
 
-/// Runs each program twice and says which ones leave an axis away from home, and which inherit it.
+/// Runs each program twice and says which ones leave an axis away from its start-up state, and which inherit it.
 #[pyfunction]
 #[pyo3(signature = (programs, *, machine=None, kinds=None, limits=None))]
 pub(crate) fn audit(

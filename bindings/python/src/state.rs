@@ -58,7 +58,7 @@ impl PyState {
         self.0.axes.iter().map(|axis| axis.axis.as_str()).collect()
     }
 
-    /// The kinds that are not at home, by axis: what the next program would not expect.
+    /// The kinds that are not in its start-up state, by axis: what the next program would not expect.
     #[getter]
     fn away(&self) -> Vec<(&str, &'static str)> {
         let axes = self.0.axes.iter();
@@ -81,8 +81,11 @@ impl PyState {
             .map(|(axis, kind)| format!("{axis} {kind}"))
             .collect::<Vec<_>>();
         match away.as_slice() {
-            [] => "<frictcomp.State: all axes at home>".to_owned(),
-            away => format!("<frictcomp.State: away from home: {}>", away.join(", ")),
+            [] => "<frictcomp.State: all axes in their start-up state>".to_owned(),
+            away => format!(
+                "<frictcomp.State: away from its start-up state: {}>",
+                away.join(", ")
+            ),
         }
     }
 }

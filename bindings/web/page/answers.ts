@@ -26,7 +26,7 @@ export type Stretch = [from: number, to: number, state: State | "changing"];
 
 export interface Axis {
   name: string;
-  home: State;
+  start_up: State;
   start: State;
   end: State;
   listed: boolean;

@@ -47,7 +47,7 @@ function lead(found: Audit): string {
   if (found.machines.every((machine) => machine.axes.length === 0)) {
     return `${programs}; nothing could be audited.`;
   }
-  return `${programs}; no axis moves away from home by what another program left.`;
+  return `${programs}; no axis moves outside its start-up state because of what another program left.`;
 }
 
 function axes({ axes: all }: Audit["machines"][number]): HTMLElement {

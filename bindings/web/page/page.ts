@@ -497,7 +497,7 @@ function listenForDrops(): void {
 
 for (const legend of document.querySelectorAll("dl.states")) {
   fill(legend, ...MEANINGS.flatMap(([state, meaning]) => [
-    h("dt", { class: `state ${state}` }, h("span", { class: "word" }, state === "away" ? "away from home" : state)),
+    h("dt", { class: `state ${state}` }, h("span", { class: "word" }, state === "away" ? "away from its start-up state" : state)),
     h("dd", {}, meaning)]));
 }
 part("version").textContent = VERSION;

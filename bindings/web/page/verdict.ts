@@ -35,7 +35,7 @@ function names(axes: readonly Axis[]): string {
   return axes.map((axis) => axis.name).join(", ");
 }
 
-const HOME = "Run after a start of the control, every axis ends as it began";
+const START_UP = "Run after a start of the control, every axis ends as it began";
 
 /** Whether a run asked for a file of this path. */
 export function isMissing(overview: Overview, path: string): boolean {
@@ -68,7 +68,7 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   if (away.length > 0) {
     const left = away.map((axis) => `${axis.name} ${axis.end}`).join(", ");
     say("warning", `Left for the next program: ${left}. The control starts with ${
-      away.map((axis) => `${axis.name} ${axis.home}`).join(", ")}.`);
+      away.map((axis) => `${axis.name} ${axis.start_up}`).join(", ")}.`);
   }
   if (unknown.length > 0) {
     say("warning", `Not known at the end: ${names(unknown)}. Only the machine decides it.`);
@@ -113,7 +113,7 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   if (overview.messagesLeftOut > 0) {
     say("info", `${counted(overview.messagesLeftOut, "more message")} not shown.`);
   }
-  const configured = axes.filter((axis) => axis.home !== "unconfigured");
+  const configured = axes.filter((axis) => axis.start_up !== "unconfigured");
   if (configured.length === 0 && machine.isDescribed) {
     say("info", "No axis of this program has friction compensation configured.");
     return sentences;
@@ -121,9 +121,9 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   const isQuiet = overview.errors + overview.warnings + overview.infos === 0;
   const isHome = away.length === 0 && unknown.length === 0 && isWhole && machine.isDescribed;
   if (isHome && isQuiet && sentences.length === 0) {
-    say("good", `${HOME}. The audit says what it does after other programs.`);
+    say("good", `${START_UP}. The audit says what it does after other programs.`);
   } else if (isHome && idle.length < configured.length) {
-    say("info", `${HOME}, as far as was understood: see what is said about it.`);
+    say("info", `${START_UP}, as far as was understood: see what is said about it.`);
   }
   return sentences;
 }

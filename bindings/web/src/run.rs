@@ -87,7 +87,7 @@ pub(crate) struct Overview<'a> {
 struct AxisOverview<'a> {
     name: &'a str,
     /// The state after a start of the control.
-    home: StateWord,
+    start_up: StateWord,
     start: StateWord,
     end: StateWord,
     listed: bool,
@@ -314,11 +314,11 @@ impl Shown {
             let mut summaries = timeline.summaries.iter();
             let summary = summaries.find(|summary| summary.axis.get() == at);
             let start = self.timeline.rows.states(None).get(at).copied();
-            let start = start.unwrap_or(axis.home);
+            let start = start.unwrap_or(axis.start_up);
             let blocks = summary.map(|summary| summary.changed_by.as_slice());
             AxisOverview {
                 name: &axis.name,
-                home: axis.home.as_str(),
+                start_up: axis.start_up.as_str(),
                 start: start.as_str(),
                 end: summary.map_or(start, |summary| summary.end).as_str(),
                 listed: axis.listed,

@@ -28,7 +28,7 @@ pub(crate) struct Said {
 #[derive(Debug)]
 pub(crate) struct TimelineAxis {
     pub(crate) name: String,
-    pub(crate) home: State,
+    pub(crate) start_up: State,
     pub(crate) listed: bool,
 }
 
@@ -67,12 +67,12 @@ impl Sink for Timeline {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         match *record {
             Record::Session { state, remark } => {
-                let home = state.machine.compensation();
+                let start_up = state.machine.compensation();
                 let axes = state.machine.axes.iter().zip(state.listed).enumerate();
                 self.axes = axes
                     .map(|(at, (axis, listed))| TimelineAxis {
                         name: axis.name.clone(),
-                        home: home.state(AxisIndex::new(at), Kind::Frict),
+                        start_up: start_up.state(AxisIndex::new(at), Kind::Frict),
                         listed: *listed,
                     })
                     .collect();

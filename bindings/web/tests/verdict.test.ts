@@ -4,7 +4,7 @@ import { told } from "../page/bars";
 import { isMissing, missing, sentence, verdict } from "../page/verdict";
 
 const axis: Axis = {
-  name: "X", home: "active", start: "active", end: "active", listed: true, changes: 0,
+  name: "X", start_up: "active", start: "active", end: "active", listed: true, changes: 0,
   changedBy: [], bar: [[1, 2, "active"], [3, 9, "inactive"]],
 };
 
@@ -31,8 +31,8 @@ describe("the verdict", () => {
       { endedBy: "error", errors: 1 }, { endedBy: "budget" }, { endedBy: null }, { warnings: 1 },
       { remark: "no machine is described" }, { isAssumed: true }, { kept: 5 }, { messagesLeftOut: 1 },
       { axes: [] }, { infos: 1 },
-      { axes: [{ ...axis, home: "ineffective", end: "ineffective" }] },
-      { axes: [{ ...axis, home: "unconfigured", end: "unconfigured" }] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },
+      { axes: [{ ...axis, start_up: "ineffective", end: "ineffective" }] },
+      { axes: [{ ...axis, start_up: "unconfigured", end: "unconfigured" }] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },
       { machine: { ...overview.machine, missing: 1 } },
       { machine: { ...overview.machine, isDescribed: false } },
       { machine: { ...overview.machine, said: [message("FC120", "wrong")] } },

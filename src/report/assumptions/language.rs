@@ -312,7 +312,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
         rule: "R2.84",
         sentence: "a loop whose passes change nothing that a later pass can see never ends, and only a \
             reset ends it",
-        changes: "the run stops there; what is left away from home is judged as after a reset",
+        changes: "the run stops there; what is left away from its start-up state is judged as after a reset",
         shows: "FC910",
         when: &[Reported(Code::Fc910)],
     },

@@ -22,7 +22,7 @@ pub fn step_line(step: &Step) -> String {
             if let Some(by) = &axis.by {
                 let _ = write!(part, " at {}", place(step, &by.file, by.line));
             }
-        } else if axis.end != axis.home {
+        } else if axis.end != axis.start_up {
             let _ = write!(part, "{name} stays {}", axis.end.as_str());
         }
         if let Some(away) = moves_away(step, axis) {
@@ -38,7 +38,7 @@ pub fn step_line(step: &Step) -> String {
         }
     }
     if parts.is_empty() {
-        parts.push("every axis at home".to_owned());
+        parts.push("every axis in its start-up state".to_owned());
     }
     let _ = write!(line, " {}", parts.join("; "));
     if let Some(reason) = &step.stopped {
@@ -54,7 +54,7 @@ fn moves_away(step: &Step, axis: &StepAxis) -> Option<String> {
     let away = axis.away.as_ref()?;
     let place = place(step, &away.site.file, away.site.line);
     let mut text = format!(
-        " moves away from home at {place} ({})",
+        " moves outside its start-up state at {place} ({})",
         away.motion.as_str()
     );
     if let Some(program) = &axis.left_by {

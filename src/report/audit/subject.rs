@@ -65,16 +65,16 @@ impl AuditReport {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Word {
-    /// It moves the axis as it finds it, and leaves it away from home.
+    /// It moves the axis as it finds it, and leaves it away from its start-up state.
     Both,
-    /// It leaves the axis away from home.
+    /// It leaves the axis away from its start-up state.
     Leaves,
     /// It is not known offline.
     Unknown,
     /// It moves the axis in the state that it finds.
     Inherits,
-    /// It leaves the axis at home, and does not move it before that.
-    Home,
+    /// It leaves the axis in its start-up state, and does not move it before that.
+    StartUp,
     /// It neither switches nor moves the axis before it is set.
     Keeps,
 }
@@ -86,7 +86,7 @@ impl Word {
         Self::Leaves,
         Self::Unknown,
         Self::Inherits,
-        Self::Home,
+        Self::StartUp,
         Self::Keeps,
     ];
 
@@ -98,7 +98,7 @@ impl Word {
             _ if axis.is_unknown() => Self::Unknown,
             _ if axis.is_inheritor() => Self::Inherits,
             ProgramEffect::Keeps => Self::Keeps,
-            _ => Self::Home,
+            _ => Self::StartUp,
         }
     }
 
@@ -109,7 +109,7 @@ impl Word {
             Self::Leaves => "leaves",
             Self::Unknown => "unknown",
             Self::Inherits => "inherits",
-            Self::Home => "home",
+            Self::StartUp => "start-up",
             Self::Keeps => "keeps",
         }
     }
@@ -117,11 +117,15 @@ impl Word {
     /// What it means.
     pub fn meaning(self) -> &'static str {
         match self {
-            Self::Both => "moves the axis as it finds it, and leaves it away from home",
-            Self::Leaves => "leaves the axis away from home",
+            Self::Both => {
+                "moves the axis as it finds it, and leaves it away from its start-up state"
+            }
+            Self::Leaves => "leaves the axis away from its start-up state",
             Self::Unknown => "it is not known offline what the program leaves or inherits",
             Self::Inherits => "moves the axis in the state that it finds",
-            Self::Home => "leaves the axis at home, and does not move it before that",
+            Self::StartUp => {
+                "leaves the axis in its start-up state, and does not move it before that"
+            }
             Self::Keeps => "neither switches nor moves the axis before it is set",
         }
     }

@@ -56,12 +56,12 @@ fn total(report: &AuditReport) -> String {
         0 if report.has_warnings() => {
             "no certain hazard, but programs of which it is not known what they leave".to_owned()
         }
-        0 => "no order of these programs moves an axis away from home by what another left"
+        0 => "no order of these programs moves an axis outside its start-up state because of what another left"
             .to_owned(),
-        1 => "1 hazard: a program that leaves an axis away from home, and one that inherits it"
+        1 => "1 hazard: a program that leaves an axis away from its start-up state, and one that inherits it"
             .to_owned(),
         more => format!(
-            "{more} hazards: ordered pairs of a program that leaves an axis away from home and one that inherits it"
+            "{more} hazards: ordered pairs of a program that leaves an axis away from its start-up state and one that inherits it"
         ),
     };
     format!("{programs}; {what}")
@@ -149,7 +149,7 @@ fn push_folded(out: &mut String, folded: &[(&str, Vec<Word>)]) {
 
 fn push_finding(out: &mut String, machine: &MachineAudit, finding: &AxisFinding, length: Length) {
     let name = axis_name(&finding.axis, finding.kind);
-    let away = if finding.on_at_home { "off" } else { "on" };
+    let away = if finding.on_at_start_up { "off" } else { "on" };
     let _ = writeln!(
         out,
         "{}: {} it {away}, {} in that state, {}",

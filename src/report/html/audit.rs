@@ -57,7 +57,9 @@ fn lead(report: &AuditReport) -> String {
         0 if report.has_warnings() => {
             format!("{programs}; of some it is not known what they leave")
         }
-        0 => format!("{programs}; no axis moves away from home by what another program left"),
+        0 => format!(
+            "{programs}; no axis moves outside its start-up state because of what another program left"
+        ),
         _ => format!("{programs}, {}", counted(hazards, "hazard")),
     }
 }
@@ -123,7 +125,7 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
     page.push(&html! {
         p {
             "The state of compensation outlives a program. A hazard is an ordered pair: a program \
-             that leaves an axis away from home, and one that moves the axis in the state that it \
+             that leaves an axis away from its start-up state, and one that moves the axis in the state that it \
              finds."
         }
     })?;
@@ -274,7 +276,7 @@ fn cell(axis: &AxisAudit, marks: &Marks) -> Markup {
             link(reason, word.as_str())
         }
         Word::Inherits => link(inherits, word.as_str()),
-        Word::Home | Word::Keeps => html! { (word.as_str()) },
+        Word::StartUp | Word::Keeps => html! { (word.as_str()) },
     };
     cell_word(word, &content)
 }
@@ -285,7 +287,7 @@ fn cell_word(word: Word, content: &Markup) -> Markup {
         Word::Both | Word::Leaves => "state away",
         Word::Unknown => "state unknown",
         Word::Inherits => "state inactive",
-        Word::Home => "state active",
+        Word::StartUp => "state active",
         Word::Keeps => "quiet",
     };
     html! { span class=(class) { (content) } }

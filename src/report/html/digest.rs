@@ -159,7 +159,9 @@ impl RunDigest {
     pub(super) fn standing(&self, axis: AxisIndex, kind: Kind, state: State) -> Standing {
         let mut tracks = self.programs.iter().flat_map(|program| &program.tracks);
         let track = tracks.find(|track| (track.axis, track.kind) == (axis, kind));
-        track.map_or(Standing::Home, |track| Standing::of(state, track.home))
+        track.map_or(Standing::StartUp, |track| {
+            Standing::of(state, track.start_up)
+        })
     }
 
     /// How the last program ended.
@@ -195,8 +197,8 @@ impl RunDigest {
             let axis = AxisIndex::new(axis);
             let kinds = Kind::ALL.into_iter();
             for kind in kinds.filter(|&kind| self.kinds.contains(kind)) {
-                let home = start.state(axis, kind);
-                tracks.push(Track::new(axis, kind, state.state(axis, kind), home));
+                let start_up = start.state(axis, kind);
+                tracks.push(Track::new(axis, kind, state.state(axis, kind), start_up));
             }
         }
         self.version = Some(state.version);

@@ -107,7 +107,7 @@ pub(super) fn figure(svg: String) -> Markup {
     html! { figure.picture { (PreEscaped(svg)) } "\n" }
 }
 
-/// A state, told apart by more than colour, above all where it is away from home.
+/// A state, told apart by more than colour, above all where it is away from its start-up state.
 pub(super) fn state_word(state: State, standing: Standing) -> Markup {
     let word = state.as_str();
     html! { span.state.(word).away[standing == Standing::Away] { (word) } }

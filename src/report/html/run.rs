@@ -128,8 +128,9 @@ fn left(digest: &RunDigest) -> Markup {
     });
     html! {
         p {
-            "Friction compensation (FRICT) by axis, after the last program. Home is the state \
-             after a start of the control; \u{25b2} marks what is away from home and remains so."
+            "Friction compensation (FRICT) by axis, after the last program. The start-up state is the one \
+             after a start of the control; \u{25b2} marks what is away from it \
+             and remains so."
         }
         (table.render(rows))
         (advice(digest, summary))

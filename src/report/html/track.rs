@@ -31,7 +31,7 @@ pub(super) struct Track {
     pub(super) axis: AxisIndex,
     pub(super) kind: Kind,
     /// The state after a start of the control.
-    pub(super) home: State,
+    pub(super) start_up: State,
     pub(super) stretches: Vec<Stretch>,
     /// The state of the moment.
     state: State,
@@ -44,11 +44,11 @@ const MAX_STRETCHES: usize = 2048;
 
 impl Track {
     /// A track that begins with a state.
-    pub(super) fn new(axis: AxisIndex, kind: Kind, state: State, home: State) -> Self {
+    pub(super) fn new(axis: AxisIndex, kind: Kind, state: State, start_up: State) -> Self {
         Self {
             axis,
             kind,
-            home,
+            start_up,
             stretches: vec![Stretch {
                 from: 0,
                 state: BandState::One(state),
@@ -87,8 +87,8 @@ impl Track {
     /// How a state of this kind on this axis stands to that after a start of the control.
     pub(super) fn standing(&self, state: BandState) -> Standing {
         match state {
-            BandState::One(state) => Standing::of(state, self.home),
-            BandState::Changing => Standing::Home,
+            BandState::One(state) => Standing::of(state, self.start_up),
+            BandState::Changing => Standing::StartUp,
         }
     }
 

@@ -233,7 +233,7 @@ fn extend(bands: &mut Vec<Band>, name: &str, (time_s, state): (f64, State)) {
         Some(last) if last.state == BandState::One(state) => last.to = time_s,
         Some(last) if is_full => {
             last.state = BandState::Changing;
-            last.standing = Standing::Home;
+            last.standing = Standing::StartUp;
             last.to = time_s;
         }
         last => {

@@ -95,7 +95,7 @@ impl AxisPlot {
             Some(last) if last.state == BandState::One(state) || full => {
                 if last.state != BandState::One(state) {
                     last.state = BandState::Changing;
-                    last.standing = Standing::Home;
+                    last.standing = Standing::StartUp;
                 }
                 last.to = time;
             }

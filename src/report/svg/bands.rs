@@ -41,19 +41,19 @@ impl BandState {
 pub enum Standing {
     /// It is that state, or nobody can say.
     #[default]
-    Home,
+    StartUp,
     /// It is another one, which outlives the program.
     Away,
 }
 
 impl Standing {
-    /// The standing of a state. Only what a command switches can be away from home.
-    pub fn of(state: State, home: State) -> Self {
+    /// The standing of a state. Only what a command switches can be away from its start-up state.
+    pub fn of(state: State, start_up: State) -> Self {
         let switched = matches!(state, State::Active | State::Inactive);
-        if switched && state != home {
+        if switched && state != start_up {
             Self::Away
         } else {
-            Self::Home
+            Self::StartUp
         }
     }
 }
@@ -212,7 +212,7 @@ impl Rows<'_> {
                     && let Some(next) = bands.next_if(|next| narrow(next))
                 {
                     shown.state = BandState::Changing;
-                    shown.standing = Standing::Home;
+                    shown.standing = Standing::StartUp;
                     shown.to = next.to;
                 }
                 if shown.state != first.state {
@@ -244,7 +244,7 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
     if band.state != BandState::One(State::Unconfigured) && text_width(word) + 10.0 < area.width {
         let class = match band.standing {
             Standing::Away => "fc-on-away",
-            Standing::Home => "",
+            Standing::StartUp => "",
         };
         let place = (area.x + 6.0, area.y + BAR / 2.0 + 4.0);
         canvas.text(class, place, Anchor::Start, word);
@@ -252,8 +252,8 @@ fn draw_band(canvas: &mut Canvas, band: &Band, area: Area) {
     canvas.close_link(href);
 }
 
-/// The shape of a state: full, hollow, half full, a line, dashed; striped where it is away from
-/// home.
+/// The shape of a state: full, hollow, half full, a line, dashed; striped where it is not the
+/// start-up state.
 fn draw_shape(canvas: &mut Canvas, (state, standing): (BandState, Standing), area: Area) {
     if standing == Standing::Away {
         canvas.rect("fc-away", area);
@@ -295,14 +295,14 @@ pub(super) fn draw_legend(
     drawn: &[(BandState, Standing)],
     (left, y): (f64, f64),
 ) -> f64 {
-    let both = |state| [(state, Standing::Home), (state, Standing::Away)];
+    let both = |state| [(state, Standing::StartUp), (state, Standing::Away)];
     let mut states: Vec<_> = BandState::ALL.into_iter().flat_map(both).collect();
     states.retain(|state| drawn.contains(state));
     let mut x = left;
     for state in &states {
         let word = match *state {
-            (state, Standing::Away) => format!("{}, away from home", state.as_str()),
-            (state, Standing::Home) => state.as_str().to_owned(),
+            (state, Standing::Away) => format!("{}, not start-up", state.as_str()),
+            (state, Standing::StartUp) => state.as_str().to_owned(),
         };
         let swatch = Area {
             x,

@@ -153,7 +153,7 @@ impl<'a> Player<'a> {
                 axis,
                 start: from,
                 end: to,
-                home: from,
+                start_up: from,
                 told: changed,
                 changed_by: changed
                     .then(|| ChangedBy {

@@ -210,7 +210,7 @@ mod tests {
             axis: AxisIndex::new(0),
             start: State::Active,
             end: State::Inactive,
-            home: State::Active,
+            start_up: State::Active,
             told: false,
             changed_by: Vec::new(),
             changes: 0,

@@ -295,7 +295,7 @@ class Audit:
     def programs(self) -> int: ...
     @property
     def hazards(self) -> int:
-        """The pairs of a program that leaves an axis away from home and one that inherits it."""
+        """The pairs of a program that leaves an axis away from its start-up state and one that inherits it."""
     @property
     def has_warnings(self) -> bool:
         """Whether something is to be mended, or cannot be told."""
@@ -424,7 +424,7 @@ def audit(
     kinds: _Kinds | None = None,
     limits: Limits | None = None,
 ) -> Audit:
-    """Which programs leave an axis away from home, and which move it in the state that they find."""
+    """Which programs leave an axis away from its start-up state, and which move it in the state that they find."""
 
 def current(
     program: _Program,

@@ -1,10 +1,13 @@
 //! The state file: what one run leaves and the next one starts with (9.4).
 
+use std::fmt::Display;
 use std::fs::{File, TryLockError};
+use std::hash::Hasher as _;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use fnv::FnvHasher;
 use serde::Deserialize;
 
 use super::error::HostError;
@@ -19,6 +22,12 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// How often it looks.
 const PAUSE: Duration = Duration::from_millis(25);
+
+/// What stands between the content of a state file and the digits of its checksum.
+const SEAL: &[u8] = b",\n  \"checksum\": \"";
+
+/// The first schema whose files have a checksum.
+const SEALED_SCHEMA: u32 = 3;
 
 /// What every state file has, whatever its version.
 #[derive(Deserialize)]
@@ -81,9 +90,7 @@ impl StateFile {
     /// The axes that the last run left; none where the file cannot be read, which is said when it
     /// is loaded.
     pub fn axes(path: &Path) -> Vec<String> {
-        let text = read_bytes(path).unwrap_or_default();
-        let saved: Option<SavedState> = serde_json::from_slice(&text).ok();
-        let axes = saved.map(|saved| saved.axes).unwrap_or_default();
+        let axes = Self::read(path).map_or_else(|_| Vec::new(), |saved| saved.axes);
         axes.into_iter().map(|axis| axis.axis).collect()
     }
 
@@ -106,14 +113,19 @@ impl StateFile {
     /// It cannot be read, is damaged, or comes from a later version.
     pub fn read(path: &Path) -> Result<SavedState, HostError> {
         let text = read_bytes(path).map_err(|error| HostError::read(path, error))?;
-        let damaged = |error| unusable(path, &format!("it is damaged ({error})"));
+        let damaged = |error: &dyn Display| unusable(path, &format!("it is damaged ({error})"));
         // A later version may have keys that this one does not know: its number comes first.
-        let Schema { schema } = serde_json::from_slice(&text).map_err(damaged)?;
+        let Schema { schema } = serde_json::from_slice(&text).map_err(|error| damaged(&error))?;
         if schema > STATE_SCHEMA {
             let later = StateError::Schema { found: schema };
             return Err(unusable(path, &later.to_string()));
         }
-        serde_json::from_slice(&text).map_err(damaged)
+        let content = match split_seal(&text) {
+            Some(content) if seal(content) == text => [content, b"\n}"].concat(),
+            None if schema < SEALED_SCHEMA => text,
+            _ => return Err(damaged(&"its checksum does not match its content")),
+        };
+        serde_json::from_slice(&content).map_err(|error| damaged(&error))
     }
 
     /// The error for a state that the session does not take. The file stays as it is.
@@ -130,9 +142,24 @@ impl StateFile {
         let text = serde_json::to_string_pretty(state)
             .map_err(|error| HostError::write(&self.path, error.into()))?;
         // Whoever looks at the file sees what it holds (R9.76).
-        let text = format!("{}\n", shown_json(&text));
-        outputs.begin(&self.path)?.bytes(text.as_bytes())
+        let text = shown_json(&text);
+        let content = text.strip_suffix("\n}").unwrap_or(&text);
+        outputs.begin(&self.path)?.bytes(&seal(content.as_bytes()))
     }
+}
+
+/// The text of a state file: its content without the closing brace, then the checksum of that, an
+/// FNV-1a hash of 64 bits, which differs for any two contents that differ in one byte (R9.92).
+fn seal(content: &[u8]) -> Vec<u8> {
+    let mut hasher = FnvHasher::default();
+    hasher.write(content);
+    let checksum = format!("{:016x}\"\n}}\n", hasher.finish());
+    [content, SEAL, checksum.as_bytes()].concat()
+}
+
+/// The content before the checksum, where there is one.
+fn split_seal(text: &[u8]) -> Option<&[u8]> {
+    memchr::memmem::rfind(text, SEAL).and_then(|at| text.get(..at))
 }
 
 fn unusable(path: &Path, reason: &str) -> HostError {
@@ -206,6 +233,26 @@ mod tests {
         let error = StateFile::lock(&path).unwrap().load().unwrap_err();
         assert!(error.to_string().contains("damaged"), "{error}");
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "{\"schema\":");
+    }
+
+    #[test]
+    fn every_changed_bit_is_damage() {
+        // R9.92
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.json");
+        let file = StateFile::lock(&path).unwrap();
+        let mut outputs = OutputFiles::new(&Ledger::default());
+        file.save(&state(), &mut outputs).unwrap();
+        outputs.finish(|_| ()).unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        for bit in 0..whole.len() * 8 {
+            let mut flipped = whole.clone();
+            flipped[bit / 8] ^= 1 << (bit % 8);
+            std::fs::write(&path, &flipped).unwrap();
+            assert!(file.load().is_err(), "bit {bit} of {}", whole.len() * 8);
+        }
+        std::fs::write(&path, &whole).unwrap();
+        assert_eq!(file.load().unwrap(), Some(state()));
     }
 
     #[test]

@@ -14,14 +14,14 @@ use crate::lists::FrictionList;
 use crate::machine::{Axis, AxisSet, Machine, Origin};
 
 /// The number of the format that is written.
-pub const STATE_SCHEMA: u32 = 2;
+pub const STATE_SCHEMA: u32 = 3;
 
 /// Why a saved state cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum StateError {
     /// It has another schema.
-    #[error("the state has schema {found}; this version reads schema 1 and {STATE_SCHEMA}")]
+    #[error("the state has schema {found}; this version reads schema 1 to {STATE_SCHEMA}")]
     Schema {
         /// The schema that it has.
         found: u32,
@@ -44,7 +44,8 @@ pub enum StateError {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedState {
-    /// 2; a state of schema 1 knows neither who made a state nor anything below `variables`.
+    /// 3, whose files have a checksum; a state of schema 1 knows neither who made a state nor
+    /// anything below `variables`.
     pub schema: u32,
     /// The axes with what the start of the control read: another text is another machine.
     pub machine: Vec<String>,

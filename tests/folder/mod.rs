@@ -85,3 +85,10 @@ impl Bench {
 pub(crate) fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
+
+/// The same state as a file of schema 2, which has no checksum and can be edited.
+pub(crate) fn of_schema_2(state: &str) -> String {
+    let (content, _) = state.split_once(",\n  \"checksum\"").expect("a checksum");
+    let content = content.replacen("\"schema\": 3", "\"schema\": 2", 1);
+    format!("{content}\n}}\n")
+}

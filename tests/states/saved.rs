@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use super::program::machine;
 use super::sessions::{options, play, resumed};
-use crate::folder::{Bench, json};
+use crate::folder::{Bench, json, of_schema_2};
 
 struct Nobody;
 
@@ -30,7 +30,7 @@ fn left_off() -> Session {
 fn it_says_who_made_a_state() {
     // R9.32
     let saved = serde_json::to_value(left_off().save()).unwrap();
-    assert_eq!(saved["schema"], 2);
+    assert_eq!(saved["schema"], 3);
     let away = &saved["axes"][0]["away"];
     let expected = r#"[{"kind":"FRICT","by":{"program":"FRICTION","file":"friction.nc","line":2,"text":"N10 X[COMP OFF FRICT] ; known"}}]"#;
     assert_eq!(*away, json(expected));
@@ -95,7 +95,7 @@ fn a_damaged_file_stays_as_it_is() {
     let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n")]);
     let run = ["run", "--state", "s.json", "a.nc"];
     assert_eq!(bench.status(&run), Some(0));
-    let good = bench.read("s.json");
+    let good = of_schema_2(&bench.read("s.json"));
     let mut swapped = json(&good);
     swapped["axes"].as_array_mut().expect("a list").swap(0, 1);
     bench.write("s.json", &swapped.to_string());
@@ -130,7 +130,7 @@ fn a_file_of_schema_1_is_read_with_nobody_known() {
     // R9.32
     let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n"), ("b.nc", "X1\nM30\n")]);
     assert_eq!(bench.status(&["run", "--state", "s.json", "a.nc"]), Some(0));
-    let mut old = json(&bench.read("s.json"));
+    let mut old = json(&of_schema_2(&bench.read("s.json")));
     old["schema"] = 1.into();
     for axis in old["axes"].as_array_mut().expect("a list") {
         axis.as_object_mut().unwrap().retain(|key, _| {
@@ -141,7 +141,7 @@ fn a_file_of_schema_1_is_read_with_nobody_known() {
     let text = bench.stdout(&["run", "--width", "200", "--state", "s.json", "b.nc"]);
     assert!(text.contains("info[FC403]"), "{text}");
     assert!(text.contains("a program that is not known"), "{text}");
-    assert_eq!(json(&bench.read("s.json"))["schema"], 2);
+    assert_eq!(json(&bench.read("s.json"))["schema"], 3);
 }
 
 #[test]

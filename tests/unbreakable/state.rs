@@ -5,7 +5,7 @@ use frictcomp::interpreter::Value;
 use frictcomp::machine::Machine;
 use frictcomp::session::{SavedState, Session, SessionOptions};
 
-use crate::folder::{Bench, MACHINE};
+use crate::folder::{Bench, MACHINE, of_schema_2};
 
 const LEAVE_OFF: &str = "X[COMP OFF FRICT]\nV.S.PART = 7\nV.S.NAME = \"mill\"\nM30\n";
 const RUN: [&str; 4] = ["run", "--state", "s.json", "a.nc"];
@@ -44,8 +44,9 @@ fn a_state_cut_anywhere_is_refused_and_left_alone() {
 fn a_state_of_another_time_or_machine_is_refused_and_left_alone() {
     // R9.30
     let (bench, good) = bench_with_state();
+    let editable = of_schema_2(&good);
     let wrongs = [
-        ("\"schema\": 2", "\"schema\": 3", "schema 3"),
+        ("\"schema\": 2", "\"schema\": 4", "schema 4"),
         ("\"schema\": 2", "\"schema\": 0", "schema 0"),
         ("\"schema\": 2", "\"schema\": -1", "damaged"),
         ("axis Z number", "axis C number", "another machine"),
@@ -54,8 +55,8 @@ fn a_state_of_another_time_or_machine_is_refused_and_left_alone() {
         ("\"max_points\": 20", "\"max_points\": 1e99", "damaged"),
     ];
     for (right, wrong, reason) in wrongs {
-        let text = good.replacen(right, wrong, 1);
-        assert_ne!(text, good, "{right}");
+        let text = editable.replacen(right, wrong, 1);
+        assert_ne!(text, editable, "{right}");
         bench.write("s.json", &text);
         let output = bench.call(&RUN);
         let said = String::from_utf8(output.stderr).expect("text");
@@ -67,6 +68,20 @@ fn a_state_of_another_time_or_machine_is_refused_and_left_alone() {
     bench.write("frictcomp.toml", &MACHINE.replace("\"Z\"", "\"C\""));
     assert_eq!(bench.status(&RUN), Some(2));
     assert_eq!(bench.read("s.json"), good);
+}
+
+#[test]
+fn a_state_with_one_changed_bit_is_refused_and_left_alone() {
+    // R9.92: through the tool; every bit is tried where the file is read.
+    let (bench, good) = bench_with_state();
+    let path = bench.folder().join("s.json");
+    for bit in (0..good.len() * 8).step_by(83) {
+        let mut flipped = good.clone().into_bytes();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        std::fs::write(&path, &flipped).expect("written");
+        assert_eq!(bench.status(&RUN), Some(2), "bit {bit}");
+        assert_eq!(std::fs::read(&path).expect("read"), flipped, "bit {bit}");
+    }
 }
 
 #[test]

@@ -103,6 +103,70 @@ fn is_harmless(output: &Output, arguments: &[&str]) {
 }
 
 #[test]
+fn what_turns_the_direction_of_writing_is_said_wherever_it_stands() {
+    // R9.94
+    let root = tempfile::tempdir().unwrap();
+    let folder = root.path();
+    let codes = |name: &str, text: &str| {
+        fs::write(folder.join(name), text).unwrap();
+        let command = if name == "v.lis" { "lists" } else { "check" };
+        let output = tool(folder, &[command, "--format", "concise", name]);
+        let said = String::from_utf8(output.stdout).unwrap();
+        let lines = said.lines().filter(|line| line.contains("FC102"));
+        let places = lines.map(|line| {
+            assert!(line.contains("U+202E RIGHT-TO-LEFT OVERRIDE"), "{line}");
+            line.split(':').nth(1).unwrap().parse::<u32>().unwrap()
+        });
+        places.collect::<Vec<_>>()
+    };
+    let program = "%A\n; x \u{202e}\nN10 G01 X1 F5 (\u{202e})\r\n#MSG [\"\u{202e}\"]\nX[COMP \\\n\
+                   ON FRICT] ; \u{202e}\n#COMMENT BEGIN\n\u{202e}\n#COMMENT END\n$IF 1\n;\u{202e}\n$ENDIF\nM30\n";
+    assert_eq!(codes("a.nc", program), [2, 3, 4, 6, 8, 11]);
+    assert_eq!(
+        codes("plain.nc", "N10 ; Läufer – „groß“ ★\nM30\n"),
+        [0_u32; 0]
+    );
+    let list = "# \u{202e}\nfrict_comp.mode 3 (\u{202e})\nEnde\n";
+    assert_eq!(codes("v.lis", list), [1, 2]);
+}
+
+#[test]
+fn a_control_character_within_a_block_is_no_blank() {
+    // R9.94 R2.1
+    let root = tempfile::tempdir().unwrap();
+    let folder = root.path();
+    for (text, is_said) in [
+        ("X[COMP\0ON FRICT]\nM30\n", true),
+        ("G1\0X1 F5\nM30\n", true),
+        ("G1 X1 F5\u{1a} Y1\nM30\n", true),
+        ("G1 X1 F5 \0\0\nM30\n\u{3}", false),
+        ("G1 X1 F5 ; \0 x\nM30\n", false),
+    ] {
+        fs::write(folder.join("a.nc"), text).unwrap();
+        let output = tool(
+            folder,
+            &["check", "--enable", "X", "--format", "concise", "a.nc"],
+        );
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(said.contains("FC101"), is_said, "{text:?}: {said}");
+    }
+}
+
+#[test]
+fn a_list_or_configuration_that_is_too_large_is_refused_unread() {
+    // R9.94
+    let root = tempfile::tempdir().unwrap();
+    let folder = root.path();
+    fs::write(folder.join("a.nc"), "M30\n").unwrap();
+    let large = fs::File::create(folder.join("large.toml")).unwrap();
+    large.set_len(65 << 20).unwrap();
+    let output = tool(folder, &["check", "--config", "large.toml", "a.nc"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("which no list or configuration is"), "{said}");
+}
+
+#[test]
 fn no_command_and_no_format_lets_harm_out() {
     // R9.76
     let root = tempfile::tempdir().unwrap();

@@ -183,6 +183,7 @@ fn what_is_away_from_home_looks_like_it() {
         states.contains("fc-away") && states.contains("fc-stripes"),
         "{states}"
     );
+    // R17.8
     assert!(states.contains("inactive, not start-up"), "{states}");
     assert!(
         states.contains(">start<") && states.contains(">3<"),

@@ -78,7 +78,7 @@ fn no_output_destroys_an_input() {
         "s.lis",
     );
     // What a program calls is known only when it has called.
-    both(&["run", "call.nc", "-o", "part.nc"], "part.nc");
+    both(&["run", "call.nc", "-o", "part.nc", "--force"], "part.nc");
     both(&["run", "call.nc", "--html", "hard"], "part.nc");
     both(&["lists", "v.lis", "-o", "v.lis"], "v.lis");
     both(&["lists", "v.lis", "--svg", "v.lis"], "v.lis");
@@ -101,6 +101,80 @@ fn no_output_destroys_an_input() {
         &["tune", "--plant", "plant.toml", "-o", "plant.toml"],
         "plant.toml",
     );
+}
+
+#[test]
+fn what_users_write_is_replaced_only_when_they_say_so() {
+    // R9.93: also programs, lists and configurations that this call does not read.
+    let bench = bench();
+    bench.write("other.nc", PROGRAM);
+    bench.write("OTHER.MPF", PROGRAM);
+    let run = ["run", "part.nc"];
+    let with = |more: &[&'static str]| [&run[..], more].concat();
+    for more in [
+        ["-o", "other.nc"],
+        ["-o", "OTHER.MPF"],
+        ["-o", "v.lis"],
+        ["--html", "other.nc"],
+        ["--html", "frictcomp.toml"],
+        ["-o", "sub/../frictcomp.toml"],
+    ] {
+        fs::create_dir_all(bench.folder().join("sub")).expect("a folder");
+        let said = refused(&bench, &with(&more));
+        let is_input = said.contains("would overwrite the configuration");
+        assert!(
+            is_input || said.contains("would take the place of a"),
+            "{said}"
+        );
+        assert!(is_input || said.contains("`--force`"), "{said}");
+    }
+    let forced = with(&["-o", "other.nc", "--force"]);
+    assert_eq!(bench.status(&forced), Some(0));
+    assert!(bench.read("other.nc").contains("Summary"));
+    // An input is an input.
+    assert!(refused(&bench, &with(&["-o", "part.nc", "--force"])).contains("would overwrite"));
+    // What is not there is replaced by nobody, but a configuration would count from then on.
+    fs::create_dir(bench.folder().join("below")).expect("a folder");
+    let said = refused(&bench, &with(&["--isolated", "-o", "below/frictcomp.toml"]));
+    assert!(said.contains("take the place of a configuration"), "{said}");
+    assert_eq!(bench.status(&with(&["-o", "new.nc"])), Some(0));
+}
+
+#[cfg(unix)]
+#[test]
+fn no_link_leads_an_output_to_what_users_write() {
+    // R9.93
+    use std::os::unix::fs::symlink;
+    let bench = bench();
+    bench.write("other.nc", PROGRAM);
+    let link = |to: &str, name: &str| {
+        symlink(bench.folder().join(to), bench.folder().join(name)).expect("a link");
+    };
+    link("other.nc", "part.nc.timeline");
+    link("v.lis", "list.txt");
+    link("frictcomp.toml", "page.html");
+    for call in [
+        &["golden", "--update", "part.nc"][..],
+        &["golden", "--update", "."],
+        &["run", "part.nc", "-o", "list.txt"],
+        &["run", "part.nc", "-o", "list.txt", "--force"],
+        &["run", "--isolated", "part.nc", "--html", "page.html"],
+    ] {
+        let said = refused(&bench, call);
+        let is_input = said.contains("would overwrite the ");
+        assert!(
+            is_input || said.contains("is a link to the "),
+            "{call:?}: {said}"
+        );
+    }
+    // A link to another result stays one.
+    bench.write("report.html", "old");
+    link("report.html", "latest.html");
+    assert_eq!(
+        bench.status(&["run", "part.nc", "--html", "latest.html"]),
+        Some(0)
+    );
+    assert!(bench.read("report.html").starts_with("<!DOCTYPE html>"));
 }
 
 #[test]

@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::painted::painted;
 use super::progress::{OverProgress, clear};
 use crate::diagnostic::Diagnostic;
+use crate::host::Replaces;
 use crate::report::{Look, Paint, command_line, fitted, leading, render, visible, wrap};
 
 /// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
@@ -38,6 +39,8 @@ pub(super) struct Console {
     width: Option<usize>,
     remarks: Remarks,
     written: Written,
+    /// What `--force` lets every output take the place of.
+    forced: Option<Replaces>,
 }
 
 /// What goes to standard output.
@@ -99,7 +102,18 @@ impl Console {
             width,
             remarks: Remarks::Said,
             written: Written::Text,
+            forced: None,
         }
+    }
+
+    /// The same console, with what `--force` says.
+    pub(super) fn forcing(self, forced: Option<Replaces>) -> Self {
+        Self { forced, ..self }
+    }
+
+    /// What an output may take the place of.
+    pub(super) fn replaces(self, replaces: Replaces) -> Replaces {
+        self.forced.unwrap_or(replaces)
     }
 
     /// The same console, to whose standard output this goes.

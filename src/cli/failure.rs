@@ -71,6 +71,7 @@ impl From<HostError> for Failure {
 /// What to do on the command line, where the host has no advice of its own.
 fn options_for(error: &HostError) -> Option<String> {
     let help = match error {
+        HostError::ReplacesSource { .. } => "name another file, or use `--force` to replace it",
         HostError::FolderAsProgram(folder) => {
             return Some(format!(
                 "name its programs, or use `frictcomp check {}`, which searches folders",

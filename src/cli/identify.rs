@@ -83,7 +83,10 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
         .iter()
         .for_each(|path| ledger.reads("trace", path));
     let mut outputs = Outputs::new(&ledger, console);
-    let list = outputs.optional("--output", args.output.as_deref())?;
+    let list = args.output.as_deref();
+    let list = list
+        .map(|path| outputs.list("--output", path))
+        .transpose()?;
     let svg = outputs.optional("--svg", args.svg.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
     outputs.print("the result")?;

@@ -61,7 +61,7 @@ use code_page::{CodePage, Encoded};
 use console::{Color, Console, Written};
 use failure::Failure;
 
-use crate::host::{clean_up_when_stopped, survive_file_size_limit};
+use crate::host::{Replaces, clean_up_when_stopped, survive_file_size_limit};
 use crate::report::{visible, visible_line};
 
 /// Dry-run ISG and TwinCAT CNC programs and show, block by block, which axes have friction
@@ -77,6 +77,9 @@ struct Arguments {
     #[arg(long, global = true, value_name = "N", value_parser = settings::parse_width)]
     #[arg(help_heading = "Terminal")]
     width: Option<usize>,
+    /// Let an output take the place of a program, a list or frictcomp.toml
+    #[arg(long, global = true, help_heading = "Terminal")]
+    force: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -132,7 +135,9 @@ pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     survive_file_size_limit();
     clean_up_when_stopped(exit::FAILED);
-    let console = Console::new(arguments.color, arguments.width).writing(written);
+    let forced = arguments.force.then_some(Replaces::Anything);
+    let console = Console::new(arguments.color, arguments.width);
+    let console = console.writing(written).forcing(forced);
     dispatch(&arguments.command, console).unwrap_or_else(|failure| {
         console.explain(&failure);
         exit::FAILED

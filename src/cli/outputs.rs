@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::console::{Console, Target};
 use super::failure::Failure;
-use crate::host::{Ledger, OutputFile, OutputFiles, StateFile};
+use crate::host::{Ledger, OutputFile, OutputFiles, Replaces, StateFile};
 use crate::session::SavedState;
 use crate::text::shown_path;
 
@@ -43,7 +43,7 @@ impl Outputs {
                 Ok(self.console.stdout())
             }
             Some(path) => Ok(Target {
-                writer: Box::new(self.files.create("--output", path)?),
+                writer: Box::new(self.create("--output", path, Replaces::Results)?),
                 look: self.console.file_look(),
             }),
         }
@@ -55,11 +55,39 @@ impl Outputs {
         option: &'static str,
         path: &Path,
     ) -> Result<OutputFile, Failure> {
+        self.place(option, path, Replaces::Results)
+    }
+
+    /// The file of a value list.
+    pub(super) fn list(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+    ) -> Result<OutputFile, Failure> {
+        self.place(option, path, Replaces::Lists)
+    }
+
+    fn place(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+        replaces: Replaces,
+    ) -> Result<OutputFile, Failure> {
         if !is_stdout(path) {
-            return Ok(self.files.create(option, path)?);
+            return self.create(option, path, replaces);
         }
         self.print(option)?;
         Ok(OutputFile::open(path, self.console.stdout().writer))
+    }
+
+    fn create(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+        replaces: Replaces,
+    ) -> Result<OutputFile, Failure> {
+        let replaces = self.console.replaces(replaces);
+        Ok(self.files.create(option, path, replaces)?)
     }
 
     /// The same, where the option is given.
@@ -73,7 +101,8 @@ impl Outputs {
 
     /// Notes a file that will be written, before it is known with what.
     pub(super) fn claim(&mut self, option: &'static str, path: &Path) {
-        self.files.claim(option, path);
+        let replaces = self.console.replaces(Replaces::Results);
+        self.files.claim(option, path, replaces);
     }
 
     /// Notes the files that hold the state and its lock.

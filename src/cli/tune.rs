@@ -155,7 +155,10 @@ pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
     }
     let mut outputs = Outputs::new(&ledger, console);
     outputs.print("the result")?;
-    let list = outputs.optional("--output", args.output.as_deref())?;
+    let list = args.output.as_deref();
+    let list = list
+        .map(|path| outputs.list("--output", path))
+        .transpose()?;
     let axis_lists = match &args.output_dir {
         Some(folder) => axis_lists(folder, args, &mut outputs, &ledger)?,
         None => Vec::new(),
@@ -276,7 +279,7 @@ fn axis_lists(
         let found = same.or(linear.get(at));
         let name = found.map_or(axis.as_str(), |axis| &axis.name);
         Ok(AxisFile {
-            file: outputs.file("--output-dir", &folder.join(format!("{name}.lis")))?,
+            file: outputs.list("--output-dir", &folder.join(format!("{name}.lis")))?,
             name: name.to_owned(),
             number: found.and_then(|axis| axis.number),
         })

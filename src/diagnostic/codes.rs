@@ -61,6 +61,7 @@ codes! {
     PErr110592 "P-ERR-110592" Error "unknown mode or no table values";
     PErr110641 "P-ERR-110641" Error "max_points changed after the first load";
     Fc101 "FC101" Warning "character outside ASCII";
+    Fc102 "FC102" Warning "text shown in another order than it is read";
     Fc110 "FC110" Error "configuration not understood";
     Fc120 "FC120" Info "list without `Ende`";
     Fc121 "FC121" Warning "key given twice";

@@ -1,12 +1,13 @@
 //! Results of programs that were agreed on, each in a file beside its program.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::HostError;
 use super::figures::settled;
 use super::input::Input;
-use super::ledger::{Ledger, folder};
+use super::ledger::{Ledger, Replaces, folder};
 use super::open_text::OpenText;
 use super::outputs::OutputFiles;
 use super::read::read_bytes;
@@ -133,16 +134,12 @@ impl AgreedResults {
     ) -> Result<impl Iterator<Item = UpdatedFolder<'a, E>>, HostError> {
         let mut all = OutputFiles::new(ledger);
         for file in files {
-            all.claim(self.kind.writer, &file.path);
+            all.claim(self.kind.writer, &file.path, Replaces::Results);
         }
         all.check()?;
-        let mut folders: Vec<(&Path, Vec<&AgreedFile>)> = Vec::new();
+        let mut folders: BTreeMap<&Path, Vec<&AgreedFile>> = BTreeMap::new();
         for file in files {
-            let folder = folder(&file.path);
-            match folders.iter_mut().find(|(known, _)| *known == folder) {
-                Some((_, files)) => files.push(file),
-                None => folders.push((folder, vec![file])),
-            }
+            folders.entry(folder(&file.path)).or_default().push(file);
         }
         Ok(folders.into_iter().map(move |(folder, files)| {
             let mut updated = UpdatedFolder {
@@ -151,7 +148,7 @@ impl AgreedResults {
                 written: Vec::new(),
                 failures: Vec::new(),
             };
-            let mut outputs = OutputFiles::new(ledger);
+            let mut outputs = OutputFiles::part_of(&all);
             for file in files {
                 let done = now(&file.program).and_then(|now| {
                     self.write(file, now, &mut outputs)?;
@@ -179,7 +176,7 @@ impl AgreedResults {
         else {
             return Ok(());
         };
-        let mut output = outputs.create(self.kind.writer, &file.path)?;
+        let mut output = outputs.create(self.kind.writer, &file.path, Replaces::Results)?;
         let written = output.write_all(now.as_bytes());
         written.map_err(HostError::Output)?;
         output.sync()

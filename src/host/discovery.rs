@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::axes_ahead::{AxesAhead, may_be_axis};
 use super::disk::Disk;
 use super::error::HostError;
+use super::file_kind::CONFIG_NAME;
 use super::finder::Reach;
 use super::grounds::{Elsewhere, Grounds};
 use super::input::Input;
@@ -17,9 +18,6 @@ use crate::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownN
 use crate::lists::Parameter;
 use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
 use crate::text::shown_path;
-
-/// The name of the configuration file.
-pub const CONFIG_NAME: &str = "frictcomp.toml";
 
 /// Which configuration counts.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

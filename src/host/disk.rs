@@ -14,6 +14,9 @@ use super::paths::{Entry, normal, or_here};
 use super::read::read_bytes;
 use crate::text::{LineSource, TextLines, decode};
 
+/// More bytes than a list or a configuration has.
+const MOST_LIST: u64 = 64 << 20;
+
 /// The disk that a host reads from. By default it is that of the system.
 #[derive(Debug, Clone)]
 pub struct Disk(Kind);
@@ -133,6 +136,19 @@ impl Disk {
                 Entry::File | Entry::Special => io::ErrorKind::NotFound.into(),
             }),
         }
+    }
+
+    /// The text of a list or a configuration.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read); it is also refused where it is larger than any list (R9.94).
+    pub(super) fn read_list(&self, path: &Path) -> io::Result<String> {
+        let length = std::fs::metadata(path).map_or(0, |found| found.len());
+        if self.text(path).is_none() && length > MOST_LIST {
+            let reason = "it is larger than 64 MiB, which no list or configuration is";
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, reason));
+        }
+        self.read(path)
     }
 
     /// The one path of a file of the system that all its names lead to; that of a file which is not

@@ -125,6 +125,24 @@ pub enum HostError {
         /// The input.
         input: PathBuf,
     },
+    /// An output through a link to a file that users write.
+    #[error("`{output}` is a link to the {what} `{}`", shown_path(.target))]
+    LeadsToSource {
+        /// The output.
+        output: String,
+        /// The kind of file.
+        what: &'static str,
+        /// The file.
+        target: PathBuf,
+    },
+    /// An output in the place of a file that users write.
+    #[error("`{output}` would take the place of a {what}")]
+    ReplacesSource {
+        /// The output.
+        output: String,
+        /// The kind of file.
+        what: &'static str,
+    },
     /// A folder where the state is wanted.
     #[error("`{}` cannot hold a state: it is not a regular file", shown_path(.0))]
     StateNotRegular(PathBuf),
@@ -227,7 +245,9 @@ impl HostError {
             Self::NoAxis(unknown) => return unknown.help("its axes are"),
             Self::AxisNotNamed(unknown) => return unknown.help("they name"),
             Self::SameFile { .. } => "give each output its own file",
-            Self::Overwrites { .. } => "name another file for the output",
+            Self::Overwrites { .. } | Self::LeadsToSource { .. } => {
+                "name another file for the output"
+            }
             Self::StateInUse(_) => "wait until it has ended, or give each run a state file",
             Self::State { .. } => {
                 "name another file, or remove this one to begin from a start of the control"

@@ -9,6 +9,7 @@ use ignore::WalkBuilder;
 use super::discovery::relative;
 use super::disk::Disk;
 use super::error::HostError;
+use super::file_kind::is_list;
 use super::input::Input;
 use super::list_files::{ListsOnDisk, read_list};
 use super::paths::normal;
@@ -69,10 +70,7 @@ fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
         .build();
     for entry in walk.filter_map(Result::ok) {
         let path = entry.path();
-        let is_list = path
-            .extension()
-            .is_some_and(|it| it.eq_ignore_ascii_case("lis"));
-        if is_list
+        if is_list(path)
             && let Ok(list) = read_list(path, &disk)
             && check_list(list, None, &mut NoLists).kind == Some(ListKind::Startup)
         {

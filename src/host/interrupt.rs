@@ -3,11 +3,12 @@
 //! Signals belong to the process. A host that has a use of its own for them leaves them alone, and a
 //! later run takes the files away.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, Once, OnceLock, PoisonError};
 
 /// The files that are not whole yet. A handler of signals reaches nothing else.
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// The exit status of a process that is stopped, where the host wants its files taken away.
 static STATUS: OnceLock<u8> = OnceLock::new();
@@ -19,7 +20,7 @@ pub fn clean_up_when_stopped(status: u8) {
 }
 
 /// The unfinished files; nobody stops the run while this is held.
-pub(super) struct Unfinished(MutexGuard<'static, Vec<PathBuf>>);
+pub(super) struct Unfinished(MutexGuard<'static, BTreeSet<PathBuf>>);
 
 impl Unfinished {
     /// Waits until nobody else changes them.
@@ -37,17 +38,17 @@ impl Unfinished {
 
     /// A file that goes when the run is stopped.
     pub(super) fn add(&mut self, path: &Path) {
-        self.0.push(path.to_owned());
+        self.0.insert(path.to_owned());
     }
 
     /// A file that is whole, or gone.
     pub(super) fn forget(&mut self, path: &Path) {
-        self.0.retain(|other| other != path);
+        self.0.remove(path);
     }
 
     #[cfg(any(unix, windows))]
     fn take_away(&mut self) {
-        for path in self.0.drain(..) {
+        while let Some(path) = self.0.pop_first() {
             // What cannot be removed now, the next run takes away.
             let _ = std::fs::remove_file(path);
         }

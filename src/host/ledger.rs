@@ -1,4 +1,5 @@
-//! What is read and what is written, so that no output destroys an input (R9.70).
+//! What is read and what is written, so that no output destroys an input (R9.70), nor a program, a
+//! list or a configuration that this call does not read (R9.93).
 
 use std::collections::BTreeMap;
 use std::collections::hash_map::{Entry, HashMap};
@@ -7,12 +8,21 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::error::HostError;
+use super::file_kind::FileKind;
 use crate::text::shown_path;
 
 /// The files that a piece of work reads. Its copies are the same ledger: called programs are known only
 /// while others run already.
 #[derive(Debug, Clone, Default)]
-pub struct Ledger(Arc<Mutex<BTreeMap<PathBuf, &'static str>>>);
+pub struct Ledger(Arc<Mutex<Inputs>>);
+
+#[derive(Debug, Default)]
+struct Inputs {
+    /// Each file, and as what it is read.
+    files: BTreeMap<Arc<Path>, &'static str>,
+    /// The files in the order in which they became known.
+    order: Vec<Arc<Path>>,
+}
 
 /// What a program is noted as.
 pub(super) const PROGRAM: &str = "program";
@@ -24,11 +34,58 @@ pub(super) struct Claim {
     pub name: &'static str,
     /// The file.
     pub path: PathBuf,
+    /// What it may take the place of.
+    pub replaces: Replaces,
+}
+
+/// What an output may take the place of (R9.93).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Replaces {
+    /// Another result.
+    #[default]
+    Results,
+    /// Another result or a value list: the output is one.
+    Lists,
+    /// Whatever is no input of the same call.
+    Anything,
 }
 
 impl Claim {
     fn shown(&self) -> String {
         format!("{} {}", self.name, shown_path(&self.path))
+    }
+
+    /// Whether the output may be written where its name leads (R9.93).
+    fn check_place(&self) -> Result<(), HostError> {
+        let leads_to = std::fs::symlink_metadata(&self.path)
+            .is_ok_and(|found| found.is_symlink())
+            .then(|| self.path.canonicalize().ok())
+            .flatten();
+        if let Some(target) = leads_to
+            && let Some(what) = FileKind::of(&target)
+        {
+            return Err(HostError::LeadsToSource {
+                output: self.shown(),
+                what: what.as_str(),
+                target,
+            });
+        }
+        let is_allowed = |what| match self.replaces {
+            Replaces::Results => false,
+            Replaces::Lists => what == FileKind::List,
+            Replaces::Anything => true,
+        };
+        match FileKind::of(&self.path) {
+            Some(what)
+                if !is_allowed(what) && (what == FileKind::Configuration || self.path.exists()) =>
+            {
+                Err(HostError::ReplacesSource {
+                    output: self.shown(),
+                    what: what.as_str(),
+                })
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -36,17 +93,29 @@ impl Ledger {
     /// Notes a file that is read, and as what.
     pub fn reads(&self, what: &'static str, path: &Path) {
         let mut inputs = self.inputs();
-        if !inputs.contains_key(path) {
-            inputs.insert(path.to_owned(), what);
+        if !inputs.files.contains_key(path) {
+            let path: Arc<Path> = path.into();
+            inputs.files.insert(path.clone(), what);
+            inputs.order.push(path);
         }
     }
 
+    /// The number of files that are known.
+    pub(super) fn count(&self) -> usize {
+        self.inputs().order.len()
+    }
+
     /// Says which output is a file that is read, or another output; links, hard links and other
-    /// spellings included.
+    /// spellings included. The outputs were compared with the first `compared` files before.
     ///
     /// # Errors
     /// One is.
-    pub(super) fn check(&self, outputs: &[Claim]) -> Result<(), HostError> {
+    pub(super) fn check(&self, outputs: &[Claim], compared: usize) -> Result<(), HostError> {
+        self.compare(outputs, compared)?;
+        outputs.iter().try_for_each(Claim::check_place)
+    }
+
+    fn compare(&self, outputs: &[Claim], compared: usize) -> Result<(), HostError> {
         let mut written: HashMap<Identity, &Claim> = HashMap::new();
         for output in outputs {
             let Some(identity) = Identity::of_output(&output.path) else {
@@ -67,13 +136,14 @@ impl Ledger {
         if !written.keys().any(Identity::exists) {
             return Ok(());
         }
-        for (input, what) in self.inputs().iter() {
+        let inputs = self.inputs();
+        for input in inputs.order.iter().skip(compared) {
             let identity = Identity::of_file(input);
             if let Some(output) = identity.and_then(|identity| written.get(&identity)) {
                 return Err(HostError::Overwrites {
                     output: output.shown(),
-                    what,
-                    input: input.clone(),
+                    what: inputs.files.get(input).copied().unwrap_or_default(),
+                    input: input.to_path_buf(),
                 });
             }
         }
@@ -83,22 +153,23 @@ impl Ledger {
     /// The programs that were read.
     pub fn programs(&self) -> Vec<PathBuf> {
         let inputs = self.inputs();
-        let programs = inputs.iter().filter(|(_, what)| **what == PROGRAM);
-        programs.map(|(path, _)| path.clone()).collect()
+        let programs = inputs.files.iter().filter(|(_, what)| **what == PROGRAM);
+        programs.map(|(path, _)| path.to_path_buf()).collect()
     }
 
     /// All files that were read.
     pub fn files(&self) -> Vec<PathBuf> {
-        self.inputs().keys().cloned().collect()
+        let inputs = self.inputs();
+        inputs.files.keys().map(|path| path.to_path_buf()).collect()
     }
 
     /// Whether a program came from where it cannot be read again.
     pub fn has_streams(&self) -> bool {
         let inputs = self.inputs();
-        inputs.keys().any(|path| !path.is_file())
+        inputs.order.iter().any(|path| !path.is_file())
     }
 
-    fn inputs(&self) -> MutexGuard<'_, BTreeMap<PathBuf, &'static str>> {
+    fn inputs(&self) -> MutexGuard<'_, Inputs> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -185,9 +256,10 @@ mod tests {
         let claim = |path: &&Path| Claim {
             name: "-o",
             path: path.to_path_buf(),
+            replaces: Replaces::default(),
         };
         let outputs: Vec<Claim> = outputs.iter().map(claim).collect();
-        let refused = ledger.check(&outputs).err();
+        let refused = ledger.check(&outputs, 0).err();
         refused.map(|error| error.to_string())
     }
 

@@ -25,7 +25,7 @@ impl ListFiles for ListsOnDisk {
         let path = Path::new(path);
         let spelt = as_spelt(path, &self.0);
         let found = spelt.as_deref().unwrap_or(path);
-        match self.0.read(found) {
+        match self.0.read_list(found) {
             Ok(text) => Ok(SourceFile::new(shown_path(found), text)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Err(NoList::Missing),
             Err(error) => Err(NoList::Unreadable(error.to_string())),
@@ -52,7 +52,7 @@ impl ListFiles for ListsOnDisk {
 /// # Errors
 /// It does not exist, cannot be read, is a folder, or is too big to be kept.
 pub fn read_list(path: &Path, disk: &Disk) -> Result<SourceFile, HostError> {
-    let text = disk.read(path).map_err(|error| match error.kind() {
+    let text = disk.read_list(path).map_err(|error| match error.kind() {
         io::ErrorKind::IsADirectory => HostError::FolderAsList(path.to_owned()),
         _ => HostError::read(path, error),
     })?;

@@ -19,6 +19,7 @@ mod disk;
 mod dry_run;
 mod error;
 mod figures;
+mod file_kind;
 mod finder;
 mod first_look;
 mod grounds;
@@ -51,21 +52,20 @@ mod workers;
 pub use agreed::{AgreedDrift, AgreedFile, AgreedKind, AgreedResults, UpdatedFolder};
 pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
 pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
-pub use discovery::{
-    CONFIG_NAME, ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config,
-};
+pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
 pub use disk::Disk;
 pub use dry_run::{
     Alone, Axes, Played, Programs, Surroundings, expect_axes, open_session, run_alone, run_program,
     run_programs,
 };
 pub use error::HostError;
+pub use file_kind::{CONFIG_NAME, is_program};
 pub use finder::{ProgramFinder, Reach};
 pub use first_look::{outline_of, write_new};
 pub use grounds::{Elsewhere, Grounds};
 pub use input::{Input, Naming, reopen};
 pub use interrupt::{clean_up_when_stopped, survive_file_size_limit};
-pub use ledger::Ledger;
+pub use ledger::{Ledger, Replaces};
 pub use list_files::{ListsOnDisk, read_list};
 pub use memory::memory_for_simulation;
 pub use mend::{MendedFile, mend, write_mended};
@@ -79,7 +79,7 @@ pub use switched_axes::switched_axes;
 pub use trace_error::TraceError;
 pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace};
 pub use unread::{UnreadVariable, unread_variables};
-pub use walk::{FoundPrograms, find_programs, is_program};
+pub use walk::{FoundPrograms, find_programs};
 pub use watch::{Done, Progress, Watch, Watcher};
 pub use workers::{in_order, processors};
 

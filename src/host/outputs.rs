@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::error::HostError;
-use super::ledger::{Claim, Ledger};
+use super::ledger::{Claim, Ledger, Replaces};
 use super::unfinished::{UnfinishedFile, take_away_left};
 use crate::text::shown_path;
 
@@ -18,6 +18,8 @@ pub struct OutputFiles {
     ledger: Ledger,
     claims: Vec<Claim>,
     open: Vec<OutputFile>,
+    /// The number of inputs that the claims were compared with before.
+    compared: usize,
     /// Folders from which the leavings of killed runs are gone.
     swept: BTreeSet<PathBuf>,
 }
@@ -52,7 +54,16 @@ impl OutputFiles {
             ledger: ledger.clone(),
             claims: Vec::new(),
             open: Vec::new(),
+            compared: 0,
             swept: BTreeSet::new(),
+        }
+    }
+
+    /// Some of the outputs of other work, which has compared them with all inputs that are known.
+    pub(super) fn part_of(whole: &Self) -> Self {
+        Self {
+            compared: whole.ledger.count(),
+            ..Self::new(&whole.ledger)
         }
     }
 
@@ -61,21 +72,27 @@ impl OutputFiles {
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn create(&mut self, name: &'static str, path: &Path) -> Result<OutputFile, HostError> {
+    pub fn create(
+        &mut self,
+        name: &'static str,
+        path: &Path,
+        replaces: Replaces,
+    ) -> Result<OutputFile, HostError> {
         if is_device(path) {
             let file = std::fs::File::options().append(true).open(path);
             let file = file.map_err(|error| HostError::write(path, error))?;
             return Ok(self.keep(path, Place::Open(Box::new(file))));
         }
-        self.claim(name, path);
+        self.claim(name, path, replaces);
         self.begin(path)
     }
 
     /// Notes a file that will be written, before it is known with what.
-    pub fn claim(&mut self, name: &'static str, path: &Path) {
+    pub fn claim(&mut self, name: &'static str, path: &Path, replaces: Replaces) {
         self.claims.push(Claim {
             name,
             path: path.to_owned(),
+            replaces,
         });
     }
 
@@ -94,7 +111,7 @@ impl OutputFiles {
     /// # Errors
     /// An output is an input or another output.
     pub fn check(&self) -> Result<(), HostError> {
-        self.ledger.check(&self.claims)
+        self.ledger.check(&self.claims, self.compared)
     }
 
     /// Everything is written: every file takes its place, and `placed` hears of each.
@@ -106,7 +123,7 @@ impl OutputFiles {
             file.sync()?;
         }
         // What the programs called is known now.
-        self.ledger.check(&self.claims)?;
+        self.ledger.check(&self.claims, self.compared)?;
         // All take their place, or none.
         for file in &self.open {
             if let Place::Beside(beside) = &*file.place() {

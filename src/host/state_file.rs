@@ -41,6 +41,8 @@ pub struct StateFile {
     path: PathBuf,
     /// Holds the lock; the file itself stays, since removing it would let two runs lock two files.
     _lock: File,
+    /// The file of the lock, where this run made it.
+    made: Option<PathBuf>,
 }
 
 impl StateFile {
@@ -68,6 +70,7 @@ impl StateFile {
             }
         }
         let path = path.to_owned();
+        let made = (!beside.exists()).then(|| beside.clone());
         let lock = File::options()
             .create(true)
             .truncate(false)
@@ -77,7 +80,13 @@ impl StateFile {
         let start = Instant::now();
         loop {
             match lock.try_lock() {
-                Ok(()) => return Ok(Self { path, _lock: lock }),
+                Ok(()) => {
+                    return Ok(Self {
+                        path,
+                        _lock: lock,
+                        made,
+                    });
+                }
                 Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
                     std::thread::sleep(PAUSE);
                 }
@@ -103,7 +112,7 @@ impl StateFile {
             Err(HostError::Read { reason, .. }) if reason.kind() == io::ErrorKind::NotFound => {
                 Ok(None)
             }
-            read => read.map(Some),
+            read => read.map(Some).inspect_err(|_| self.take_away_lock()),
         }
     }
 
@@ -130,7 +139,16 @@ impl StateFile {
 
     /// The error for a state that the session does not take. The file stays as it is.
     pub fn refused(&self, error: &StateError) -> HostError {
+        self.take_away_lock();
         unusable(&self.path, &error.to_string())
+    }
+
+    /// Leaves nothing beside a file that was refused (R9.94). Whoever waits for the lock refuses it,
+    /// too.
+    fn take_away_lock(&self) {
+        if let Some(made) = &self.made {
+            let _ = std::fs::remove_file(made);
+        }
     }
 
     /// Replaces the state when the outputs take their place. Whenever the tool is killed, the old or
@@ -233,6 +251,8 @@ mod tests {
         let error = StateFile::lock(&path).unwrap().load().unwrap_err();
         assert!(error.to_string().contains("damaged"), "{error}");
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "{\"schema\":");
+        // R9.94
+        assert!(!StateFile::lock_path(&path).exists());
     }
 
     #[test]

@@ -6,10 +6,8 @@ use std::path::{Path, PathBuf};
 use ignore::WalkBuilder;
 
 use super::error::HostError;
+use super::file_kind::{EXTENSIONS, has_extension};
 use super::input::Input;
-
-/// Extensions of NC programs, in lower case.
-const EXTENSIONS: [&str; 9] = ["nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap"];
 
 /// What was found below the paths.
 #[derive(Debug, Default)]
@@ -80,23 +78,6 @@ impl FoundPrograms {
             });
         }
     }
-}
-
-/// Whether a file of a folder is a program by its name; `extensions` are those that the configuration of
-/// the folder names.
-pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
-    match extensions {
-        Some(extensions) => has_extension(path, extensions),
-        None => has_extension(path, &EXTENSIONS),
-    }
-}
-
-fn has_extension(path: &Path, extensions: &[impl AsRef<str>]) -> bool {
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    extension.is_some_and(|extension| {
-        let mut known = extensions.iter();
-        known.any(|known| known.as_ref().eq_ignore_ascii_case(extension))
-    })
 }
 
 /// `./a.nc` is `a.nc`.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::value::{Given, Number, Written};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::text::{Place, SourceFile, Span};
+use crate::text::{Place, SourceFile, Span, changed_direction};
 
 /// What a text that holds `(` is put between; printed samples have the slanted ones (TF5200 Channel
 /// parameters, comments in the ASCII list file).
@@ -275,6 +275,7 @@ impl Reader<'_> {
         let mut ended = false;
         for number in 1..=count {
             let span = lines.line_span(text, number);
+            self.look_at(span);
             match self.line(span) {
                 Line::Blank => {}
                 Line::End => {
@@ -298,6 +299,16 @@ impl Reader<'_> {
             self.diagnostics.push(diagnostic);
         }
         ended
+    }
+
+    /// FC102 for characters that change the order in which a line is shown (R9.94).
+    fn look_at(&mut self, line: Span) {
+        if let Some((span, message)) = changed_direction(line.of(self.source.text())) {
+            let place = self.source.place(span.shifted(line.start));
+            let said = Diagnostic::new(Code::Fc102, place, message);
+            self.diagnostics
+                .push(said.with_help("delete these characters"));
+        }
     }
 
     /// FC124 for a line that is no entry.

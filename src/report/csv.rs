@@ -208,10 +208,11 @@ fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
 }
 
 /// Appends a text as a field, quoted where it must be. Hidden characters have pictures; a text that
-/// a spreadsheet would compute gets a `'` before it, which makes it a text there (R9.76).
+/// a spreadsheet would compute, once it has passed over what it takes for blanks, gets a `'` before it,
+/// which makes it a text there (R9.76, R9.94).
 pub(super) fn field(out: &mut Vec<u8>, text: &str) {
     let is_special = |byte: u8| !(0x20..0x7f).contains(&byte) || matches!(byte, b',' | b'"');
-    let computes = text.starts_with(['=', '+', '-', '@']);
+    let computes = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if !computes && !any_byte(text.as_bytes(), is_special) {
         out.extend_from_slice(text.as_bytes());
         return;

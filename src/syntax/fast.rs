@@ -142,6 +142,10 @@ fn span(start: usize, end: usize) -> Span {
 fn comment(bytes: &[u8], start: usize) -> Option<usize> {
     let rest = &bytes[start..];
     let line_end = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
+    // Characters that change the direction of a text begin with one of these (R9.94).
+    if memchr::memchr2(0xd8, 0xe2, &rest[..line_end]).is_some() {
+        return None;
+    }
     match rest[0] {
         b';' => Some(start + line_end),
         b'(' => {

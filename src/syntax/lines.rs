@@ -12,7 +12,7 @@ use super::raw::{Comments, LostRemarks, MAX_LINE, RawBlock, Stretch};
 use super::remarks::Remarks;
 use super::{fast, lower};
 use crate::diagnostic::{Code, Severity};
-use crate::text::{LineSource, Span};
+use crate::text::{LineSource, Span, changed_direction};
 
 /// Bytes that one continued block, or one `#VAR` region, may have. The documents state no bound;
 /// without one a damaged file would be read into memory whole.
@@ -127,6 +127,7 @@ impl<S: LineSource> BlockReader<S> {
             if self.text.contains(MARK) {
                 self.remarks.take(&self.text, self.line);
             }
+            self.remarks.look_at(&self.text, self.line);
             if !masked.continues {
                 return None;
             }
@@ -136,6 +137,7 @@ impl<S: LineSource> BlockReader<S> {
             block
                 .faults
                 .extend(masked.foreign.map(|span| outside_ascii(span, &self.text)));
+            block.faults.extend(reordered(&self.text));
             return Some(stretch);
         }
         let mut foreign = masked.foreign;
@@ -170,6 +172,7 @@ impl<S: LineSource> BlockReader<S> {
         block
             .faults
             .extend(foreign.map(|span| outside_ascii(span, &self.text)));
+        block.faults.extend(reordered(&self.text));
         lower::block(&self.code, block);
         block.faults.sort_by_key(|fault| fault.span.start);
         cap_faults(&mut block.faults);
@@ -238,7 +241,9 @@ impl<S: LineSource> BlockReader<S> {
         while self.source.advance() {
             self.line += 1;
             self.code.clear();
-            mask(self.source.line().text, &mut self.code);
+            let line = trimmed(self.source.line().text);
+            self.remarks.look_at(line, self.line);
+            mask(line, &mut self.code);
             if hash_word(&self.code).is_some_and(|word| word == "#COMMENT END") {
                 return;
             }
@@ -282,6 +287,12 @@ impl<S: LineSource> BlockReader<S> {
     }
 }
 
+/// FC102: characters that change the order in which a line is shown (R9.94).
+fn reordered(text: &str) -> Option<Fault> {
+    let (span, message) = changed_direction(text)?;
+    Some(Fault::new(Code::Fc102, span, message).with_help("delete these characters"))
+}
+
 /// FC101: a character that programs have only in comments and strings.
 fn outside_ascii(span: Span, text: &str) -> Fault {
     let found = span.of(text);
@@ -290,6 +301,14 @@ fn outside_ascii(span: Span, text: &str) -> Fault {
         || found.to_owned(),
         |letter| format!("U+{:04X}", u32::from(letter)),
     );
+    if let Some(control) = found.chars().next().filter(char::is_ascii) {
+        let message = format!(
+            "`U+{:04X}` is a control character within a block",
+            u32::from(control)
+        );
+        let fault = Fault::new(Code::Fc101, span, message);
+        return fault.with_help("delete it, or write a blank in its place");
+    }
     let message =
         format!("`{shown}` is outside ASCII; programs are ASCII except in comments and strings");
     let fault = Fault::new(Code::Fc101, span, message);

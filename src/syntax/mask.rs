@@ -8,7 +8,7 @@ use crate::text::Span;
 pub(super) struct Masked {
     /// A `\` stands at the end of the code.
     pub(super) continues: bool,
-    /// The first character outside ASCII that stands in code.
+    /// The first character outside ASCII, or control character, that stands in code.
     pub(super) foreign: Option<Span>,
 }
 
@@ -16,6 +16,7 @@ pub(super) struct Masked {
 pub(super) fn mask(line: &str, code: &mut String) -> Masked {
     let from = code.len();
     let bytes = line.as_bytes();
+    let trailing = line.trim_end_matches(is_blank).len();
     let mut masked = Masked::default();
     let mut at = 0;
     while at < bytes.len() {
@@ -34,7 +35,7 @@ pub(super) fn mask(line: &str, code: &mut String) -> Masked {
                 blank(code, end - at);
                 at = end;
             }
-            byte if byte.is_ascii() => {
+            byte if byte.is_ascii() && (at >= trailing || !is_control(byte)) => {
                 let end = at + 1 + code_length(&bytes[at + 1..]);
                 code.push_str(&line[at..end]);
                 at = end;
@@ -88,9 +89,15 @@ pub(super) fn is_blank(c: char) -> bool {
     c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
 }
 
-/// How many bytes stand in front of a text, a comment or a foreign character.
+/// A control character that editors leave at the end of a file; within a block it is none of the
+/// language (R2.1, R9.94).
+fn is_control(byte: u8) -> bool {
+    matches!(byte, 0 | 3 | 0x1a)
+}
+
+/// How many bytes stand in front of a text, a comment, a foreign or a control character.
 fn code_length(bytes: &[u8]) -> usize {
-    let ends = |byte: &u8| matches!(byte, b'"' | b';' | b'(' | 0x80..);
+    let ends = |byte: &u8| is_control(*byte) || matches!(byte, b'"' | b';' | b'(' | 0x80..);
     bytes.iter().position(ends).unwrap_or(bytes.len())
 }
 

@@ -83,6 +83,10 @@ pub struct LostRemarks {
     pub remarks: Vec<Remark>,
     /// How many more there are.
     pub more: u64,
+    /// Lines outside blocks whose characters may be shown in another order than they are read.
+    pub reordered: Vec<Remark>,
+    /// The number of such lines beyond those.
+    pub more_reordered: u64,
 }
 
 /// Whether comments stand in a text.

@@ -2,6 +2,7 @@
 
 use super::raw::{LostRemarks, Remark};
 use crate::diagnostic::MAX_MESSAGES;
+use crate::text::changed_direction;
 
 /// Bytes that lines one above the other may have together.
 const MAX_BYTES: usize = 1 << 16;
@@ -31,6 +32,19 @@ impl Remarks {
             self.is_heard = false;
         }
         self.last = line;
+    }
+
+    /// Takes a line outside blocks, whatever it speaks of.
+    pub(super) fn look_at(&mut self, text: &str, line: u32) {
+        if changed_direction(text).is_none() {
+            return;
+        }
+        if self.lost.reordered.len() <= MAX_MESSAGES {
+            let text = text.to_owned();
+            self.lost.reordered.push(Remark { text, line });
+        } else {
+            self.lost.more_reordered += 1;
+        }
     }
 
     /// What stands directly above a block that begins on a line.

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
+use super::span::Span;
+
 /// Whether a character is a control character or one that changes how its neighbours are read, or
 /// that nobody sees: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
 /// characters without width, and what is no character.
@@ -21,6 +23,42 @@ pub(crate) fn is_hidden(letter: char) -> bool {
             | '\u{fff0}'..='\u{fffb}'
             | '\u{e0000}'..='\u{e007f}'
     ) || u32::from(letter) & 0xfffe == 0xfffe
+}
+
+/// The characters that change the direction of a text, with their names in Unicode.
+const BIDIRECTIONAL: [(char, &str); 12] = [
+    ('\u{61c}', "ARABIC LETTER MARK"),
+    ('\u{200e}', "LEFT-TO-RIGHT MARK"),
+    ('\u{200f}', "RIGHT-TO-LEFT MARK"),
+    ('\u{202a}', "LEFT-TO-RIGHT EMBEDDING"),
+    ('\u{202b}', "RIGHT-TO-LEFT EMBEDDING"),
+    ('\u{202c}', "POP DIRECTIONAL FORMATTING"),
+    ('\u{202d}', "LEFT-TO-RIGHT OVERRIDE"),
+    ('\u{202e}', "RIGHT-TO-LEFT OVERRIDE"),
+    ('\u{2066}', "LEFT-TO-RIGHT ISOLATE"),
+    ('\u{2067}', "RIGHT-TO-LEFT ISOLATE"),
+    ('\u{2068}', "FIRST STRONG ISOLATE"),
+    ('\u{2069}', "POP DIRECTIONAL ISOLATE"),
+];
+
+/// Where a text holds characters that change its direction, and a sentence that names them (R9.94).
+pub(crate) fn changed_direction(text: &str) -> Option<(Span, String)> {
+    if text.is_ascii() {
+        return None;
+    }
+    let is_meant = |letter: char| BIDIRECTIONAL.iter().any(|(it, _)| *it == letter);
+    let first = text.find(is_meant)?;
+    let last = text.rfind(is_meant)?;
+    let end = last + text[last..].chars().next().map_or(0, char::len_utf8);
+    let found = BIDIRECTIONAL.iter().filter(|(it, _)| text.contains(*it));
+    let names: Vec<String> = found
+        .map(|(letter, name)| format!("`U+{:04X} {name}`", u32::from(*letter)))
+        .collect();
+    let sentence = format!(
+        "the line contains {}; on the screen its characters may stand in another order than the control reads",
+        names.join(", ")
+    );
+    Some((Span::new(first, end), sentence))
 }
 
 /// A JSON document of another writer, in which hidden characters stand only within texts, with

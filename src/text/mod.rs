@@ -25,10 +25,10 @@ pub(crate) use decode::{decode_lines, wide};
 #[cfg(any(feature = "report", feature = "host"))]
 pub use encoded::{EncodedText, NotEncodable};
 pub use file::SourceFile;
-#[cfg(feature = "report")]
-pub(crate) use hidden::is_hidden;
 #[cfg(any(feature = "report", feature = "host"))]
 pub(crate) use hidden::shown_json;
+#[cfg(feature = "report")]
+pub(crate) use hidden::{changed_direction, is_hidden};
 pub use index::{LineIndex, Utf16Position};
 #[cfg(feature = "host")]
 pub(crate) use lines::line_end;

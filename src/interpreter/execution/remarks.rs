@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Collected};
+use crate::diagnostic::{Code, Collected, Diagnostic};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::syntax::{LostRemarks, Remark, allow};
-use crate::text::Place;
+use crate::text::{Place, changed_direction};
 
 impl Interpreter {
     /// What there is to say about the `%` lines of the main file; about such comments in all files,
@@ -36,7 +36,7 @@ impl Interpreter {
     }
 }
 
-/// FC490 or FC491 for each comment down to a line.
+/// FC490 or FC491 for each comment, and FC102 for each line, down to a line.
 fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected) {
     let lines = lost.remarks.iter().flat_map(Remark::lines);
     for (text, line) in lines.take_while(|(_, line)| *line <= until) {
@@ -50,6 +50,21 @@ fn gather(file: &Arc<str>, lost: &LostRemarks, until: u32, said: &mut Collected)
             span: fault.span,
         };
         said.push(fault.into_diagnostic(place, |_| None));
+    }
+    for line in lost.reordered.iter().take_while(|it| it.line <= until) {
+        if let Some((span, message)) = changed_direction(&line.text) {
+            let place = Place {
+                file: file.clone(),
+                text: line.text.as_str().into(),
+                first_line: line.line,
+                span,
+            };
+            let found = Diagnostic::new(Code::Fc102, place, message);
+            said.push(found.with_help("delete these characters"));
+        }
+    }
+    if lost.more_reordered > 0 && until == u32::MAX {
+        *said.unsaid.entry(Code::Fc102).or_default() += lost.more_reordered;
     }
     if lost.more > 0 && until == u32::MAX {
         *said.unsaid.entry(Code::Fc490).or_default() += lost.more;

@@ -1,0 +1,65 @@
+//! What the name of a file says about it: a program, a list, a configuration.
+
+use std::path::Path;
+
+/// The name of a configuration.
+pub const CONFIG_NAME: &str = "frictcomp.toml";
+
+/// Extensions of NC programs, in lower case.
+pub(super) const EXTENSIONS: [&str; 9] =
+    ["nc", "cnc", "mpf", "spf", "sub", "cyc", "iso", "ngc", "tap"];
+
+/// A kind of file that users write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FileKind {
+    Program,
+    List,
+    Configuration,
+}
+
+impl FileKind {
+    /// The kind of a file by its name.
+    pub(super) fn of(path: &Path) -> Option<Self> {
+        let name = path.file_name()?;
+        if name.eq_ignore_ascii_case(CONFIG_NAME) {
+            Some(Self::Configuration)
+        } else if is_program(path, None) {
+            Some(Self::Program)
+        } else if is_list(path) {
+            Some(Self::List)
+        } else {
+            None
+        }
+    }
+
+    /// What it is called in errors.
+    pub(super) fn as_str(self) -> &'static str {
+        match self {
+            Self::Program => "program",
+            Self::List => "list",
+            Self::Configuration => "configuration",
+        }
+    }
+}
+
+/// Whether a file of a folder is a program by its name; `extensions` are those that the configuration of
+/// the folder names.
+pub fn is_program(path: &Path, extensions: Option<&[String]>) -> bool {
+    match extensions {
+        Some(extensions) => has_extension(path, extensions),
+        None => has_extension(path, &EXTENSIONS),
+    }
+}
+
+/// Whether a file is a list of the control by its name.
+pub(super) fn is_list(path: &Path) -> bool {
+    has_extension(path, &["lis"])
+}
+
+pub(super) fn has_extension(path: &Path, extensions: &[impl AsRef<str>]) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.is_some_and(|extension| {
+        let mut known = extensions.iter();
+        known.any(|known| known.as_ref().eq_ignore_ascii_case(extension))
+    })
+}

@@ -74,3 +74,14 @@ fn other_editors_start_the_same_server_for_the_same_files() {
         assert!(endings.contains(&format!("\".{ending}\"")), "{ending}");
     }
 }
+
+#[test]
+fn a_folder_that_is_not_trusted_chooses_no_program() {
+    // R12.8
+    let manifest = manifest();
+    let settings = &manifest["contributes"]["configuration"]["properties"];
+    assert_eq!(settings["frictcomp.path"]["scope"], "machine");
+    let untrusted = &manifest["capabilities"]["untrustedWorkspaces"];
+    assert_eq!(untrusted["supported"], "limited");
+    assert_eq!(untrusted["restrictedConfigurations"][0], "frictcomp.path");
+}

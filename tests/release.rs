@@ -84,3 +84,20 @@ fn a_release_is_made_by_the_script_alone() {
         assert!(script.contains(content), "{content}");
     }
 }
+
+#[test]
+fn what_a_workflow_runs_is_named_by_its_content() {
+    // R13.6: a tag of somebody else's action can be moved, a commit cannot.
+    for name in ["ci.yml", "release.yml"] {
+        let workflow = read(&format!(".github/workflows/{name}"));
+        let actions = workflow
+            .lines()
+            .filter_map(|line| line.split_once("uses: "));
+        for (_, action) in actions.filter(|(_, action)| !action.starts_with("./")) {
+            let (_, version) = action.split_once('@').expect("a version");
+            let commit = version.split(' ').next().expect("a commit");
+            let is_commit = commit.len() == 40 && commit.bytes().all(|it| it.is_ascii_hexdigit());
+            assert!(is_commit, "{name}: {action}");
+        }
+    }
+}

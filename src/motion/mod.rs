@@ -26,7 +26,7 @@ mod trace;
 
 pub use crate::interpreter::{PositionFrame, Simplification, Simplifications};
 pub use cycle::{CycleError, check_cycle};
-pub use limits::{Assumed, AxisLimits};
+pub use limits::{Assumed, AssumedLimits, AxisLimits, without_assumed_limits};
 pub use planner::{PlannerOptions, TrajectoryPlanner};
 pub use program::ProgramTrace;
 pub use trace::{Cause, Movement, Sample, SkippedMotion, TraceSink};

@@ -20,6 +20,7 @@ mod gitlab;
 pub mod html;
 pub mod identify;
 mod json;
+mod limits;
 #[cfg(feature = "cli")]
 mod listeners;
 mod listing;
@@ -54,6 +55,7 @@ pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
 pub use json::Json;
 #[cfg(feature = "cli")]
 pub(crate) use listeners::{Listeners, SharedReport};
+pub use limits::assumed_limits;
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;

@@ -31,7 +31,7 @@ mod version;
 
 pub use compare::{Agreement, Paired, VersionComparison, Which};
 pub use contour::{
-    BlockChange, ContourAgreement, ContourComparison, ContourObstacle, VersionContour,
+    BlockChange, ContourAgreement, ContourComparison, VersionContour,
 };
 pub use obstacle::{Obstacle, Reason};
 pub use switch::Switch;

@@ -131,7 +131,10 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
              X0,Y0` where the axes stand",
         );
     }
-    remarks.iter().chain(&exceeded).for_each(|line| Console::talk(line));
+    remarks
+        .iter()
+        .chain(&exceeded)
+        .for_each(|line| Console::talk(line));
     args.machine.say_unread(&ledger, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
     Ok(if failed || !exceeded.is_empty() {
@@ -167,7 +170,7 @@ impl Pictures {
             return Ok(());
         };
         if let Some(svg) = &mut self.svg {
-            let chart = picture.clone().chart(&subject.program);
+            let chart = picture.clone().chart(&subject.heading(contour));
             write_text(svg, &chart.render(Frame::Alone))?;
         }
         if let Some(html) = &mut self.html {

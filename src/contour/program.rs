@@ -447,7 +447,8 @@ impl<S: ContourSink> Tracer<S> {
         if counts {
             let all = self.deviations.each_mut().into_iter().zip(deviation_um);
             all.for_each(|(deviations, deviation)| deviations.push(deviation, &cycle.cause));
-            self.due.push([deviation_um[0], deviation_um[1]], &cycle.cause);
+            self.due
+                .push([deviation_um[0], deviation_um[1]], &cycle.cause);
             for axis in 2..count {
                 let beside = |run: usize| distances[run].error[axis] * UM_PER_MM;
                 self.due.push([beside(0), beside(1)], &cycle.cause);

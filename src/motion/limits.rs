@@ -101,7 +101,7 @@ const BEYOND: f64 = 1e6;
 
 /// The same machine with bounds far beyond any motion in place of the assumed ones: what is slow on
 /// it is slow for another reason (R11.23). `None` where nothing is assumed.
-pub fn without_assumed_limits(machine: &Machine) -> Option<Machine> {
+pub(crate) fn without_assumed_limits(machine: &Machine) -> Option<Machine> {
     machine.axes.iter().find_map(AssumedLimits::of)?;
     let mut machine = machine.clone();
     for axis in &mut machine.axes {

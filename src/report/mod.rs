@@ -53,9 +53,9 @@ pub use csv::{Csv, Positions};
 pub(crate) use diagnostics::wrap;
 pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
 pub use json::Json;
+pub use limits::assumed_limits;
 #[cfg(feature = "cli")]
 pub(crate) use listeners::{Listeners, SharedReport};
-pub use limits::assumed_limits;
 pub use listing::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;

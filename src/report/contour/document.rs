@@ -52,7 +52,10 @@ fn axis_record(counted: &ContourSummary, options: &ContourOptions) -> Value {
             ListSource::Plant => "plant".into(),
         };
         axis["newtons_per_unit"] = rounded(driven.newtons_per_unit(), 6).into();
-        axis["list_to_friction"] = fit.and_then(|fit| fit.share()).map(|it| rounded(it, 3)).into();
+        axis["list_to_friction"] = fit
+            .and_then(|fit| fit.share())
+            .map(|it| rounded(it, 3))
+            .into();
         axis["belongs"] = fit.is_none_or(|fit| fit.belongs()).into();
     }
     axis

@@ -2,7 +2,7 @@
 
 mod agreed;
 mod document;
-mod places;
+pub(in crate::report) mod places;
 mod recorder;
 mod records;
 mod remarks;
@@ -11,6 +11,6 @@ mod text;
 pub use agreed::{AgreedContour, render_agreed};
 pub use document::{document, summary_record};
 pub use recorder::ContourRecorder;
-pub use remarks::{contour_remarks, exceeded};
 pub use records::{CSV_HEADER, csv_row, reversal_record};
+pub use remarks::{contour_remarks, exceeded};
 pub use text::{ContourSubject, render_text};

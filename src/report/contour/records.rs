@@ -68,7 +68,9 @@ pub fn csv_row(reversal: &ContourReversal, names: &[String]) -> String {
         rounded(glitch.programmed, 3).to_string(),
         rounded(glitch.all_on, 3).to_string(),
         rounded(glitch.all_off, 3).to_string(),
-        reversal.programmed_mm_per_min.map_or(String::new(), |feed| rounded(feed, 3).to_string()),
+        reversal
+            .programmed_mm_per_min
+            .map_or(String::new(), |feed| rounded(feed, 3).to_string()),
     ];
     let mut row = Vec::new();
     for (at, text) in fields.iter().enumerate() {

@@ -5,9 +5,7 @@ use std::fmt::Write as _;
 use super::places::Block;
 use super::recorder::ContourRecorder;
 use super::remarks::{compensation, contour_remarks, not_judged};
-use crate::contour::{
-    ContourReversal, ContourSink, ContourSummary, Deviations, ProgramContour,
-};
+use crate::contour::{ContourReversal, ContourSink, ContourSummary, Deviations, ProgramContour};
 use crate::motion::Cause;
 use crate::report::visible::visible_line;
 
@@ -18,6 +16,17 @@ pub struct ContourSubject {
     pub program: String,
     /// The plant.
     pub plant: String,
+}
+
+impl ContourSubject {
+    /// The program, and whether its contour is judged.
+    pub fn heading<S: ContourSink>(&self, contour: &ProgramContour<S>) -> String {
+        if contour.obstacles().is_empty() {
+            self.program.clone()
+        } else {
+            format!("{}, not judged", self.program)
+        }
+    }
 }
 
 /// The figures of the three runs, a sentence for each axis, the worst reversals, and what is not
@@ -112,7 +121,10 @@ fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
     row("root mean square", runs.map(Deviations::rms_um));
     out.push('\n');
     for (name, at) in [
-        ("largest deviation", runs.map(|run| run.max_at().map(|at| &**at))),
+        (
+            "largest deviation",
+            runs.map(|run| run.max_at().map(|at| &**at)),
+        ),
         ("outermost", runs.map(|run| run.outermost_at.as_deref())),
         ("innermost", runs.map(|run| run.innermost_at.as_deref())),
     ] {

@@ -94,7 +94,7 @@ fn a_feed_that_assumed_limits_do_not_reach_is_not_judged() {
     assert!(number(&feed["slow_share_assumed"]) > 0.9, "{feed}");
     let assumed = found["assumed_limits"].as_array().expect("limits");
     assert_eq!(assumed.len(), 2, "{assumed:?}");
-    assert_eq!(number(&assumed[1]["max_jerk"]), 20.0);
+    assert_eq!(assumed[1]["max_jerk"], 20.0);
     // The other limit is no better.
     let (status, ..) = contour(&bench, &["--fail-above-due", "500"]);
     assert_eq!(status, Some(1));
@@ -335,7 +335,7 @@ fn the_list_reaches_the_drive_as_the_control_scales_it() {
             .reversals
             .iter()
             .filter(|it| it.axis == "X" && it.line == 5);
-        of_x.map(|it| it.glitch_um).last().expect("a reversal")
+        of_x.map(|it| it.glitch_um).next_back().expect("a reversal")
     };
     let (whole, scaled) = (glitch(140.0, 1, 1), glitch(14.0, 10, 1));
     assert!(

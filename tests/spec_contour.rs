@@ -11,6 +11,8 @@ mod independent;
 mod shape;
 #[path = "contour/truth.rs"]
 mod truth;
+#[path = "contour/verdict.rs"]
+mod verdict;
 #[path = "contour/versions.rs"]
 mod versions;
 

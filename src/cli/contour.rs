@@ -13,13 +13,14 @@ use super::machine::{MachineArgs, remark};
 use super::outputs::{Outputs, write_text};
 use super::result::ResultArgs;
 use super::simulated::SimulationArgs;
-use crate::contour::{ContourOptions, ProgramContour};
+use crate::contour::{ContourLimits, ContourOptions, ProgramContour};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::host::{
     Input, Ledger, LoadedMachine, Naming, NoDrivenContour, OutputFile, drive_contour,
 };
 use crate::report::contour::{
-    ContourRecorder, ContourSubject, document, render_text, summary_record,
+    ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_text,
+    summary_record,
 };
 use crate::report::html::render_contour;
 use crate::report::pictures::ContourPicture;
@@ -44,9 +45,13 @@ pub(super) struct ContourArgs {
     /// Write an HTML report with the picture, the figures and the reversals to this file
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Exit with status 1 if a cutting move deviates by more, in µm
+    /// Exit with status 1 if a cutting move deviates by more, in µm, or if the contour is not judged
     #[arg(long, value_name = "UM")]
     fail_above: Option<f64>,
+    /// Exit with status 1 if missing compensation costs more, in µm, or if the contour is not judged:
+    /// the deviation as programmed less the one with all of it on
+    #[arg(long, value_name = "UM")]
+    fail_above_due: Option<f64>,
     #[command(flatten)]
     machine: MachineArgs,
     #[command(flatten)]
@@ -70,6 +75,7 @@ enum Format {
 /// Runs the command.
 pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     let input = args.input()?;
+    let limits = args.limits()?;
     let ledger = Ledger::default();
     input.note(&ledger);
     let mut outputs = Outputs::new(&ledger, console);
@@ -99,19 +105,22 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
     pictures.draw(&mut contour, &subject)?;
     let text = match args.result.format {
         Format::Text => render_text(&mut contour, &subject),
-        Format::Json => document(&mut contour),
+        Format::Json => document(&mut contour, &limits),
         Format::Ndjson => {
-            let mut record = summary_record(&contour);
+            let mut record = summary_record(&contour, &limits);
             record["record"] = "summary".into();
             format!("{record}\n")
         }
         Format::Csv => String::new(),
     };
-    let worst = contour.deviations().programmed.max_um();
     let said = said(&contour, &loaded);
     let has_moved = contour.machine_time_s() > 0.0;
-    let is_whole = !contour.is_cut_short();
-    let is_known = contour.left_out_feed() == 0 && contour.time_not_of_the_machine_s() == 0.0;
+    // A row has no place for what holds for the whole program.
+    let remarks = match args.result.format {
+        Format::Csv => contour_remarks(&contour),
+        _ => Vec::new(),
+    };
+    let exceeded = exceeded(&contour, &limits);
     drop(contour);
     result.text(&text)?;
     outputs.finish()?;
@@ -122,20 +131,13 @@ pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
              X0,Y0` where the axes stand",
         );
     }
-    if has_moved && !is_known && args.fail_above.is_some() {
-        Console::talk("feed moves were left out: whether they stay below the limit is not known");
-    }
-    if !is_whole && args.fail_above.is_some() {
-        Console::talk(
-            "the program was not driven to its end: whether the rest stays below the limit is not known",
-        );
-    }
+    remarks
+        .iter()
+        .chain(&exceeded)
+        .for_each(|line| Console::talk(line));
     args.machine.say_unread(&ledger, console);
     let failed = said.iter().any(|said| said.severity == Severity::Error);
-    let deviates = args
-        .fail_above
-        .is_some_and(|limit| worst > limit || !has_moved || !is_known || !is_whole);
-    Ok(if failed || deviates {
+    Ok(if failed || !exceeded.is_empty() {
         exit::FOUND
     } else {
         exit::CLEAN
@@ -168,7 +170,7 @@ impl Pictures {
             return Ok(());
         };
         if let Some(svg) = &mut self.svg {
-            let chart = picture.clone().chart(&subject.program);
+            let chart = picture.clone().chart(&subject.heading(contour));
             write_text(svg, &chart.render(Frame::Alone))?;
         }
         if let Some(html) = &mut self.html {
@@ -181,20 +183,30 @@ impl Pictures {
 
 impl ContourArgs {
     fn input(&self) -> Result<Input, Failure> {
-        if self
-            .fail_above
-            .is_some_and(|limit| limit < 0.0 || limit.is_nan())
-        {
-            return Err(Failure::new(
-                "`--fail-above` is a deviation in µm, 0 or more",
-            ));
-        }
         let input = Input::new(&self.program);
         if input == Input::Stdin {
             return Err(NoDrivenContour::OnlyOnce.into());
         }
         input.probe()?;
         Ok(input)
+    }
+
+    fn limits(&self) -> Result<ContourLimits, Failure> {
+        let options = [
+            ("--fail-above", self.fail_above),
+            ("--fail-above-due", self.fail_above_due),
+        ];
+        for (option, limit) in options {
+            if limit.is_some_and(|limit| limit < 0.0 || limit.is_nan()) {
+                return Err(Failure::new(format!(
+                    "`{option}` is a limit in µm, 0 or more"
+                )));
+            }
+        }
+        Ok(ContourLimits {
+            deviation_um: self.fail_above,
+            due_um: self.fail_above_due,
+        })
     }
 
     /// What is kept or written while the contour is made.

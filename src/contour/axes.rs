@@ -51,6 +51,11 @@ pub enum NoContour {
 }
 
 impl MovingAxes {
+    /// Whether a program moves an axis.
+    pub fn contains(&self, axis: AxisIndex) -> bool {
+        self.0.contains(&axis.get())
+    }
+
     /// The axes to drive: those of a plane, and each further linear axis that moves. The first axis
     /// of the plane that is `named` has the drive X of the plant, the second Y, and the others X
     /// (R11.1). `given` are
@@ -108,8 +113,11 @@ impl MovingAxes {
                     name: axis.name.clone(),
                     drive: drive.clone(),
                     list,
+                    torque_scale: match source {
+                        ListSource::Plant => 1.0,
+                        _ => axis.torque_scale.factor(),
+                    },
                     source,
-                    torque_scale: axis.torque_scale.factor(),
                 }
             })
             .collect())

@@ -1,28 +1,36 @@
 //! The figures of a contour.
 
+use std::sync::Arc;
+
 use super::reversals::ContourReversal;
 use crate::comp::State;
-use crate::motion::Movement;
+use crate::motion::{Cause, Movement};
 
 /// How far a run was from the path while it was cutting (R11.3).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Deviations {
     /// The outermost deviation in µm: `F_max` on a circle; negative where the whole path is inside.
     pub outermost_um: f64,
     /// The innermost deviation in µm: `F_min` on a circle; positive where the whole path is outside.
     pub innermost_um: f64,
+    /// The block with the outermost deviation.
+    pub outermost_at: Option<Arc<Cause>>,
+    /// The block with the innermost deviation.
+    pub innermost_at: Option<Arc<Cause>>,
     squares: f64,
     cycles: f64,
 }
 
 impl Deviations {
-    pub(super) fn push(&mut self, deviation_um: f64) {
+    pub(super) fn push(&mut self, deviation_um: f64, cause: &Arc<Cause>) {
         let is_first = self.cycles == 0.0;
         if is_first || deviation_um > self.outermost_um {
             self.outermost_um = deviation_um;
+            self.outermost_at = Some(Arc::clone(cause));
         }
         if is_first || deviation_um < self.innermost_um {
             self.innermost_um = deviation_um;
+            self.innermost_at = Some(Arc::clone(cause));
         }
         self.squares += deviation_um * deviation_um;
         self.cycles += 1.0;
@@ -31,6 +39,15 @@ impl Deviations {
     /// The largest deviation to either side in µm.
     pub fn max_um(&self) -> f64 {
         self.outermost_um.abs().max(self.innermost_um.abs())
+    }
+
+    /// The block with the largest deviation.
+    pub fn max_at(&self) -> Option<&Arc<Cause>> {
+        if self.outermost_um.abs() >= self.innermost_um.abs() {
+            self.outermost_at.as_ref()
+        } else {
+            self.innermost_at.as_ref()
+        }
     }
 
     /// The root of the mean square in µm.
@@ -43,11 +60,25 @@ impl Deviations {
     }
 }
 
-/// The worst reversal of an axis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Worst {
-    /// The reversal.
-    pub reversal: ContourReversal,
+/// What missing compensation costs (R11.24): by how much the path as programmed is farther away than
+/// with all of it on, where that is most.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Due {
+    /// The difference in µm, 0 where nothing is missing.
+    pub um: f64,
+    /// The block.
+    pub at: Option<Arc<Cause>>,
+}
+
+impl Due {
+    /// Takes how far the axes are from a place of the path as programmed, and with all of it on.
+    pub(super) fn push(&mut self, [programmed, all_on]: [f64; 2], cause: &Arc<Cause>) {
+        let um = programmed.abs() - all_on.abs();
+        if um > self.um {
+            self.um = um;
+            self.at = Some(Arc::clone(cause));
+        }
+    }
 }
 
 /// The reversals of an axis, counted (R11.4).
@@ -61,12 +92,10 @@ pub struct ContourSummary {
     pub rapid: u64,
     /// Reversals in feed moves without active compensation.
     pub uncompensated: u64,
-    /// The glitch in µm of the one of those at which compensation would gain the most.
-    pub uncompensated_um: f64,
-    /// The glitch that the same reversal has with compensation, in µm.
-    pub compensated_um: f64,
+    /// Of those the one at which compensation would gain the most.
+    pub dearest: Option<ContourReversal>,
     /// The reversal in a feed move with the largest glitch.
-    pub worst: Option<Worst>,
+    pub worst: Option<ContourReversal>,
 }
 
 impl ContourSummary {
@@ -76,22 +105,17 @@ impl ContourSummary {
             return;
         }
         self.cutting += 1;
-        let glitch = reversal.glitch_um;
+        let is_more = |known: &Option<ContourReversal>, of: fn(&ContourReversal) -> f64| {
+            known.as_ref().is_none_or(|known| of(reversal) > of(known))
+        };
         if reversal.state != State::Active {
             self.uncompensated += 1;
-            let gain = glitch.programmed - glitch.all_on;
-            let known = self.uncompensated_um - self.compensated_um;
-            if self.uncompensated == 1 || gain > known {
-                self.uncompensated_um = glitch.programmed;
-                self.compensated_um = glitch.all_on;
+            if is_more(&self.dearest, ContourReversal::gain_um) {
+                self.dearest = Some(reversal.clone());
             }
         }
-        let worst = self.worst.as_ref();
-        let worst = worst.map(|worst| worst.reversal.glitch_um.programmed);
-        if worst.is_none_or(|worst| glitch.programmed > worst) {
-            self.worst = Some(Worst {
-                reversal: reversal.clone(),
-            });
+        if is_more(&self.worst, |it| it.glitch_um.programmed) {
+            self.worst = Some(reversal.clone());
         }
     }
 }

@@ -10,18 +10,26 @@
 
 mod axes;
 mod blocks;
+mod feed;
 mod figures;
+mod fit;
+mod obstacle;
 mod options;
 mod path;
 mod per_run;
 mod program;
 mod reversals;
 mod run;
+mod verdict;
 
 pub use axes::{MovingAxes, NoContour, parameterise};
 pub use blocks::{BlockDeviation, BlockDeviations, WorstPlace};
-pub use figures::{ContourSummary, Deviations, Worst};
+pub use feed::FeedReached;
+pub use figures::{ContourSummary, Deviations, Due};
+pub use fit::ListFit;
+pub use obstacle::ContourObstacle;
 pub use options::{ContourAxis, ContourOptions, ListSource, MOST_AXES};
 pub use per_run::PerRun;
 pub use program::{ContourPoint, ContourSink, ProgramContour};
 pub use reversals::ContourReversal;
+pub use verdict::{ContourLimits, ContourVerdict};

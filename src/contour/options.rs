@@ -38,6 +38,13 @@ pub struct ContourAxis {
     pub torque_scale: f64,
 }
 
+impl ContourAxis {
+    /// The force of a drive unit of the list, in N.
+    pub fn newtons_per_unit(&self) -> f64 {
+        self.drive.force_per_unit_n * self.torque_scale
+    }
+}
+
 /// How a contour is made.
 #[derive(Debug, Clone)]
 #[non_exhaustive]

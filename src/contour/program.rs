@@ -4,7 +4,10 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::figures::{ContourSummary, Deviations};
+use super::axes::MovingAxes;
+use super::feed::{FeedOnly, FeedReached, is_too_slow};
+use super::figures::{ContourSummary, Deviations, Due};
+use super::obstacle::ContourObstacle;
 use super::options::{ContourAxis, ContourOptions, MOST_AXES};
 use super::path::{CommandedPath, Distance, Places};
 use super::per_run::PerRun;
@@ -18,7 +21,9 @@ use crate::current::{
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Motion, PositionFrame};
 use crate::machine::Machine;
-use crate::motion::{Cause, Movement, ProgramTrace, Sample, TraceSink};
+use crate::motion::{
+    AssumedLimits, Cause, Movement, ProgramTrace, Sample, TraceSink, without_assumed_limits,
+};
 use crate::timeline::{Record, Row, Sink};
 
 const UM_PER_MM: f64 = 1000.0;
@@ -71,6 +76,10 @@ pub trait ContourSink {
 /// ([`Motions::Taken`](crate::interpreter::Motions::Taken)).
 pub struct ProgramContour<S> {
     trace: ProgramTrace<Tracer<S>>,
+    /// The same path without the assumed limits of the axes, where there are any.
+    unlimited: Option<ProgramTrace<FeedOnly>>,
+    assumed: Vec<(AxisIndex, AssumedLimits)>,
+    moving: MovingAxes,
 }
 
 /// A cycle that is not driven yet.
@@ -80,6 +89,7 @@ struct Cycle {
     places: Places,
     velocities: Places,
     path_velocity: f64,
+    programmed_velocity: f64,
     /// The number of its point of the path.
     point: u64,
     /// The additive currents of the programmed run, and of the one with all of it on.
@@ -99,6 +109,8 @@ struct Tracer<S> {
     runs: Option<[Run; 3]>,
     reversals: Reversals,
     deviations: PerRun<Deviations>,
+    due: Due,
+    feed: FeedReached,
     axes: Vec<ContourSummary>,
     cycles: u64,
     not_of_the_machine: u64,
@@ -130,14 +142,24 @@ impl<S: ContourSink> ProgramContour<S> {
             axes: names.iter().map(summary).collect(),
             reversals: Reversals::new(names, options.planner.cycle_s),
             deviations: PerRun::default(),
+            due: Due::default(),
+            feed: FeedReached::default(),
             cycles: 0,
             not_of_the_machine: 0,
             is_unstable: false,
             options,
             sink,
         };
+        let unlimited = without_assumed_limits(machine)
+            .map(|machine| ProgramTrace::new(&machine, &[], planner, FeedOnly::default()));
+        let indices = (0..).map(AxisIndex::new);
+        let assumed = indices.zip(machine.axes.iter().map(AssumedLimits::of));
+        let assumed = assumed.filter_map(|(axis, limits)| Some((axis, limits?)));
         Self {
             trace: ProgramTrace::new(machine, &followed, planner, tracer),
+            unlimited,
+            assumed: assumed.collect(),
+            moving: MovingAxes::default(),
         }
     }
 
@@ -150,11 +172,75 @@ impl<S: ContourSink> ProgramContour<S> {
         if self.trace.finish().is_continue() {
             let _ = self.trace.sink().drain();
         }
+        if let Some(unlimited) = &mut self.unlimited {
+            let _ = unlimited.finish();
+        }
     }
 
     /// How far each run was from the path.
     pub fn deviations(&self) -> &PerRun<Deviations> {
         &self.tracer().deviations
+    }
+
+    /// What missing compensation costs.
+    pub fn due(&self) -> &Due {
+        &self.tracer().due
+    }
+
+    /// The programmed and the reached feed.
+    pub fn feed(&self) -> &FeedReached {
+        &self.tracer().feed
+    }
+
+    /// The share of the cutting time that runs below 80 % of F because of assumed limits (R11.23): that
+    /// would not, if the axes that move had no limits but those of the configuration.
+    pub fn slow_share_by_assumed(&self) -> f64 {
+        let unlimited = self.unlimited.as_ref().map(ProgramTrace::sink_ref);
+        unlimited.map_or(0.0, |FeedOnly(unlimited)| {
+            self.feed().slow_share_against(unlimited)
+        })
+    }
+
+    /// The limits that are assumed of the axes that the program moves.
+    pub fn assumed_limits(&self) -> impl Iterator<Item = &AssumedLimits> {
+        let assumed = self.assumed.iter();
+        let moving = assumed.filter(|(axis, _)| self.moving.contains(*axis));
+        moving.map(|(_, limits)| limits)
+    }
+
+    /// Whether every motion was driven, with positions of the machine: otherwise an axis may reverse
+    /// more often.
+    pub fn is_whole(&self) -> bool {
+        let is_beside = |it: &ContourObstacle| matches!(it, ContourObstacle::AssumedLimits(_));
+        self.left_out() == 0 && self.obstacles().iter().all(is_beside)
+    }
+
+    /// What keeps the contour from being judged as a whole.
+    pub fn obstacles(&self) -> Vec<ContourObstacle> {
+        let mut obstacles = Vec::new();
+        if self.machine_time_s() <= 0.0 {
+            obstacles.push(ContourObstacle::NotDriven);
+        }
+        if self.left_out_feed() > 0 {
+            obstacles.push(ContourObstacle::LeftOut(self.left_out_feed()));
+        }
+        let (errors, remarks) = self.diagnostics();
+        let budgets = remarks.iter().filter(|remark| remark.code.is_budget());
+        let ends = errors.iter().chain(budgets);
+        for end in ends.map(|end| ContourObstacle::Ended(end.code)) {
+            if !obstacles.contains(&end) {
+                obstacles.push(end);
+            }
+        }
+        let seconds = self.time_not_of_the_machine_s();
+        if seconds > 0.0 {
+            obstacles.push(ContourObstacle::NotOfTheMachine(seconds));
+        }
+        let share = self.slow_share_by_assumed();
+        if is_too_slow(share) {
+            obstacles.push(ContourObstacle::AssumedLimits(share));
+        }
+        obstacles
     }
 
     /// The reversals of each axis, those of the plane first.
@@ -235,6 +321,10 @@ impl<S: ContourSink> Sink for ProgramContour<S> {
         {
             self.trace.sink().sink.block(row);
         }
+        let _ = self.moving.record(record);
+        if let Some(unlimited) = &mut self.unlimited {
+            let _ = unlimited.record(record);
+        }
         self.trace.record(record)
     }
 }
@@ -247,6 +337,7 @@ impl<S: ContourSink> TraceSink for Tracer<S> {
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        self.feed.push(sample);
         let places = widened(sample.positions);
         let friction = sample.cause.friction.iter();
         let commanded = |friction: &mut dyn Iterator<Item = State>| -> Vec<Commanded> {
@@ -265,6 +356,7 @@ impl<S: ContourSink> TraceSink for Tracer<S> {
             places,
             velocities: widened(sample.velocities),
             path_velocity: sample.path_velocity,
+            programmed_velocity: sample.programmed_velocity,
             point: self.path.push(places),
             added: Default::default(),
         });
@@ -273,7 +365,7 @@ impl<S: ContourSink> TraceSink for Tracer<S> {
         if let (Some(programmed), Some(all_on)) = (programmed, self.all_on.push(on))
             && let Some(mut cycle) = self.waiting.pop_front()
         {
-            cycle.added = [units(programmed), units(all_on)];
+            cycle.added = [programmed, all_on].map(|added| units(added, &self.options.axes));
             self.ready.push_back(cycle);
         }
         self.advance(AHEAD)
@@ -299,7 +391,7 @@ impl<S: ContourSink> Tracer<S> {
             let Some(mut cycle) = self.waiting.pop_front() else {
                 break;
             };
-            cycle.added = [units(programmed), units(all_on)];
+            cycle.added = [programmed, all_on].map(|added| units(added, &self.options.axes));
             self.ready.push_back(cycle);
         }
         self.advance(0)?;
@@ -354,7 +446,13 @@ impl<S: ContourSink> Tracer<S> {
         let deviation_um = distances.map(|distance| distance.plane * UM_PER_MM);
         if counts {
             let all = self.deviations.each_mut().into_iter().zip(deviation_um);
-            all.for_each(|(deviations, deviation)| deviations.push(deviation));
+            all.for_each(|(deviations, deviation)| deviations.push(deviation, &cycle.cause));
+            self.due
+                .push([deviation_um[0], deviation_um[1]], &cycle.cause);
+            for axis in 2..count {
+                let beside = |run: usize| distances[run].error[axis] * UM_PER_MM;
+                self.due.push([beside(0), beside(1)], &cycle.cause);
+            }
         }
         let (axes, sink) = (&mut self.axes, &mut self.sink);
         if is_of_machine {
@@ -364,6 +462,7 @@ impl<S: ContourSink> Tracer<S> {
                 positions: &cycle.places[..count],
                 velocities: &cycle.velocities[..count],
                 path_velocity: cycle.path_velocity,
+                programmed_velocity: cycle.programmed_velocity,
                 added: &programmed[..count],
                 distances: &distances,
                 near,
@@ -400,10 +499,11 @@ fn widened(values: &[f64]) -> Places {
     places
 }
 
-fn units(samples: &[CurrentSample]) -> Places {
+/// The additive currents as they reach the drives, scaled by the control on their way (R7.8).
+fn units(samples: &[CurrentSample], axes: &[ContourAxis]) -> Places {
     let mut added = [0.0; MOST_AXES];
-    for (added, sample) in added.iter_mut().zip(samples) {
-        *added = sample.added.current_units;
+    for ((added, sample), axis) in added.iter_mut().zip(samples).zip(axes) {
+        *added = sample.added.current_units * axis.torque_scale;
     }
     added
 }

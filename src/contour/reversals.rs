@@ -32,6 +32,8 @@ pub struct ContourReversal {
     pub positions: Vec<f64>,
     /// The path velocity in mm/min.
     pub feed_mm_per_min: f64,
+    /// The path velocity that the program asks for in mm/min; `None` in a rapid move.
+    pub programmed_mm_per_min: Option<f64>,
     /// The acceleration of the axis in mm/s².
     pub acceleration_mm_per_s2: f64,
     /// Rapid or feed.
@@ -44,6 +46,13 @@ pub struct ContourReversal {
     pub glitch_um: PerRun<f64>,
 }
 
+impl ContourReversal {
+    /// What compensation would gain at it, in µm.
+    pub fn gain_um(&self) -> f64 {
+        self.glitch_um.programmed - self.glitch_um.all_on
+    }
+}
+
 /// What is measured in a cycle.
 pub(super) struct Measured<'a> {
     pub(super) time_s: f64,
@@ -53,6 +62,7 @@ pub(super) struct Measured<'a> {
     /// How fast, in mm/s.
     pub(super) velocities: &'a [f64],
     pub(super) path_velocity: f64,
+    pub(super) programmed_velocity: f64,
     /// The additive currents of the programmed run.
     pub(super) added: &'a [f64],
     pub(super) distances: &'a [Distance; 3],
@@ -194,6 +204,8 @@ impl Reversals {
             time_s: measured.time_s,
             positions: measured.positions.to_vec(),
             feed_mm_per_min: measured.path_velocity * 60.0,
+            programmed_mm_per_min: (cause.movement == Movement::Feed)
+                .then_some(measured.programmed_velocity * 60.0),
             acceleration_mm_per_s2: change / self.cycle_s,
             movement: cause.movement,
             state: cause.friction.get(axis).copied().unwrap_or(State::Unknown),

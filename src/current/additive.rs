@@ -117,6 +117,11 @@ impl AdditiveCurrent {
         self
     }
 
+    /// The current at a constant velocity in units of the list, long after the last reversal.
+    pub(crate) fn steady(&mut self, speed_units: f64) -> f64 {
+        self.friction(speed_units) * self.scaling
+    }
+
     /// How many later velocities [`step`](Self::step) looks at, P-COMP-00044.
     pub fn lookahead(&self) -> usize {
         self.lookahead

@@ -26,7 +26,8 @@ mod trace;
 
 pub use crate::interpreter::{PositionFrame, Simplification, Simplifications};
 pub use cycle::{CycleError, check_cycle};
-pub use limits::{Assumed, AxisLimits};
+pub(crate) use limits::without_assumed_limits;
+pub use limits::{Assumed, AssumedLimits, AxisLimits};
 pub use planner::{PlannerOptions, TrajectoryPlanner};
 pub use program::ProgramTrace;
 pub use trace::{Cause, Movement, Sample, SkippedMotion, TraceSink};

@@ -22,6 +22,7 @@ pub(super) struct Sampler {
     positions: Vec<f64>,
     velocities: Vec<f64>,
     path_velocity: f64,
+    programmed_velocity: f64,
     /// The block that was followed last.
     last: Option<Arc<Cause>>,
     /// How many cycles there may be.
@@ -40,6 +41,7 @@ impl Sampler {
             positions: vec![0.0; followed.len()],
             velocities: vec![0.0; followed.len()],
             path_velocity: 0.0,
+            programmed_velocity: 0.0,
             last: None,
             budget,
             over: false,
@@ -74,6 +76,7 @@ impl Sampler {
         let mut passed = 0.0;
         while let Some(segment) = segments.next() {
             let is_last = segments.peek().is_none();
+            self.programmed_velocity = segment.feed;
             while self.time_s() <= self.end {
                 let state = profile.at(self.time_s() - start);
                 let way = state.distance - passed;
@@ -144,6 +147,7 @@ impl Sampler {
             positions: &self.positions,
             velocities: &self.velocities,
             path_velocity: self.path_velocity,
+            programmed_velocity: self.programmed_velocity,
             cause,
         })
     }

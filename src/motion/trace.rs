@@ -63,6 +63,8 @@ pub struct Sample<'a> {
     pub velocities: &'a [f64],
     /// How fast the path is followed, in mm/s, or °/s where the feed is that of rotary axes.
     pub path_velocity: f64,
+    /// The path velocity that the program asks for in the same units, infinite in a rapid motion.
+    pub programmed_velocity: f64,
     /// The block that is followed.
     pub cause: &'a Arc<Cause>,
 }

@@ -20,6 +20,7 @@ mod gitlab;
 pub mod html;
 pub mod identify;
 mod json;
+mod limits;
 #[cfg(feature = "cli")]
 mod listeners;
 mod listing;
@@ -52,6 +53,7 @@ pub use csv::{Csv, Positions};
 pub(crate) use diagnostics::wrap;
 pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
 pub use json::Json;
+pub use limits::assumed_limits;
 #[cfg(feature = "cli")]
 pub(crate) use listeners::{Listeners, SharedReport};
 pub use listing::{Listing, ListingFormat, Tally};

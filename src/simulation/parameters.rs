@@ -82,6 +82,11 @@ impl DriveParameters {
 }
 
 impl DriveParameters {
+    /// The friction in N at a constant velocity in m/s, above 0.
+    pub fn friction_n(&self, speed: f64) -> f64 {
+        self.friction.level_n(speed) + self.friction.viscous_n_s_per_m * speed
+    }
+
     /// The default axis with a contact of this stiffness in N/m.
     pub(super) fn with_stiffness(stiffness: f64) -> Self {
         let mass = 1300.0;

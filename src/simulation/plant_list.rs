@@ -28,11 +28,9 @@ pub fn plant_list(drive: &DriveParameters) -> FrictionList {
 pub(crate) fn plant_list_at(drive: &DriveParameters, inputs: &[f64]) -> FrictionList {
     let table = inputs.iter().map(|&input| {
         let speed = input * 1e-6;
-        let friction = &drive.friction;
-        let force = friction.level_n(speed) + friction.viscous_n_s_per_m * speed;
         TablePoint {
             input,
-            output: force / drive.force_per_unit_n,
+            output: drive.friction_n(speed) / drive.force_per_unit_n,
         }
     });
     FrictionList {

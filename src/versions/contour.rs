@@ -1,11 +1,10 @@
 //! Where the contour of one version of a program deviates more than that of the other.
 
-use std::fmt;
-
 use super::alignment::align;
 use super::compare::Which;
-use crate::contour::{BlockDeviation, BlockDeviations, Deviations, ProgramContour, WorstPlace};
-use crate::diagnostic::Code;
+use crate::contour::{
+    BlockDeviation, BlockDeviations, ContourObstacle, Deviations, ProgramContour, WorstPlace,
+};
 
 /// The contour of one version.
 #[derive(Debug, Clone)]
@@ -15,59 +14,11 @@ pub struct VersionContour {
     obstacles: Vec<ContourObstacle>,
 }
 
-/// What keeps the contour of a version from being compared as a whole.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum ContourObstacle {
-    /// Nothing was driven.
-    NotDriven,
-    /// So many motions were left out.
-    LeftOut(u64),
-    /// It ends before the program does.
-    Ended(Code),
-    /// For so many seconds positions are not those of the machine.
-    NotOfTheMachine(f64),
-}
-
-impl fmt::Display for ContourObstacle {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotDriven => f.write_str("no motion could be driven"),
-            Self::LeftOut(1) => {
-                f.write_str("1 motion is left out, whose start, end or feed is not known")
-            }
-            Self::LeftOut(count) => write!(
-                f,
-                "{count} motions are left out, whose start, end or feed is not known"
-            ),
-            Self::Ended(code) => write!(f, "it ends before the program does, with {code}"),
-            Self::NotOfTheMachine(seconds) => write!(
-                f,
-                "for {seconds:.3} s positions are those of the program, not of the machine"
-            ),
-        }
-    }
-}
-
 impl From<ProgramContour<BlockDeviations>> for VersionContour {
     fn from(mut contour: ProgramContour<BlockDeviations>) -> Self {
-        let mut obstacles = Vec::new();
-        if contour.machine_time_s() <= 0.0 {
-            obstacles.push(ContourObstacle::NotDriven);
-        }
-        if contour.left_out() > 0 {
-            obstacles.push(ContourObstacle::LeftOut(contour.left_out()));
-        }
-        let (errors, remarks) = contour.diagnostics();
-        let budgets = remarks.iter().filter(|remark| remark.code.is_budget());
-        let ends = errors.iter().chain(budgets);
-        obstacles.extend(ends.map(|end| ContourObstacle::Ended(end.code)));
-        let seconds = contour.time_not_of_the_machine_s();
-        if seconds > 0.0 {
-            obstacles.push(ContourObstacle::NotOfTheMachine(seconds));
-        }
+        let obstacles = contour.obstacles();
         Self {
-            deviations: contour.deviations().programmed,
+            deviations: contour.deviations().programmed.clone(),
             blocks: std::mem::take(contour.sink()).into_blocks(),
             obstacles,
         }

@@ -30,9 +30,7 @@ mod switch;
 mod version;
 
 pub use compare::{Agreement, Paired, VersionComparison, Which};
-pub use contour::{
-    BlockChange, ContourAgreement, ContourComparison, ContourObstacle, VersionContour,
-};
+pub use contour::{BlockChange, ContourAgreement, ContourComparison, VersionContour};
 pub use obstacle::{Obstacle, Reason};
 pub use switch::Switch;
 pub use version::Version;

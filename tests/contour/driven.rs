@@ -115,10 +115,20 @@ fn run(machine: &Machine, program: &str, (at, sink): (Stand<'_>, &mut dyn Sink))
 pub(crate) fn drive(
     machine: &str,
     plant: &Plant,
+    program: (&str, Stand<'_>),
+    found: Found,
+) -> Found {
+    let machine = Machine::from_toml(machine).expect("a machine");
+    drive_on(machine, plant, program, found)
+}
+
+/// The same on a machine that is read.
+pub(crate) fn drive_on(
+    mut machine: Machine,
+    plant: &Plant,
     (program, at): (&str, Stand<'_>),
     found: Found,
 ) -> Found {
-    let mut machine = Machine::from_toml(machine).expect("a machine");
     let mut moving = MovingAxes::default();
     run(&machine, program, (at, &mut moving));
     let axes = moving.driven(&machine, ["X", "Y"], plant, &[]);

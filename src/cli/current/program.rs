@@ -16,8 +16,9 @@ use crate::current::{CurrentOptions, ProgramCurrents, axes_to_follow};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::drive_interface::TorqueScale;
 use crate::host::{Alone, Axes, Input, Ledger, LoadedMachine, Naming, run_alone};
-use crate::machine::{AxisType, Parameterisation};
-use crate::motion::{AxisLimits, PlannerOptions, check_cycle};
+use crate::machine::Parameterisation;
+use crate::motion::{AssumedLimits, PlannerOptions, check_cycle};
+use crate::report::assumed_limits;
 use crate::report::pictures::AxisPlot;
 use crate::session::{Motions, StopPolicy};
 
@@ -38,7 +39,10 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     let list = list.map(|path| value_list(path, &ledger)).transpose()?;
     let followed = axes_to_follow(&args.axes, &mut loaded.machine, list.as_ref())?;
     let options = options(args, &loaded)?;
-    say_limits(&loaded);
+    let assumed = loaded.machine.axes.iter().filter_map(AssumedLimits::of);
+    for line in assumed_limits(&assumed.collect::<Vec<_>>()) {
+        Console::talk(&line);
+    }
     say_scaling(&loaded);
     let result = outputs.result(args.output.as_deref())?;
     let plot = Plot::create(
@@ -119,49 +123,6 @@ fn options(args: &CurrentArgs, loaded: &LoadedMachine) -> Result<CurrentOptions,
         max_cycles: args.max_cycles,
     };
     Ok(CurrentOptions::from(planner).with_reading(args.reading))
-}
-
-/// Which limits are assumed, for each axis that the configuration does not describe in full.
-fn say_limits(loaded: &LoadedMachine) {
-    let mut assumed: Vec<(String, Vec<&str>)> = Vec::new();
-    for axis in &loaded.machine.axes {
-        let limits = AxisLimits::of(axis);
-        let (minute, second) = match axis.axis_type {
-            AxisType::Linear => ("mm/min", ("m/s²", "m/s³", 1000.0)),
-            _ => ("°/min", ("°/s²", "°/s³", 1.0)),
-        };
-        let (square, cube, unit) = second;
-        let parts = [
-            (
-                limits.assumed.velocity,
-                limits.velocity_per_s * 60.0,
-                minute,
-            ),
-            (
-                limits.assumed.acceleration,
-                limits.acceleration_per_s2 / unit,
-                square,
-            ),
-            (limits.assumed.jerk, limits.jerk_per_s3 / unit, cube),
-        ];
-        let parts: Vec<String> = parts
-            .iter()
-            .filter(|(assumed, ..)| *assumed)
-            .map(|(_, value, unit)| format!("{value:.0} {unit}"))
-            .collect();
-        if parts.is_empty() {
-            continue;
-        }
-        let text = parts.join(", ");
-        match assumed.iter_mut().find(|(known, _)| *known == text) {
-            Some((_, names)) => names.push(&axis.name),
-            None => assumed.push((text, vec![&axis.name])),
-        }
-    }
-    for (limits, names) in assumed {
-        let names = names.join(" ");
-        Console::talk(&format!("limits assumed for {names}: {limits}"));
-    }
 }
 
 /// By what the outputs are multiplied on their way to the drives, where it is not 1 (R7.8).

@@ -3,7 +3,9 @@
 
 use std::fmt::Write as _;
 
-use crate::contour::{BlockDeviation, BlockDeviations, Deviations, PerRun, ProgramContour};
+use crate::contour::{
+    BlockDeviation, BlockDeviations, ContourObstacle, Deviations, PerRun, ProgramContour,
+};
 use crate::report::visible::visible_line;
 
 /// What was driven, and from where.
@@ -40,16 +42,22 @@ pub fn render_agreed(
         }
     );
     push_figures(&mut out, contour.deviations());
+    let least = if contour.is_whole() { "" } else { "at least " };
     for axis in contour.axes() {
         let _ = writeln!(
             out,
-            "{} reverses {} times while cutting, {} of them without compensation",
+            "{} reverses {least}{} times while cutting, {} of them without compensation",
             axis.axis, axis.cutting, axis.uncompensated
         );
     }
     let (errors, remarks) = contour.diagnostics();
     for said in errors.iter().chain(remarks) {
         let _ = writeln!(out, "{}: {}", said.code, visible_line(&said.message));
+    }
+    for obstacle in contour.obstacles() {
+        if let ContourObstacle::AssumedLimits(_) = obstacle {
+            let _ = writeln!(out, "not judged: {obstacle}");
+        }
     }
     if contour.left_out() > 0 {
         let _ = writeln!(out, "{} motions are left out", contour.left_out());

@@ -2,12 +2,15 @@
 
 mod agreed;
 mod document;
+pub(in crate::report) mod places;
 mod recorder;
 mod records;
+mod remarks;
 mod text;
 
 pub use agreed::{AgreedContour, render_agreed};
 pub use document::{document, summary_record};
 pub use recorder::ContourRecorder;
 pub use records::{CSV_HEADER, csv_row, reversal_record};
+pub use remarks::{contour_remarks, exceeded};
 pub use text::{ContourSubject, render_text};

@@ -6,7 +6,7 @@ use crate::contour::ContourReversal;
 use crate::report::csv::field;
 
 /// The columns of [`csv_row`].
-pub const CSV_HEADER: &str = "axis,file,line,n,t,position,feed,acceleration,movement,state,current_before,current_after,glitch,glitch_on,glitch_off\n";
+pub const CSV_HEADER: &str = "axis,file,line,n,t,position,feed,acceleration,movement,state,current_before,current_after,glitch,glitch_on,glitch_off,feed_programmed\n";
 
 /// A number with so many decimals as matter.
 pub(super) fn rounded(value: f64, decimals: i32) -> f64 {
@@ -34,6 +34,7 @@ pub fn reversal_record(reversal: &ContourReversal, names: &[String]) -> Value {
         "t": rounded(reversal.time_s, 6),
         "position": position(reversal, names),
         "feed": rounded(reversal.feed_mm_per_min, 3),
+        "feed_programmed": reversal.programmed_mm_per_min.map(|feed| rounded(feed, 3)),
         "acceleration": rounded(reversal.acceleration_mm_per_s2, 3),
         "movement": reversal.movement.as_str(),
         "state": reversal.state.as_str(),
@@ -67,6 +68,9 @@ pub fn csv_row(reversal: &ContourReversal, names: &[String]) -> String {
         rounded(glitch.programmed, 3).to_string(),
         rounded(glitch.all_on, 3).to_string(),
         rounded(glitch.all_off, 3).to_string(),
+        reversal
+            .programmed_mm_per_min
+            .map_or(String::new(), |feed| rounded(feed, 3).to_string()),
     ];
     let mut row = Vec::new();
     for (at, text) in fields.iter().enumerate() {

@@ -2,8 +2,11 @@
 
 use std::fmt::Write as _;
 
+use super::places::Block;
 use super::recorder::ContourRecorder;
-use crate::contour::{ContourReversal, ContourSummary, Deviations, ListSource, ProgramContour};
+use super::remarks::{compensation, contour_remarks, not_judged};
+use crate::contour::{ContourReversal, ContourSink, ContourSummary, Deviations, ProgramContour};
+use crate::motion::Cause;
 use crate::report::visible::visible_line;
 
 /// What was driven.
@@ -13,6 +16,17 @@ pub struct ContourSubject {
     pub program: String,
     /// The plant.
     pub plant: String,
+}
+
+impl ContourSubject {
+    /// The program, and whether its contour is judged.
+    pub fn heading<S: ContourSink>(&self, contour: &ProgramContour<S>) -> String {
+        if contour.obstacles().is_empty() {
+            self.program.clone()
+        } else {
+            format!("{}, not judged", self.program)
+        }
+    }
 }
 
 /// The figures of the three runs, a sentence for each axis, the worst reversals, and what is not
@@ -32,42 +46,28 @@ pub fn render_text(
         contour.machine_time_s(),
         visible_line(&subject.plant),
     );
-    let runs = contour.deviations();
-    let runs = [&runs.programmed, &runs.all_on, &runs.all_off];
-    let _ = writeln!(
-        out,
-        "{:<24}{:>12}{:>12}{:>12}",
-        "while cutting, in µm", "programmed", "all on", "all off"
-    );
-    let mut row = |name: &str, values: [f64; 3]| {
-        let _ = write!(out, "{name:<24}");
-        for value in values {
-            let _ = write!(out, "{:>12.2}", value + 0.0);
-        }
+    let obstacles = contour.obstacles();
+    for line in not_judged(&obstacles) {
+        let _ = writeln!(out, "{line}");
+    }
+    if !obstacles.is_empty() {
         out.push('\n');
-    };
-    row("largest deviation", runs.map(Deviations::max_um));
-    row("outermost", runs.map(|run| run.outermost_um));
-    row("innermost", runs.map(|run| run.innermost_um));
-    row("root mean square", runs.map(Deviations::rms_um));
+    }
+    push_figures(&mut out, contour);
+    push_due(&mut out, contour);
+    for line in contour_remarks(contour) {
+        let _ = writeln!(out, "{line}");
+    }
     out.push('\n');
+    let is_whole = contour.is_whole();
     for axis in contour.axes() {
-        let _ = writeln!(out, "{}", sentence(axis));
+        let _ = writeln!(out, "{}", sentence(axis, Counted::of(is_whole)));
     }
     push_beside_the_plane(&mut out, contour.axes());
-    push_worst(&mut out, contour.sink().worst());
+    push_worst(&mut out, contour.sink().worst(), &subject.program);
     out.push('\n');
     for axis in &contour.options().axes {
-        let source = match &axis.source {
-            ListSource::Machine => "the list of the machine".to_owned(),
-            ListSource::Given(file) => visible_line(file).into_owned(),
-            ListSource::Plant => {
-                "the friction curve of the plant; the machine has no list that the control takes, and \
-                 without one the control adds nothing"
-                    .to_owned()
-            }
-        };
-        let _ = writeln!(out, "compensation of {}: {source}", axis.name);
+        let _ = writeln!(out, "{}", compensation(axis));
     }
     let backlash = contour
         .options()
@@ -99,6 +99,72 @@ pub fn render_text(
     out
 }
 
+/// The figures of the three runs, and where the extreme ones are.
+fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
+    let runs = contour.deviations();
+    let runs = [&runs.programmed, &runs.all_on, &runs.all_off];
+    let _ = writeln!(
+        out,
+        "{:<24}{:>12}{:>12}{:>12}",
+        "while cutting, in µm", "programmed", "all on", "all off"
+    );
+    let mut row = |name: &str, values: [f64; 3]| {
+        let _ = write!(out, "{name:<24}");
+        for value in values {
+            let _ = write!(out, "{:>12.2}", value + 0.0);
+        }
+        out.push('\n');
+    };
+    row("largest deviation", runs.map(Deviations::max_um));
+    row("outermost", runs.map(|run| run.outermost_um));
+    row("innermost", runs.map(|run| run.innermost_um));
+    row("root mean square", runs.map(Deviations::rms_um));
+    out.push('\n');
+    for (name, at) in [
+        (
+            "largest deviation",
+            runs.map(|run| run.max_at().map(|at| &**at)),
+        ),
+        ("outermost", runs.map(|run| run.outermost_at.as_deref())),
+        ("innermost", runs.map(|run| run.innermost_at.as_deref())),
+    ] {
+        if let Some(places) = places(at) {
+            let _ = writeln!(out, "{name} at {places}");
+        }
+    }
+}
+
+/// "part.nc:165 N1640 (programmed, all off), part.nc:168 N1670 (all on)"
+fn places(at: [Option<&Cause>; 3]) -> Option<String> {
+    let mut places: Vec<(String, Vec<&str>)> = Vec::new();
+    for (at, run) in at.into_iter().zip(["programmed", "all on", "all off"]) {
+        let place = Block::from(at?).words();
+        match places.iter_mut().find(|(known, _)| *known == place) {
+            Some((_, runs)) => runs.push(run),
+            None => places.push((place, vec![run])),
+        }
+    }
+    if let [(place, _)] = places.as_slice() {
+        return Some(place.clone());
+    }
+    let places = places.into_iter();
+    let places = places.map(|(place, runs)| format!("{place} ({})", runs.join(", ")));
+    Some(places.collect::<Vec<String>>().join(", "))
+}
+
+fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
+    let due = contour.due();
+    let _ = match &due.at {
+        Some(at) => writeln!(
+            out,
+            "missing compensation costs up to {:.2} µm, at {}",
+            due.um,
+            Block::from(&**at).words()
+        ),
+        None => writeln!(out, "missing compensation costs 0 µm"),
+    };
+}
+
 /// A glitch in µm that a deviation in its plane would show.
 const NOTICEABLE_UM: f64 = 1.0;
 
@@ -109,7 +175,7 @@ fn push_beside_the_plane(out: &mut String, axes: &[ContourSummary]) {
     };
     for axis in further {
         let worst = axis.worst.as_ref();
-        if worst.is_some_and(|worst| worst.reversal.glitch_um.all_off > NOTICEABLE_UM) {
+        if worst.is_some_and(|worst| worst.glitch_um.all_off > NOTICEABLE_UM) {
             let _ = writeln!(
                 out,
                 "the deviations above are those in the plane {}{}; `--plane {},{}` shows those of {}",
@@ -119,39 +185,67 @@ fn push_beside_the_plane(out: &mut String, axes: &[ContourSummary]) {
     }
 }
 
+/// Whether every reversal of a program is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Counted {
+    All,
+    /// Some motions were left out, and reversals with them.
+    AtLeast,
+}
+
+impl Counted {
+    fn of(is_whole: bool) -> Self {
+        if is_whole { Self::All } else { Self::AtLeast }
+    }
+}
+
 /// "X reverses 412 times while cutting, 57 times without compensation: …"
-fn sentence(axis: &ContourSummary) -> String {
+fn sentence(axis: &ContourSummary, counted: Counted) -> String {
     let mut text = format!("{} ", axis.axis);
     let rapid = match axis.rapid {
         0 => String::new(),
         rapid => format!(" ({} in rapid)", times(rapid)),
     };
-    match axis.cutting {
-        0 => {
+    match (axis.cutting, counted) {
+        (0, Counted::All) => {
             let _ = write!(text, "does not reverse while cutting{rapid}");
         }
-        cutting => {
-            let _ = write!(text, "reverses {} while cutting{rapid}", times(cutting));
-            if axis.uncompensated == 0 {
-                text.push_str(", always with compensation");
-            } else {
-                let _ = write!(
-                    text,
-                    ", {} without compensation: {:.1} µm there against {:.1} µm with it",
-                    times(axis.uncompensated),
-                    axis.uncompensated_um,
-                    axis.compensated_um
-                );
+        (0, Counted::AtLeast) => {
+            let _ = write!(
+                text,
+                "has no reversal in the feed moves that were driven{rapid}; whether it reverses in \
+                 what was left out is not known"
+            );
+        }
+        (cutting, counted) => {
+            let (least, driven) = match counted {
+                Counted::All => ("", ""),
+                Counted::AtLeast => ("at least ", " in what was driven"),
+            };
+            let cutting = times(cutting);
+            let _ = write!(text, "reverses {least}{cutting} while cutting{rapid}");
+            match &axis.dearest {
+                None => {
+                    let _ = write!(text, ", always with compensation{driven}");
+                }
+                Some(dearest) => {
+                    let _ = write!(
+                        text,
+                        ", {least}{} without compensation: {:.1} µm there against {:.1} µm with it, at {}",
+                        times(axis.uncompensated),
+                        dearest.glitch_um.programmed,
+                        dearest.glitch_um.all_on,
+                        Block::from(dearest).words()
+                    );
+                }
             }
         }
     }
     if let Some(worst) = &axis.worst {
-        let worst = &worst.reversal;
         let _ = write!(
             text,
-            "; worst at {}:{}, {:.1} µm",
-            visible_line(&worst.file),
-            worst.line,
+            "; worst at {}, {:.1} µm",
+            Block::from(worst).words(),
             worst.glitch_um.programmed
         );
     }
@@ -166,28 +260,31 @@ fn times(count: u64) -> String {
     }
 }
 
-fn push_worst(out: &mut String, worst: &[ContourReversal]) {
+fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
     if worst.is_empty() {
         return;
     }
     let _ = writeln!(
         out,
-        "\nworst reversals, glitch in µm\n{:>7}  {:<4} {:<12} {:>9} {:>12} {:>12} {:>9} {:>9}",
-        "line", "axis", "state", "mm/min", "mm/s²", "programmed", "all on", "all off"
+        "\nworst reversals, glitch in µm, feeds in mm/min\n{:>7}  {:<4} {:<12} {:>7} {:>9} {:>9} {:>11} {:>9} {:>9}  block",
+        "line", "axis", "state", "F", "reached", "mm/s²", "programmed", "all on", "all off"
     );
     for reversal in worst {
         let glitch = &reversal.glitch_um;
-        let _ = writeln!(
-            out,
-            "{:>7}  {:<4} {:<12} {:>9.0} {:>12.0} {:>12.2} {:>9.2} {:>9.2}",
+        let programmed = reversal.programmed_mm_per_min;
+        let row = format!(
+            "{:>7}  {:<4} {:<12} {:>7} {:>9.0} {:>9.0} {:>11.2} {:>9.2} {:>9.2}  {}",
             reversal.line,
             visible_line(&reversal.axis),
             reversal.state.as_str(),
+            programmed.map_or("-".to_owned(), |feed| format!("{feed:.0}")),
             reversal.feed_mm_per_min,
             reversal.acceleration_mm_per_s2.round() + 0.0,
             glitch.programmed,
             glitch.all_on,
-            glitch.all_off
+            glitch.all_off,
+            Block::from(reversal).beside(program)
         );
+        let _ = writeln!(out, "{}", row.trim_end());
     }
 }

@@ -36,9 +36,11 @@ pub fn render_contour(
 ) -> io::Result<()> {
     let text = render_text(contour, subject);
     let (lead, figures) = text.split_once('\n').unwrap_or((&text, ""));
+    let name = subject.heading(contour);
+    let is_whole = contour.is_whole();
     let reversals = contour.sink().reversals();
     let files = ReversedFiles::of(reversals);
-    let chart = picture.linked_chart(&subject.program, |file, line| files.link(file, line));
+    let chart = picture.linked_chart(&name, |file, line| files.link(file, line));
     let parts = [PICTURE, FIGURES, REVERSALS, SOURCE];
     let mut page = Page::open(out, &chart.title, lead, &parts)?;
     page.part(PICTURE, &figure(chart.render(Frame::Inside("contour"))))?;
@@ -47,7 +49,11 @@ pub fn render_contour(
         &html! { div.wide tabindex="0" { pre { (figures.trim()) } } },
     )?;
     page.part(REVERSALS, &table(reversals, &files))?;
-    page.long_part(SOURCE, |page| files.render(page, sources))?;
+    page.long_part(SOURCE, |page| match (reversals, is_whole) {
+        ([], true) => page.push(&html! { p { "No axis reverses." } }),
+        ([], false) => page.push(&html! { p { "No axis reverses in what was driven." } }),
+        _ => files.render(page, sources),
+    })?;
     page.close()
 }
 
@@ -71,10 +77,16 @@ fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
             let values = all.iter().map(|it| of(it));
             format!("{:.2}", values.fold(0.0, f64::max))
         };
+        let feeds = all.iter().map(|it| it.feed_mm_per_min);
+        let slowest = feeds.fold(f64::INFINITY, f64::min);
+        let programmed = all.iter().filter_map(|it| it.programmed_mm_per_min);
+        let programmed = programmed.reduce(f64::max).map(|feed| format!("{feed:.0}"));
         let cells = [
             html! { (axis) },
             html! { (all.len()) },
             html! { @if off > 0 { span.state.away { (off) } } @else { "0" } },
+            html! { (programmed.as_deref().unwrap_or("\u{2013}")) },
+            html! { (format!("{slowest:.0}")) },
             html! { (most(|it| it.glitch_um.programmed)) },
             html! { (most(|it| it.glitch_um.all_on)) },
             html! { (most(|it| it.glitch_um.all_off)) },
@@ -86,12 +98,14 @@ fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
         }
     });
     let table = Table {
-        caption: Caption::Shown("Reversals by line and axis; glitches in µm"),
+        caption: Caption::Shown("Reversals by line and axis; glitches in µm, feeds in mm/min"),
         columns: &[
             Column::Text("line"),
             Column::Text("axis"),
             Column::Number("reversals"),
             Column::Number("without compensation"),
+            Column::Number("F"),
+            Column::Number("slowest"),
             Column::Number("programmed"),
             Column::Number("all on"),
             Column::Number("all off"),

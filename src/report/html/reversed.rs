@@ -58,9 +58,6 @@ impl<'a> ReversedFiles<'a> {
     }
 
     pub(super) fn render(&self, page: &mut Page<'_>, sources: &mut dyn Sources) -> io::Result<()> {
-        if self.0.is_empty() {
-            return page.push(&html! { p { "No axis reverses." } });
-        }
         let mut room = MAX_QUIET;
         for (at, (name, lines)) in self.0.iter().enumerate() {
             page.push(&html! { h3 { (name) } "\n" })?;

@@ -6,6 +6,7 @@ use maud::{Markup, html};
 
 use super::page::{Page, Part};
 use super::parts::{Caption, Column, Row, Table, with_code};
+use crate::report::contour::places::Block;
 use crate::report::versions::{ContoursReport, VersionsReport, sign};
 use crate::versions::{Agreement, BlockChange, Paired, Which};
 
@@ -39,8 +40,12 @@ fn contours_part(report: &ContoursReport) -> Markup {
     let comparison = &report.comparison;
     let figures = [Which::Old, Which::New].map(|which| {
         let deviations = comparison.deviations(which);
-        let cells =
-            [deviations.max_um(), deviations.rms_um()].map(|um| html! { (format!("{um:.2}")) });
+        let at = deviations.max_at().map(|at| Block::from(&**at).words());
+        let cells = [
+            html! { (format!("{:.2}", deviations.max_um())) },
+            html! { (at.as_deref().unwrap_or("\u{2013}")) },
+            html! { (format!("{:.2}", deviations.rms_um())) },
+        ];
         Row::new(which.as_str(), cells)
     });
     let table = Table {
@@ -48,6 +53,7 @@ fn contours_part(report: &ContoursReport) -> Markup {
         columns: &[
             Column::Text("version"),
             Column::Number("largest deviation"),
+            Column::Text("at"),
             Column::Number("root mean square"),
         ],
     };

@@ -23,8 +23,8 @@ const MOST_BANDS: usize = 5000;
 /// So many of the worst reversals are named.
 const NAMED: usize = 6;
 
-/// The block of a reversal.
-#[derive(Debug, Clone)]
+/// The block of a reversal, or of the largest deviation.
+#[derive(Debug, Clone, Default)]
 struct Spot {
     file: Arc<str>,
     line: u32,
@@ -43,6 +43,7 @@ pub struct ContourPicture {
     marks: Vec<(PlaneMark, Spot)>,
     more_marks: u64,
     largest_um: f64,
+    largest_at: Spot,
 }
 
 impl ContourPicture {
@@ -58,6 +59,7 @@ impl ContourPicture {
             marks: Vec::new(),
             more_marks: 0,
             largest_um: 0.0,
+            largest_at: Spot::default(),
         }
     }
 
@@ -85,8 +87,12 @@ impl ContourPicture {
                 curve.interrupt();
             }
         }
-        if point.counts {
-            self.largest_um = self.largest_um.max(each[0].abs());
+        if point.counts && each[0].abs() > self.largest_um {
+            self.largest_um = each[0].abs();
+            self.largest_at = Spot {
+                file: Arc::clone(&point.cause.file),
+                line: point.cause.line,
+            };
         }
         let names = &self.axes;
         for ((bands, state), name) in self.bands.iter_mut().zip(&*point.cause.friction).zip(names) {
@@ -126,15 +132,19 @@ impl ContourPicture {
         if reversal.movement == Movement::Rapid || !self.axes.contains(&reversal.axis) {
             return;
         }
+        let programmed = reversal.programmed_mm_per_min;
+        let programmed = programmed.map_or(String::new(), |feed| format!(" of F{feed:.0}"));
         let mark = PlaneMark {
             place: [reversal.positions[0], reversal.positions[1]],
             ringed: reversal.state != State::Active,
             weight: reversal.glitch_um.programmed,
             label: None,
             title: format!(
-                "line {}: {} reverses, {}, {:.1} µm",
+                "line {}: {} reverses at {:.0} mm/min{}, {}, {:.1} µm",
                 reversal.line,
                 reversal.axis,
+                reversal.feed_mm_per_min,
+                programmed,
                 reversal.state.as_str(),
                 reversal.glitch_um.programmed
             ),
@@ -178,12 +188,13 @@ impl ContourPicture {
         for (mark, spot) in self.marks.iter_mut().take(NAMED) {
             mark.label = Some(format!("line {}: {:.1} µm", spot.line, mark.weight));
         }
-        let (count, largest) = (self.marks.len(), self.largest_um);
+        let count = self.marks.len();
+        let (largest, at) = (self.largest_um, &self.largest_at);
         let description = format!(
             "The commanded path in the plane {}{}, and the simulated one with its deviation \
-             magnified. The largest deviation while cutting is {largest:.1} µm. {count} reversals \
-             are marked, {uncompensated} of them without compensation.",
-            self.axes[0], self.axes[1]
+             magnified. The largest deviation while cutting is {largest:.1} µm, at {}:{}. {count} \
+             reversals are marked, {uncompensated} of them without compensation.",
+            self.axes[0], self.axes[1], at.file, at.line
         );
         let title = format!("Contour of {program}");
         PlaneChart {

@@ -3,9 +3,11 @@
 use std::fmt::Write as _;
 
 use serde::Serialize;
+use serde_json::Value;
 
+use crate::report::contour::places::{Block, record};
 use crate::report::visible::visible_line;
-use crate::versions::{BlockChange, ContourComparison, Which};
+use crate::versions::{BlockChange, ContourAgreement, ContourComparison, Which};
 
 /// So many blocks are listed for people.
 const LISTED: usize = 25;
@@ -25,15 +27,19 @@ impl ContoursReport {
     /// What the comparison comes to, in a sentence without its end.
     pub(in crate::report) fn verdict(&self) -> String {
         let comparison = &self.comparison;
+        let known = match comparison.agreement() {
+            ContourAgreement::NotComparable => "not comparable as a whole; in what is known ",
+            ContourAgreement::NoMore | ContourAgreement::More => "",
+        };
         let less = match comparison.less() {
             0 => String::new(),
             less => format!("; {less} less"),
         };
         let tolerance = comparison.tolerance_um();
         match comparison.more() {
-            [] => format!("no block deviates more by more than {tolerance} µm{less}"),
+            [] => format!("{known}no block deviates more by more than {tolerance} µm{less}"),
             [worst, ..] => format!(
-                "{} more by more than {tolerance} µm, line {} of {} most, by {:.1} µm{less}",
+                "{known}{} more by more than {tolerance} µm, line {} of {} most, by {:.1} µm{less}",
                 match comparison.more().len() {
                     1 => "1 block deviates".to_owned(),
                     count => format!("{count} blocks deviate"),
@@ -72,6 +78,12 @@ pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
         ("root mean square", [old.rms_um(), new.rms_um()]),
     ] {
         let _ = writeln!(out, "{name:<20}{:>9.2}{:>9.2}", values[0], values[1]);
+    }
+    for (which, deviations) in [(Which::Old, old), (Which::New, new)] {
+        if let Some(at) = deviations.max_at() {
+            let (version, at) = (which.as_str(), Block::from(&**at).words());
+            let _ = writeln!(out, "largest deviation of the {version} version at {at}");
+        }
     }
     if let [_, ..] = comparison.more() {
         let _ = writeln!(
@@ -124,6 +136,7 @@ pub(super) struct ContourRecord<'a> {
 #[derive(Serialize)]
 struct Figures {
     max: f64,
+    max_at: Value,
     rms: f64,
 }
 
@@ -173,6 +186,7 @@ impl<'a> ContourRecord<'a> {
             let deviations = comparison.deviations(which);
             Figures {
                 max: rounded(deviations.max_um()),
+                max_at: record(deviations.max_at().map(|at| &**at)),
                 rms: rounded(deviations.rms_um()),
             }
         });

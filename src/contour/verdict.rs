@@ -1,0 +1,62 @@
+//! What a contour comes to, against limits (R11.24).
+
+use super::obstacle::ContourObstacle;
+use super::program::{ContourSink, ProgramContour};
+
+/// The limits of a contour.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContourLimits {
+    /// The largest deviation as programmed, in µm.
+    pub deviation_um: Option<f64>,
+    /// What missing compensation may cost, in µm.
+    pub due_um: Option<f64>,
+}
+
+/// What a contour comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContourVerdict {
+    /// It keeps the limits.
+    Within,
+    /// It exceeds a limit.
+    Above,
+    /// It is not known as a whole, or not as on the machine.
+    NotJudged,
+}
+
+impl ContourVerdict {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Within => "within",
+            Self::Above => "above",
+            Self::NotJudged => "not judged",
+        }
+    }
+}
+
+impl ContourLimits {
+    /// Whether there is a limit.
+    pub fn any(&self) -> bool {
+        self.deviation_um.is_some() || self.due_um.is_some()
+    }
+
+    /// What a contour with these obstacles comes to; `None` where it can be judged, and there is no
+    /// limit.
+    pub fn verdict<S: ContourSink>(
+        &self,
+        contour: &ProgramContour<S>,
+        obstacles: &[ContourObstacle],
+    ) -> Option<ContourVerdict> {
+        if !obstacles.is_empty() {
+            return Some(ContourVerdict::NotJudged);
+        }
+        let is_above = |limit: Option<f64>, um: f64| limit.is_some_and(|limit| um > limit);
+        let deviates = is_above(self.deviation_um, contour.deviations().programmed.max_um());
+        let verdict = if deviates || is_above(self.due_um, contour.due().um) {
+            ContourVerdict::Above
+        } else {
+            ContourVerdict::Within
+        };
+        self.any().then_some(verdict)
+    }
+}

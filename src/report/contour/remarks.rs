@@ -1,0 +1,105 @@
+//! What the figures of a contour rest on.
+
+use super::places::Block;
+use crate::contour::{
+    ContourAxis, ContourLimits, ContourObstacle, ContourOptions, ContourSink, ListSource,
+    ProgramContour,
+};
+use crate::report::limits::assumed_limits;
+use crate::report::visible::visible_line;
+
+/// The programmed feed and the reached one, the limits that are assumed, and lists that do not belong
+/// to the plant: a line each (R11.23, R11.25).
+pub fn contour_remarks<S: ContourSink>(contour: &ProgramContour<S>) -> Vec<String> {
+    let mut lines: Vec<String> = feed(contour).into_iter().collect();
+    lines.extend(assumed_limits(contour.assumed_limits()));
+    let options = contour.options();
+    let axes = options.axes.iter();
+    lines.extend(axes.filter_map(|axis| misfit(axis, options)));
+    lines
+}
+
+/// "feed: 2000 mm/min programmed, 105 mm/min reached; 98 % of the cutting time is below 80 % of F"
+fn feed<S: ContourSink>(contour: &ProgramContour<S>) -> Option<String> {
+    let feed = contour.feed();
+    Some(format!(
+        "feed: {:.0} mm/min programmed, {:.0} mm/min reached; {:.0} % of the cutting time is below \
+         80 % of F",
+        feed.programmed_mm_per_min()?,
+        feed.reached_mm_per_min()?,
+        feed.slow_share() * 100.0
+    ))
+}
+
+fn misfit(axis: &ContourAxis, options: &ContourOptions) -> Option<String> {
+    let fit = options.list_fit(axis).filter(|fit| !fit.belongs())?;
+    Some(format!(
+        "list and plant of {} do not belong together: from 1 to 100 mm/s the list adds {:.0} N on \
+         average, and the friction of the plant is {:.0} N",
+        visible_line(&axis.name),
+        fit.added_n + 0.0,
+        fit.friction_n
+    ))
+}
+
+/// "compensation of X: the list of the machine, 5 N a drive unit"
+pub(super) fn compensation(axis: &ContourAxis) -> String {
+    let newtons = rounded(axis.newtons_per_unit());
+    let name = visible_line(&axis.name);
+    match &axis.source {
+        ListSource::Machine => {
+            format!("compensation of {name}: the list of the machine, {newtons} N a drive unit")
+        }
+        ListSource::Given(file) => format!(
+            "compensation of {name}: {}, {newtons} N a drive unit",
+            visible_line(file)
+        ),
+        ListSource::Plant => format!(
+            "compensation of {name}: the friction curve of the plant, {newtons} N a drive unit; the \
+             machine has no list that the control takes, and without one the control adds nothing"
+        ),
+    }
+}
+
+fn rounded(newtons: f64) -> f64 {
+    (newtons * 1000.0).round() / 1000.0
+}
+
+/// Why a contour is not judged: a line each.
+pub(super) fn not_judged(obstacles: &[ContourObstacle]) -> impl Iterator<Item = String> {
+    let lines = obstacles.iter();
+    lines.map(|obstacle| format!("not judged: {obstacle}"))
+}
+
+/// What keeps a contour from its limits: a line each. Without limits there is none.
+pub fn exceeded<S: ContourSink>(
+    contour: &ProgramContour<S>,
+    limits: &ContourLimits,
+) -> Vec<String> {
+    if !limits.any() {
+        return Vec::new();
+    }
+    let mut lines: Vec<String> = not_judged(&contour.obstacles()).collect();
+    let programmed = &contour.deviations().programmed;
+    let due = contour.due();
+    for (what, um, at, limit) in [
+        (
+            "the largest deviation",
+            programmed.max_um(),
+            programmed.max_at(),
+            limits.deviation_um,
+        ),
+        (
+            "what missing compensation costs",
+            due.um,
+            due.at.as_ref(),
+            limits.due_um,
+        ),
+    ] {
+        if let (Some(limit), Some(at)) = (limit.filter(|limit| um > *limit), at) {
+            let at = Block::from(&**at).words();
+            lines.push(format!("{what}, {um:.2} µm at {at}, is above {limit} µm"));
+        }
+    }
+    lines
+}

@@ -24,7 +24,7 @@ use crate::host::{
     processors, run_alone,
 };
 use crate::report::{ListingFormat, command_line, wrap};
-use crate::session::{Findings, NoteKind, Notes, StopPolicy};
+use crate::session::{Causes, Findings, NoteKind, Notes, StopPolicy};
 
 /// Print all messages of all programs; each program runs from the start of the control
 #[derive(Debug, Args)]
@@ -183,6 +183,7 @@ impl CheckArgs {
     /// Checks the programs, many at once, and lists what was found in their order.
     fn check_all(&self, jobs: Vec<Job<'_>>, listing: &mut Lister<'_>, failures: &mut Failures) {
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
+        let mut causes = Causes::default();
         let workers = self.jobs.unwrap_or_else(processors);
         let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
         let check = |(input, loaded): Job<'_>| -> Result<_, HostError> {
@@ -198,23 +199,22 @@ impl CheckArgs {
                     return ControlFlow::Continue(());
                 }
             };
-            let mut flow = ControlFlow::Continue(());
             if !listed.contains(&loaded.origin) {
                 listed.push(loaded.origin.clone());
                 for mut diagnostic in loaded.errors().cloned() {
                     diagnostic.reword(Some(command_line));
-                    flow = listing.diagnostic(&diagnostic);
+                    causes.say(diagnostic);
                 }
             }
             listing.file();
-            for diagnostic in found.findings.diagnostics() {
-                flow = listing.diagnostic(diagnostic);
-            }
+            causes.add(found.findings);
             for (severity, more) in &found.unsaid {
                 listing.count(*severity, *more);
             }
-            flow
+            ControlFlow::Continue(())
         });
+        // Only now it is known which programs reach a message.
+        let _ = causes.diagnostics().iter().try_for_each(|said| listing.diagnostic(said));
     }
 }
 

@@ -8,6 +8,7 @@ mod fix;
 mod levels;
 mod message;
 mod number;
+mod reached;
 mod severity;
 mod spelling;
 mod unknown_name;
@@ -19,6 +20,7 @@ pub use filter::CodeFilter;
 pub use fix::{Edit, Fix, Fixed, NamedFix, Safety, edited, edits};
 pub use levels::Levels;
 pub use message::{Diagnostic, Label};
+pub use reached::ReachedFrom;
 #[cfg(feature = "report")]
 pub(crate) use number::Rounded;
 pub(crate) use number::Shown;

@@ -52,7 +52,7 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
     };
     let title = level
         .primary_title(wrap(
-            &diagnostic.message,
+            &diagnostic.sentence(),
             look.width,
             title_indent(diagnostic),
         ))
@@ -69,6 +69,10 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
     });
     for label in outside {
         group = element(group, &label.place, |shown| vec![annotate(shown, label)]);
+    }
+    if !diagnostic.reached_from.is_empty() {
+        let reached = diagnostic.reached_from.to_string();
+        group = group.element(Level::NOTE.message(wrap(&reached, look.width, HELP_INDENT)));
     }
     for advice in &diagnostic.advice {
         group =

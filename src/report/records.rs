@@ -237,7 +237,7 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.extend_from_slice(b",\"axis\":");
     optional(out, diagnostic.axis.as_deref());
     out.extend_from_slice(b",\"message\":");
-    string(out, &diagnostic.message);
+    string(out, &diagnostic.sentence());
     out.extend_from_slice(b",\"help\":[");
     separated(out, &diagnostic.advice, |out, advice| {
         string(out, &advice.to_string());
@@ -247,6 +247,16 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         out.extend_from_slice(b",\"fixes\":[");
         separated(out, &diagnostic.fixes, append_fix);
         out.push(b']');
+    }
+    let reached_from = &diagnostic.reached_from;
+    if !reached_from.is_empty() {
+        out.extend_from_slice(b",\"reached_from\":[");
+        separated(out, reached_from.programs(), |out, file| string(out, file));
+        out.push(b']');
+    }
+    if let Some(count) = reached_from.count_beyond_names() {
+        out.extend_from_slice(b",\"reached_from_count\":");
+        integer(out, count);
     }
 }
 

@@ -3,6 +3,7 @@
 //! The state that one program leaves is the state that the next one starts with.
 
 mod allow;
+mod causes;
 mod findings;
 mod recorder;
 mod safe_fixes;
@@ -15,6 +16,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use allow::allow_here;
+pub use causes::Causes;
 pub use findings::Findings;
 pub use safe_fixes::{ProposedFixes, SafeFixes};
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};

@@ -13,7 +13,7 @@ use super::console::{Console, Printed, Target};
 use super::execution::ExecutionArgs;
 use super::failure::Failure;
 use super::failures::Failures;
-use super::listing::{Lister, ListingArgs, of_records, passed_over, total};
+use super::listing::{Lister, ListingArgs, Uncompensated, of_records, passed_over, total};
 use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::mend::{Bench, FixArgs};
 use super::notes::{self, Note};
@@ -25,6 +25,7 @@ use crate::host::{
 };
 use crate::report::{ListingFormat, command_line, wrap};
 use crate::session::{Causes, Findings, NoteKind, Notes, StopPolicy};
+use crate::timeline::{Record, Sink};
 
 /// Print all messages of all programs; each program runs from the start of the control
 #[derive(Debug, Args)]
@@ -208,6 +209,9 @@ impl CheckArgs {
             }
             listing.file();
             causes.add(found.findings);
+            for (axis, moves) in found.uncompensated {
+                listing.feed_moves(axis, moves);
+            }
             for (severity, more) in &found.unsaid {
                 listing.count(*severity, *more);
             }
@@ -223,6 +227,8 @@ struct Found {
     findings: Findings,
     /// How many more messages there are, by severity (R2.85).
     unsaid: BTreeMap<Severity, u64>,
+    /// Its feed moves without compensation, by axes.
+    uncompensated: Vec<(String, Uncompensated)>,
 }
 
 /// Runs one program from the start of the control.
@@ -237,7 +243,23 @@ fn check_file(
         axes: Axes::AsTheyOccur,
     };
     let mut findings = Findings::default();
-    let session = run_alone(input, loaded, alone, &mut findings)?;
+    let mut uncompensated = Vec::new();
+    let mut sink = |record: &Record<'_>| {
+        if let Record::Summary(summary) = record {
+            let axes = summary.uncompensated();
+            uncompensated.extend(axes.map(|axis| {
+                let of = summary.state.machine.axis(axis.axis);
+                let moves = Uncompensated::of_program(of.axis_type, axis.feed_moves);
+                (of.name.clone(), moves)
+            }));
+        }
+        findings.record(record)
+    };
+    let session = run_alone(input, loaded, alone, &mut sink)?;
     let unsaid = findings.unsaid(session.counts());
-    Ok(Found { findings, unsaid })
+    Ok(Found {
+        findings,
+        unsaid,
+        uncompensated,
+    })
 }

@@ -14,6 +14,7 @@ pub mod contour;
 mod csv;
 mod diagnostics;
 pub mod drives;
+mod feed_moves;
 mod findings;
 mod github;
 mod gitlab;
@@ -51,6 +52,7 @@ pub use csv::{Csv, Positions};
 #[cfg(feature = "cli")]
 pub(crate) use diagnostics::wrap;
 pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
+pub use feed_moves::feed_moves_text;
 pub use json::Json;
 #[cfg(feature = "cli")]
 pub(crate) use listeners::{Listeners, SharedReport};

@@ -161,6 +161,13 @@ impl Encoder {
             out.push(b':');
             integer(out, *count);
         });
+        out.extend_from_slice(b"},\"uncompensated\":{");
+        separated(out, summary.uncompensated(), |out, axis| {
+            string(out, summary.state.name(axis.axis));
+            out.push(b':');
+            // Memory takes every byte, and the counts are numbers.
+            let _ = serde_json::to_writer(out, &axis.feed_moves);
+        });
         out.push(b'}');
         self.close(out, summary.state);
     }

@@ -190,7 +190,7 @@ pub(super) fn style(state: State) -> Style {
 }
 
 /// A number with a blank between its thousands.
-pub(super) fn grouped(number: u64) -> String {
+pub(in crate::report) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (at, digit) in digits.chars().enumerate() {

@@ -17,7 +17,8 @@ use super::output::{Gathered, Output};
 use super::view::{Blocks, View};
 use super::visible::leading;
 use columns::Columns;
-use line::{BOLD, DIM, GUTTER, Line, MARK, Paragraph, grouped};
+pub(super) use line::grouped;
+use line::{BOLD, DIM, GUTTER, Line, MARK, Paragraph};
 
 /// Below so many columns diagnostics stand further left.
 const NARROW: usize = 60;

@@ -210,7 +210,7 @@ impl CheckArgs {
             listing.file();
             causes.add(found.findings);
             for (axis, moves) in found.uncompensated {
-                listing.feed_moves(axis, moves);
+                listing.feed_moves(axis, &moves);
             }
             for (severity, more) in &found.unsaid {
                 listing.count(*severity, *more);
@@ -218,7 +218,10 @@ impl CheckArgs {
             ControlFlow::Continue(())
         });
         // Only now it is known which programs reach a message.
-        let _ = causes.diagnostics().iter().try_for_each(|said| listing.diagnostic(said));
+        let _ = causes
+            .diagnostics()
+            .iter()
+            .try_for_each(|said| listing.diagnostic(said));
     }
 }
 

@@ -135,7 +135,7 @@ impl Lister<'_> {
     }
 
     /// Adds the feed moves of an axis in a program.
-    pub(super) fn feed_moves(&mut self, axis: String, of_program: Uncompensated) {
+    pub(super) fn feed_moves(&mut self, axis: String, of_program: &Uncompensated) {
         let axis = self.uncompensated.entry(axis).or_default();
         axis.axis_type = of_program.axis_type;
         axis.moves.append(&of_program.moves);
@@ -255,7 +255,10 @@ fn record(code: Code, severity: Severity, count: u64) -> Value {
 fn cost(axis: &str, of: &Uncompensated) -> Option<String> {
     let text = feed_moves_text(&of.moves, of.axis_type)?;
     let plural = if of.programs == 1 { "" } else { "s" };
-    Some(format!("{axis}{text}, in {} program{plural}\n", of.programs))
+    Some(format!(
+        "{axis}{text}, in {} program{plural}\n",
+        of.programs
+    ))
 }
 
 fn cost_record(axis: &str, of: &Uncompensated) -> Value {

@@ -40,7 +40,7 @@ pub struct Diagnostic {
     pub fixes: Vec<Fix>,
     /// Further places.
     pub labels: Vec<Label>,
-    /// Number of executed blocks of a program to which it applied, where that is known at the end.
+    /// Number of executed blocks of a program to which it applied, as the message says it.
     pub times: u64,
     /// The main programs that reach its place, where that is in a called program.
     pub reached_from: ReachedFrom,
@@ -94,21 +94,27 @@ impl Diagnostic {
         said.with_fix(Fix::guess(place, near))
     }
 
-    /// The message, and how often it applied.
-    pub fn sentence(&self) -> Cow<'_, str> {
-        if self.times > 1 {
-            Cow::Owned(format!("{} ({} times)", self.message, self.times))
-        } else {
-            Cow::Borrowed(&self.message)
-        }
+    /// Says how often it applied.
+    pub(crate) fn count(&mut self, times: u64) {
+        self.message = format!("{} ({times} times)", self.message);
+        self.times = times;
     }
 
-    /// The same with the main programs that reach its place, for formats of one line (R17.1).
+    /// The message without how often it applied: what makes it the same as another one (R17.3).
+    pub(crate) fn uncounted(&self) -> &str {
+        if self.times == 1 {
+            return &self.message;
+        }
+        let count = format!(" ({} times)", self.times);
+        self.message.strip_suffix(&count).unwrap_or(&self.message)
+    }
+
+    /// The message with the main programs that reach its place, for formats of one line (R17.1).
     pub fn line(&self) -> Cow<'_, str> {
         if self.reached_from.is_empty() {
-            self.sentence()
+            Cow::Borrowed(&self.message)
         } else {
-            Cow::Owned(format!("{} ({})", self.sentence(), self.reached_from))
+            Cow::Owned(format!("{} ({})", self.message, self.reached_from))
         }
     }
 
@@ -152,7 +158,7 @@ impl Serialize for Diagnostic {
         object.serialize_field("end_line", &end.line)?;
         object.serialize_field("end_column", &end.column)?;
         object.serialize_field("axis", &self.axis)?;
-        object.serialize_field("message", &self.sentence())?;
+        object.serialize_field("message", &self.message)?;
         object.serialize_field("help", &self.advice)?;
         if !self.fixes.is_empty() {
             object.serialize_field("fixes", &self.fixes)?;

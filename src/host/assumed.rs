@@ -1,10 +1,9 @@
-//! Axes on which friction compensation is assumed, `--enable` (R9.74, R17.7).
+//! Axes on which friction compensation is assumed because the user says so (R9.74, R17.7).
 
 use super::axes_ahead::{AxesAhead, may_be_axis};
-use super::discovery::LoadedMachine;
 use super::error::HostError;
 use super::input::Input;
-use crate::diagnostic::{Code, UnknownName};
+use crate::diagnostic::UnknownName;
 use crate::machine::{AxisReport, AxisSet, Machine, Origin};
 
 /// The axes that programs have: those of their machines, and where none is described, those that
@@ -45,34 +44,33 @@ impl AxesOfPrograms {
     }
 }
 
-/// Assumes friction compensation on the axes that the user names. An axis that only other programs
-/// have is none of this machine.
+/// Assumes friction compensation on the axes that the user names, and returns those that the machine
+/// has. An axis that only other programs have is none of this machine.
 ///
 /// # Errors
 /// A name that no axis can have, or that no program has.
-pub(super) fn assume_axes(
-    names: &[String],
-    loaded: &mut LoadedMachine,
+pub(super) fn assume_axes<'a>(
+    names: &'a [String],
+    (machine, reports): (&mut Machine, &mut [AxisReport]),
     programs: Option<&AxesOfPrograms>,
-) -> Result<(), HostError> {
+) -> Result<Vec<&'a str>, HostError> {
+    let mut assumed = Vec::new();
     for name in names.iter().map(|name| name.trim()) {
         check_name(name)?;
-        if loaded.machine.axis_set == AxisSet::AsTheyOccur {
+        let is_described = machine.axis_set != AxisSet::AsTheyOccur;
+        if !is_described {
             check_occurs(name, programs)?;
-        } else if !loaded.machine.axes.iter().any(|axis| axis.name == name)
-            && programs.is_some_and(|programs| programs.may_hold(name))
-        {
+        }
+        let is_elsewhere = programs.is_some_and(|programs| programs.may_hold(name));
+        let is_here = machine.axes.iter().any(|axis| axis.name == name);
+        if is_described && !is_here && is_elsewhere {
             continue;
         }
-        enable(&mut loaded.machine, name)?;
-        assume(&mut loaded.reports, &loaded.machine, name);
-        // What is assumed need not be found missing.
-        loaded.diagnostics.retain(|said| {
-            let assumed = matches!(said.code, Code::Fc135 | Code::Fc303);
-            !(assumed && said.axis.as_deref() == Some(name))
-        });
+        enable(machine, name)?;
+        assume(reports, machine, name);
+        assumed.push(name);
     }
-    Ok(())
+    Ok(assumed)
 }
 
 /// Whether a program may name an axis, where no machine is described (R9.74). Called programs and

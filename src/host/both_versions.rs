@@ -74,7 +74,7 @@ impl Machines {
         let loaded = self.for_folder(new)?;
         let mut reaches = [loaded.reach.clone(), loaded.reach.clone()];
         if let MachineOwner::NewNotOld(path) = &owner
-            && let Ok(own) = self.plain(&Some(path.clone()))
+            && let Ok(own) = self.plain(Some(path))
         {
             reaches[0] = with_own(&own.reach, &loaded.reach);
         }

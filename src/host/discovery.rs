@@ -187,9 +187,15 @@ impl Machines {
         if let Some(loaded) = self.loaded.get(&config) {
             return Ok(Arc::clone(loaded));
         }
-        let mut loaded = self.plain(&config)?.clone();
+        let mut loaded = self.plain(config.as_deref())?.clone();
         let options = &self.options;
-        assume_axes(&options.enable, &mut loaded, self.ahead.as_ref())?;
+        let onto = (&mut loaded.machine, loaded.reports.as_mut_slice());
+        let assumed = assume_axes(&options.enable, onto, self.ahead.as_ref())?;
+        // What is assumed need not be found missing.
+        loaded.diagnostics.retain(|said| {
+            let is_missing = matches!(said.code, Code::Fc135 | Code::Fc303);
+            !(is_missing && said.axis.as_deref().is_some_and(|it| assumed.contains(&it)))
+        });
         options.codes.apply(&mut loaded.levels);
         options.codes.sift(&mut loaded.diagnostics);
         loaded.disk = self.disk.clone();
@@ -224,15 +230,13 @@ impl Machines {
     }
 
     /// The machine of a configuration without the axes that the user enables.
-    pub(super) fn plain(
-        &mut self,
-        config: &Option<PathBuf>,
-    ) -> Result<&LoadedMachine, HostError> {
-        if !self.plain.contains_key(config) {
-            let loaded = self.load(config.as_deref())?;
-            self.plain.insert(config.clone(), loaded);
+    pub(super) fn plain(&mut self, config: Option<&Path>) -> Result<&LoadedMachine, HostError> {
+        let key = config.map(Path::to_owned);
+        if !self.plain.contains_key(&key) {
+            let loaded = self.load(config)?;
+            self.plain.insert(key.clone(), loaded);
         }
-        Ok(&self.plain[config])
+        Ok(&self.plain[&key])
     }
 
     /// The programs are known: compensation is assumed on axes that they, or their machines, have
@@ -247,7 +251,7 @@ impl Machines {
         let mut undescribed = Vec::new();
         for input in inputs {
             let config = self.configuration(input.folder());
-            match self.plain(&config) {
+            match self.plain(config.as_deref()) {
                 Ok(loaded) if loaded.machine.axis_set == AxisSet::AsTheyOccur => {
                     undescribed.push(input);
                 }
@@ -271,7 +275,7 @@ impl Machines {
     /// The extensions of programs below a folder, where its configuration names them.
     pub fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
         let config = self.configuration(folder);
-        self.plain(&config).ok()?.extensions.clone()
+        self.plain(config.as_deref()).ok()?.extensions.clone()
     }
 
     /// Reads the configuration and applies what differs from it.

@@ -107,7 +107,7 @@ impl Translator<'_> {
                 href: page_uri(said.code, &self.client.settings),
             }),
             source: Some(SOURCE.to_owned()),
-            message: format!("{}{}", said.sentence(), help.collect::<String>()).into(),
+            message: format!("{}{}", said.message, help.collect::<String>()).into(),
             tags: (said.code == Code::Fc402).then(|| vec![DiagnosticTag::Unnecessary]),
             related_information: (!related.is_empty()).then_some(related),
             data: None,

@@ -52,7 +52,7 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
     };
     let title = level
         .primary_title(wrap(
-            &diagnostic.sentence(),
+            &diagnostic.message,
             look.width,
             title_indent(diagnostic),
         ))

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::text::grouped;
+use super::strings::grouped;
 use crate::lists::AxisType;
 use crate::timeline::FeedMoves;
 
@@ -36,7 +36,11 @@ pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String>
         };
     }
     if unknown > 0 {
-        let _ = write!(text, ", and in an unknown state during {}", counted(unknown));
+        let _ = write!(
+            text,
+            ", and in an unknown state during {}",
+            counted(unknown)
+        );
     }
     Some(text)
 }
@@ -65,7 +69,10 @@ mod tests {
             feed_moves_text(&moves, AxisType::Linear).unwrap_or_default()
         };
         assert_eq!(text(0, 0, 0, None, 0), "");
-        assert_eq!(text(1, 0, 0, Some(12.5), 0), " off during 1 feed move of 12.5 mm");
+        assert_eq!(
+            text(1, 0, 0, Some(12.5), 0),
+            " off during 1 feed move of 12.5 mm"
+        );
         assert_eq!(
             text(1155, 0, 0, Some(812.0), 0),
             " off during 1 155 feed moves, the longest 812 mm"
@@ -75,14 +82,23 @@ mod tests {
             " off or without effect during 3 feed moves, the longest known 0.3 mm, \
              and in an unknown state during 4 feed moves"
         );
-        assert_eq!(text(0, 2, 0, None, 2), " without effect during 2 feed moves");
-        assert_eq!(text(0, 0, 1, None, 0), " in an unknown state during 1 feed move");
+        assert_eq!(
+            text(0, 2, 0, None, 2),
+            " without effect during 2 feed moves"
+        );
+        assert_eq!(
+            text(0, 0, 1, None, 0),
+            " in an unknown state during 1 feed move"
+        );
         let turned = FeedMoves {
             off: 1,
             longest: Some(90.0),
             ..FeedMoves::default()
         };
         let turned = feed_moves_text(&turned, AxisType::Rotary);
-        assert_eq!(turned.as_deref(), Some(" off during 1 feed move of 90\u{b0}"));
+        assert_eq!(
+            turned.as_deref(),
+            Some(" off during 1 feed move of 90\u{b0}")
+        );
     }
 }

@@ -49,7 +49,7 @@ impl GitLab {
     /// are the same.
     fn fingerprint(&mut self, path: &str, diagnostic: &Diagnostic) -> String {
         let mut hasher = FnvHasher::default();
-        for part in [path, diagnostic.code.as_str(), &diagnostic.message] {
+        for part in [path, diagnostic.code.as_str(), diagnostic.uncounted()] {
             hasher.write(part.as_bytes());
             hasher.write_u8(0);
         }

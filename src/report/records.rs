@@ -161,14 +161,10 @@ impl Encoder {
             out.push(b':');
             integer(out, *count);
         });
-        out.extend_from_slice(b"},\"uncompensated\":{");
-        separated(out, summary.uncompensated(), |out, axis| {
-            string(out, summary.state.name(axis.axis));
-            out.push(b':');
-            // Memory takes every byte, and the counts are numbers.
-            let _ = serde_json::to_writer(out, &axis.feed_moves);
-        });
         out.push(b'}');
+        if summary.uncompensated().next().is_some() {
+            uncompensated(out, summary);
+        }
         self.close(out, summary.state);
     }
 
@@ -244,7 +240,7 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.extend_from_slice(b",\"axis\":");
     optional(out, diagnostic.axis.as_deref());
     out.extend_from_slice(b",\"message\":");
-    string(out, &diagnostic.sentence());
+    string(out, &diagnostic.message);
     out.extend_from_slice(b",\"help\":[");
     separated(out, &diagnostic.advice, |out, advice| {
         string(out, &advice.to_string());
@@ -311,6 +307,18 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
             string(out, state.state(axis, kind).as_str());
         });
         out.push(b'}');
+    });
+    out.push(b'}');
+}
+
+/// Axis → feed moves while it was not active (R13.12).
+fn uncompensated(out: &mut Vec<u8>, summary: &Summary<'_>) {
+    out.extend_from_slice(b",\"uncompensated\":{");
+    separated(out, summary.uncompensated(), |out, axis| {
+        string(out, summary.state.name(axis.axis));
+        out.push(b':');
+        // Memory takes every byte, and the counts are numbers.
+        let _ = serde_json::to_writer(out, &axis.feed_moves);
     });
     out.push(b'}');
 }

@@ -90,7 +90,7 @@ fn indented(out: &mut Vec<u8>, value: &Value, column: usize) {
 }
 
 fn result(diagnostic: &Diagnostic) -> Value {
-    let mut text = diagnostic.sentence().into_owned();
+    let mut text = diagnostic.message.clone();
     if !diagnostic.reached_from.is_empty() {
         let _ = write!(text, "\nnote: {}", diagnostic.reached_from);
     }

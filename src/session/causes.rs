@@ -28,7 +28,7 @@ impl Cause {
             code: said.code,
             severity: said.severity,
             axis: said.axis.clone(),
-            message: said.message.clone(),
+            message: said.uncounted().to_owned(),
         }
     }
 }
@@ -71,7 +71,9 @@ impl Causes {
             return;
         };
         known.reached_from.append(&said.reached_from);
-        known.times = known.times.max(said.times);
+        if said.times > known.times {
+            (known.times, known.message) = (said.times, said.message);
+        }
         // What remains is done by one change for all the programs.
         known.fixes.retain(|fix| said.fixes.contains(fix));
     }

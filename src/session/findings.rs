@@ -76,7 +76,7 @@ impl Findings {
             .take_while(|((file, start, ..), _)| **file == *repeat.file && *start == repeat.start);
         for ((_, _, _, code, message), said) in here {
             if *code == repeat.code && *message == repeat.message {
-                said.times = repeat.times;
+                said.count(repeat.times);
             }
         }
     }

@@ -28,6 +28,12 @@ impl Serialize for Axes<'_> {
 /// Axis → feed moves while it was not active (R13.12).
 struct Uncompensated<'a>(&'a Summary<'a>);
 
+impl Uncompensated<'_> {
+    fn is_empty(&self) -> bool {
+        self.0.uncompensated().next().is_none()
+    }
+}
+
 impl Serialize for Uncompensated<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let axes = self.0.uncompensated();
@@ -129,6 +135,7 @@ enum Object<'a> {
         errors: u64,
         warnings: u64,
         opaque: &'a std::collections::BTreeMap<String, u64>,
+        #[serde(skip_serializing_if = "Uncompensated::is_empty")]
         uncompensated: Uncompensated<'a>,
         friction: Friction<'a>,
     },

@@ -113,7 +113,11 @@ impl PyFix {
 
 /// The files of the main programs that reach a message.
 fn named(reached: &ReachedFrom) -> Vec<String> {
-    reached.programs().iter().map(|file| file.to_string()).collect()
+    reached
+        .programs()
+        .iter()
+        .map(|file| file.to_string())
+        .collect()
 }
 
 impl PyMessage {
@@ -131,7 +135,7 @@ impl PyMessage {
             end_line: end.line,
             end_column: end.column,
             axis: said.axis.clone(),
-            message: said.sentence().into_owned(),
+            message: said.message.clone(),
             help: said.advice.iter().map(Advice::to_string).collect(),
             fixes: said.fixes.iter().map(PyFix::of).collect(),
             reached_from: named(&said.reached_from),

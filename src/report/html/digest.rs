@@ -134,7 +134,9 @@ pub(super) struct Message {
 impl Message {
     /// Notes the main program that reached it (R17.1).
     fn reached_from(&mut self, program: Option<(u32, Arc<str>)>) {
-        let Some((number, file)) = program else { return };
+        let Some((number, file)) = program else {
+            return;
+        };
         if self.by.replace(number) != Some(number) {
             self.diagnostic.reached_from.add(&file);
         }

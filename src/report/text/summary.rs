@@ -6,12 +6,13 @@ use unicode_width::UnicodeWidthStr;
 use crate::comp::State;
 use crate::diagnostic::Severity;
 use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
-use crate::report::feed_moves::feed_moves_text;
 use crate::report::diagnostics::Look;
+use crate::report::feed_moves::feed_moves_text;
+use crate::report::strings::grouped;
 use crate::report::visible::last_part;
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
-use super::line::{BOLD, DIM, Line, Paragraph, grouped, style};
+use super::line::{BOLD, DIM, Line, Paragraph, style};
 
 /// Columns that what changed an axis must have beside its states, or it stands below them.
 const CHANGED_BY: usize = 24;

@@ -75,7 +75,7 @@ fn random_archives_do_what_they_were_made_to_do() {
             fs::write(bench.folder().join(&program.name), &program.bytes).expect("written");
         }
         let records = records(&bench, &[]);
-        assert_eq!(records[0]["schema"], 1);
+        assert_eq!(records[0]["schema"], 2);
         for program in &programs {
             for (name, expected) in program.expected() {
                 let found = axis(&records, &program.name, &name.to_string());

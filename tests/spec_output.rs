@@ -27,7 +27,7 @@ fn records_have_their_keys_in_order() {
     let states = r#""friction":{"X":"active","Y":"active","Z":"unconfigured"}}"#;
     let left = r#""friction":{"X":"active","Y":"inactive","Z":"unconfigured"}}"#;
     assert_eq!(lines.len(), 9, "{lines:#?}");
-    assert!(lines[0].starts_with(r#"{"record":"session","schema":1,"tool":"frictcomp "#));
+    assert!(lines[0].starts_with(r#"{"record":"session","schema":2,"tool":"frictcomp "#));
     assert!(lines[0].ends_with(&format!(r#""axes":["X","Y","Z"],{states}"#)));
     let program = r#"{"record":"program","program":1,"file":"a.nc","name":null,"#;
     assert_eq!(lines[1], format!("{program}{states}"));

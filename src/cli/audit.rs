@@ -34,6 +34,7 @@ use crate::report::audit::{
 use crate::report::html::render_audit;
 use crate::session::StopPolicy;
 use crate::text::shown_path;
+use crate::timeline::SCHEMA;
 
 /// Show what the order of programs does: which ones leave an axis away from its start-up state, and which move it
 /// in the state that they find
@@ -344,7 +345,7 @@ fn programs_of(order: &Path) -> Result<Vec<Input>, Failure> {
 }
 
 fn document(records: &[Value]) -> String {
-    format!("{:#}\n", json!({ "schema": 1, "records": records }))
+    format!("{:#}\n", json!({ "schema": SCHEMA, "records": records }))
 }
 
 fn lines(records: &[Value]) -> String {

@@ -13,7 +13,7 @@ use super::console::{Console, Printed, Target};
 use super::execution::ExecutionArgs;
 use super::failure::Failure;
 use super::failures::Failures;
-use super::listing::{Lister, ListingArgs, of_records, passed_over, total};
+use super::listing::{Lister, ListingArgs, Uncompensated, of_records, passed_over, total};
 use super::machine::{MachineArgs, remark, undescribed_remark};
 use super::mend::{Bench, FixArgs};
 use super::notes::{self, Note};
@@ -24,7 +24,8 @@ use crate::host::{
     processors, run_alone,
 };
 use crate::report::{ListingFormat, command_line, wrap};
-use crate::session::{Findings, NoteKind, Notes, StopPolicy};
+use crate::session::{Causes, Findings, NoteKind, Notes, StopPolicy};
+use crate::timeline::{Record, Sink};
 
 /// Print all messages of all programs; each program runs from the start of the control
 #[derive(Debug, Args)]
@@ -183,6 +184,7 @@ impl CheckArgs {
     /// Checks the programs, many at once, and lists what was found in their order.
     fn check_all(&self, jobs: Vec<Job<'_>>, listing: &mut Lister<'_>, failures: &mut Failures) {
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
+        let mut causes = Causes::default();
         let workers = self.jobs.unwrap_or_else(processors);
         let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
         let check = |(input, loaded): Job<'_>| -> Result<_, HostError> {
@@ -198,23 +200,28 @@ impl CheckArgs {
                     return ControlFlow::Continue(());
                 }
             };
-            let mut flow = ControlFlow::Continue(());
             if !listed.contains(&loaded.origin) {
                 listed.push(loaded.origin.clone());
                 for mut diagnostic in loaded.errors().cloned() {
                     diagnostic.reword(Some(command_line));
-                    flow = listing.diagnostic(&diagnostic);
+                    causes.say(diagnostic);
                 }
             }
             listing.file();
-            for diagnostic in found.findings.diagnostics() {
-                flow = listing.diagnostic(diagnostic);
+            causes.add(found.findings);
+            for (axis, moves) in found.uncompensated {
+                listing.feed_moves(axis, &moves);
             }
             for (severity, more) in &found.unsaid {
                 listing.count(*severity, *more);
             }
-            flow
+            ControlFlow::Continue(())
         });
+        // Only now it is known which programs reach a message.
+        let _ = causes
+            .diagnostics()
+            .iter()
+            .try_for_each(|said| listing.diagnostic(said));
     }
 }
 
@@ -223,6 +230,8 @@ struct Found {
     findings: Findings,
     /// How many more messages there are, by severity (R2.85).
     unsaid: BTreeMap<Severity, u64>,
+    /// Its feed moves without compensation, by axes.
+    uncompensated: Vec<(String, Uncompensated)>,
 }
 
 /// Runs one program from the start of the control.
@@ -237,7 +246,23 @@ fn check_file(
         axes: Axes::AsTheyOccur,
     };
     let mut findings = Findings::default();
-    let session = run_alone(input, loaded, alone, &mut findings)?;
+    let mut uncompensated = Vec::new();
+    let mut sink = |record: &Record<'_>| {
+        if let Record::Summary(summary) = record {
+            let axes = summary.uncompensated();
+            uncompensated.extend(axes.map(|axis| {
+                let of = summary.state.machine.axis(axis.axis);
+                let moves = Uncompensated::of_program(of.axis_type, axis.feed_moves);
+                (of.name.clone(), moves)
+            }));
+        }
+        findings.record(record)
+    };
+    let session = run_alone(input, loaded, alone, &mut sink)?;
     let unsaid = findings.unsaid(session.counts());
-    Ok(Found { findings, unsaid })
+    Ok(Found {
+        findings,
+        unsaid,
+        uncompensated,
+    })
 }

@@ -17,7 +17,8 @@ use super::simulated::{SimulationArgs, Tolerance};
 use crate::comp::KindSet;
 use crate::contour::BlockDeviations;
 use crate::host::{
-    Alone, Axes, Input, Ledger, Machines, Naming, drive_contour, run_alone, switched_axes,
+    Alone, Axes, Input, Ledger, LoadedMachine, MachineOfVersions, MachineOwner, Naming,
+    drive_contour, run_alone, switched_axes,
 };
 use crate::report::fitted;
 use crate::report::html::render_versions;
@@ -80,22 +81,22 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     let mut result = outputs.result(args.result.output.as_deref())?;
     let html = outputs.optional("--html", args.html.as_deref())?;
     let mut machines = args.machine.machines(&ledger);
-    machines.look_ahead(&inputs);
-    for input in &inputs {
-        machines.for_folder(input.folder())?;
-    }
+    let machine = machines.for_versions(&inputs)?;
     outputs.check()?;
+    if let Some(remark) = remark(&machine) {
+        console.remark(&remark);
+    }
     let [old, new] = &inputs;
     let comparison = VersionComparison::new(
-        version(args, old, &mut machines)?,
-        version(args, new, &mut machines)?,
+        version(args, old, &machine.old)?,
+        version(args, new, &machine.new)?,
     );
     let contours = if args.contour {
-        Some(contours(args, &inputs, (&mut machines, &ledger))?)
+        Some(contours(args, &inputs, (&machine, &ledger))?)
     } else {
         None
     };
-    let is_described = machines.loaded().all(|it| it.machine.is_described());
+    let is_described = machine.new.machine.is_described();
     let report = VersionsReport {
         old: shown_path(&args.old),
         new: shown_path(&args.new),
@@ -125,23 +126,39 @@ pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
     })
 }
 
+/// Whose machine both versions run on, where that is no matter of course (R17.4).
+fn remark(machine: &MachineOfVersions) -> Option<String> {
+    let taken = shown_path(machine.new.origin.as_ref()?);
+    match &machine.owner {
+        MachineOwner::NewNotOld(path) => {
+            let passed_over = shown_path(path);
+            Some(format!(
+                "both versions run on the machine of `{taken}`, not on that of `{passed_over}`"
+            ))
+        }
+        MachineOwner::CurrentFolder => Some(format!(
+            "both versions run on the machine of `{taken}`, that of the current folder"
+        )),
+        _ => None,
+    }
+}
+
 /// The contours of both versions.
 fn contours(
     args: &DiffArgs,
     inputs: &[Input; 2],
-    (machines, ledger): (&mut Machines, &Ledger),
+    (machine, ledger): (&MachineOfVersions, &Ledger),
 ) -> Result<ContoursReport, Failure> {
     let mut plane = Default::default();
-    let mut contour = |input: &Input| -> Result<VersionContour, Failure> {
-        let loaded = machines.for_folder(input.folder())?;
-        let of = (&*loaded, Naming::AsGiven);
+    let mut contour = |input, loaded| -> Result<VersionContour, Failure> {
+        let of = (loaded, Naming::AsGiven);
         let setup = args.simulation.setup(of, &args.execution, ledger)?;
-        let contour = drive_contour(input, &loaded, &setup, |_| BlockDeviations::default())?;
+        let contour = drive_contour(input, loaded, &setup, |_| BlockDeviations::default())?;
         plane = setup.plane;
         Ok(contour.into())
     };
     let [old, new] = inputs;
-    let (old, new) = (contour(old)?, contour(new)?);
+    let (old, new) = (contour(old, &machine.old)?, contour(new, &machine.new)?);
     Ok(ContoursReport {
         comparison: ContourComparison::new(old, new, args.tolerance.unwrap_or_default().um()),
         plane,
@@ -150,15 +167,14 @@ fn contours(
 }
 
 /// What a version switches.
-fn version(args: &DiffArgs, input: &Input, machines: &mut Machines) -> Result<Version, Failure> {
-    let loaded = machines.for_folder(input.folder())?;
+fn version(args: &DiffArgs, input: &Input, loaded: &LoadedMachine) -> Result<Version, Failure> {
     let alone = Alone {
-        options: args.execution.options(&loaded, StopPolicy::FirstError),
+        options: args.execution.options(loaded, StopPolicy::FirstError),
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,
     };
     let mut version = Version::new(args.kinds);
-    run_alone(input, &loaded, alone, &mut version)?;
+    run_alone(input, loaded, alone, &mut version)?;
     if !loaded.machine.is_described() && !switched_axes([input]).is_empty() {
         version.rests_on_no_machine();
     }

@@ -14,10 +14,11 @@ use super::failure::Failure;
 use super::severities::SeverityArgs;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::drive_interface::DriveReport;
-use crate::lists::{Origin, Parameter};
+use crate::lists::{AxisType, Origin, Parameter};
 use crate::machine::AxisReport;
 use crate::report::drives::drive_record;
-use crate::report::{Listing, ListingFormat, Tally};
+use crate::report::{Listing, ListingFormat, Tally, feed_moves_text};
+use crate::timeline::{FeedMoves, SCHEMA};
 
 /// How diagnostics are listed.
 #[derive(Debug, Clone, Args)]
@@ -55,7 +56,7 @@ pub(super) fn of_records(format: ListingFormat, what: &str) -> Result<ListingFor
 /// Records as text lines, NDJSON or one document.
 pub(super) fn records(format: ListingFormat, text: &str, records: &[Value]) -> String {
     match format {
-        ListingFormat::Json => format!("{:#}\n", json!({ "schema": 1, "records": records })),
+        ListingFormat::Json => format!("{:#}\n", json!({ "schema": SCHEMA, "records": records })),
         ListingFormat::Ndjson => records
             .iter()
             .fold(String::new(), |lines, it| lines + &it.to_string() + "\n"),
@@ -83,6 +84,7 @@ impl ListingArgs {
             listing: Listing::new(writer, format, look),
             counted,
             counts: BTreeMap::new(),
+            uncompensated: BTreeMap::new(),
         })
     }
 }
@@ -94,6 +96,27 @@ pub(super) struct Lister<'a> {
     /// Where the counts go, in place of the list.
     counted: Option<Target>,
     counts: BTreeMap<(Code, Severity), u64>,
+    /// Feed moves without compensation, by the names of the axes.
+    uncompensated: BTreeMap<String, Uncompensated>,
+}
+
+/// The feed moves of an axis without compensation, in all programs (R13.12).
+#[derive(Debug, Clone, Default)]
+pub(super) struct Uncompensated {
+    pub(super) axis_type: AxisType,
+    pub(super) moves: FeedMoves,
+    programs: u64,
+}
+
+impl Uncompensated {
+    /// Those of one program.
+    pub(super) fn of_program(axis_type: AxisType, moves: FeedMoves) -> Self {
+        Self {
+            axis_type,
+            moves,
+            programs: 1,
+        }
+    }
 }
 
 impl Lister<'_> {
@@ -109,6 +132,14 @@ impl Lister<'_> {
         }
         *self.counts.entry((said.code, said.severity)).or_default() += 1;
         self.listing.diagnostic(said)
+    }
+
+    /// Adds the feed moves of an axis in a program.
+    pub(super) fn feed_moves(&mut self, axis: String, of_program: &Uncompensated) {
+        let axis = self.uncompensated.entry(axis).or_default();
+        axis.axis_type = of_program.axis_type;
+        axis.moves.append(&of_program.moves);
+        axis.programs += of_program.programs;
     }
 
     /// Counts diagnostics that are too many to be listed (R2.85).
@@ -139,13 +170,17 @@ impl Lister<'_> {
         self.listing.finish().map_err(Failure::output)?;
         if let Some(target) = &mut self.counted {
             let (format, counts) = (self.args.format, &self.counts);
-            let text: String = counts
+            let rows = counts
                 .iter()
-                .map(|((code, severity), count)| row(*code, *severity, *count))
-                .collect();
+                .map(|((code, severity), count)| row(*code, *severity, *count));
+            let costs = self.uncompensated.iter();
+            let costs = costs.filter_map(|(axis, of)| cost(axis, of));
+            let text: String = rows.chain(costs).collect();
             let values = counts.iter();
             let values = values.map(|((code, severity), count)| record(*code, *severity, *count));
-            let values: Vec<Value> = values.collect();
+            let costs = self.uncompensated.iter();
+            let costs = costs.map(|(axis, of)| cost_record(axis, of));
+            let values: Vec<Value> = values.chain(costs).collect();
             return target.text(&records(format, &text, &values));
         }
         Ok(if self.listing.is_closed() {
@@ -214,6 +249,24 @@ fn record(code: Code, severity: Severity, count: u64) -> Value {
         "count": count,
         "title": code.title(),
     })
+}
+
+/// What the programs cut with an axis without compensation.
+fn cost(axis: &str, of: &Uncompensated) -> Option<String> {
+    let text = feed_moves_text(&of.moves, of.axis_type)?;
+    let plural = if of.programs == 1 { "" } else { "s" };
+    Some(format!(
+        "{axis}{text}, in {} program{plural}\n",
+        of.programs
+    ))
+}
+
+fn cost_record(axis: &str, of: &Uncompensated) -> Value {
+    let mut record = json!({ "record": "uncompensated", "axis": axis, "programs": of.programs });
+    if let (Value::Object(record), Value::Object(moves)) = (&mut record, json!(of.moves)) {
+        record.extend(moves);
+    }
+    record
 }
 
 /// What to say of files that are no programs.

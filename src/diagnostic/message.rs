@@ -1,11 +1,14 @@
 //! One statement about a program or a list.
 
+use std::borrow::Cow;
+
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
 use super::advice::{Advice, Wording};
 use super::codes::Code;
 use super::fix::Fix;
+use super::reached::ReachedFrom;
 use super::severity::Severity;
 use crate::text::{Place, Span};
 
@@ -37,6 +40,10 @@ pub struct Diagnostic {
     pub fixes: Vec<Fix>,
     /// Further places.
     pub labels: Vec<Label>,
+    /// Number of executed blocks of a program to which it applied, as the message says it.
+    pub times: u64,
+    /// The main programs that reach its place, where that is in a called program.
+    pub reached_from: ReachedFrom,
 }
 
 impl Diagnostic {
@@ -51,6 +58,8 @@ impl Diagnostic {
             advice: Vec::new(),
             fixes: Vec::new(),
             labels: Vec::new(),
+            times: 1,
+            reached_from: ReachedFrom::default(),
         }
     }
 
@@ -85,6 +94,30 @@ impl Diagnostic {
         said.with_fix(Fix::guess(place, near))
     }
 
+    /// Says how often it applied.
+    pub(crate) fn count(&mut self, times: u64) {
+        self.message = format!("{} ({times} times)", self.message);
+        self.times = times;
+    }
+
+    /// The message without how often it applied: what makes it the same as another one (R17.3).
+    pub(crate) fn uncounted(&self) -> &str {
+        if self.times == 1 {
+            return &self.message;
+        }
+        let count = format!(" ({} times)", self.times);
+        self.message.strip_suffix(&count).unwrap_or(&self.message)
+    }
+
+    /// The message with the main programs that reach its place, for formats of one line (R17.1).
+    pub fn line(&self) -> Cow<'_, str> {
+        if self.reached_from.is_empty() {
+            Cow::Borrowed(&self.message)
+        } else {
+            Cow::Owned(format!("{} ({})", self.message, self.reached_from))
+        }
+    }
+
     /// What to do, in words.
     pub fn help(&self) -> Vec<String> {
         self.advice.iter().map(Advice::to_string).collect()
@@ -116,7 +149,7 @@ impl Diagnostic {
 impl Serialize for Diagnostic {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (start, end) = (self.place.start(), self.place.end());
-        let mut object = serializer.serialize_struct("Diagnostic", 11)?;
+        let mut object = serializer.serialize_struct("Diagnostic", 13)?;
         object.serialize_field("code", &self.code)?;
         object.serialize_field("severity", &self.severity)?;
         object.serialize_field("file", &self.place.file)?;
@@ -129,6 +162,12 @@ impl Serialize for Diagnostic {
         object.serialize_field("help", &self.advice)?;
         if !self.fixes.is_empty() {
             object.serialize_field("fixes", &self.fixes)?;
+        }
+        if !self.reached_from.is_empty() {
+            object.serialize_field("reached_from", self.reached_from.programs())?;
+        }
+        if let Some(count) = self.reached_from.count_beyond_names() {
+            object.serialize_field("reached_from_count", &count)?;
         }
         object.end()
     }

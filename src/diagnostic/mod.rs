@@ -8,6 +8,7 @@ mod fix;
 mod levels;
 mod message;
 mod number;
+mod reached;
 mod severity;
 mod spelling;
 mod unknown_name;
@@ -22,6 +23,7 @@ pub use message::{Diagnostic, Label};
 #[cfg(feature = "report")]
 pub(crate) use number::Rounded;
 pub(crate) use number::Shown;
+pub use reached::ReachedFrom;
 pub use severity::Severity;
 pub(crate) use spelling::did_you_mean;
 pub use unknown_name::UnknownName;

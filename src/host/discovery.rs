@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use super::axes_ahead::{AxesAhead, may_be_axis};
+use super::assumed::{AxesOfPrograms, assume_axes};
 use super::disk::Disk;
 use super::error::HostError;
 use super::file_kind::CONFIG_NAME;
@@ -14,9 +14,9 @@ use super::input::Input;
 use super::ledger::Ledger;
 use super::list_files::{ListsOnDisk, read_list};
 use super::watch::{Watch, Watcher};
-use crate::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity, UnknownName};
+use crate::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity};
 use crate::lists::Parameter;
-use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Origin, Setting};
+use crate::machine::{AxisReport, AxisSet, Configuration, Machine, Setting};
 use crate::text::shown_path;
 
 /// Which configuration counts.
@@ -140,8 +140,10 @@ pub struct Machines {
     ledger: Ledger,
     disk: Disk,
     /// The axes of the programs, where somebody asks for axes.
-    ahead: Option<AxesAhead>,
+    ahead: Option<AxesOfPrograms>,
     watch: Arc<Watch>,
+    /// The machines without the axes that the user enables.
+    plain: BTreeMap<Option<PathBuf>, LoadedMachine>,
     loaded: BTreeMap<Option<PathBuf>, Arc<LoadedMachine>>,
     /// The nearest configuration of each folder that was asked for.
     nearest: BTreeMap<PathBuf, Option<PathBuf>>,
@@ -156,6 +158,7 @@ impl Machines {
             disk: Disk::default(),
             ahead: None,
             watch: Arc::default(),
+            plain: BTreeMap::new(),
             loaded: BTreeMap::new(),
             nearest: BTreeMap::new(),
         }
@@ -178,17 +181,19 @@ impl Machines {
     /// # Errors
     /// The configuration or the start-up list cannot be used, or an axis is unknown.
     pub fn for_folder(&mut self, folder: &Path) -> Result<Arc<LoadedMachine>, HostError> {
-        let config = match &self.options.configuration {
-            ConfigurationChoice::File(path) => Some(path.clone()),
-            ConfigurationChoice::Isolated => None,
-            ConfigurationChoice::Nearest => self.nearest(folder),
-        };
+        let config = self.configuration(folder);
         if let Some(loaded) = self.loaded.get(&config) {
             return Ok(Arc::clone(loaded));
         }
+        let mut loaded = self.plain(config.as_deref())?.clone();
         let options = &self.options;
-        let mut loaded = self.load(config.as_deref())?;
-        options.enable_axes(&mut loaded, self.ahead.as_ref())?;
+        let onto = (&mut loaded.machine, loaded.reports.as_mut_slice());
+        let assumed = assume_axes(&options.enable, onto, self.ahead.as_ref())?;
+        // What is assumed need not be found missing.
+        loaded.diagnostics.retain(|said| {
+            let is_missing = matches!(said.code, Code::Fc135 | Code::Fc303);
+            !(is_missing && said.axis.as_deref().is_some_and(|it| assumed.contains(&it)))
+        });
         options.codes.apply(&mut loaded.levels);
         options.codes.sift(&mut loaded.diagnostics);
         loaded.disk = self.disk.clone();
@@ -198,14 +203,64 @@ impl Machines {
         Ok(loaded)
     }
 
-    /// The programs are known: compensation is assumed on axes that they name.
+    /// The configuration that counts for the programs of a folder.
+    pub(super) fn configuration(&mut self, folder: &Path) -> Option<PathBuf> {
+        match &self.options.configuration {
+            ConfigurationChoice::File(path) => Some(path.clone()),
+            ConfigurationChoice::Isolated => None,
+            ConfigurationChoice::Nearest => self.nearest(folder),
+        }
+    }
+
+    /// Which configuration counts.
+    pub(super) fn choice(&self) -> &ConfigurationChoice {
+        &self.options.configuration
+    }
+
+    /// The disk that configurations and lists are read from.
+    pub(super) fn disk(&self) -> &Disk {
+        &self.disk
+    }
+
+    /// Has a configuration count for the programs of a folder, unless the user chose another one.
+    pub(super) fn settle(&mut self, folder: &Path, configuration: Option<PathBuf>) {
+        self.nearest.insert(folder.to_owned(), configuration);
+    }
+
+    /// The machine of a configuration without the axes that the user enables.
+    pub(super) fn plain(&mut self, config: Option<&Path>) -> Result<&LoadedMachine, HostError> {
+        let key = config.map(Path::to_owned);
+        if !self.plain.contains_key(&key) {
+            let loaded = self.load(config)?;
+            self.plain.insert(key.clone(), loaded);
+        }
+        Ok(&self.plain[&key])
+    }
+
+    /// The programs are known: compensation is assumed on axes that they, or their machines, have
+    /// (R17.7).
     pub fn look_ahead(&mut self, inputs: &[Input]) {
         self.watch.expect(inputs.len());
-        if !self.options.enable.is_empty() {
-            let names = self.options.enable.iter().map(|name| name.trim());
-            self.ahead = Some(AxesAhead::of(inputs, names));
-            self.loaded.clear();
+        if self.options.enable.is_empty() {
+            return;
         }
+        let names: Vec<String> = self.options.enable.clone();
+        let mut axes = AxesOfPrograms::default();
+        let mut undescribed = Vec::new();
+        for input in inputs {
+            let config = self.configuration(input.folder());
+            match self.plain(config.as_deref()) {
+                Ok(loaded) if loaded.machine.axis_set == AxisSet::AsTheyOccur => {
+                    undescribed.push(input);
+                }
+                Ok(loaded) => axes.describe(&loaded.machine),
+                // Why it cannot be used is said where a program needs it.
+                Err(_) => {}
+            }
+        }
+        axes.look(undescribed, names.iter().map(|name| name.trim()));
+        self.ahead = Some(axes);
+        self.loaded.clear();
     }
 
     /// Programs of other runs name the usual axes, and those that an earlier run left.
@@ -217,8 +272,8 @@ impl Machines {
 
     /// The extensions of programs below a folder, where its configuration names them.
     pub fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
-        let loaded = self.for_folder(folder).ok()?;
-        loaded.extensions.clone()
+        let config = self.configuration(folder);
+        self.plain(config.as_deref()).ok()?.extensions.clone()
     }
 
     /// Reads the configuration and applies what differs from it.
@@ -307,28 +362,6 @@ impl Machines {
 }
 
 impl MachineOptions {
-    /// Assumes friction compensation on the axes that the user names.
-    fn enable_axes(
-        &self,
-        loaded: &mut LoadedMachine,
-        ahead: Option<&AxesAhead>,
-    ) -> Result<(), HostError> {
-        for name in self.enable.iter().map(|name| name.trim()) {
-            check_name(name)?;
-            if loaded.machine.axis_set == AxisSet::AsTheyOccur {
-                check_occurs(name, ahead)?;
-            }
-            enable(&mut loaded.machine, name)?;
-            assume(&mut loaded.reports, &loaded.machine, name);
-            // What is assumed need not be found missing.
-            loaded.diagnostics.retain(|said| {
-                let assumed = matches!(said.code, Code::Fc135 | Code::Fc303);
-                !(assumed && said.axis.as_deref() == Some(name))
-            });
-        }
-        Ok(())
-    }
-
     /// The folders whose lists are shown: the current one, that of a file and those of programs.
     fn grounds(&self, path: &Path, reach: &Reach, disk: &Disk) -> Grounds {
         let reach = Reach {
@@ -343,59 +376,6 @@ impl MachineOptions {
             }
             _ => grounds,
         }
-    }
-}
-
-/// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
-/// pipes may name axes that nobody sees ahead.
-fn check_occurs(name: &str, ahead: Option<&AxesAhead>) -> Result<(), HostError> {
-    let may_occur = match ahead {
-        Some(ahead) if ahead.may_hold(name) => true,
-        Some(ahead) => {
-            let names: Vec<&str> = ahead.names().collect();
-            let unknown = UnknownName::new(name, names.iter().copied());
-            return Err(HostError::AxisNotNamed(unknown));
-        }
-        None => may_be_axis(name),
-    };
-    if may_occur {
-        Ok(())
-    } else {
-        Err(HostError::AxisName(name.to_owned()))
-    }
-}
-
-fn check_name(name: &str) -> Result<(), HostError> {
-    let word = name.starts_with(|letter: char| letter.is_ascii_alphabetic())
-        && name
-            .chars()
-            .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
-    if word {
-        Ok(())
-    } else {
-        Err(HostError::AxisName(name.to_owned()))
-    }
-}
-
-fn enable(machine: &mut Machine, name: &str) -> Result<(), HostError> {
-    if machine.enable(name) {
-        return Ok(());
-    }
-    let known = machine.axes.iter().map(|axis| axis.name.as_str());
-    Err(HostError::NoAxis(UnknownName::new(name, known)))
-}
-
-/// Shows an assumed P-AXIS-00522 among the parameters of its axis.
-fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
-    let axis = machine.axes.iter().find(|axis| axis.name == name);
-    if axis.is_none_or(|axis| axis.frict_comp_origin != Origin::Assumed) {
-        return;
-    }
-    let report = reports.iter_mut().filter(|report| report.axis == name);
-    let rows = report.flat_map(|report| &mut report.parameters);
-    for row in rows.filter(|row| row.number == "P-AXIS-00522") {
-        "1".clone_into(&mut row.value);
-        row.origin = Origin::Assumed;
     }
 }
 
@@ -450,16 +430,5 @@ mod tests {
         assert_eq!(seen("/a/b/c.toml", "/a/b"), Path::new("c.toml"));
         assert_eq!(seen("/a/c.toml", "/a/b/d"), Path::new("../../c.toml"));
         assert_eq!(seen("/a/b/c.toml", "/a"), Path::new("b/c.toml"));
-    }
-
-    #[test]
-    fn an_axis_that_the_machine_lacks_is_not_enabled() {
-        let mut machine = Machine::unconfigured();
-        machine.axis_set = AxisSet::Configured;
-        assert!(enable(&mut machine, "X").is_ok());
-        let error = enable(&mut machine, "XX").unwrap_err();
-        assert_eq!(error.to_string(), "the machine has no axis `XX`");
-        assert_eq!(error.help().as_deref(), Some("did you mean `X`?"));
-        assert!(check_name("X[").is_err());
     }
 }

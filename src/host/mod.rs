@@ -11,8 +11,10 @@
 //! be done is a [`HostError`].
 
 mod agreed;
+mod assumed;
 mod audits;
 mod axes_ahead;
+mod both_versions;
 mod contours;
 mod discovery;
 mod disk;
@@ -51,6 +53,7 @@ mod workers;
 
 pub use agreed::{AgreedDrift, AgreedFile, AgreedKind, AgreedResults, UpdatedFolder};
 pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
+pub use both_versions::{MachineOfVersions, MachineOwner};
 pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
 pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
 pub use disk::Disk;

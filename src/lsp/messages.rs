@@ -1,6 +1,7 @@
 //! Messages as the protocol has them (R12.2).
 
-use std::collections::BTreeMap;
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, HashMap};
 
 use gen_lsp_types::{
     Code as MessageCode, CodeDescription, Diagnostic as Message, DiagnosticRelatedInformation,
@@ -18,6 +19,12 @@ use crate::timeline::EndedBy;
 
 /// Who says it.
 const SOURCE: &str = "frictcomp";
+
+/// What a message says of a main program that reaches it.
+const REACHED_FROM: &str = "reached from this program";
+
+/// Number of main programs that a message names.
+const MAX_PROGRAMS: usize = 20;
 
 /// Messages of a check, by the URIs of the texts that they are about.
 pub(super) type ByText = BTreeMap<String, Vec<Message>>;
@@ -85,7 +92,9 @@ impl Translator<'_> {
             .advice
             .iter()
             .filter_map(|advice| self.list_line(advice));
-        let related: Vec<_> = labels.chain(lists).collect();
+        let programs = said.reached_from.programs().iter();
+        let programs = programs.map(|file| self.reached_from(file));
+        let related: Vec<_> = labels.chain(lists).chain(programs).collect();
         let message = Message {
             range: self.client.encoding.range(&said.place),
             severity: Some(match said.severity {
@@ -118,6 +127,14 @@ impl Translator<'_> {
         }
     }
 
+    /// A main program that reaches a message in a called program (R17.1).
+    fn reached_from(self, file: &str) -> DiagnosticRelatedInformation {
+        DiagnosticRelatedInformation {
+            location: self.location(file, whole_line(0)),
+            message: REACHED_FROM.to_owned(),
+        }
+    }
+
     /// The line of a list that sets what the advice is about.
     fn list_line(self, advice: &Advice) -> Option<DiagnosticRelatedInformation> {
         let Advice::ConfigureInList { file, line, .. } = advice else {
@@ -143,6 +160,18 @@ fn own(severity: DiagnosticSeverity, text: String) -> Message {
         source: Some(SOURCE.to_owned()),
         message: text.into(),
         ..Message::default()
+    }
+}
+
+/// Adds the main programs of the same message of another check (R17.1).
+fn reach(known: &mut Message, message: &Message) {
+    let programs = message.related_information.iter().flatten();
+    for program in programs.filter(|it| it.message == REACHED_FROM) {
+        let related = known.related_information.get_or_insert_default();
+        let named = related.iter().filter(|it| it.message == REACHED_FROM);
+        if named.count() < MAX_PROGRAMS && !related.contains(program) {
+            related.push(program.clone());
+        }
     }
 }
 
@@ -180,11 +209,15 @@ impl Board {
             let own = self.by_check.get(&uri).and_then(|check| check.get(&uri));
             let all = self.by_check.iter().filter(|(check, _)| **check != uri);
             let others = all.filter_map(|(_, check)| check.get(&uri));
-            let mut known = std::collections::HashSet::new();
+            let mut known = HashMap::new();
             for message in own.into_iter().chain(others).flatten() {
                 let key = (message.range, message.code.clone(), message.message.clone());
-                if known.insert(format!("{key:?}")) {
-                    now.push(message.clone());
+                match known.entry(format!("{key:?}")) {
+                    Entry::Vacant(vacant) => {
+                        vacant.insert(now.len());
+                        now.push(message.clone());
+                    }
+                    Entry::Occupied(at) => reach(&mut now[*at.get()], message),
                 }
             }
             if self.shown.get(&uri) != Some(&now) {

@@ -46,11 +46,19 @@ pub(super) fn is_home(axis: &AxisSummary) -> bool {
     axis.end == axis.start_up && axis.others_away.is_empty()
 }
 
-/// Said where there is nothing else to say, every axis is in its start-up state and the machine is described
+/// Whether every feed move was made with friction compensation, as far as it is configured (R13.12).
+pub(super) fn is_compensated(axis: &AxisSummary) -> bool {
+    axis.feed_moves.is_empty()
+}
+
+/// Said where nothing is left to do, every axis is in its start-up state and the machine is described
 /// (R1.37).
-pub(super) fn all_home(footing: Footing) -> &'static str {
+pub(super) fn all_home(axes: &[AxisSummary], footing: Footing) -> &'static str {
     match footing {
-        Footing::Known => "Nothing to do: every axis is as at the start of the control.",
+        Footing::Known if axes.iter().all(is_compensated) => {
+            "Nothing to do: every axis is as at the start of the control."
+        }
+        Footing::Known => "Every axis is as at the start of the control.",
         Footing::Assumed => {
             "Every axis is as at the start of the control if what FC902 assumes is so."
         }
@@ -75,6 +83,7 @@ mod tests {
                 told: false,
                 changed_by: Vec::new(),
                 changes: 0,
+                feed_moves: crate::timeline::FeedMoves::default(),
             };
             axis_advice(&axis, "X").unwrap_or_default()
         };

@@ -26,6 +26,6 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     out.push(b'[');
     out.extend_from_slice(diagnostic.code.as_str().as_bytes());
     out.extend_from_slice(b"] ");
-    out.extend_from_slice(visible_line(&diagnostic.message).as_bytes());
+    out.extend_from_slice(visible_line(&diagnostic.line()).as_bytes());
     out.push(b'\n');
 }

@@ -70,6 +70,10 @@ pub fn render(diagnostic: &Diagnostic, look: Look) -> String {
     for label in outside {
         group = element(group, &label.place, |shown| vec![annotate(shown, label)]);
     }
+    if !diagnostic.reached_from.is_empty() {
+        let reached = diagnostic.reached_from.to_string();
+        group = group.element(Level::NOTE.message(wrap(&reached, look.width, HELP_INDENT)));
+    }
     for advice in &diagnostic.advice {
         group =
             group.element(Level::HELP.message(wrap(&advice.to_string(), look.width, HELP_INDENT)));

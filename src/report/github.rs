@@ -32,6 +32,10 @@ pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     escape(out, diagnostic.code.as_str(), b"%\r\n:,");
     out.extend_from_slice(b"::");
     escape(out, &diagnostic.message, b"%\r\n");
+    if !diagnostic.reached_from.is_empty() {
+        out.extend_from_slice(b"%0Anote: ");
+        escape(out, &diagnostic.reached_from.to_string(), b"%\r\n");
+    }
     for advice in &diagnostic.advice {
         out.extend_from_slice(b"%0Ahelp: ");
         escape(out, &advice.to_string(), b"%\r\n");

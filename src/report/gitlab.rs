@@ -28,7 +28,7 @@ impl GitLab {
         let path = diagnostic.place.file.replace('\\', "/");
         let fingerprint = self.fingerprint(&path, diagnostic);
         out.extend_from_slice(b"{\"description\":");
-        string(out, &diagnostic.message);
+        string(out, &diagnostic.line());
         out.extend_from_slice(b",\"check_name\":");
         string(out, diagnostic.code.as_str());
         out.extend_from_slice(b",\"fingerprint\":");
@@ -44,11 +44,12 @@ impl GitLab {
         out.extend_from_slice(b"}}}");
     }
 
-    /// By this GitLab tells which messages are new. It does not change when lines above do, so it is
-    /// made of the words, and counted where they are the same.
+    /// By this GitLab tells which messages are new. It does not change when lines above do, nor when
+    /// another program reaches the place (R17.1), so it is made of the words, and counted where they
+    /// are the same.
     fn fingerprint(&mut self, path: &str, diagnostic: &Diagnostic) -> String {
         let mut hasher = FnvHasher::default();
-        for part in [path, diagnostic.code.as_str(), &diagnostic.message] {
+        for part in [path, diagnostic.code.as_str(), diagnostic.uncounted()] {
             hasher.write(part.as_bytes());
             hasher.write_u8(0);
         }

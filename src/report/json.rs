@@ -10,9 +10,9 @@ use super::records::{Encoder, Frame};
 use super::view::View;
 
 /// What stands before the first record.
-pub(super) const OPENING: &[u8] = b"{\"schema\":1,\"records\":[";
+pub(super) const OPENING: &[u8] = b"{\"schema\":2,\"records\":[";
 
-/// Writes records as one document, `{"schema":1,"records":[…]}`, a record a line.
+/// Writes records as one document, `{"schema":2,"records":[…]}`, a record a line.
 #[derive(Debug)]
 pub struct Json<W> {
     output: Output<W>,

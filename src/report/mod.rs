@@ -14,6 +14,7 @@ pub mod contour;
 mod csv;
 mod diagnostics;
 pub mod drives;
+mod feed_moves;
 mod findings;
 mod github;
 mod gitlab;
@@ -52,6 +53,7 @@ pub use csv::{Csv, Positions};
 #[cfg(feature = "cli")]
 pub(crate) use diagnostics::wrap;
 pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
+pub use feed_moves::feed_moves_text;
 pub use json::Json;
 pub use limits::assumed_limits;
 #[cfg(feature = "cli")]

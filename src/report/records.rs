@@ -162,6 +162,9 @@ impl Encoder {
             integer(out, *count);
         });
         out.push(b'}');
+        if summary.uncompensated().next().is_some() {
+            uncompensated(out, summary);
+        }
         self.close(out, summary.state);
     }
 
@@ -248,6 +251,16 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         separated(out, &diagnostic.fixes, append_fix);
         out.push(b']');
     }
+    let reached_from = &diagnostic.reached_from;
+    if !reached_from.is_empty() {
+        out.extend_from_slice(b",\"reached_from\":[");
+        separated(out, reached_from.programs(), |out, file| string(out, file));
+        out.push(b']');
+    }
+    if let Some(count) = reached_from.count_beyond_names() {
+        out.extend_from_slice(b",\"reached_from_count\":");
+        integer(out, count);
+    }
 }
 
 fn append_fix(out: &mut Vec<u8>, fix: &Fix) {
@@ -294,6 +307,18 @@ fn append_state(out: &mut Vec<u8>, state: StateView<'_>, view: View) {
             string(out, state.state(axis, kind).as_str());
         });
         out.push(b'}');
+    });
+    out.push(b'}');
+}
+
+/// Axis → feed moves while it was not active (R13.12).
+fn uncompensated(out: &mut Vec<u8>, summary: &Summary<'_>) {
+    out.extend_from_slice(b",\"uncompensated\":{");
+    separated(out, summary.uncompensated(), |out, axis| {
+        string(out, summary.state.name(axis.axis));
+        out.push(b':');
+        // Memory takes every byte, and the counts are numbers.
+        let _ = serde_json::to_writer(out, &axis.feed_moves);
     });
     out.push(b'}');
 }

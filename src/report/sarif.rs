@@ -91,6 +91,9 @@ fn indented(out: &mut Vec<u8>, value: &Value, column: usize) {
 
 fn result(diagnostic: &Diagnostic) -> Value {
     let mut text = diagnostic.message.clone();
+    if !diagnostic.reached_from.is_empty() {
+        let _ = write!(text, "\nnote: {}", diagnostic.reached_from);
+    }
     for advice in &diagnostic.advice {
         text.push_str("\nhelp: ");
         text.push_str(&advice.to_string());
@@ -101,22 +104,35 @@ fn result(diagnostic: &Diagnostic) -> Value {
         "message": { "text": text },
         "locations": [{ "physicalLocation": location(&diagnostic.place) }],
     });
-    if !diagnostic.labels.is_empty() {
-        let related: Vec<Value> = diagnostic
-            .labels
-            .iter()
-            .enumerate()
-            .map(|(id, label)| {
-                json!({
-                    "id": id,
-                    "message": { "text": label.text },
-                    "physicalLocation": location(&label.place),
-                })
-            })
-            .collect();
+    let related = related(diagnostic);
+    if !related.is_empty() {
         result["relatedLocations"] = Value::Array(related);
     }
     result
+}
+
+/// The places that explain a message, and the programs that reach its place (R17.1).
+fn related(diagnostic: &Diagnostic) -> Vec<Value> {
+    let labels = diagnostic.labels.iter();
+    let labels = labels.map(|label| (label.text.as_str(), location(&label.place)));
+    let programs = diagnostic.reached_from.programs().iter();
+    let programs = programs.map(|file| {
+        let whole = json!({
+            "artifactLocation": { "uri": uri(file) },
+            "region": { "startLine": 1 },
+        });
+        ("a program that reaches this", whole)
+    });
+    let numbered = labels.chain(programs).enumerate();
+    numbered
+        .map(|(id, (text, location))| {
+            json!({
+                "id": id,
+                "message": { "text": text },
+                "physicalLocation": location,
+            })
+        })
+        .collect()
 }
 
 fn level(severity: Severity) -> &'static str {

@@ -94,6 +94,19 @@ pub(super) fn separated<T>(
     }
 }
 
+/// A number with a blank between its thousands.
+pub(super) fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -116,5 +129,13 @@ mod tests {
             prop_assert!(out.iter().all(|&byte| byte >= 0x20));
             prop_assert_eq!(serde_json::to_vec(&text).unwrap(), out);
         }
+    }
+
+    #[test]
+    fn thousands_stand_apart() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1204), "1 204");
+        assert_eq!(grouped(12_345_678), "12 345 678");
     }
 }

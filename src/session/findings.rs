@@ -16,6 +16,8 @@ type Key = (Arc<str>, Position, Position, Code, String);
 #[derive(Debug, Clone, Default)]
 pub struct Findings {
     diagnostics: BTreeMap<Key, Diagnostic>,
+    /// The main program that runs.
+    program: Option<Arc<str>>,
     /// How many came, by severity.
     said: BTreeMap<Severity, u64>,
 }
@@ -24,6 +26,11 @@ impl Findings {
     /// The diagnostics, in the order of their places.
     pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
         self.diagnostics.values()
+    }
+
+    /// The same, taken out.
+    pub(super) fn into_diagnostics(self) -> impl Iterator<Item = Diagnostic> {
+        self.diagnostics.into_values()
     }
 
     /// How many more of each severity a session counted: a file says so many and no more (R2.85).
@@ -45,9 +52,14 @@ impl Findings {
             diagnostic.code,
             diagnostic.message.clone(),
         );
-        self.diagnostics
-            .entry(key)
-            .or_insert_with(|| diagnostic.clone());
+        let program = self.program.as_ref().filter(|file| **file != place.file);
+        self.diagnostics.entry(key).or_insert_with(|| {
+            let mut diagnostic = diagnostic.clone();
+            if let Some(program) = program {
+                diagnostic.reached_from.add(program);
+            }
+            diagnostic
+        });
     }
 
     /// Says how often a message occurred that is shown once.
@@ -64,7 +76,7 @@ impl Findings {
             .take_while(|((file, start, ..), _)| **file == *repeat.file && *start == repeat.start);
         for ((_, _, _, code, message), said) in here {
             if *code == repeat.code && *message == repeat.message {
-                said.message = format!("{message} ({} times)", repeat.times);
+                said.count(repeat.times);
             }
         }
     }
@@ -80,7 +92,8 @@ impl Sink for Findings {
             }
             // What the lists say is listed once a machine, not once a program.
             Record::Machine(said) => *self.said.entry(said.severity).or_default() += 1,
-            Record::Session { .. } | Record::Program { .. } | Record::Summary(_) => {}
+            Record::Program { file, .. } => self.program = Some(Arc::from(*file)),
+            Record::Session { .. } | Record::Summary(_) => {}
         }
         ControlFlow::Continue(())
     }

@@ -3,6 +3,8 @@
 //! The state that one program leaves is the state that the next one starts with.
 
 mod allow;
+mod causes;
+mod feed_moves;
 mod findings;
 mod recorder;
 mod safe_fixes;
@@ -15,6 +17,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use allow::allow_here;
+pub use causes::Causes;
 pub use findings::Findings;
 pub use safe_fixes::{ProposedFixes, SafeFixes};
 pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
@@ -31,6 +34,7 @@ use crate::lint::{History, Linter, Told};
 use crate::machine::{AxisSet, Machine, Parameterisation, Setting};
 use crate::text::{LineSource, Place, SourceFile};
 use crate::timeline::{AxisSummary, EndedBy, Footing, Record, Sink, StateView, Summary};
+use feed_moves::FeedMoveCounter;
 use recorder::{NoteBook, Recorder, Tally};
 use said::Said;
 use saved::{fingerprint, storable};
@@ -186,6 +190,7 @@ impl Session {
                 changed_by: vec![Vec::new(); axes],
                 changes: vec![0; axes],
                 footing: Footing::Known,
+                feed_moves: FeedMoveCounter::new(axes),
             },
             notes: NoteBook::default(),
         }
@@ -369,6 +374,7 @@ impl Session {
             told: self.history.told(axis, Kind::Frict) != Told::No,
             changed_by: self.tally.changed_by[axis.get()].clone(),
             changes: self.tally.changes[axis.get()],
+            feed_moves: self.tally.feed_moves.of(axis),
         });
         sink.record(&Record::Summary(&Summary {
             programs: self.programs,

@@ -15,6 +15,7 @@ use crate::syntax::allow::{self, Help};
 use crate::text::{Place, Position, Span};
 use crate::timeline::{ChangedBy, End, EndNote, EndedBy, Footing, Record, Row, Sink, StateView};
 
+use super::feed_moves::FeedMoveCounter;
 use super::said::{Said, Verdict};
 
 /// How many blocks the summary of an axis names.
@@ -38,6 +39,7 @@ pub(super) struct Tally {
     pub(super) changed_by: Vec<Vec<ChangedBy>>,
     pub(super) changes: Vec<u64>,
     pub(super) footing: Footing,
+    pub(super) feed_moves: FeedMoveCounter,
 }
 
 impl Tally {
@@ -118,6 +120,7 @@ impl Recorder<'_> {
 
     fn executed(&mut self, executed: &Executed<'_>) -> ControlFlow<()> {
         self.tally.blocks += 1;
+        self.tally.feed_moves.block(executed);
         if !executed.notes.is_empty() {
             self.take_notes(executed.notes);
         }

@@ -7,11 +7,13 @@
 //! Records are [`Serialize`](serde::Serialize): the objects are the lines of the NDJSON timeline. What is
 //! said about a block or at an end is a record of its own there, see [`Record::diagnostics`].
 
+mod feed_moves;
 mod record;
 mod serial;
 
 pub use crate::interpreter::{EndedBy, Modal, Motion, PositionFrame};
 pub use crate::lint::EndNote;
+pub use feed_moves::FeedMoves;
 pub use record::{
     AxisSummary, ChangedBy, DiagnosticRecord, End, Footing, Record, Repeat, Row, SCHEMA, Sink,
     StateView, Summary, TOOL,

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 
+use super::feed_moves::FeedMoves;
 use crate::comp::{AxisIndex, Change, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{EndedBy, Modal, Motion};
@@ -13,7 +14,7 @@ use crate::machine::Machine;
 use crate::text::Position;
 
 /// The number of the record format.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
 /// The name and version that the session record carries.
 pub const TOOL: &str = concat!("frictcomp ", env!("CARGO_PKG_VERSION"));
@@ -121,7 +122,7 @@ pub struct End<'a> {
 }
 
 /// What the text summary says about one axis.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AxisSummary {
     /// Kinds other than friction compensation that are not as at the start of the control.
     pub others_away: KindSet,
@@ -140,6 +141,8 @@ pub struct AxisSummary {
     pub changed_by: Vec<ChangedBy>,
     /// How many executed blocks changed it.
     pub changes: u64,
+    /// The feed moves of the axis while it was not active.
+    pub feed_moves: FeedMoves,
 }
 
 /// A block that changed an axis.
@@ -189,6 +192,11 @@ impl Summary<'_> {
     /// How many diagnostics of a severity were said.
     pub fn count(&self, severity: Severity) -> u64 {
         self.counts.get(&severity).copied().unwrap_or_default()
+    }
+
+    /// The axes with feed moves while their friction compensation was not active (R13.12).
+    pub fn uncompensated(&self) -> impl Iterator<Item = &AxisSummary> {
+        self.axes.iter().filter(|axis| !axis.feed_moves.is_empty())
     }
 }
 

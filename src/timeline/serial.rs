@@ -25,6 +25,22 @@ impl Serialize for Axes<'_> {
     }
 }
 
+/// Axis → feed moves while it was not active (R13.12).
+struct Uncompensated<'a>(&'a Summary<'a>);
+
+impl Uncompensated<'_> {
+    fn is_empty(&self) -> bool {
+        self.0.uncompensated().next().is_none()
+    }
+}
+
+impl Serialize for Uncompensated<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let axes = self.0.uncompensated();
+        serializer.collect_map(axes.map(|axis| (self.0.state.name(axis.axis), axis.feed_moves)))
+    }
+}
+
 /// The changes of friction compensation.
 struct Changes<'a> {
     changes: &'a [Change],
@@ -119,6 +135,8 @@ enum Object<'a> {
         errors: u64,
         warnings: u64,
         opaque: &'a std::collections::BTreeMap<String, u64>,
+        #[serde(skip_serializing_if = "Uncompensated::is_empty")]
+        uncompensated: Uncompensated<'a>,
         friction: Friction<'a>,
     },
 }
@@ -162,6 +180,7 @@ impl Serialize for Summary<'_> {
             errors: self.count(Severity::Error),
             warnings: self.count(Severity::Warning),
             opaque: self.opaque,
+            uncompensated: Uncompensated(self),
             friction: Friction(self.state),
         };
         object.serialize(serializer)

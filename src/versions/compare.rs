@@ -148,6 +148,7 @@ mod tests {
             from: State::Active,
             to: State::Inactive,
             file: "a.nc".to_owned(),
+            is_called: false,
             line,
             number: Some(number),
             text: format!("N{number} Y[COMP OFF FRICT]"),

@@ -18,6 +18,8 @@ pub struct Switch {
     pub to: State,
     /// The file that holds the block.
     pub file: String,
+    /// Whether that is one that the program calls.
+    pub is_called: bool,
     /// The line on which the block starts, from 1.
     pub line: u32,
     /// The block number, where it is known.
@@ -37,13 +39,15 @@ pub(super) struct Identity<'a> {
 }
 
 impl Switch {
-    pub(super) fn new(row: &Row<'_>, change: Change) -> Self {
+    /// A change by a block of a program in `main`.
+    pub(super) fn new(row: &Row<'_>, change: Change, main: &str) -> Self {
         Self {
             axis: row.state.name(change.axis).to_owned(),
             kind: change.kind,
             from: change.from,
             to: change.to,
             file: row.file.to_owned(),
+            is_called: row.file != main,
             line: row.line,
             number: row.number,
             text: row.text.to_owned(),
@@ -58,6 +62,15 @@ impl Switch {
             kind: self.kind,
             from: self.from,
             to: self.to,
+        }
+    }
+
+    /// The line of the block, with its file where the program calls that (R17.4).
+    pub fn place(&self) -> String {
+        if self.is_called {
+            format!("{}:{}", self.file, self.line)
+        } else {
+            self.line.to_string()
         }
     }
 

@@ -37,7 +37,7 @@ impl Version {
             if !self.kinds.contains(change.kind) {
                 continue;
             }
-            let switch = Switch::new(row, *change);
+            let switch = Switch::new(row, *change, &self.file);
             if change.to == State::Unknown {
                 self.obstacle.get_or_insert_with(|| Obstacle {
                     file: switch.file.clone(),

@@ -9,7 +9,7 @@ use frictcomp::host::{
     Alone, Axes, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines, Naming,
     in_order, processors, run_alone,
 };
-use frictcomp::session::{Findings, Options, SessionOptions, StopPolicy};
+use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
 use pyo3::prelude::*;
 
@@ -71,6 +71,7 @@ impl Job {
             remark: remark_without_machine(undescribed),
             ..Said::default()
         };
+        let mut causes = Causes::default();
         let mut listed: Vec<Option<PathBuf>> = Vec::new();
         let check = |(input, loaded): Pair<'_>| check_file((input, loaded?), self.run, stop);
         in_order(pairs.into_iter(), processors(), check, |found| {
@@ -78,17 +79,18 @@ impl Job {
                 Ok(found) => {
                     if !listed.contains(&found.loaded.origin) {
                         listed.push(found.loaded.origin.clone());
-                        let errors = found.loaded.errors();
-                        said.messages.extend(errors.map(PyMessage::of));
+                        let errors = found.loaded.errors().cloned();
+                        errors.for_each(|error| causes.say(error));
                     }
-                    let findings = found.findings.diagnostics();
-                    said.messages.extend(findings.map(PyMessage::of));
+                    causes.add(found.findings);
                     said.leave_out(&found.unsaid);
                 }
                 Err(error) => errors.push(error),
             }
             stop.flow()
         });
+        let causes = causes.diagnostics().iter();
+        said.messages.extend(causes.map(PyMessage::of));
         match Failure::of_several(errors) {
             Some(failure) => Err(failure),
             None => Ok(said),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use arrow_array::builder::{ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, StringArray, UInt32Array, UInt64Array};
-use frictcomp::diagnostic::{Advice, Fix};
+use frictcomp::diagnostic::{Advice, Fix, ReachedFrom};
 use frictcomp::{Diagnostic, Severity};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -45,6 +45,8 @@ pub(crate) struct PyMessage {
     message: String,
     help: Vec<String>,
     fixes: Vec<PyFix>,
+    reached_from: Vec<String>,
+    reached_from_count: usize,
 }
 
 /// What was said.
@@ -109,6 +111,15 @@ impl PyFix {
     }
 }
 
+/// The files of the main programs that reach a message.
+fn named(reached: &ReachedFrom) -> Vec<String> {
+    reached
+        .programs()
+        .iter()
+        .map(|file| file.to_string())
+        .collect()
+}
+
 impl PyMessage {
     /// A message that belongs to no block.
     pub(crate) fn of(said: &Diagnostic) -> Self {
@@ -127,6 +138,8 @@ impl PyMessage {
             message: said.message.clone(),
             help: said.advice.iter().map(Advice::to_string).collect(),
             fixes: said.fixes.iter().map(PyFix::of).collect(),
+            reached_from: named(&said.reached_from),
+            reached_from_count: said.reached_from.count(),
         }
     }
 
@@ -206,10 +219,13 @@ impl PyMessages {
         let number = |of: fn(&PyMessage) -> Option<u32>| -> ArrayRef {
             Arc::new(messages.iter().map(of).collect::<UInt32Array>())
         };
-        let mut help = ListBuilder::new(StringBuilder::new());
-        for message in messages {
-            help.append_value(message.help.iter().map(Some));
-        }
+        let list = |of: fn(&PyMessage) -> &Vec<String>| -> ArrayRef {
+            let mut lists = ListBuilder::new(StringBuilder::new());
+            for message in messages {
+                lists.append_value(of(message).iter().map(Some));
+            }
+            Arc::new(lists.finish())
+        };
         let seq: UInt64Array = messages.iter().map(|it| it.seq).collect();
         let columns: Vec<Column> = vec![
             ("program", number(|it| it.program)),
@@ -223,7 +239,8 @@ impl PyMessages {
             ("end_column", number(|it| Some(it.end_column))),
             ("axis", text(|it| it.axis.as_deref())),
             ("message", text(|it| Some(&it.message))),
-            ("help", Arc::new(help.finish())),
+            ("help", list(|it| &it.help)),
+            ("reached_from", list(|it| &it.reached_from)),
         ];
         Table::of(columns, &["program", "seq", "axis"])
     }

@@ -26,12 +26,14 @@ export type Stretch = [from: number, to: number, state: State | "changing"];
 
 export interface Axis {
   name: string;
-  start_up: State;
+  startUp: State;
   start: State;
   end: State;
   listed: boolean;
   changes: number;
   changedBy: { file: string; line: number; number: number | null }[];
+  /** The feed moves without compensation, to stand after the name. */
+  uncompensated: string | null;
   bar: Stretch[];
 }
 

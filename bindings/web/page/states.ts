@@ -15,7 +15,7 @@ export const MEANINGS: readonly [state: State | "away", meaning: string][] = [
 
 /** Whether a state of an axis is another one than after a start of the control. */
 export function isAway(state: State | "changing", axis: Axis): boolean {
-  return state !== axis.start_up && state !== "changing" && state !== "unknown";
+  return state !== axis.startUp && state !== "changing" && state !== "unknown";
 }
 
 /** A state as a word with its mark. */

@@ -68,7 +68,7 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   if (away.length > 0) {
     const left = away.map((axis) => `${axis.name} ${axis.end}`).join(", ");
     say("warning", `Left for the next program: ${left}. The control starts with ${
-      away.map((axis) => `${axis.name} ${axis.start_up}`).join(", ")}.`);
+      away.map((axis) => `${axis.name} ${axis.startUp}`).join(", ")}.`);
   }
   if (unknown.length > 0) {
     say("warning", `Not known at the end: ${names(unknown)}. Only the machine decides it.`);
@@ -76,6 +76,11 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   const idle = axes.filter((axis) => axis.end === "ineffective");
   if (idle.length > 0) {
     say("warning", `Switched on and without an accepted value list, so it does nothing: ${names(idle)}.`);
+  }
+  for (const axis of axes) {
+    if (axis.uncompensated !== null) {
+      say("warning", `${axis.name}${axis.uncompensated}.`);
+    }
   }
   if (overview.remark !== null) {
     say("warning", sentence(overview.remark));
@@ -113,7 +118,7 @@ export function verdict(overview: Overview, given: Given): Sentence[] {
   if (overview.messagesLeftOut > 0) {
     say("info", `${counted(overview.messagesLeftOut, "more message")} not shown.`);
   }
-  const configured = axes.filter((axis) => axis.start_up !== "unconfigured");
+  const configured = axes.filter((axis) => axis.startUp !== "unconfigured");
   if (configured.length === 0 && machine.isDescribed) {
     say("info", "No axis of this program has friction compensation configured.");
     return sentences;

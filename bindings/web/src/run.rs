@@ -9,7 +9,7 @@ use frictcomp::diagnostic::Wording;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::host::{Alone, Axes, Disk, LoadedMachine, Naming, run_alone};
 use frictcomp::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
-use frictcomp::report::{TimelineFormat, TimelineOptions, command_line};
+use frictcomp::report::{TimelineFormat, TimelineOptions, command_line, feed_moves_text};
 use frictcomp::session::{Limits, Options, SessionOptions, StopPolicy};
 use frictcomp::text::LineSource;
 use frictcomp::timeline::EndedBy;
@@ -93,6 +93,8 @@ struct AxisOverview<'a> {
     listed: bool,
     changes: u64,
     changed_by: Vec<ChangedAt<'a>>,
+    /// The feed moves without compensation, to stand after the name.
+    uncompensated: Option<String>,
     bar: Vec<Stretch>,
 }
 
@@ -332,6 +334,8 @@ impl Shown {
                         number: block.number,
                     })
                     .collect(),
+                uncompensated: summary
+                    .and_then(|summary| feed_moves_text(&summary.feed_moves, axis.axis_type)),
                 bar: bar(&timeline.rows, at),
             }
         })

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use frictcomp::comp::{AxisIndex, Kind, State};
 use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::lists::AxisType;
 use frictcomp::machine::AxisSet;
 use frictcomp::timeline::{AxisSummary, EndedBy, Footing, Record, Sink};
 
@@ -28,6 +29,7 @@ pub(crate) struct Said {
 #[derive(Debug)]
 pub(crate) struct TimelineAxis {
     pub(crate) name: String,
+    pub(crate) axis_type: AxisType,
     pub(crate) start_up: State,
     pub(crate) listed: bool,
 }
@@ -72,6 +74,7 @@ impl Sink for Timeline {
                 self.axes = axes
                     .map(|(at, (axis, listed))| TimelineAxis {
                         name: axis.name.clone(),
+                        axis_type: axis.axis_type,
                         start_up: start_up.state(AxisIndex::new(at), Kind::Frict),
                         listed: *listed,
                     })

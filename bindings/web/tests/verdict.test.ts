@@ -4,8 +4,8 @@ import { told } from "../page/bars";
 import { isMissing, missing, sentence, verdict } from "../page/verdict";
 
 const axis: Axis = {
-  name: "X", start_up: "active", start: "active", end: "active", listed: true, changes: 0,
-  changedBy: [], bar: [[1, 2, "active"], [3, 9, "inactive"]],
+  name: "X", startUp: "active", start: "active", end: "active", listed: true, changes: 0,
+  changedBy: [], uncompensated: null, bar: [[1, 2, "active"], [3, 9, "inactive"]],
 };
 
 const overview: Overview = {
@@ -31,8 +31,9 @@ describe("the verdict", () => {
       { endedBy: "error", errors: 1 }, { endedBy: "budget" }, { endedBy: null }, { warnings: 1 },
       { remark: "no machine is described" }, { isAssumed: true }, { kept: 5 }, { messagesLeftOut: 1 },
       { axes: [] }, { infos: 1 },
-      { axes: [{ ...axis, start_up: "ineffective", end: "ineffective" }] },
-      { axes: [{ ...axis, start_up: "unconfigured", end: "unconfigured" }] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },
+      { axes: [{ ...axis, uncompensated: " off during 155 feed moves, the longest 812 mm" }] },
+      { axes: [{ ...axis, startUp: "ineffective", end: "ineffective" }] },
+      { axes: [{ ...axis, startUp: "unconfigured", end: "unconfigured" }] }, { axes: [{ ...axis, end: "inactive" }] }, { axes: [{ ...axis, end: "unknown" }] },
       { machine: { ...overview.machine, missing: 1 } },
       { machine: { ...overview.machine, isDescribed: false } },
       { machine: { ...overview.machine, said: [message("FC120", "wrong")] } },

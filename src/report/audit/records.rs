@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use super::subject::{AuditReport, MachineAudit};
 use crate::audit::ProgramAudit;
 use crate::comp::Kind;
+use crate::timeline::SCHEMA;
 
 /// One record a program and kind, one an axis and kind, and a summary. `schema` stands in the first.
 pub fn records(report: &AuditReport) -> Vec<Value> {
@@ -31,7 +32,7 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
         "hazards": report.hazards(),
     }));
     if let Some(Value::Object(first)) = records.first_mut() {
-        first.insert("schema".to_owned(), 1.into());
+        first.insert("schema".to_owned(), SCHEMA.into());
     }
     records
 }

@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use super::subject::axis_name;
 use crate::audit::{Step, StepAxis};
 use crate::report::visible::visible_line;
+use crate::timeline::SCHEMA;
 
 /// One program of the order in one line.
 pub fn step_line(step: &Step) -> String {
@@ -83,7 +84,7 @@ pub fn sequence_records(steps: &[Step]) -> Vec<Value> {
             .map(|axis| (axis_name(&axis.axis, axis.kind), json!(axis)));
         record["axes"] = Value::Object(axes.collect::<Map<String, Value>>());
         if at == 0 {
-            record["schema"] = 1.into();
+            record["schema"] = SCHEMA.into();
         }
         record
     });

@@ -10,7 +10,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::lists::AxisType;
 use crate::machine::{AcceptedList, AxisSet, Origin, Parameterisation};
 use crate::report::svg::Standing;
-use crate::text::Position;
+use crate::text::{Place, Position};
 use crate::timeline::{AxisSummary, End, EndedBy, Footing, Record, Row, Sink, StateView, Summary};
 
 /// How many characters of a source line are shown.
@@ -127,6 +127,20 @@ pub(super) struct Message {
     /// The file and line at which the report shows it; `None` for the machine's lists.
     pub(super) shown: Option<SourceLine>,
     pub(super) times: u64,
+    /// The number of the main program that reached it last.
+    by: Option<u32>,
+}
+
+impl Message {
+    /// Notes the main program that reached it (R17.1).
+    fn reached_from(&mut self, program: Option<(u32, Arc<str>)>) {
+        let Some((number, file)) = program else {
+            return;
+        };
+        if self.by.replace(number) != Some(number) {
+            self.diagnostic.reached_from.add(&file);
+        }
+    }
 }
 
 /// The end of the session.
@@ -322,8 +336,11 @@ impl RunDigest {
             place.start(),
             diagnostic.message.clone(),
         );
+        let program = self.program_of(place).filter(|_| block.is_some());
         if let Some(&known) = self.by_place.get(&key) {
-            self.messages[known].times += 1;
+            let message = &mut self.messages[known];
+            message.times += 1;
+            message.reached_from(program);
             return;
         }
         if self.messages.len() >= MAX_MESSAGES {
@@ -340,11 +357,22 @@ impl RunDigest {
             digest.messages.push(number);
             Some(SourceLine { file, line })
         });
-        self.messages.push(Message {
+        let mut message = Message {
             diagnostic: diagnostic.clone(),
             shown,
             times: 1,
-        });
+            by: None,
+        };
+        message.reached_from(program);
+        self.messages.push(message);
+    }
+
+    /// The main program that runs, by its number in the session and its file, where a place is not in
+    /// that file.
+    fn program_of(&self, place: &Place) -> Option<(u32, Arc<str>)> {
+        let program = self.programs.last()?;
+        let file = self.files[program.file].name.as_str();
+        (file != &*place.file).then(|| (program.number, Arc::from(file)))
     }
 
     fn end(&mut self, end: &End<'_>) {

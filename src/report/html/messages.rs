@@ -43,9 +43,8 @@ fn row(message: &Message) -> Row {
             }
         },
         html! {
-            (with_code(&diagnostic.message))
+            (with_code(&diagnostic.message)) (times(message.times)) (reached(message))
             @if message.shown.is_none() { (help(message)) }
-            (times(message.times))
         },
     ];
     Row::new(diagnostic.code.as_str(), cells)
@@ -59,9 +58,17 @@ pub(super) fn item(message: &Message) -> Markup {
         li.(severity) {
             span.sev { (severity) "[" (diagnostic.code.as_str()) "]" }
             " column " (diagnostic.place.start().column) ": "
-            (with_code(&diagnostic.message)) (times(message.times)) (help(message))
+            (with_code(&diagnostic.message)) (times(message.times)) (reached(message)) (help(message))
         }
         "\n"
+    }
+}
+
+/// The main programs that reach a message in a called program (R17.1).
+fn reached(message: &Message) -> Markup {
+    let reached_from = &message.diagnostic.reached_from;
+    html! {
+        @if !reached_from.is_empty() { " (" (reached_from) ")" }
     }
 }
 

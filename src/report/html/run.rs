@@ -15,6 +15,7 @@ use crate::comp::Kind;
 use crate::diagnostic::Severity;
 use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
 use crate::report::assumptions::Met;
+use crate::report::feed_moves::feed_moves_text;
 use crate::report::visible::last_part;
 use crate::timeline::ChangedBy;
 
@@ -155,12 +156,22 @@ fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
         })
         .collect();
     advice.extend(error_advice(errors.unwrap_or_default(), digest.ended()).map(str::to_owned));
+    let uncompensated: Vec<String> = (summary.axes.iter())
+        .filter_map(|axis| {
+            let of = digest.axes.get(axis.axis.get())?;
+            let text = feed_moves_text(&axis.feed_moves, of.axis_type)?;
+            Some(format!("{}{text}.", of.name))
+        })
+        .collect();
     let is_all_home = digest.remark.is_none() && summary.axes.iter().all(is_home);
     html! {
         @if !advice.is_empty() {
             div.to-do { ul { @for text in &advice { li { (text) } } } }
         } @else if is_all_home {
-            p { (all_home(summary.footing)) }
+            p { (all_home(&summary.axes, summary.footing)) }
+        }
+        @if !uncompensated.is_empty() {
+            div.to-do { ul { @for text in &uncompensated { li { (text) } } } }
         }
     }
 }

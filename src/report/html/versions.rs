@@ -155,9 +155,13 @@ fn changes(report: &VersionsReport) -> Markup {
 
 fn row(pair: &Paired) -> Row {
     let (heading, lines, switch) = match pair {
-        Paired::Both { old, new } => ("both".to_owned(), [Some(old.line), Some(new.line)], new),
+        Paired::Both { old, new } => (
+            "both".to_owned(),
+            [Some(old.place()), Some(new.place())],
+            new,
+        ),
         Paired::One(which, switch) => {
-            let line = |of| (of == *which).then_some(switch.line);
+            let line = |of| (of == *which).then(|| switch.place());
             let heading = format!("{} {} only", sign(*which), which.as_str());
             (heading, [line(Which::Old), line(Which::New)], switch)
         }

@@ -60,7 +60,7 @@ fn csv(view: View) -> String {
 fn the_example_as_json_lines() {
     // 9.2
     insta::assert_snapshot!(ndjson(View::default()), @r##"
-    {"record":"session","schema":1,"tool":"frictcomp 0.1.0","axes":["X","Y","Z"],"friction":{"X":"active","Y":"active","Z":"unconfigured"}}
+    {"record":"session","schema":2,"tool":"frictcomp 0.1.0","axes":["X","Y","Z"],"friction":{"X":"active","Y":"active","Z":"unconfigured"}}
     {"record":"program","program":1,"file":"demo.nc","name":"DEMO","friction":{"X":"active","Y":"active","Z":"unconfigured"}}
     {"record":"block","program":1,"seq":1,"file":"demo.nc","line":3,"n":15,"text":"N15 X[COMP ON FRICT] ;Activates X axis","changes":[],"friction":{"X":"active","Y":"active","Z":"unconfigured"}}
     {"record":"diagnostic","program":1,"seq":1,"code":"FC402","severity":"info","file":"demo.nc","line":3,"column":5,"end_line":3,"end_column":21,"axis":"X","message":"`X[COMP ON FRICT]` changes nothing, friction compensation of `X` is active already","help":[]}
@@ -118,7 +118,7 @@ fn the_document_holds_the_same_records_as_the_lines() {
         .lines()
         .map(|line| serde_json::from_str(line).unwrap())
         .collect();
-    assert_eq!(document["schema"], 1);
+    assert_eq!(document["schema"], 2);
     assert_eq!(document["records"], serde_json::Value::Array(lines));
 
     let mut empty = Vec::new();

@@ -166,6 +166,7 @@ impl<'a> Player<'a> {
                     .into_iter()
                     .collect(),
                 changes: u64::from(changed),
+                feed_moves: crate::timeline::FeedMoves::default(),
             }
         });
         let opaque = BTreeMap::from([("#HSC".to_owned(), 3)]);

@@ -189,19 +189,6 @@ pub(super) fn style(state: State) -> Style {
     }
 }
 
-/// A number with a blank between its thousands.
-pub(super) fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -225,13 +212,5 @@ mod tests {
         );
         assert_eq!(source("A\tB\u{7}", 30), "A B\u{2407}");
         assert_eq!(source("A\u{9b}B", 30), "A\u{27e8}U+009B\u{27e9}B");
-    }
-
-    #[test]
-    fn thousands_stand_apart() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(999), "999");
-        assert_eq!(grouped(1204), "1 204");
-        assert_eq!(grouped(12_345_678), "12 345 678");
     }
 }

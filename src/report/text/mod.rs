@@ -14,10 +14,11 @@ use crate::timeline::{End, EndedBy, Record, Row, Sink, StateView};
 
 use super::diagnostics::{Look, render, wrap};
 use super::output::{Gathered, Output};
+use super::strings::grouped;
 use super::view::{Blocks, View};
 use super::visible::leading;
 use columns::Columns;
-use line::{BOLD, DIM, GUTTER, Line, MARK, Paragraph, grouped};
+use line::{BOLD, DIM, GUTTER, Line, MARK, Paragraph};
 
 /// Below so many columns diagnostics stand further left.
 const NARROW: usize = 60;

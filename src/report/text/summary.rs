@@ -3,13 +3,16 @@
 use anstyle::Style;
 use unicode_width::UnicodeWidthStr;
 
+use crate::comp::State;
 use crate::diagnostic::Severity;
 use crate::report::advice::{all_home, axis_advice, error_advice, is_home};
 use crate::report::diagnostics::Look;
+use crate::report::feed_moves::feed_moves_text;
+use crate::report::strings::grouped;
 use crate::report::visible::last_part;
 use crate::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
 
-use super::line::{BOLD, DIM, Line, Paragraph, grouped, style};
+use super::line::{BOLD, DIM, Line, Paragraph, style};
 
 /// Columns that what changed an axis must have beside its states, or it stands below them.
 const CHANGED_BY: usize = 24;
@@ -186,7 +189,14 @@ fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: L
     if let Some(text) = error_advice(summary.count(Severity::Error), by) {
         Paragraph::new(Style::new(), text).write(out, look);
     } else if out.len() == bare && is_all_home {
-        Paragraph::new(DIM, all_home(summary.footing)).write(out, look);
+        Paragraph::new(DIM, all_home(&summary.axes, summary.footing)).write(out, look);
+    }
+    for axis in &summary.axes {
+        let of = summary.state.machine.axis(axis.axis);
+        if let Some(text) = feed_moves_text(&axis.feed_moves, of.axis_type) {
+            let text = format!("{}{text}.", of.name);
+            Paragraph::new(style(State::Inactive), &text).write(out, look);
+        }
     }
     if out.len() == bare {
         out.truncate(before);
@@ -201,7 +211,7 @@ fn count(number: u64, noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comp::{AxisIndex, State};
+    use crate::comp::AxisIndex;
 
     #[test]
     fn as_many_blocks_are_named_as_have_room() {
@@ -214,6 +224,7 @@ mod tests {
             told: false,
             changed_by: Vec::new(),
             changes: 0,
+            feed_moves: crate::timeline::FeedMoves::default(),
         };
         assert_eq!(changed_by(&axis, 40), "-");
         for line in 1..=100 {

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use serde::Serialize;
+use unicode_width::UnicodeWidthStr;
 
 use super::contour::{ContourRecord, ContoursReport, push_contours};
 use crate::report::strings::to_pretty;
@@ -47,6 +48,9 @@ pub(in crate::report) fn sign(which: Which) -> char {
     }
 }
 
+/// Columns of a line number.
+const LINE: usize = 6;
+
 /// The blocks that switch in one version only, with what keeps the versions from being compared.
 pub fn render_text(report: &VersionsReport) -> String {
     let mut out = String::new();
@@ -54,15 +58,18 @@ pub fn render_text(report: &VersionsReport) -> String {
         let _ = writeln!(out, "{}\n", visible_line(remark));
     }
     let comparison = &report.comparison;
-    let mut differences = comparison.differences().peekable();
-    if differences.peek().is_some() {
+    let differences: Vec<_> = comparison.differences().collect();
+    if !differences.is_empty() {
         let (old, new) = (visible_line(&report.old), visible_line(&report.new));
         let _ = writeln!(out, "--- {old}\n+++ {new}");
     }
+    let places = differences.iter().map(|(_, switch)| switch.place().width());
+    let width = places.max().unwrap_or_default().max(LINE);
     for (which, switch) in differences {
-        let (sign, line) = (sign(which), switch.line);
+        let (sign, place) = (sign(which), switch.place());
+        let place = visible_line(&place);
         let (what, text) = (switch.to_string(), visible_line(switch.first_line()));
-        let _ = writeln!(out, "{sign} {line:>6}  {what:<28}  {text}");
+        let _ = writeln!(out, "{sign} {place:>width$}  {what:<28}  {text}");
     }
     for (_, obstacle) in comparison.obstacles() {
         let told = obstacle.to_string();

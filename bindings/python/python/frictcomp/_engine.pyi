@@ -137,6 +137,12 @@ class Message:
     @property
     def fixes(self) -> list[Fix]:
         """Changes of the text, each of which alone does what is advised."""
+    @property
+    def reached_from(self) -> list[str]:
+        """The main programs that reach the place of the message in a called program, 20 at most."""
+    @property
+    def reached_from_count(self) -> int:
+        """How many main programs reach it."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
 

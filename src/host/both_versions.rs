@@ -1,0 +1,117 @@
+//! The machine of two versions of a program, and where each finds what it calls (R17.4).
+
+use std::cmp::Ordering;
+use std::path::{Path, PathBuf};
+
+use super::discovery::{ConfigurationChoice, LoadedMachine, Machines};
+use super::error::HostError;
+use super::finder::Reach;
+use super::grounds::{Elsewhere, Grounds};
+use super::input::Input;
+
+/// The machine of two versions of a program: the same for both, each with the folders in which it
+/// looks for what it calls.
+#[derive(Debug, Clone)]
+pub struct MachineOfVersions {
+    /// The machine as the old version finds it.
+    pub old: LoadedMachine,
+    /// The machine as the new version finds it.
+    pub new: LoadedMachine,
+    /// Whose machine it is.
+    pub owner: MachineOwner,
+}
+
+/// Whose machine two versions run on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MachineOwner {
+    /// No version has another one.
+    Both,
+    /// That of the new version; the old one has another configuration.
+    NewNotOld(PathBuf),
+    /// That of the current folder; neither version has one.
+    CurrentFolder,
+}
+
+/// How near a version lies to the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Nearness {
+    /// It lies anywhere, like the copies that `git difftool` makes.
+    Elsewhere,
+    /// It lies below the current folder.
+    Here,
+    /// It lies below a configuration.
+    Configured,
+}
+
+impl Machines {
+    /// The machine of two versions: that of the new one, else that of the old one, else that of the
+    /// current folder. A version that lies elsewhere finds called programs where the other one does.
+    ///
+    /// # Errors
+    /// The configuration or the start-up list cannot be used, or an axis is unknown.
+    pub fn for_versions(&mut self, versions: &[Input; 2]) -> Result<MachineOfVersions, HostError> {
+        let folders = versions.each_ref().map(|input| input.folder().to_owned());
+        let [old, new] = &folders;
+        let mut own = [None, None];
+        let mut owner = MachineOwner::Both;
+        if *self.choice() == ConfigurationChoice::Nearest {
+            own = [self.configuration(old), self.configuration(new)];
+            let nearest = own[1].clone().or_else(|| own[0].clone());
+            let taken = nearest.or_else(|| self.configuration(Path::new("")));
+            owner = match (&own, &taken) {
+                ([None, None], Some(_)) => MachineOwner::CurrentFolder,
+                ([Some(old), _], Some(taken)) if old != taken => {
+                    MachineOwner::NewNotOld(old.clone())
+                }
+                _ => MachineOwner::Both,
+            };
+            for folder in &folders {
+                self.settle(folder, taken.clone());
+            }
+        }
+        self.look_ahead(versions);
+        let loaded = self.for_folder(new)?;
+        let mut reaches = [loaded.reach.clone(), loaded.reach.clone()];
+        if let MachineOwner::NewNotOld(path) = &owner
+            && let Ok(own) = self.plain(Some(path))
+        {
+            reaches[0] = with_own(&own.reach, &loaded.reach);
+        }
+        let nearness = [0, 1].map(|at| self.nearness(&folders[at], own[at].as_deref()));
+        for (at, other) in [(0, 1), (1, 0)] {
+            let beside = match nearness[at].cmp(&nearness[other]) {
+                Ordering::Less => folders[other].clone(),
+                Ordering::Equal if owner == MachineOwner::CurrentFolder => PathBuf::new(),
+                _ => continue,
+            };
+            reaches[at].program_dirs.insert(0, beside);
+        }
+        let [old, new] = reaches.map(|reach| LoadedMachine {
+            reach,
+            ..(*loaded).clone()
+        });
+        Ok(MachineOfVersions { old, new, owner })
+    }
+
+    fn nearness(&self, folder: &Path, own: Option<&Path>) -> Nearness {
+        let here = Grounds::on(self.disk(), Elsewhere::Kept).with(Path::new(""));
+        if own.is_some() {
+            Nearness::Configured
+        } else if here.holds(folder) {
+            Nearness::Here
+        } else {
+            Nearness::Elsewhere
+        }
+    }
+}
+
+/// The folders that a version has itself, then those of the machine that it runs on.
+fn with_own(own: &Reach, shared: &Reach) -> Reach {
+    let dirs = own.program_dirs.iter().chain(&shared.program_dirs);
+    Reach {
+        program_dirs: dirs.cloned().collect(),
+        project: own.project.clone(),
+        elsewhere: shared.elsewhere,
+    }
+}

@@ -1,0 +1,96 @@
+//! Counts the feed moves that axes make without friction compensation (R13.12).
+
+use crate::comp::{AxisIndex, Kind, State};
+use crate::interpreter::{Executed, Group};
+use crate::timeline::{FeedMoves, PositionFrame};
+
+/// An axis whose friction compensation is not active.
+struct Watched {
+    axis: AxisIndex,
+    state: State,
+    /// Where it stood after the last block, in the coordinates of the machine.
+    stood: Option<f64>,
+}
+
+/// Counts feed moves, axis by axis.
+pub(super) struct FeedMoveCounter {
+    counts: Vec<FeedMoves>,
+    watched: Vec<Watched>,
+    /// The version of the states that [`watched`](Self::watched) holds for.
+    version: Option<u64>,
+}
+
+impl FeedMoveCounter {
+    /// No move of so many axes yet.
+    pub(super) fn new(axes: usize) -> Self {
+        Self {
+            counts: vec![FeedMoves::default(); axes],
+            watched: Vec::new(),
+            version: None,
+        }
+    }
+
+    /// The moves of an axis.
+    pub(super) fn of(&self, axis: AxisIndex) -> FeedMoves {
+        self.counts[axis.get()]
+    }
+
+    /// Looks at an executed block. Where friction compensation is active on every axis, that is one
+    /// comparison.
+    #[inline]
+    pub(super) fn block(&mut self, executed: &Executed<'_>) {
+        if self.version != Some(executed.version) {
+            self.version = Some(executed.version);
+            self.watch(executed);
+        }
+        if !self.watched.is_empty() {
+            self.count(executed);
+        }
+    }
+
+    /// The commands of a block act before its motion (R1.9), so its own motion counts, too.
+    #[inline(never)]
+    fn watch(&mut self, executed: &Executed<'_>) {
+        let before = std::mem::take(&mut self.watched);
+        for axis in (0..self.counts.len()).map(AxisIndex::new) {
+            let state = executed.compensation.state(axis, Kind::Frict);
+            if matches!(state, State::Active | State::Unconfigured) {
+                continue;
+            }
+            let known = before.iter().find(|watched| watched.axis == axis);
+            self.watched.push(Watched {
+                axis,
+                state,
+                stood: known.and_then(|watched| watched.stood),
+            });
+        }
+    }
+
+    fn count(&mut self, executed: &Executed<'_>) {
+        let modal = executed.modal;
+        let motion = modal.functions.motion;
+        let is_known = modal.is_known(Group::Motion);
+        let is_rapid = is_known && motion == 0;
+        for watched in &mut self.watched {
+            let position = modal.position(watched.axis);
+            let now = position
+                .value
+                .filter(|_| position.frame == PositionFrame::Machine);
+            let stood = std::mem::replace(&mut watched.stood, now);
+            let moves = executed.moved.iter().any(|word| word.axis == watched.axis);
+            if !moves || is_rapid {
+                continue;
+            }
+            let counts = &mut self.counts[watched.axis.get()];
+            if !is_known || watched.state == State::Unknown {
+                counts.unknown += 1;
+                continue;
+            }
+            let ends = stood.zip(now).filter(|_| motion == 1);
+            let length = ends.map(|(from, to)| ((to - from).abs() * 1e6).round() / 1e6);
+            if length != Some(0.0) {
+                counts.add(watched.state, length);
+            }
+        }
+    }
+}

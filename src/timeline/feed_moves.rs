@@ -1,0 +1,59 @@
+//! What a session costs: feed moves without friction compensation (R13.12).
+
+use serde::Serialize;
+
+use crate::comp::State;
+
+/// The feed moves of an axis while its friction compensation was not active (R13.12). Rapid motion
+/// does not count, nor does an axis without P-AXIS-00522 = 1.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct FeedMoves {
+    /// Number of moves while it was inactive.
+    pub off: u64,
+    /// Number of moves while it was selected without effect.
+    pub ineffective: u64,
+    /// Number of moves of which it is not known whether it was active, or whether they were rapid.
+    pub unknown: u64,
+    /// The longest way of the axis without compensation, in mm or degrees, of the moves whose length
+    /// is known.
+    pub longest: Option<f64>,
+    /// Number of moves without compensation whose length is not known: arcs, and moves whose start or
+    /// end is not known or not one of the machine.
+    pub unmeasured: u64,
+}
+
+impl FeedMoves {
+    /// Number of moves that were made without compensation.
+    pub fn without(&self) -> u64 {
+        self.off + self.ineffective
+    }
+
+    /// Whether there is no move to speak of.
+    pub fn is_empty(&self) -> bool {
+        self.without() == 0 && self.unknown == 0
+    }
+
+    /// Adds the moves of another session.
+    pub fn append(&mut self, other: &Self) {
+        self.off += other.off;
+        self.ineffective += other.ineffective;
+        self.unknown += other.unknown;
+        self.unmeasured += other.unmeasured;
+        self.see(other.longest);
+    }
+
+    /// Adds a move in a state in which nothing is compensated.
+    pub(crate) fn add(&mut self, state: State, length: Option<f64>) {
+        match state {
+            State::Ineffective => self.ineffective += 1,
+            _ => self.off += 1,
+        }
+        self.unmeasured += u64::from(length.is_none());
+        self.see(length);
+    }
+
+    fn see(&mut self, length: Option<f64>) {
+        let longer = length.filter(|length| self.longest.is_none_or(|longest| *length > longest));
+        self.longest = longer.or(self.longest);
+    }
+}

@@ -23,5 +23,5 @@ pub use message::{Diagnostic, Label};
 pub(crate) use number::Rounded;
 pub(crate) use number::Shown;
 pub use severity::Severity;
-pub(crate) use spelling::did_you_mean;
+pub(crate) use spelling::{did_you_mean, nearest};
 pub use unknown_name::UnknownName;

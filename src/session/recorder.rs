@@ -255,7 +255,7 @@ impl Recorder<'_> {
         if let Some(fault) = allowance.fault {
             let diagnostic = Diagnostic::new(Code::Fc491, place(fault.span), fault.message);
             self.said.push(match fault.help {
-                Help::Near(near) => diagnostic.with_near(fault.span.of(text), near),
+                Help::Near(near) => diagnostic.with_near(fault.span.of(text), &near),
                 Help::How(how) => diagnostic.with_help(how),
             });
         }

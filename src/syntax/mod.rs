@@ -46,7 +46,7 @@ pub(crate) use parse::parse_block;
 #[cfg(feature = "unstable")]
 pub use parse::parse_block;
 pub use parse::parse_comp;
-pub(crate) use parse::parse_expression;
+pub(crate) use parse::{is_lone_m, parse_expression};
 pub use raw::{Comments, MAX_LINE, Remark};
 #[cfg(not(feature = "unstable"))]
 pub(crate) use raw::{LostRemarks, RawBlock, Stretch};

@@ -35,7 +35,9 @@ pub use brackets::MAX_BRACKETS;
 pub use fault::Fault;
 pub use flow_scan::FlowScan;
 pub(crate) use hash_words::hash_name;
-pub(crate) use known::{is_command, is_letter, is_statement};
+pub(crate) use known::{
+    Touches, hash_command, is_command, is_letter, is_program_number, is_statement,
+};
 #[cfg(feature = "unstable")]
 pub use lines::BlockReader;
 #[cfg(not(feature = "unstable"))]

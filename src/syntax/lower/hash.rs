@@ -33,7 +33,7 @@ impl Lowering<'_> {
         };
         let written = match touches {
             Touches::Values => self.places_in(rest),
-            Touches::Nothing | Touches::Axes => Vec::new(),
+            _ => Vec::new(),
         };
         self.block.items.push(Item::Hash(Hash {
             name,

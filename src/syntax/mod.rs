@@ -26,6 +26,7 @@ mod lower;
 mod mask;
 mod parse;
 mod raw;
+mod scan;
 mod unread;
 mod upper_case;
 
@@ -54,6 +55,8 @@ pub use raw::{Comments, MAX_LINE, Remark};
 pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
+pub use scan::SwitchScan;
+pub(crate) use scan::{calls_files, code_words, has_axis_word};
 pub(crate) use unread::not_known;
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod values;
 pub use coordinates::axis_words::AxisWord;
 pub use coordinates::group::Group;
 pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, Modal};
+pub(crate) use coordinates::arc::SAME_PLACE;
 pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };

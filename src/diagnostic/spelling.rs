@@ -17,10 +17,7 @@ pub(crate) fn did_you_mean<'a>(
 
 /// The words that are equally near, in their order: which one is meant is then not for a tool to say
 /// (R1.60). None where they are many.
-pub(crate) fn nearest<'a>(
-    found: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Vec<&'a str> {
+pub(crate) fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut near = candidates(found, known);
     near.truncate(if near.len() > MAX_EQUALLY_NEAR {
         0
@@ -78,6 +75,9 @@ mod tests {
         assert_eq!(nearest("FRIKT", ["LEAD", "FRICT"]), ["FRICT"]);
         assert_eq!(nearest("X3", ["X1", "X2", "X1", "Y2"]), ["X1", "X2"]);
         assert_eq!(nearest("X9", ["X1", "X2", "X3", "X4", "X5"]), [""; 0]);
-        assert_eq!(did_you_mean("X9", ["X1", "X2", "X3", "X4", "X5"]), Some("X1"));
+        assert_eq!(
+            did_you_mean("X9", ["X1", "X2", "X3", "X4", "X5"]),
+            Some("X1")
+        );
     }
 }

@@ -18,10 +18,10 @@ mod run;
 mod unknown;
 mod values;
 
+pub(crate) use coordinates::arc::SAME_PLACE;
 pub use coordinates::axis_words::AxisWord;
 pub use coordinates::group::Group;
 pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, Modal};
-pub(crate) use coordinates::arc::SAME_PLACE;
 pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };

@@ -121,7 +121,11 @@ impl Job {
         let is_cut = survey.ended_by == Some(EndedBy::Budget) && survey.blocks >= self.max_blocks;
         let found = survey.findings.diagnostics();
         // That the editor looks no further says nothing of a loop without an end.
-        said.extend(found.filter(|it| !is_cut || it.code != Code::Fc910).cloned());
+        said.extend(
+            found
+                .filter(|it| !is_cut || it.code != Code::Fc910)
+                .cloned(),
+        );
         Analysis {
             said,
             run: Some(Run {

@@ -274,6 +274,9 @@ mod tests {
         assert_eq!(of(Centre::Radius(4.999), [-5.0, 0.0]), [Direction::Down]);
         assert_eq!(of(Centre::Radius(3.0), [-5.0, 0.0]), [Direction::Unknown]);
         assert_eq!(of(Centre::Point([0.1, 0.0]), [0.0, 5.0]), [Direction::Down]);
-        assert_eq!(of(Centre::Point([3.0, 0.0]), [0.0, 5.0]), [Direction::Unknown]);
+        assert_eq!(
+            of(Centre::Point([3.0, 0.0]), [0.0, 5.0]),
+            [Direction::Unknown]
+        );
     }
 }

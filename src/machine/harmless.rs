@@ -23,7 +23,10 @@ impl HarmlessWords {
             self.commands.push(name);
             return length == word.len();
         }
-        let letter = word.bytes().next().map(|letter| letter.to_ascii_uppercase());
+        let letter = word
+            .bytes()
+            .next()
+            .map(|letter| letter.to_ascii_uppercase());
         let Some(letter @ (b'G' | b'M')) = letter else {
             return false;
         };
@@ -55,7 +58,8 @@ impl HarmlessWords {
     /// All of them as they are written.
     pub fn words(&self) -> impl Iterator<Item = String> {
         let functions = self.functions.iter();
-        let functions = functions.map(|(letter, number)| format!("{}{number}", char::from(*letter)));
+        let functions =
+            functions.map(|(letter, number)| format!("{}{number}", char::from(*letter)));
         self.commands.iter().cloned().chain(functions)
     }
 }

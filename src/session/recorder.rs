@@ -76,6 +76,8 @@ pub(super) struct Recorder<'a> {
     pub(super) program: u32,
     pub(super) file: &'a str,
     pub(super) said: Vec<Diagnostic>,
+    /// FC326, until it is said in front of everything else.
+    pub(super) foreign: Option<Diagnostic>,
     /// What was said so far.
     pub(super) before: Said,
     pub(super) allows: HashMap<(Arc<str>, u32, Code), Allow>,
@@ -181,6 +183,7 @@ impl Recorder<'_> {
     /// Gathers what there is to say about a block, and counts it.
     #[inline(never)]
     fn judge(&mut self, executed: &Executed<'_>) {
+        self.said.extend(self.foreign.take());
         self.said.extend_from_slice(executed.diagnostics);
         self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
@@ -291,9 +294,9 @@ impl Recorder<'_> {
     #[inline(never)]
     fn ended(&mut self, ended: &Ended<'_>) -> ControlFlow<()> {
         self.tally.note_footing(ended.diagnostics);
-        let mut notes: Vec<EndNote> = ended
-            .diagnostics
-            .iter()
+        let foreign = self.foreign.take();
+        let said = foreign.iter().chain(ended.diagnostics);
+        let mut notes: Vec<EndNote> = said
             .map(|diagnostic| EndNote {
                 seq: ended.seq,
                 diagnostic: diagnostic.clone(),

@@ -241,7 +241,9 @@ mod tests {
     #[test]
     fn no_selection_is_taken_for_its_opposite() {
         // R1.60
-        for word in ["OF", "OFFF", "0FF", "FF", "of", "OOFF", "OF_F", "OFFN", "OFG"] {
+        for word in [
+            "OF", "OFFF", "0FF", "FF", "of", "OOFF", "OF_F", "OFFN", "OFG",
+        ] {
             assert_eq!(meant(word), ["OFF"], "{word}");
         }
         for word in ["ONN", "0N", "oon", "AN"] {

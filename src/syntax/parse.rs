@@ -77,14 +77,30 @@ mod tests {
     fn only_a_block_that_does_nothing_else_has_another_before_it() {
         // R1.59
         let ends = [
-            "M30", "N90 M30", "  n90 m02 ; end", "M30 (end)", "M2", "M 30", "M=30", "m =\t30", "M=P1",
+            "M30",
+            "N90 M30",
+            "  n90 m02 ; end",
+            "M30 (end)",
+            "M2",
+            "M 30",
+            "M=30",
+            "m =\t30",
+            "M=P1",
             "N5M02",
         ];
         for block in ends {
             assert!(is_lone_m(block), "{block}");
         }
         let others = [
-            "G0 X0 M30", "/M30", "M30 M5", "N90", "$IF P1 M30", "N90: M30", "M30 $GOTO N10", "\"END\"", "",
+            "G0 X0 M30",
+            "/M30",
+            "M30 M5",
+            "N90",
+            "$IF P1 M30",
+            "N90: M30",
+            "M30 $GOTO N10",
+            "\"END\"",
+            "",
         ];
         for block in others {
             assert!(!is_lone_m(block), "{block}");

@@ -212,10 +212,24 @@ mod tests {
     #[test]
     fn calls_of_files_are_found() {
         // R2.74
-        for text in ["L SUB.nc", "N10 L\"A.nc\"", "L4712", "LUP1.nc", "G0 X1\nl a.nc"] {
+        for text in [
+            "L SUB.nc",
+            "N10 L\"A.nc\"",
+            "L4712",
+            "LUP1.nc",
+            "G0 X1\nl a.nc",
+        ] {
             assert!(calls_files(text.as_bytes()), "{text}");
         }
-        for text in ["LL SUB", "%L SUB", "V.L.A=1", "#LAH", "(L SUB)", "#MSG [\"L SUB\"]", "MULL X"] {
+        for text in [
+            "LL SUB",
+            "%L SUB",
+            "V.L.A=1",
+            "#LAH",
+            "(L SUB)",
+            "#MSG [\"L SUB\"]",
+            "MULL X",
+        ] {
             assert!(!calls_files(text.as_bytes()), "{text}");
         }
     }

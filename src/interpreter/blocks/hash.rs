@@ -15,8 +15,8 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::values::value::Value;
-use crate::syntax::{Fault, Touches, hash_command};
 use crate::syntax::ast::Hash;
+use crate::syntax::{Fault, Touches, hash_command};
 use crate::text::Span;
 
 /// Number of axes that a message names.

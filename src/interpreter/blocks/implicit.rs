@@ -111,7 +111,11 @@ impl Interpreter {
             }
             Configured::Unknown(cause) => self.unknown_program(&cause, call.span, at),
             Configured::None => {
-                if !self.machine.harmless.has_function(b'G', i64::from(call.number)) {
+                if !self
+                    .machine
+                    .harmless
+                    .has_function(b'G', i64::from(call.number))
+                {
                     self.warn_not_configured(call.number, call.span, at);
                     self.pass_over_implicit(call.number);
                 }

@@ -130,7 +130,12 @@ impl Interpreter {
             let message = format!(
                 "the lists of the machine name no axis `{name}`; its words are passed over, and what they move is not known"
             );
-            let known: Vec<&str> = self.machine.axes.iter().map(|axis| axis.name.as_str()).collect();
+            let known: Vec<&str> = self
+                .machine
+                .axes
+                .iter()
+                .map(|axis| axis.name.as_str())
+                .collect();
             let fault = Fault::new(Code::Fc210, span, message)
                 .with_help(format!("the lists name {}", known.join(", ")));
             self.work.diagnostics.push(at.diagnostic(fault));

@@ -81,7 +81,10 @@ impl Interpreter {
                 let fault = Fault::new(
                     Code::Fc902,
                     hash.span,
-                    format!("which axes `{}` exchanges is not documented; a COMP command after it may switch any axis", hash.name),
+                    format!(
+                        "which axes `{}` exchanges is not documented; a COMP command after it may switch any axis",
+                        hash.name
+                    ),
                 );
                 self.work.diagnostics.push(at.diagnostic(fault));
             }

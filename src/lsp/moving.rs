@@ -8,7 +8,7 @@ use super::documents::Document;
 use super::view::View;
 use crate::comp::{Kind, State};
 use crate::host::{Alone, Axes, Disk, Input, Ledger, MachineOptions, Machines, Naming, run_alone};
-use crate::interpreter::{CircularArc, Form, Motion, Motions, Travel};
+use crate::interpreter::{CircularArc, Form, Motion, Motions, SAME_PLACE, Travel};
 use crate::text::shown_path;
 use crate::timeline::{Record, Row, Sink};
 
@@ -185,6 +185,11 @@ fn along_arc(travel: &Travel, arc: CircularArc, which: usize) -> Vec<Direction> 
     while end - at > TOLERANCE {
         let turn = (((at + TOLERANCE) / PI).floor() + 1.0) * PI;
         let next = turn.min(end);
+        let way = shape.radius * (next.cos() - at.cos()).abs();
+        if way < SAME_PLACE {
+            at = next;
+            continue;
+        }
         // The derivative of the coordinate, up to the radius.
         let grows = -f64::midpoint(at, next).sin() * slope > 0.0;
         directions.push(if grows {
@@ -273,7 +278,10 @@ mod tests {
         // Rounding made the radius too small for the ends.
         assert_eq!(of(Centre::Radius(4.999), [-5.0, 0.0]), [Direction::Down]);
         assert_eq!(of(Centre::Radius(3.0), [-5.0, 0.0]), [Direction::Unknown]);
-        assert_eq!(of(Centre::Point([0.1, 0.0]), [0.0, 5.0]), [Direction::Down]);
+        assert_eq!(
+            of(Centre::Point([0.001, 0.0]), [0.0, 5.0]),
+            [Direction::Down]
+        );
         assert_eq!(
             of(Centre::Point([3.0, 0.0]), [0.0, 5.0]),
             [Direction::Unknown]

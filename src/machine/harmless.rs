@@ -11,6 +11,27 @@ pub struct HarmlessWords {
     functions: Vec<(u8, i64)>,
 }
 
+/// Whether a G function takes effect in a dry run, so that nothing can be declared about it: those of the
+/// groups, and mirroring (R2.45).
+fn is_followed(number: i64) -> bool {
+    matches!(
+        number,
+        0..=3
+            | 17..=23
+            | 40..=42
+            | 53..=59
+            | 70
+            | 71
+            | 90..=95
+            | 159
+            | 161
+            | 162
+            | 194
+            | 359
+            | 360
+    )
+}
+
 impl HarmlessWords {
     /// Adds a word; `false` when it is neither a `#` command nor a G or M function.
     pub fn add(&mut self, word: &str) -> bool {
@@ -33,6 +54,7 @@ impl HarmlessWords {
         let digits = &word[1..];
         let number = digits.bytes().all(|byte| byte.is_ascii_digit());
         let number = number.then(|| digits.parse().ok()).flatten();
+        let number = number.filter(|number| letter == b'M' || !is_followed(*number));
         self.functions.extend(number.map(|number| (letter, number)));
         number.is_some()
     }

@@ -57,8 +57,8 @@ pub use raw::{Comments, MAX_LINE, Remark};
 pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
-pub use scan::SwitchScan;
-pub(crate) use scan::{calls_files, code_words, has_axis_word};
+
+pub(crate) use scan::{SwitchScan, calls_files, code_words, has_axis_word};
 pub(crate) use unread::not_known;
 
 #[cfg(test)]

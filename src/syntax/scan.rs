@@ -124,7 +124,7 @@ pub(crate) fn code_words(line: &str) -> impl Iterator<Item = &str> {
 ///
 /// Only blocks that may hold a COMP command are parsed. What a macro stands for counts.
 #[derive(Debug, Default)]
-pub struct SwitchScan {
+pub(crate) struct SwitchScan {
     /// The lines of a block that goes on.
     open: String,
     /// Inside `#COMMENT BEGIN` … `#COMMENT END`.
@@ -134,7 +134,7 @@ pub struct SwitchScan {
 
 impl SwitchScan {
     /// Looks at the next line, or at several lines whose ends are CR alone.
-    pub fn feed(&mut self, line: &[u8]) {
+    pub(crate) fn feed(&mut self, line: &[u8]) {
         let is_marked = memchr::memchr2(b'#', b'\\', line).is_some();
         if self.open.is_empty() && !is_marked && (self.is_comment || !has_comp(line)) {
             return;
@@ -174,7 +174,7 @@ impl SwitchScan {
     }
 
     /// The axes, sorted.
-    pub fn into_axes(self) -> Vec<String> {
+    pub(crate) fn into_axes(self) -> Vec<String> {
         self.found.into_iter().collect()
     }
 }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::diagnostic::{Advice, Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
 use crate::lists::Given;
 use crate::text::{SourceFile, Span};
 
@@ -39,9 +39,8 @@ impl ConfigError {
         found: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        if let Some(near) = did_you_mean(found, known) {
-            self.diagnostic = Box::new(self.diagnostic.with_near(found, near));
-        }
+        let near = nearest(found, known);
+        self.diagnostic = Box::new(self.diagnostic.with_near(found, &near));
         self
     }
 }

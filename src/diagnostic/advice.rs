@@ -86,6 +86,14 @@ pub enum Advice {
 pub type Wording = fn(&Advice) -> Option<String>;
 
 impl Advice {
+    /// The known words that may be meant, which are equally near.
+    pub(crate) fn did_you_mean(near: &[&str]) -> Self {
+        match near {
+            [near] => Self::DidYouMean((*near).to_owned()),
+            several => Self::Words(format!("did you mean `{}`?", several.join("` or `")).into()),
+        }
+    }
+
     /// The words of a host, or the general ones.
     pub fn in_words(&self, wording: Option<Wording>) -> String {
         let words = wording.and_then(|wording| wording(self));

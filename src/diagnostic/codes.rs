@@ -106,6 +106,8 @@ codes! {
     Fc322 "FC322" Warning "variable of the control's state written";
     Fc323 "FC323" Warning "file without a main program";
     Fc324 "FC324" Warning "main program that is never run";
+    Fc325 "FC325" Warning "no program for a word that calls one";
+    Fc326 "FC326" Warning "program of another control";
     Fc401 "FC401" Warning "state not restored before program end";
     Fc402 "FC402" Info "command repeats what the program did";
     Fc403 "FC403" Info "depends on the program before";

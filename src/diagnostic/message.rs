@@ -81,17 +81,21 @@ impl Diagnostic {
         self
     }
 
-    /// The same with the known word that may be meant where `found` stands in its place.
-    pub(crate) fn with_near(self, found: &str, near: &str) -> Self {
+    /// The same with the known words that may be meant where `found` stands in its place; only a
+    /// single one is offered as a change (R1.60).
+    pub(crate) fn with_near(self, found: &str, near: &[&str]) -> Self {
+        if near.is_empty() {
+            return self;
+        }
         let mut place = self.place.clone();
         let start = place.span.of(&place.text).find(found);
-        let said = self.with_help(Advice::DidYouMean(near.to_owned()));
-        let Some(start) = start else {
+        let said = self.with_help(Advice::did_you_mean(near));
+        let (Some(start), [near]) = (start, near) else {
             return said;
         };
         let start = place.span.start as usize + start;
         place.span = Span::new(start, start + found.len());
-        said.with_fix(Fix::guess(place, near))
+        said.with_fix(Fix::guess(place, *near))
     }
 
     /// Says how often it applied.

@@ -25,5 +25,5 @@ pub(crate) use number::Rounded;
 pub(crate) use number::Shown;
 pub use reached::ReachedFrom;
 pub use severity::Severity;
-pub(crate) use spelling::did_you_mean;
+pub(crate) use spelling::{did_you_mean, nearest};
 pub use unknown_name::UnknownName;

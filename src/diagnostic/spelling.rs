@@ -3,20 +3,41 @@
 /// Letters beyond which a word is no slip of the pen, and not compared.
 const MAX_WORD: usize = 64;
 
-/// The nearest of several known words, close enough to be meant: at most a third of the letters
-/// differ, swapped neighbours count once; or one is the beginning of the other.
+/// Number of equally near words beyond which none of them is worth naming.
+const MAX_EQUALLY_NEAR: usize = 4;
+
+/// The nearest of several known words, close enough to be meant; the first one of several that are
+/// equally near. What offers a change asks [`nearest`].
 pub(crate) fn did_you_mean<'a>(
     found: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
+    candidates(found, known).first().copied()
+}
+
+/// The words that are equally near, in their order: which one is meant is then not for a tool to say
+/// (R1.60). None where they are many.
+pub(crate) fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut near = candidates(found, known);
+    near.truncate(if near.len() > MAX_EQUALLY_NEAR {
+        0
+    } else {
+        MAX_EQUALLY_NEAR
+    });
+    near
+}
+
+/// The known words at the smallest distance: at most a third of the letters differ, swapped neighbours
+/// count once; or one is the beginning of the other.
+fn candidates<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     if found.len() > MAX_WORD {
-        return None;
+        return Vec::new();
     }
     let found = found.to_ascii_uppercase();
     let letters = found.chars().count();
     // Of a single letter only the case can be wrong.
     let allowed = if letters > 1 { (letters / 3).max(1) } else { 0 };
-    known
+    let near = known
         .into_iter()
         .filter(|word| word.len() <= MAX_WORD)
         .filter_map(|word| {
@@ -29,7 +50,34 @@ pub(crate) fn did_you_mean<'a>(
             }
             let distance = strsim::damerau_levenshtein(&found, &upper);
             (distance <= allowed || begins).then_some((distance, word))
-        })
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, word)| word)
+        });
+    let mut smallest = usize::MAX;
+    let mut words = Vec::new();
+    for (distance, word) in near {
+        if distance < smallest {
+            smallest = distance;
+            words.clear();
+        }
+        if distance == smallest && !words.contains(&word) && words.len() <= MAX_EQUALLY_NEAR {
+            words.push(word);
+        }
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_that_are_equally_near_are_all_named() {
+        // R1.60
+        assert_eq!(nearest("FRIKT", ["LEAD", "FRICT"]), ["FRICT"]);
+        assert_eq!(nearest("X3", ["X1", "X2", "X1", "Y2"]), ["X1", "X2"]);
+        assert_eq!(nearest("X9", ["X1", "X2", "X3", "X4", "X5"]), [""; 0]);
+        assert_eq!(
+            did_you_mean("X9", ["X1", "X2", "X3", "X4", "X5"]),
+            Some("X1")
+        );
+    }
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::drive_type::DriveType;
 use super::signal::{Signal, is_torque_command};
-use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::lists::{Entry, Given, Number};
 use crate::text::Place;
 
@@ -188,11 +188,9 @@ fn drive_type(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<
     if found.is_none() {
         let expected = "write `2` for SERCOS, `8` for CANopen, `4` for simulation, `16` for a \
                         virtual axis";
-        let mut said = unusable(entry, expected);
-        if let Some(near) = did_you_mean(&written.value.text, DriveType::words()) {
-            said = said.with_near(&written.value.text, near);
-        }
-        diagnostics.push(said);
+        let text = &written.value.text;
+        let near = nearest(text, DriveType::words());
+        diagnostics.push(unusable(entry, expected).with_near(text, &near));
     }
     found.map(|drive_type| written.with(drive_type))
 }

@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use super::input::Input;
+use crate::syntax::{calls_files, has_axis_word};
 
 /// Bytes that are looked at together.
 const PIECE: usize = 256 * 1024;
@@ -101,70 +102,15 @@ impl AxesAhead {
 
     fn look(&mut self, text: &[u8]) {
         for name in LETTERS {
-            if !self.found.contains(&name) && holds(text, name.as_bytes()) {
+            if !self.found.contains(&name) && has_axis_word(text, name.as_bytes()) {
                 self.found.push(name);
             }
         }
         for (name, found) in &mut self.asked {
-            *found = *found || holds(text, name.as_bytes());
+            *found = *found || has_axis_word(text, name.as_bytes());
         }
-        self.is_open = self.is_open || calls(text);
+        self.is_open = self.is_open || calls_files(text);
     }
-}
-
-/// Whether a text has an axis word of this name.
-fn holds(text: &[u8], name: &[u8]) -> bool {
-    memchr::memmem::find_iter(text, name).any(|at| is_axis_word(text, at, name))
-}
-
-pub(super) fn is_axis_word(text: &[u8], at: usize, name: &[u8]) -> bool {
-    let before = at.checked_sub(1).map(|before| text[before]);
-    if before.is_some_and(|it| it.is_ascii_alphabetic() || b"_.@[#$'".contains(&it)) {
-        return false;
-    }
-    let mut rest = text[at + name.len()..].iter().copied();
-    let next = rest.find(|byte| !b" \t".contains(byte));
-    let then = rest.next();
-    let has_value = match next {
-        Some(b'.') => then.is_none_or(|it| !it.is_ascii_alphabetic()),
-        Some(b'=') => then != Some(b'='),
-        Some(b'P') => then.is_some_and(|it| it.is_ascii_digit() || it == b'P'),
-        Some(b'V') => then == Some(b'.'),
-        Some(b'@' | b'+' | b'-' | b'[' | b'(') => true,
-        Some(digit) => name.len() == 1 && digit.is_ascii_digit(),
-        None => false,
-    };
-    has_value && is_code(text, at)
-}
-
-/// Whether a place is neither in a comment nor in a string nor in the name of a program.
-fn is_code(text: &[u8], at: usize) -> bool {
-    let start = memchr::memrchr2(b'\n', b'\r', &text[..at]).map_or(0, |end| end + 1);
-    let line = &text[start..at];
-    if line.trim_ascii_start().first() == Some(&b'%') {
-        return false;
-    }
-    let (mut depth, mut quoted) = (0_u32, false);
-    for byte in line {
-        match byte {
-            b'"' | b'\'' if depth == 0 => quoted = !quoted,
-            b';' if !quoted && depth == 0 => return false,
-            b'(' if !quoted => depth += 1,
-            b')' if !quoted => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-    }
-    depth == 0 && !quoted
-}
-
-/// Whether a text calls another file: `L name`.
-fn calls(text: &[u8]) -> bool {
-    memchr::memchr_iter(b'L', text).any(|at| {
-        let before = at.checked_sub(1).map(|before| text[before]);
-        let alone = before.is_none_or(|it| !it.is_ascii_alphabetic() && it != b'%' && it != b'.');
-        let next = text.get(at + 1);
-        alone && next.is_some_and(|it| b" \t\"".contains(it)) && is_code(text, at)
-    })
 }
 
 /// Whether a program can name an axis so: in capital letters, and `ALL` is no axis.
@@ -199,6 +145,8 @@ mod tests {
             [""; 0]
         );
         assert_eq!(names("$IF P1 == 1\nP1 = 'H1B5'\nV.5"), ["V"]);
+        assert_eq!(names("\"CUT\" = \"G1 X5 Y[COMP ON FRICT]\""), ["X", "Y"]);
+        assert_eq!(names("V.P.A = \"(\" Z5"), ["Z"]);
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::ledger::Ledger;
 use super::read::read_bytes;
 use crate::diagnostic::did_you_mean;
+use crate::syntax::code_words;
 
 /// A variable that is set and that no program reads.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,8 +47,7 @@ fn look(path: &Path, unread: &mut BTreeSet<&str>, variables: &mut BTreeSet<Strin
         return;
     };
     let text = String::from_utf8_lossy(&bytes);
-    let is_part = |it: char| it.is_ascii_alphanumeric() || "_.@".contains(it);
-    for word in text.split(|it| !is_part(it)) {
+    for word in text.split(['\n', '\r']).flat_map(code_words) {
         unread.retain(|name| {
             let whole = name.split('[').next().unwrap_or(name);
             !word.eq_ignore_ascii_case(whole)

@@ -18,6 +18,7 @@ mod run;
 mod unknown;
 mod values;
 
+pub(crate) use coordinates::arc::SAME_PLACE;
 pub use coordinates::axis_words::AxisWord;
 pub use coordinates::group::Group;
 pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, Modal};

@@ -6,11 +6,12 @@ use super::memory::{Deed, KindMemory, Site};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
 use crate::interpreter::Ended;
+use crate::syntax::is_lone_m;
 use crate::text::{Place, Span};
 
 pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<LeftAway> {
     let left = ended.compensation;
-    let before_end = ended.at.filter(|at| stands_alone(&at.text)).map(start_of);
+    let before_end = ended.at.filter(|at| is_lone_m(&at.text)).map(start_of);
     let mut found = Vec::new();
     for axis in (0..left.len()).map(AxisIndex::new) {
         for kind in Kind::ALL {
@@ -147,41 +148,10 @@ impl Subject<'_> {
     }
 }
 
-/// Whether a block is nothing but a program end, so that another can stand before it.
-fn stands_alone(block: &str) -> bool {
-    let word = block.trim_start();
-    let number = word.strip_prefix(['N', 'n']).map(|rest| {
-        rest.trim_start_matches(|letter: char| letter.is_ascii_digit())
-            .trim_start()
-    });
-    let word = number.unwrap_or(word).to_ascii_uppercase();
-    let end = word
-        .strip_prefix("M30")
-        .or_else(|| word.strip_prefix("M02"));
-    end.is_some_and(|rest| {
-        rest.trim_start().is_empty() || rest.trim_start().starts_with([';', '('])
-    })
-}
-
 /// The empty place at the start of a block.
 fn start_of(block: &Place) -> Place {
     Place {
         span: Span::default(),
         ..block.clone()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_a_block_that_does_nothing_else_has_another_before_it() {
-        for block in ["M30", "N90 M30", "  n90 m02 ; end", "M30 (end)"] {
-            assert!(stands_alone(block), "{block}");
-        }
-        for block in ["G0 X0 M30", "/M30", "M300", "M30 M5", "N90", "$IF P1 M30"] {
-            assert!(!stands_alone(block), "{block}");
-        }
     }
 }

@@ -7,7 +7,7 @@ use super::line::{Entries, Entry};
 use super::parameter::{AxisType, Origin, Parameter};
 use super::value::{Given, Number};
 use crate::comp::{Kind, KindSet};
-use crate::diagnostic::{Code, Diagnostic, Fix, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, Fix, nearest};
 
 /// P-AXIS-00465: the kinds without which the axis must not move (R1.36).
 const REQUIRED: &str = "lr_param.prog_movement_requires_compensations";
@@ -266,7 +266,7 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
         if let Ok(kind) = word.value.parse::<Kind>() {
             kinds.insert(kind);
         } else if word.value != "0" && !word.value.eq_ignore_ascii_case("NONE") {
-            let mut diagnostic = Diagnostic::new(
+            let diagnostic = Diagnostic::new(
                 Code::Fc124,
                 word.place(),
                 format!(
@@ -274,10 +274,8 @@ fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> 
                     word.value
                 ),
             );
-            if let Some(meant) = did_you_mean(word.value, Kind::ALL.map(Kind::as_str)) {
-                diagnostic = diagnostic.with_near(word.value, meant);
-            }
-            diagnostics.push(diagnostic);
+            let near = nearest(word.value, Kind::ALL.map(Kind::as_str));
+            diagnostics.push(diagnostic.with_near(word.value, &near));
             break;
         }
     }

@@ -9,7 +9,7 @@ use super::line::{Entries, Entry};
 use super::parameter::{AxisType, Origin, Parameter};
 use super::table::DEFAULT_MAX_POINTS;
 use super::value::{Given, Number, Written};
-use crate::diagnostic::{Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Code, Diagnostic, nearest};
 
 /// The keys that exist without being documented; they are not looked at (R3.5).
 const UNDOCUMENTED: [&str; 10] = [
@@ -330,7 +330,7 @@ fn unknown_key(entry: &Entry, name: &str) -> Option<Diagnostic> {
     if entry.pattern.starts_with(STRUCTURE) && UNDOCUMENTED.contains(&base) {
         return None;
     }
-    let mut diagnostic = Diagnostic::new(
+    let diagnostic = Diagnostic::new(
         Code::Fc122,
         entry.key_place(),
         format!("friction compensation has no parameter `{}`", entry.key()),
@@ -340,10 +340,9 @@ fn unknown_key(entry: &Entry, name: &str) -> Option<Diagnostic> {
         .map(Field::name)
         .chain(["table[].in", "table[].out"])
         .chain(UNDOCUMENTED);
-    if let Some(meant) = did_you_mean(name, known) {
-        let index = entry.indices.first().copied().unwrap_or_default();
-        let meant = meant.replace("[]", &format!("[{index}]"));
-        diagnostic = diagnostic.with_near(entry.written_key(), &format!("{STRUCTURE}{meant}"));
-    }
-    Some(diagnostic)
+    let index = entry.indices.first().copied().unwrap_or_default();
+    let whole = |meant: &str| format!("{STRUCTURE}{}", meant.replace("[]", &format!("[{index}]")));
+    let near: Vec<String> = nearest(name, known).into_iter().map(whole).collect();
+    let near: Vec<&str> = near.iter().map(String::as_str).collect();
+    Some(diagnostic.with_near(entry.written_key(), &near))
 }

@@ -9,7 +9,7 @@ use super::lane::Cancel;
 use super::states::StateBook;
 use super::wording::editor;
 use crate::comp::State;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::host::{
     Alone, Axes, Disk, Grounds, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines,
     Naming, OpenText, check_list_file, run_alone,
@@ -60,8 +60,8 @@ pub(super) struct Run {
     pub(super) states: StateBook,
     /// The axes when it has ended.
     pub(super) ends: Vec<AxisEnd>,
-    /// Why it ended.
-    pub(super) ended_by: Option<EndedBy>,
+    /// Whether more blocks would follow than are checked.
+    pub(super) is_cut: bool,
     /// That no machine is described, in words (R1.37).
     pub(super) remark: Option<String>,
 }
@@ -118,13 +118,20 @@ impl Job {
         for diagnostic in &mut said {
             diagnostic.reword(Some(editor));
         }
-        said.extend(survey.findings.diagnostics().cloned());
+        let is_cut = survey.ended_by == Some(EndedBy::Budget) && survey.blocks >= self.max_blocks;
+        let found = survey.findings.diagnostics();
+        // That the editor looks no further says nothing of a loop without an end.
+        said.extend(
+            found
+                .filter(|it| !is_cut || it.code != Code::Fc910)
+                .cloned(),
+        );
         Analysis {
             said,
             run: Some(Run {
                 states: survey.states,
                 ends: survey.ends,
-                ended_by: survey.ended_by,
+                is_cut,
                 remark: survey.remark,
             }),
             ..Analysis::default()
@@ -198,6 +205,8 @@ struct Survey {
     states: StateBook,
     ends: Vec<AxisEnd>,
     ended_by: Option<EndedBy>,
+    /// The executed blocks.
+    blocks: u64,
     remark: Option<String>,
 }
 
@@ -209,6 +218,7 @@ impl Survey {
             states: StateBook::default(),
             ends: Vec::new(),
             ended_by: None,
+            blocks: 0,
             remark: None,
         }
     }
@@ -231,6 +241,7 @@ impl Sink for Survey {
             Record::End(end) => {
                 self.states.end(end.state);
                 self.ended_by = Some(end.by);
+                self.blocks = end.seq;
             }
             Record::Summary(summary) => {
                 let axes = summary.axes.iter();

@@ -15,7 +15,6 @@ use super::encoding::whole_line;
 use super::pages::page_uri;
 use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::text::Place;
-use crate::timeline::EndedBy;
 
 /// Who says it.
 const SOURCE: &str = "frictcomp";
@@ -73,9 +72,8 @@ impl Translator<'_> {
     /// That only the first blocks were checked (R12.7).
     fn shortened(self, analysis: &Analysis) -> Option<Message> {
         let run = analysis.run.as_ref()?;
-        let is_used_up = analysis.said.iter().any(|said| said.code == Code::Fc910);
         let blocks = self.client.settings.max_blocks;
-        (run.ended_by == Some(EndedBy::Budget) && is_used_up).then(|| {
+        run.is_cut.then(|| {
             let text = format!(
                 "only the first {blocks} executed blocks are checked here; `frictcomp check` checks all of them"
             );

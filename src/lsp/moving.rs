@@ -1,6 +1,6 @@
 //! How the axes of a block move: with which compensation, and whether they reverse in it (R12.3).
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
 use super::analysis::options;
@@ -8,7 +8,7 @@ use super::documents::Document;
 use super::view::View;
 use crate::comp::{Kind, State};
 use crate::host::{Alone, Axes, Disk, Input, Ledger, MachineOptions, Machines, Naming, run_alone};
-use crate::interpreter::{Centre, CircularArc, Form, Motion, Motions, Travel, Turn};
+use crate::interpreter::{CircularArc, Form, Motion, Motions, SAME_PLACE, Travel};
 use crate::text::shown_path;
 use crate::timeline::{Record, Row, Sink};
 
@@ -168,30 +168,28 @@ fn along_arc(travel: &Travel, arc: CircularArc, which: usize) -> Vec<Direction> 
     let (Some(from), Some(to)) = (ends(&travel.from), ends(&travel.to)) else {
         return vec![Direction::Unknown];
     };
-    let Some(centre) = centre(arc, from, to) else {
+    let Ok(shape) = arc.between([from, to]) else {
         return vec![Direction::Unknown];
     };
-    let angle = |place: [f64; 2]| (place[1] - centre[1]).atan2(place[0] - centre[0]);
-    let sense = match arc.turn {
-        Turn::CounterClockwise => 1.0,
-        _ => -1.0,
-    };
-    let sweep = (sense * (angle(to) - angle(from))).rem_euclid(TAU);
-    // The same place at both ends is a full circle.
-    let sweep = if sweep < TOLERANCE { TAU } else { sweep };
+    let sense = shape.sweep.signum();
     // The angle in the sense of the arc, from where the axis turns round: for the first axis on the
     // axis itself, for the second a quarter circle later. It turns round at each half circle.
     let (offset, slope) = match which {
         0 => (0.0, 1.0),
         _ => (FRAC_PI_2, sense),
     };
-    let begin = sense * angle(from) - offset;
-    let end = begin + sweep;
+    let begin = sense * shape.start - offset;
+    let end = begin + shape.sweep.abs();
     let mut directions = Vec::new();
     let mut at = begin;
     while end - at > TOLERANCE {
         let turn = (((at + TOLERANCE) / PI).floor() + 1.0) * PI;
         let next = turn.min(end);
+        let way = shape.radius * (next.cos() - at.cos()).abs();
+        if way < SAME_PLACE {
+            at = next;
+            continue;
+        }
         // The derivative of the coordinate, up to the radius.
         let grows = -f64::midpoint(at, next).sin() * slope > 0.0;
         directions.push(if grows {
@@ -204,29 +202,11 @@ fn along_arc(travel: &Travel, arc: CircularArc, which: usize) -> Vec<Direction> 
     directions
 }
 
-/// The centre of an arc.
-fn centre(arc: CircularArc, from: [f64; 2], to: [f64; 2]) -> Option<[f64; 2]> {
-    let radius = match arc.centre {
-        Centre::Point(centre) => return Some(centre),
-        Centre::Radius(radius) => radius,
-    };
-    let chord = [to[0] - from[0], to[1] - from[1]];
-    let length = chord[0].hypot(chord[1]);
-    let rest = radius * radius - length * length / 4.0;
-    if length == 0.0 || rest < 0.0 {
-        return None;
-    }
-    // The short arc counter-clockwise has its centre to the left of the chord.
-    let is_left = (arc.turn == Turn::CounterClockwise) == (radius > 0.0);
-    let height = rest.sqrt() / length * if is_left { 1.0 } else { -1.0 };
-    let middle = [f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])];
-    Some([middle[0] - chord[1] * height, middle[1] + chord[0] * height])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::comp::AxisIndex;
+    use crate::interpreter::{Centre, Turn};
 
     /// The directions of both axes on an arc around the origin.
     fn arc(turn: Turn, from: [f64; 2], to: [f64; 2]) -> [Vec<Direction>; 2] {
@@ -275,21 +255,36 @@ mod tests {
     }
 
     #[test]
-    fn a_radius_has_its_centre_on_the_side_of_the_turn() {
+    fn an_arc_has_the_tolerance_of_the_contour() {
         // R12.3
-        let of = |turn, radius| {
+        let of = |centre, to: [f64; 2]| {
             let arc = CircularArc {
                 axes: [AxisIndex::new(0), AxisIndex::new(1)],
-                turn,
-                centre: Centre::Radius(radius),
+                turn: Turn::CounterClockwise,
+                centre,
             };
-            let found = centre(arc, [5.0, 0.0], [0.0, 5.0]);
-            found.map(|place| place.map(f64::round))
+            let travel = Travel {
+                form: Form::Arc(arc),
+                axes: arc.axes.to_vec(),
+                from: vec![Some(5.0), Some(0.0)],
+                to: to.map(Some).to_vec(),
+                feed: crate::interpreter::PathFeed::PerMinute(100.0),
+                end: crate::interpreter::BlockEnd::Through,
+                end_feed_per_min: None,
+                simplified: crate::interpreter::Simplifications::default(),
+            };
+            along_arc(&travel, arc, 0)
         };
-        assert_eq!(of(Turn::CounterClockwise, 5.0), Some([0.0, 0.0]));
-        assert_eq!(of(Turn::Clockwise, 5.0), Some([5.0, 5.0]));
-        assert_eq!(of(Turn::CounterClockwise, -5.0), Some([5.0, 5.0]));
-        assert_eq!(of(Turn::Clockwise, -5.0), Some([0.0, 0.0]));
-        assert_eq!(of(Turn::Clockwise, 3.0), None);
+        // Rounding made the radius too small for the ends.
+        assert_eq!(of(Centre::Radius(4.999), [-5.0, 0.0]), [Direction::Down]);
+        assert_eq!(of(Centre::Radius(3.0), [-5.0, 0.0]), [Direction::Unknown]);
+        assert_eq!(
+            of(Centre::Point([0.001, 0.0]), [0.0, 5.0]),
+            [Direction::Down]
+        );
+        assert_eq!(
+            of(Centre::Point([3.0, 0.0]), [0.0, 5.0]),
+            [Direction::Unknown]
+        );
     }
 }

@@ -55,6 +55,7 @@ impl Configuration {
             return;
         }
         let axes = loader.startup(&entries);
+        self.machine.axes_are_listed = true;
         self.assemble(axes, loader);
     }
 
@@ -64,6 +65,7 @@ impl Configuration {
         self.diagnostics.extend(loader.diagnostics);
         self.files.extend(loader.names);
         self.missing += loader.missing;
+        self.machine.axes_are_listed &= loader.missing == 0 && !axes.is_empty();
         if let Some(channel) = loader.channel {
             let named = &self.machine.programs;
             let programs = channel.programs.parameters(&|role| named.has(role));

@@ -25,6 +25,9 @@ pub struct Machine {
     pub axes: Vec<Axis>,
     /// Whether the configuration lists the axes.
     pub axis_set: AxisSet,
+    /// Whether start-up lists of the control name the axes, and all of them were read: a word of any
+    /// other axis is then said (R2.94).
+    pub axes_are_listed: bool,
     /// The change of the configuration that adds an axis, where it lists the axes and no list of the
     /// control does.
     pub one_more_axis: Option<NamedFix>,

@@ -34,7 +34,10 @@ impl Configuration {
         configuration.take_machine(file.machine)?;
         let mut loader = Loader::new(files);
         let mut axes = match startup.and_then(|asked| loader.load(&asked, ListKind::Startup)) {
-            Some(entries) => loader.startup(&entries),
+            Some(entries) => {
+                configuration.machine.axes_are_listed = true;
+                loader.startup(&entries)
+            }
             None => Vec::new(),
         };
         for table in file.axes {
@@ -58,7 +61,7 @@ impl Configuration {
         for given in &table.harmless {
             if !self.machine.harmless.add(&given.value) {
                 let message = format!(
-                    "`{}` is neither a `#` command nor an M function",
+                    "`{}` is neither a `#` command nor a G or M function",
                     given.value
                 );
                 return Err(ConfigError::at(given, message)

@@ -2,17 +2,38 @@
 
 use crate::syntax::hash_name;
 
-/// `#` commands and M functions that change no state, no position and no value.
+/// `#` commands, G and M functions that change no state, no position and no value.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct HarmlessWords {
     /// `#MYCMD ON`, in upper case with one blank between the words.
     commands: Vec<String>,
-    /// The numbers of the M functions.
-    functions: Vec<i64>,
+    /// The letters and numbers of the functions.
+    functions: Vec<(u8, i64)>,
+}
+
+/// Whether a G function takes effect in a dry run, so that nothing can be declared about it: those of the
+/// groups, and mirroring (R2.45).
+fn is_followed(number: i64) -> bool {
+    matches!(
+        number,
+        0..=3
+            | 17..=23
+            | 40..=42
+            | 53..=59
+            | 70
+            | 71
+            | 90..=95
+            | 159
+            | 161
+            | 162
+            | 194
+            | 359
+            | 360
+    )
 }
 
 impl HarmlessWords {
-    /// Adds a word; `false` when it is neither a `#` command nor an M function.
+    /// Adds a word; `false` when it is neither a `#` command nor a G or M function.
     pub fn add(&mut self, word: &str) -> bool {
         let word = word.trim();
         let is_command = word
@@ -23,15 +44,19 @@ impl HarmlessWords {
             self.commands.push(name);
             return length == word.len();
         }
-        let number = word.strip_prefix(['M', 'm']);
-        let number = number.filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
-        match number.and_then(|digits| digits.parse().ok()) {
-            Some(number) => {
-                self.functions.push(number);
-                true
-            }
-            None => false,
-        }
+        let letter = word
+            .bytes()
+            .next()
+            .map(|letter| letter.to_ascii_uppercase());
+        let Some(letter @ (b'G' | b'M')) = letter else {
+            return false;
+        };
+        let digits = &word[1..];
+        let number = digits.bytes().all(|byte| byte.is_ascii_digit());
+        let number = number.then(|| digits.parse().ok()).flatten();
+        let number = number.filter(|number| letter == b'M' || !is_followed(*number));
+        self.functions.extend(number.map(|number| (letter, number)));
+        number.is_some()
     }
 
     /// Whether a text begins with a `#` command that is one of them; one stands for all that
@@ -47,14 +72,16 @@ impl HarmlessWords {
         })
     }
 
-    /// Whether an M function is one of them.
-    pub fn has_function(&self, number: i64) -> bool {
-        self.functions.contains(&number)
+    /// Whether a G or M function is one of them.
+    pub(crate) fn has_function(&self, letter: u8, number: i64) -> bool {
+        self.functions.contains(&(letter, number))
     }
 
     /// All of them as they are written.
     pub fn words(&self) -> impl Iterator<Item = String> {
-        let functions = self.functions.iter().map(|number| format!("M{number}"));
+        let functions = self.functions.iter();
+        let functions =
+            functions.map(|(letter, number)| format!("{}{number}", char::from(*letter)));
         self.commands.iter().cloned().chain(functions)
     }
 }

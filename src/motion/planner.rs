@@ -7,11 +7,11 @@ use super::limits::AxisLimits;
 use super::look_ahead::LookAhead;
 use super::remarks::{At, Remark, Remarks};
 use super::sampler::Sampler;
-use super::segment::{Ends, SAME_PLACE, Segment};
+use super::segment::{Ends, Segment};
 use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
-use crate::interpreter::{Form, Motion, PathFeed, PositionFrame, Travel};
+use crate::interpreter::{Form, Motion, PathFeed, PositionFrame, SAME_PLACE, Travel};
 use crate::machine::Machine;
 use crate::timeline::Row;
 

@@ -1,21 +1,12 @@
 //! One piece of the path: where the axes are after a distance, where they head, how they turn.
 
-use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
 use super::limits::AxisLimits;
 use super::profile::Bounds;
 use super::share::Share;
 use super::trace::Cause;
-use crate::interpreter::{BlockEnd, Centre, CircularArc, Turn};
-
-/// Places closer than this, in mm or degrees, are one: the ends of a full circle, and the end of a
-/// motion and the start of the next.
-pub(super) const SAME_PLACE: f64 = 1e-6;
-
-/// The centre of an arc may miss the places that its ends allow by this part of the radius; it is
-/// moved then, as G165 does (PM/206551563).
-const CENTRE_TOLERANCE: f64 = 0.05;
+use crate::interpreter::{BlockEnd, CircularArc, SAME_PLACE};
 
 /// How much of the acceleration a circle may take for its own: the rest speeds up and slows down.
 const CIRCLE_ACCELERATION: f64 = 0.9;
@@ -234,68 +225,14 @@ impl Circle {
         to: &[f64],
         arc: &CircularArc,
     ) -> Result<Self, &'static str> {
-        let (start, end) = (axes.map(|axis| from[axis]), axes.map(|axis| to[axis]));
-        let chord = [end[0] - start[0], end[1] - start[1]];
-        let distance = chord[0].hypot(chord[1]);
-        let full = distance < SAME_PLACE;
-        let middle = [
-            f64::midpoint(start[0], end[0]),
-            f64::midpoint(start[1], end[1]),
-        ];
-        let centre = match arc.centre {
-            Centre::Point(centre) if full => centre,
-            Centre::Point(centre) => {
-                // The nearest point that has the same distance to both ends.
-                let offset = [centre[0] - middle[0], centre[1] - middle[1]];
-                let astray = (offset[0] * chord[0] + offset[1] * chord[1]) / distance;
-                let given = (centre[0] - start[0]).hypot(centre[1] - start[1]);
-                if astray.abs() > CENTRE_TOLERANCE * given {
-                    return Err("the centre of the circle does not fit its ends");
-                }
-                [
-                    centre[0] - astray * chord[0] / distance,
-                    centre[1] - astray * chord[1] / distance,
-                ]
-            }
-            Centre::Radius(_) if full => return Err("`R` cannot describe a full circle"),
-            Centre::Radius(radius) => {
-                let height = radius * radius - distance * distance / 4.0;
-                // A radius that rounding made too small gives half a circle.
-                if height < -1e-3 * radius * radius {
-                    return Err("the radius is less than half the distance between the ends");
-                }
-                let height = height.max(0.0).sqrt() * radius.signum();
-                // The short arc against the clock has its centre on the left.
-                let side = match arc.turn {
-                    Turn::Clockwise => -height,
-                    Turn::CounterClockwise => height,
-                };
-                [
-                    middle[0] - side * chord[1] / distance,
-                    middle[1] + side * chord[0] / distance,
-                ]
-            }
-        };
-        let angle = |point: [f64; 2]| (point[1] - centre[1]).atan2(point[0] - centre[0]);
-        let radius = (start[0] - centre[0]).hypot(start[1] - centre[1]);
-        if radius < SAME_PLACE || !radius.is_finite() {
-            return Err("the circle has no radius");
-        }
-        let turned = (angle(end) - angle(start)).rem_euclid(TAU);
-        let sweep = match arc.turn {
-            _ if full => TAU,
-            Turn::CounterClockwise => turned,
-            Turn::Clockwise => TAU - turned,
-        };
+        let places = [from, to].map(|places| axes.map(|axis| places[axis]));
+        let shape = arc.between(places)?;
         Ok(Self {
             axes,
-            centre,
-            radius,
-            start: angle(start),
-            sweep: match arc.turn {
-                Turn::CounterClockwise => sweep,
-                Turn::Clockwise => -sweep,
-            },
+            centre: shape.centre,
+            radius: shape.radius,
+            start: shape.start,
+            sweep: shape.sweep,
         })
     }
 

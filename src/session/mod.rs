@@ -6,6 +6,7 @@ mod allow;
 mod causes;
 mod feed_moves;
 mod findings;
+mod foreign;
 mod recorder;
 mod safe_fixes;
 mod said;
@@ -24,7 +25,7 @@ pub use saved::{STATE_SCHEMA, SavedAway, SavedAxis, SavedState, StateError};
 pub use undescribed::undescribed;
 
 use crate::comp::{AxisIndex, Compensation, Kind};
-use crate::diagnostic::{Diagnostic, Levels, Severity, Wording};
+use crate::diagnostic::{Diagnostic, Levels, MAX_MESSAGES, Severity, Wording};
 use crate::interpreter::{Event, Interpreter, RunOutcome, Value, set_name};
 pub use crate::interpreter::{
     Finder, Limits, Motions, NoFiles, NoProgram, NoteKind, Notes, Options, StopPolicy,
@@ -312,11 +313,13 @@ impl Session {
     pub fn program(
         &mut self,
         file: &str,
-        program: Program<'_>,
+        mut program: Program<'_>,
         finder: &mut dyn Finder,
         sink: &mut dyn Sink,
     ) -> ControlFlow<(), EndedBy> {
         self.programs += 1;
+        let foreign = foreign::look(file, &mut program);
+        let most = foreign.as_ref().map_or(MAX_MESSAGES, |_| foreign::MAX_SAID);
         let machine = Arc::clone(&self.machine);
         let mut recorder = Recorder {
             machine: &machine,
@@ -329,7 +332,8 @@ impl Session {
             program: self.programs,
             file,
             said: Vec::new(),
-            before: Said::default(),
+            before: Said::at_most(most),
+            foreign,
             allows: HashMap::new(),
             here: Vec::new(),
             broken: false,

@@ -78,6 +78,8 @@ pub(super) struct Recorder<'a> {
     pub(super) program: u32,
     pub(super) file: &'a str,
     pub(super) said: Vec<Diagnostic>,
+    /// FC326, until it is said in front of everything else.
+    pub(super) foreign: Option<Diagnostic>,
     /// What was said so far.
     pub(super) before: Said,
     pub(super) allows: HashMap<(Arc<str>, u32, Code), Allow>,
@@ -184,6 +186,7 @@ impl Recorder<'_> {
     /// Gathers what there is to say about a block, and counts it.
     #[inline(never)]
     fn judge(&mut self, executed: &Executed<'_>) {
+        self.said.extend(self.foreign.take());
         self.said.extend_from_slice(executed.diagnostics);
         self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
@@ -258,7 +261,7 @@ impl Recorder<'_> {
         if let Some(fault) = allowance.fault {
             let diagnostic = Diagnostic::new(Code::Fc491, place(fault.span), fault.message);
             self.said.push(match fault.help {
-                Help::Near(near) => diagnostic.with_near(fault.span.of(text), near),
+                Help::Near(near) => diagnostic.with_near(fault.span.of(text), &near),
                 Help::How(how) => diagnostic.with_help(how),
             });
         }
@@ -294,9 +297,9 @@ impl Recorder<'_> {
     #[inline(never)]
     fn ended(&mut self, ended: &Ended<'_>) -> ControlFlow<()> {
         self.tally.note_footing(ended.diagnostics);
-        let mut notes: Vec<EndNote> = ended
-            .diagnostics
-            .iter()
+        let foreign = self.foreign.take();
+        let said = foreign.iter().chain(ended.diagnostics);
+        let mut notes: Vec<EndNote> = said
             .map(|diagnostic| EndNote {
                 seq: ended.seq,
                 diagnostic: diagnostic.clone(),

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Diagnostic, MAX_MESSAGES};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{Place, Position, StartsInOrder};
 use crate::timeline::{EndNote, Repeat};
 
@@ -44,14 +44,25 @@ struct PerFile {
 }
 
 /// What a program said.
-#[derive(Default)]
 pub(super) struct Said {
+    /// How many messages a file may say.
+    most: usize,
     places: HashMap<Key, Vec<Saying>>,
     files: HashMap<Arc<str>, PerFile>,
     starts: StartsInOrder,
 }
 
 impl Said {
+    /// Nothing is said yet, and a file may say so many messages.
+    pub(super) fn at_most(most: usize) -> Self {
+        Self {
+            most,
+            places: HashMap::new(),
+            files: HashMap::new(),
+            starts: StartsInOrder::default(),
+        }
+    }
+
     /// Takes a message about an executed block; best in the order of their places.
     pub(super) fn take(&mut self, diagnostic: &Diagnostic) -> Verdict {
         let place = &diagnostic.place;
@@ -99,7 +110,7 @@ impl Said {
             Some(file) => file,
             None => self.files.entry(place.file.clone()).or_default(),
         };
-        if file.said < MAX_MESSAGES {
+        if file.said < self.most {
             file.said += 1;
             return true;
         }
@@ -145,11 +156,12 @@ impl Said {
         if let Some((_, first)) = full.first_mut() {
             first.more = first.more.saturating_add(unsaid);
         }
+        let most = self.most;
         let notes = full.into_iter().filter_map(|(_, file)| {
             let more = file.more;
             let messages = if more == 1 { "message" } else { "messages" };
             let message = format!(
-                "{MAX_MESSAGES} messages about this file are shown; {more} more {messages}, from here on, are only counted"
+                "{most} messages about this file are shown; {more} more {messages}, from here on, are only counted"
             );
             Some(EndNote {
                 seq,

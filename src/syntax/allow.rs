@@ -1,7 +1,7 @@
 //! `; frictcomp: allow FC402 reason`: a user's word that a remark is known (R9.24).
 
 use super::fault::Fault;
-use crate::diagnostic::{Code, did_you_mean};
+use crate::diagnostic::{Code, did_you_mean, nearest};
 use crate::text::Span;
 
 /// What a comment that speaks to this tool contains.
@@ -34,7 +34,7 @@ pub(crate) struct AllowFault {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Help {
     /// This word.
-    Near(&'static str),
+    Near(Vec<&'static str>),
     /// The whole comment, as this says.
     How(&'static str),
 }
@@ -74,7 +74,7 @@ pub(crate) fn allowed(text: &str) -> Allowance {
                 "`{}` is not a word that frictcomp knows, so the code is not allowed",
                 first.text
             );
-            allowance.fault = Some(first.fault(message, Help::Near(ALLOW)));
+            allowance.fault = Some(first.fault(message, Help::Near(vec![ALLOW])));
         }
         return allowance;
     }
@@ -170,8 +170,13 @@ fn looks_like_code(word: &str) -> bool {
 fn unknown(word: &Word<'_>) -> AllowFault {
     let message = format!("`{}` is not a code, so it allows nothing", word.text);
     let codes = Code::ALL.iter().map(|code| code.as_str());
-    let near = did_you_mean(word.text, codes);
-    word.fault(message, near.map_or(Help::How(HOW), Help::Near))
+    let near = nearest(word.text, codes);
+    let help = if near.is_empty() {
+        Help::How(HOW)
+    } else {
+        Help::Near(near)
+    };
+    word.fault(message, help)
 }
 
 /// How the whole comment is written.
@@ -213,7 +218,7 @@ mod tests {
             fault.expect("a fault")
         };
         let (word, help) = fault("X1 ; frictcomp: alow FC402");
-        assert_eq!((word.as_str(), help), ("alow", Help::Near("allow")));
+        assert_eq!((word.as_str(), help), ("alow", Help::Near(vec!["allow"])));
         assert_eq!(fault("; frictcomp: Allow FC402").0, "Allow");
         assert_eq!(fault("; frictcomp: ignore FC402").0, "ignore");
         assert_eq!(fault("; frictcomp: allow FC4O1 known").0, "FC4O1");

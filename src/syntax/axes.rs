@@ -4,8 +4,12 @@ use std::collections::BTreeMap;
 
 use super::ast::{Address, Block, Item, Word};
 use super::lines::{BlockReader, FastPath};
+use super::parse::parse_block;
 use crate::comp::Kind;
 use crate::text::TextLines;
+
+/// Number of macro definitions inside each other that are looked into.
+const MAX_MACROS: usize = 16;
 
 /// What a program does with an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,36 +26,50 @@ pub fn axis_uses(text: &str) -> BTreeMap<String, AxisUse> {
     let mut reader = BlockReader::new(TextLines::new(text), 1, FastPath::On);
     let mut block = Block::default();
     while let Some(raw) = reader.next(&mut block) {
-        let words = block.words.iter();
-        let name = |word: &Word| match word.address {
-            Address::Letter(letter) => Some(char::from(letter).to_string()),
-            Address::Name(span) => Some(span.of(raw.text).to_owned()),
-            Address::Lower(_) | Address::Main(_) => None,
-        };
-        let mut found: Vec<(String, AxisUse)> = Vec::new();
-        found.extend(words.filter_map(name).map(|name| (name, AxisUse::Named)));
-        found.extend(block.items.iter().filter_map(|item| match item {
-            Item::Word(word) => Some((name(word)?, AxisUse::Named)),
-            Item::Comp(command) => {
-                let switched = command.selection.kinds().contains(Kind::Frict);
-                let how = if switched {
-                    AxisUse::Switched
-                } else {
-                    AxisUse::Named
-                };
-                Some((command.axis.clone(), how))
-            }
-            Item::Bracket { axis, .. } => Some((axis.of(raw.text).to_owned(), AxisUse::Named)),
-            _ => None,
-        }));
-        // A single Q is no axis without a configuration.
-        let found = found.into_iter();
-        for (name, how) in found.filter(|(name, _)| is_axis_name(name) && name != "Q") {
+        for (name, how) in uses_of(&block, raw.text) {
             let known = uses.entry(name).or_insert(how);
             *known = how.max(*known);
         }
     }
     uses
+}
+
+/// The axes that a block names. What a macro stands for counts where it is defined.
+pub(super) fn uses_of(block: &Block, text: &str) -> Vec<(String, AxisUse)> {
+    let mut found = Vec::new();
+    find_uses(block, text, MAX_MACROS, &mut found);
+    // A single Q is no axis without a configuration.
+    found.retain(|(name, _)| is_axis_name(name) && name != "Q");
+    found
+}
+
+fn find_uses(block: &Block, text: &str, depth: usize, found: &mut Vec<(String, AxisUse)>) {
+    let name = |word: &Word| match word.address {
+        Address::Letter(letter) => Some(char::from(letter).to_string()),
+        Address::Name(span) => Some(span.of(text).to_owned()),
+        Address::Lower(_) | Address::Main(_) => None,
+    };
+    let words = block.words.iter().filter_map(name);
+    found.extend(words.map(|name| (name, AxisUse::Named)));
+    for item in &block.items {
+        match item {
+            Item::Word(word) => found.extend(name(word).map(|name| (name, AxisUse::Named))),
+            Item::Comp(command) => {
+                let how = if command.selection.kinds().contains(Kind::Frict) {
+                    AxisUse::Switched
+                } else {
+                    AxisUse::Named
+                };
+                found.push((command.axis.clone(), how));
+            }
+            Item::Bracket { axis, .. } => found.push((axis.of(text).to_owned(), AxisUse::Named)),
+            Item::MacroDefinition(_, code) if depth > 0 => {
+                let code = code.of(text).trim_matches('"').replace("\\\"", "\"");
+                find_uses(&parse_block(&code), &code, depth - 1, found);
+            }
+            _ => {}
+        }
+    }
 }
 
 /// Whether a name has the form of an axis name (R2.20).
@@ -70,11 +88,14 @@ mod tests {
     fn axes_are_found_in_words_and_brackets() {
         // R2.20
         let text = "%A\nN10 G1 X1 Y=2 Z1=3 F100 M3 S1000\nX[COMP OFF FRICT] B[COMP ON LEAD]\n\
-                    $IF V.E.P\nC2[COMP ON FRICT]\n$ENDIF\n(A5 in a comment)\nM30\n";
+                    $IF V.E.P\nC2[COMP ON FRICT]\n$ENDIF\n(A5 in a comment)\n\
+                    \"CUT\" = \"A1[COMP OFF FRICT] U2\"\n#MSG [\"W[COMP ON FRICT]\"]\nM30\n";
         let found: Vec<_> = axis_uses(text).into_iter().collect();
         let expected = [
+            ("A1", AxisUse::Switched),
             ("B", AxisUse::Named),
             ("C2", AxisUse::Switched),
+            ("U", AxisUse::Named),
             ("X", AxisUse::Switched),
             ("Y", AxisUse::Named),
             ("Z1", AxisUse::Named),

@@ -3,7 +3,7 @@
 use super::fault::Fault;
 use super::upper_case::in_upper_case;
 use crate::comp::{CompCommand, Kind, KindSet, Selection};
-use crate::diagnostic::{Code, did_you_mean};
+use crate::diagnostic::{Code, nearest};
 use crate::text::Span;
 
 /// The words that may stand in a COMP bracket after `COMP`.
@@ -207,8 +207,55 @@ fn unknown_word(span: Span, word: &str) -> Fault {
     if word.contains(',') {
         return fault.with_help("separate the kinds with blanks, not commas");
     }
-    match did_you_mean(word, KEYWORDS) {
-        Some(near) => fault.with_near(span, near),
-        None => fault.with_help(format!("the kinds are {kinds}")),
+    let near = meant(word);
+    if near.is_empty() {
+        return fault.with_help(format!("the kinds are {kinds}"));
+    }
+    fault.with_near(span, &near)
+}
+
+/// The keywords that a word may mean. Of the selections only one whose own letter the word has, `F`
+/// or `N`: no slip of the pen turns a selection into its opposite (R1.60).
+fn meant(word: &str) -> Vec<&'static str> {
+    let near = nearest(word, KEYWORDS);
+    let is_off = |word: &&str| word.starts_with("OFF");
+    if !near.iter().any(|word| is_off(word) || *word == "ON") {
+        return near;
+    }
+    let upper = word.to_ascii_uppercase();
+    let open = vec!["ON", "OFF"];
+    match (upper.contains('N'), upper.contains('F')) {
+        // A swapped `ON`, or the word for not.
+        (true, false) if upper == "NO" => open,
+        (true, false) => nearest(word, KEYWORDS.into_iter().filter(|word| !is_off(word))),
+        (false, true) => nearest(word, KEYWORDS.into_iter().filter(|word| *word != "ON")),
+        (true, true) if !upper.starts_with("ON") => near,
+        _ => open,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_selection_is_taken_for_its_opposite() {
+        // R1.60
+        for word in [
+            "OF", "OFFF", "0FF", "FF", "of", "OOFF", "OF_F", "OFFN", "OFG",
+        ] {
+            assert_eq!(meant(word), ["OFF"], "{word}");
+        }
+        for word in ["ONN", "0N", "oon", "AN"] {
+            assert_eq!(meant(word), ["ON"], "{word}");
+        }
+        for word in ["OFN", "ONF", "ONFF", "NO", "OM"] {
+            assert_eq!(meant(word), ["ON", "OFF"], "{word}");
+        }
+        for word in ["OF_ALL", "OFF_AL", "OFFALL", "0FF_ALL"] {
+            assert_eq!(meant(word), ["OFF_ALL"], "{word}");
+        }
+        assert_eq!(meant("ON_ALL"), [""; 0]);
+        assert_eq!(meant("FRIKT"), ["FRICT"]);
     }
 }

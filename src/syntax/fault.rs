@@ -43,10 +43,17 @@ impl Fault {
         self
     }
 
-    /// The same with the known word that may be meant where another one stands.
-    pub(crate) fn with_near(self, found: Span, near: &str) -> Self {
-        self.with_help(Advice::DidYouMean(near.to_owned()))
-            .with_fix(Fix::guess(found, near))
+    /// The same with the known words that may be meant where another one stands; only a single one is
+    /// offered as a change (R1.60).
+    pub(crate) fn with_near(self, found: Span, near: &[&str]) -> Self {
+        if near.is_empty() {
+            return self;
+        }
+        let said = self.with_help(Advice::did_you_mean(near));
+        match near {
+            [near] => said.with_fix(Fix::guess(found, *near)),
+            _ => said,
+        }
     }
 
     /// The diagnostic that it is at a place. What it would change is at the places that `at` makes

@@ -3,6 +3,8 @@
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
+use super::ast::{Address, Block, Item, Operand, Word};
+
 /// What a `#` command does to what is followed here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Touches {
@@ -12,9 +14,14 @@ pub(crate) enum Touches {
     Values,
     /// It says which axes the channel has, and under which names.
     Axes,
+    /// It moves axes to places that are not followed.
+    Motion,
+    /// Friction compensation of the axes that it names, of all where it names none, in a way that no
+    /// public page describes (R2.93).
+    Friction,
 }
 
-use Touches::{Axes, Nothing, Values};
+use Touches::{Axes, Friction, Motion, Nothing, Values};
 
 /// PM, appendix, overview of additional functions.
 const APPENDIX: &str = "PM/5252011631026770315";
@@ -23,10 +30,13 @@ const APPENDIX: &str = "PM/5252011631026770315";
 /// syntaxes and snippets).
 const EDITOR: &str = "vscode-isg-cnc";
 
+/// The texts of the kernel's messages.
+const KERNEL: &str = "kernel messages";
+
 /// The `#` commands: the words that tell one from the others, what it touches, where it is described.
 const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#ACHSE", Nothing, "tccncprogramming/15557317259"),
-    ("#ACHSTAUSCH", Nothing, EDITOR),
+    ("#ACHSTAUSCH", Axes, EDITOR),
     ("#ACS", Nothing, APPENDIX),
     ("#ADD", Nothing, APPENDIX),
     ("#AKIMA ENDVECTOR", Nothing, APPENDIX),
@@ -73,6 +83,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#DISABLE AX LINK", Nothing, "PM/207133579"),
     ("#DISABLE MODAL CYCLE", Nothing, "PM/206859019"),
     ("#DIST CTRL", Nothing, EDITOR),
+    ("#DIST TO GO", Nothing, EDITOR),
     ("#DISTANCE PROG START", Nothing, EDITOR),
     ("#DRIVE RD", Values, EDITOR),
     ("#DRIVE WAIT", Nothing, EDITOR),
@@ -88,7 +99,9 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#ERROR", Nothing, EDITOR),
     ("#EXPL SYN", Nothing, EDITOR),
     ("#EXPORT VE", Nothing, EDITOR),
+    ("#EXTCOMP", Nothing, EDITOR),
     ("#FACE", Nothing, EDITOR),
+    ("#FF", Nothing, EDITOR),
     ("#FGROUP", Nothing, EDITOR),
     ("#FILE DELETE", Nothing, "FCT-C18"),
     ("#FILE EXIST", Nothing, "FCT-C18"),
@@ -99,6 +112,8 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#FLUSH", Nothing, EDITOR),
     ("#FRC", Nothing, EDITOR),
     ("#FREE TOOL CHANGE", Nothing, EDITOR),
+    // Named by the kernel's messages 21721, 50758, 70496 and 70497 alone.
+    ("#FRICTION", Friction, KERNEL),
     ("#GANTRY", Nothing, EDITOR),
     ("#GEAR LINK", Nothing, "PM/546229387"),
     ("#GEO", Nothing, EDITOR),
@@ -119,12 +134,18 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#JOG INCR", Nothing, EDITOR),
     ("#KIN DATA", Nothing, EDITOR),
     ("#KIN ID", Nothing, EDITOR),
+    ("#KIN TCP", Nothing, EDITOR),
+    ("#LAH", Nothing, EDITOR),
     ("#LASER", Nothing, EDITOR),
+    ("#LIMIT LOAD", Nothing, EDITOR),
+    ("#LIMIT REFRESH", Nothing, EDITOR),
     ("#LOAD CONFIG", Axes, EDITOR),
+    ("#LOCK", Nothing, EDITOR),
     ("#MACHINE DATA", Nothing, EDITOR),
     ("#MAIN SPINDLE", Nothing, EDITOR),
     ("#MANUAL LIMITS", Nothing, EDITOR),
     ("#MARK", Nothing, EDITOR),
+    ("#MC_MOVEPATH", Motion, EDITOR),
     ("#MCS", Nothing, EDITOR),
     ("#MCS TO WCS", Values, "PM/208525707"),
     ("#MEAS", Nothing, EDITOR),
@@ -175,10 +196,13 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#SINGLE STEP", Nothing, EDITOR),
     ("#SLOPE", Nothing, EDITOR),
     ("#SPLINE", Nothing, EDITOR),
+    ("#START", Nothing, EDITOR),
     ("#STOP REVERSIBLE", Nothing, EDITOR),
     ("#STROKE DEF", Nothing, EDITOR),
     ("#SUPPRESS OFFSETS", Nothing, EDITOR),
     ("#SURFACE", Nothing, EDITOR),
+    // With the conveyor all axes follow it (965255691).
+    ("#SYNC", Motion, EDITOR),
     ("#TANGFEED", Nothing, EDITOR),
     ("#TGC", Nothing, EDITOR),
     ("#TIME", Nothing, "PM/206602507"),
@@ -188,6 +212,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#TOOL AX", Nothing, EDITOR),
     ("#TOOL DATA", Nothing, EDITOR),
     ("#TOOL DEF", Nothing, EDITOR),
+    ("#TOOL LIFE DEF", Nothing, EDITOR),
     ("#TOOL LIFE READ", Values, EDITOR),
     ("#TOOL LIFE REMOVE", Nothing, EDITOR),
     ("#TOOL ORI CS", Nothing, EDITOR),
@@ -206,6 +231,7 @@ const HASH_COMMANDS: &[(&str, Touches, &str)] = &[
     ("#VECTOR OFFSET", Nothing, EDITOR),
     ("#VECTORACC", Nothing, EDITOR),
     ("#VECTORVEL", Nothing, EDITOR),
+    ("#VIB GUARD", Nothing, EDITOR),
     ("#VIRTUAL AX", Nothing, EDITOR),
     ("#VOLCOMP", Nothing, EDITOR),
     ("#VOLKOMP", Nothing, EDITOR),
@@ -325,6 +351,21 @@ pub(super) fn is_spindle_command(word: &str) -> bool {
 /// The commands of an axis bracket, for "did you mean".
 pub(super) fn axis_commands() -> impl Iterator<Item = &'static str> {
     AXIS_COMMANDS.into_iter()
+}
+
+/// Whether a block is a program number, `O1234`, and nothing else (R2.93): beside other words an O is a
+/// slip of the pen for a zero.
+pub(crate) fn is_program_number(block: &Block) -> bool {
+    #[allow(clippy::float_cmp)] // whole numbers are exact
+    let is_number = |value: f64| value >= 0.0 && value.fract() == 0.0;
+    let is_opening = |word: &Word| {
+        word.address == Address::Letter(b'O')
+            && matches!(word.value, Some(Operand::Number(number)) if is_number(number))
+    };
+    match (block.words.as_slice(), block.items.as_slice()) {
+        ([word], []) | ([], [Item::Word(word)]) => is_opening(word),
+        _ => false,
+    }
 }
 
 /// Whether a letter begins words that are known.

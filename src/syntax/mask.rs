@@ -106,7 +106,7 @@ fn blank(code: &mut String, length: usize) {
 }
 
 /// One past the `)` that closes the comment at `start`; comments nest (R2.6).
-fn comment_end(bytes: &[u8], start: usize) -> usize {
+pub(super) fn comment_end(bytes: &[u8], start: usize) -> usize {
     let mut depth = 0_usize;
     for (at, byte) in bytes.iter().enumerate().skip(start) {
         match byte {

@@ -14,6 +14,7 @@ pub(crate) mod ast;
 mod axes;
 mod brackets;
 mod comp;
+mod dialect;
 mod expression;
 mod fast;
 mod fault;
@@ -26,16 +27,20 @@ mod lower;
 mod mask;
 mod parse;
 mod raw;
+mod scan;
 mod unread;
 mod upper_case;
 
 pub(crate) use axes::is_axis_name;
 pub use axes::{AxisUse, axis_uses};
 pub use brackets::MAX_BRACKETS;
+pub(crate) use dialect::{Foreign, foreign};
 pub use fault::Fault;
 pub use flow_scan::FlowScan;
 pub(crate) use hash_words::hash_name;
-pub(crate) use known::{is_command, is_letter, is_statement};
+pub(crate) use known::{
+    Touches, hash_command, is_command, is_letter, is_program_number, is_statement,
+};
 #[cfg(feature = "unstable")]
 pub use lines::BlockReader;
 #[cfg(not(feature = "unstable"))]
@@ -46,12 +51,14 @@ pub(crate) use parse::parse_block;
 #[cfg(feature = "unstable")]
 pub use parse::parse_block;
 pub use parse::parse_comp;
-pub(crate) use parse::parse_expression;
+pub(crate) use parse::{is_lone_m, parse_expression};
 pub use raw::{Comments, MAX_LINE, Remark};
 #[cfg(not(feature = "unstable"))]
 pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
+
+pub(crate) use scan::{SwitchScan, calls_files, code_words, has_axis_word};
 pub(crate) use unread::not_known;
 
 #[cfg(test)]

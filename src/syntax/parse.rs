@@ -1,6 +1,6 @@
 //! Texts that are parsed by themselves: one command, one block, one expression.
 
-use super::ast::{Block, Item, Operand};
+use super::ast::{Address, Block, Item, Operand, Word};
 use super::brackets::brackets;
 use super::expression::lower_text;
 use super::fault::Fault;
@@ -48,9 +48,62 @@ pub fn parse_block(text: &str) -> Block {
     block
 }
 
+/// Whether a block is nothing but an M word, `N90 M30 ; end`, `M 2`, `M=P1`, so that another block can
+/// stand before it (R1.59). A jump label is more: a jump to it would pass over the other block.
+pub(crate) fn is_lone_m(text: &str) -> bool {
+    let block = parse_block(text);
+    let is_m = |word: &Word| word.address == Address::Letter(b'M');
+    let is_label = block.number.is_some_and(|number| number.label);
+    let is_refused = |fault: &Fault| fault.code.severity() == Severity::Error;
+    matches!(block.words.as_slice(), [word] if is_m(word))
+        && block.items.is_empty()
+        && block.skip.is_none()
+        && !is_label
+        && !block.faults.iter().any(is_refused)
+}
+
 /// Parses a text that is one expression into an empty block; `None` where it is none, or nests too
 /// deeply.
 pub(crate) fn parse_expression(text: &str, block: &mut Block) -> Option<Operand> {
     brackets(text).ok()?;
     lower_text(text, block)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_block_that_does_nothing_else_has_another_before_it() {
+        // R1.59
+        let ends = [
+            "M30",
+            "N90 M30",
+            "  n90 m02 ; end",
+            "M30 (end)",
+            "M2",
+            "M 30",
+            "M=30",
+            "m =\t30",
+            "M=P1",
+            "N5M02",
+        ];
+        for block in ends {
+            assert!(is_lone_m(block), "{block}");
+        }
+        let others = [
+            "G0 X0 M30",
+            "/M30",
+            "M30 M5",
+            "N90",
+            "$IF P1 M30",
+            "N90: M30",
+            "M30 $GOTO N10",
+            "\"END\"",
+            "",
+        ];
+        for block in others {
+            assert!(!is_lone_m(block), "{block}");
+        }
+    }
 }

@@ -3,6 +3,7 @@ mod exchange;
 mod expressions;
 mod flow;
 mod implicit;
+mod known_words;
 mod not_understood;
 mod parts;
 mod places;

@@ -36,7 +36,6 @@ fn text_with_the_form_of_the_language_may_change_everything() {
         "#SPECIAL MODE",
         "#SET SPECIAL",
         "$FLOW X",
-        "O1000",
         "P1000",
         "G54.1 X1",
         "GETREV[1]",
@@ -112,7 +111,7 @@ fn what_a_table_names_is_silent() {
         "S[REV500]",
         "M77",
         "H3",
-        "G777",
+        "G66",
         "Q5",
     ] {
         let found = block(&format!("{text}\nM30"), 1);

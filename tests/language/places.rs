@@ -95,9 +95,9 @@ fn functions_that_no_one_names() {
     X1 Y2 M3 S1000 X:1 Y:2
     M8 X:1 Y:2
     G4 X1 X:1 Y:2
-    G64 X:1* Y:2*
-    X2 X:2* Y:2*
-    M30 X:2* Y:2*
+    G64 X:?* Y:?*
+    X2 X:2* Y:?*
+    M30 X:2* Y:?*
     ");
     assert_snapshot!(positions("X1 Y2\nM6 T5 D5\nM100\nX2\nM30"), @"
     X1 Y2 X:1 Y:2

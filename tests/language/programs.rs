@@ -255,7 +255,9 @@ fn implicit_calls() {
       18 line 2 - level 1 Y:inactive>active
       19 line 3 - level 1
       20 line 4 N40
+        FC325 4:5-13
       21 line 5 N50
+        FC325 5:5-8
       22 line 6 -
       end 22 M30 X:active Y:active Z:unconfigured B:ineffective
     opaque {"G81": 1, "G82": 1}

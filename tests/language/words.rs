@@ -170,6 +170,7 @@ fn groups_of_g_functions() {
       1 line 1 -
         FC313 1:8-11
       2 line 2 -
+        FC210 2:9-13
       3 line 3 -
       end 3 M30 X:active Y:active Z:unconfigured B:ineffective
     opaque {"G61": 1, "G999": 1}

@@ -3,7 +3,7 @@
 use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
 };
-use crate::diagnostic::{Advice, Code, Diagnostic, did_you_mean};
+use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
@@ -222,14 +222,12 @@ impl Interpreter {
             .collect();
         let configured = self.machine.axis_set == AxisSet::Configured;
         let near = if configured {
-            did_you_mean(name, known.iter().copied())
+            nearest(name, known.iter().copied())
         } else {
             let same = known.iter().find(|axis| axis.eq_ignore_ascii_case(name));
-            same.copied()
+            same.copied().into_iter().collect()
         };
-        if let Some(near) = near {
-            diagnostic = diagnostic.with_near(name, near);
-        }
+        diagnostic = diagnostic.with_near(name, &near);
         if configured {
             let all = known.join(", ");
             diagnostic = diagnostic.with_help(format!("the configuration lists all axes: {all}"));

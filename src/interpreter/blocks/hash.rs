@@ -1,5 +1,6 @@
 //! `#` commands (R2.34, R2.47).
 
+use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::chain;
@@ -14,9 +15,12 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::values::value::Value;
-use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
+use crate::syntax::{Fault, Touches, hash_command};
 use crate::text::Span;
+
+/// Number of axes that a message names.
+const MAX_NAMED: usize = 8;
 
 impl Interpreter {
     pub(in crate::interpreter) fn hash(
@@ -80,6 +84,7 @@ impl Interpreter {
                     None => name.trim_end_matches(" OFF").trim_end_matches(" ON"),
                 };
                 self.pass_over(word, hash.span, at);
+                self.touch(hash, at);
                 if name.starts_with("#MACHINE DATA") && names_friction(rest) {
                     return Err(Box::new(
                         Fault::new(
@@ -93,6 +98,57 @@ impl Interpreter {
             }
         }
         Ok(())
+    }
+
+    /// What a command does beside that to what is followed here (R2.93).
+    fn touch(&mut self, hash: &Hash, at: &At<'_>) {
+        match hash_command(&hash.name) {
+            Some(Touches::Motion) => {
+                self.state.modal.forget_positions();
+                self.perhaps_move_all();
+            }
+            Some(Touches::Friction) => {
+                for axis in self.axes_or_all(hash.rest.of(at.text)) {
+                    self.doubt(axis, KindSet::of(Kind::Frict));
+                }
+                self.say_undescribed(hash, at);
+            }
+            _ => {}
+        }
+    }
+
+    /// The axes that a command names, or else all.
+    pub(in crate::interpreter) fn axes_or_all(&self, rest: &str) -> Vec<AxisIndex> {
+        let named = self.axes_in(rest);
+        if named.is_empty() {
+            (0..self.machine.axes.len()).map(AxisIndex::new).collect()
+        } else {
+            named
+        }
+    }
+
+    /// FC902: the effect of the command is described nowhere, so that states became unknown.
+    fn say_undescribed(&mut self, hash: &Hash, at: &At<'_>) {
+        let doubted = self.work.doubted.iter();
+        let names = doubted.map(|(axis, _)| format!("`{}`", self.machine.axis(*axis).name));
+        let names: Vec<String> = names.take(MAX_NAMED).collect();
+        let [first, ..] = names.as_slice() else {
+            return;
+        };
+        let name = &hash.name;
+        let fault = Fault::new(
+            Code::Fc902,
+            hash.span,
+            format!(
+                "what `{name}` does to friction compensation is not documented; `FRICT` of {} is unknown from here on",
+                names.join(", ")
+            ),
+        );
+        let axis = first.trim_matches('`');
+        let fault = fault.with_help(format!(
+            "a COMP command after it makes the state known again, `{axis}[COMP ON FRICT]`"
+        ));
+        self.work.diagnostics.push(at.diagnostic(fault));
     }
 
     /// `#RT WHILE` runs as long as a variable of real time says so (tf5261, 783727499).

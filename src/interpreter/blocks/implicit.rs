@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::diagnostic::Code;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::effects::called_words::Configured;
 use crate::interpreter::programs::file_names::{FileName, file_names};
@@ -28,7 +29,7 @@ impl Interpreter {
             match number {
                 Some(number) if !chain::is_named_m(number) => {
                     let called = self.call_word(word, span, at, intent);
-                    if !called && !self.machine.harmless.has_function(number) {
+                    if !called && !self.machine.harmless.has_function(letter, number) {
                         self.state.modal.note_transformed(&format!("M{number}"));
                     }
                     return;
@@ -76,7 +77,14 @@ impl Interpreter {
         if self.calls_by_words() && self.call_word(FunctionWord::g(number), span, at, intent) {
             return true;
         }
+        if self.machine.harmless.has_function(b'G', i64::from(number)) {
+            return false;
+        }
         if chain::is_implicit_call(number) {
+            self.warn_not_configured(number, span, at);
+            self.pass_over_implicit(number);
+        } else if !chain::is_known_g(number) {
+            self.warn_unknown_g(number, span, at);
             self.pass_over_implicit(number);
         } else if !chain::is_named_g(number) {
             self.state.modal.note_transformed(&format!("G{number}"));
@@ -103,11 +111,53 @@ impl Interpreter {
             }
             Configured::Unknown(cause) => self.unknown_program(&cause, call.span, at),
             Configured::None => {
-                self.pass_over_implicit(call.number);
+                if !self
+                    .machine
+                    .harmless
+                    .has_function(b'G', i64::from(call.number))
+                {
+                    self.warn_not_configured(call.number, call.span, at);
+                    self.pass_over_implicit(call.number);
+                }
                 self.pass_over(&format!("G{}", call.number), call.span, at);
             }
         }
         Ok(())
+    }
+
+    /// FC325: a word that calls a program calls none here, once a word and program (R2.94).
+    fn warn_not_configured(&mut self, number: u32, span: Span, at: &At<'_>) {
+        let word = format!("G{number}");
+        if !self.is_new_word(&word) {
+            return;
+        }
+        let message = format!(
+            "no program is known for `{word}`, which calls one on the control; it is passed over: every compensation \
+             keeps its state, and axes may have moved"
+        );
+        let help = format!(
+            "name its program, `{word} = \"cycle.nc\"` in `[machine.programs]`, or set `harmless = [\"{word}\"]` in \
+             `[machine]` if it switches no compensation and moves no axis"
+        );
+        let fault = Fault::new(Code::Fc325, at.in_block(span), message).with_help(help);
+        self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// FC210: a G function that no public list names, once a word and program (R2.94).
+    fn warn_unknown_g(&mut self, number: u32, span: Span, at: &At<'_>) {
+        let word = format!("G{number}");
+        if !self.is_new_word(&word) {
+            return;
+        }
+        let message = format!(
+            "`{word}` is not known to frictcomp; every compensation keeps its state, where the axes stand is unknown \
+             from here on"
+        );
+        let help = format!(
+            "if it moves no axis and no origin, set `harmless = [\"{word}\"]` in `[machine]` of frictcomp.toml"
+        );
+        let fault = Fault::new(Code::Fc210, at.in_block(span), message).with_help(help);
+        self.work.diagnostics.push(at.diagnostic(fault));
     }
 
     /// `#FILE NAME [ G80="part.nc" M6 "change.nc" ]` (PM/207504523).

@@ -19,7 +19,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::values::value::{exact, rounded};
 use crate::syntax::ast::{Address, Operand, Word};
-use crate::syntax::{Fault, is_letter, not_known};
+use crate::syntax::{Fault, is_letter, is_program_number, not_known};
 use crate::text::Span;
 
 /// G functions whose axis words are no motion: software limits, gain, weighting of velocity,
@@ -32,6 +32,9 @@ const NO_MOTION: [u32; 23] = [
 
 /// Homing: the axes move, their words are no coordinates.
 const HOMING: u32 = 74;
+
+/// Number of different words of a program of which something is said once.
+const MAX_ONCE: usize = 1000;
 
 /// A word of one letter with its value, where that is known.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +81,7 @@ impl Interpreter {
                     Some(axis) => self.axis_word(axis, word.span, number),
                     None if self.is_main_spindle(name) => self.state.modal.pace.speed(number),
                     None if name.starts_with('S') => {}
-                    None => self.pass_over(name, word.span, at),
+                    None => self.lack_axis(name, word.span, at),
                 }
                 return;
             }
@@ -104,6 +107,45 @@ impl Interpreter {
             fault = fault.with_help(format!("did you mean `{}`?", char::from(upper)));
         }
         self.work.diagnostics.push(at.diagnostic(fault));
+    }
+
+    /// A word of an axis that the machine does not have.
+    fn lack_axis(&mut self, name: &str, span: Span, at: &At<'_>) {
+        let exchanged = &self.state.channel_axes;
+        let is_exchanged = exchanged.doubtful || exchanged.names.contains_key(name);
+        if self.machine.axes_are_listed && !is_exchanged {
+            self.work.lacking.push((name.to_owned(), at.in_block(span)));
+        }
+        self.pass_over(name, span, at);
+    }
+
+    /// FC210: the block moves axes that the lists do not name (R2.94). Once an axis and program.
+    #[cold]
+    pub(in crate::interpreter) fn say_lacking(&mut self, words: AxisWords, at: &At<'_>) {
+        for (name, span) in std::mem::take(&mut self.work.lacking) {
+            let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
+            if !moves || !self.is_new_word(&name) {
+                continue;
+            }
+            let message = format!(
+                "the lists of the machine name no axis `{name}`; its words are passed over, and what they move is not known"
+            );
+            let known: Vec<&str> = self
+                .machine
+                .axes
+                .iter()
+                .map(|axis| axis.name.as_str())
+                .collect();
+            let fault = Fault::new(Code::Fc210, span, message)
+                .with_help(format!("the lists name {}", known.join(", ")));
+            self.work.diagnostics.push(at.diagnostic(fault));
+        }
+    }
+
+    /// Whether a word is met for the first time in the program, of those of which something is said once.
+    pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
+        let words = &mut self.state.once;
+        words.len() < MAX_ONCE && words.insert(word.to_owned())
     }
 
     /// FC210: a word that is not known here may do anything (R2.70).
@@ -295,8 +337,9 @@ impl Interpreter {
             (b'I' | b'J' | b'K', _) => self.circle_word(letter, number, span),
             (b'P', _) if self.work.dwells => self.dwell_parameter(number),
             (b'H' | b'N', _) => {}
+            (b'O', _) if is_program_number(at.block) => self.pass_over("O", span, at),
             _ if !is_letter(letter) => self.unread_word(span, at),
-            _ => self.pass_over(&char::from(letter).to_string(), span, at),
+            _ => self.lack_axis(&char::from(letter).to_string(), span, at),
         }
         Ok(())
     }

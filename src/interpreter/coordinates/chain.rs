@@ -3,6 +3,8 @@
 //!
 //! PM/n is page n of the TF5200 programming manual.
 
+use super::group::Group;
+
 /// What a `#` command does to positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::interpreter) enum Step {
@@ -17,7 +19,7 @@ pub(in crate::interpreter) enum Step {
 }
 
 /// The `#` commands that touch the chain, by their first words.
-const COMMANDS: [(&str, Step); 28] = [
+const COMMANDS: [(&str, Step); 29] = [
     ("#TRAFO", Step::Coordinates),
     ("#CS", Step::Coordinates),
     ("#ACS", Step::Coordinates),
@@ -33,6 +35,7 @@ const COMMANDS: [(&str, Step); 28] = [
     ("#FACE", Step::Coordinates),
     ("#TRANSFORM", Step::Coordinates),
     ("#TRACK CS", Step::Coordinates),
+    ("#SYNC", Step::Coordinates),
     ("#MCS", Step::Machine),
     ("#SPLINE", Step::Path),
     ("#SET SPLINE", Step::Path),
@@ -49,7 +52,9 @@ const COMMANDS: [(&str, Step); 28] = [
 ];
 
 /// Commands that begin like those and touch nothing.
-const APART: [&str; 4] = [
+const APART: [&str; 5] = [
+    // It says where the tool centre is, and switches nothing.
+    "#KIN TCP",
     "#MCS TO WCS",
     "#SET AX LINK",
     "#SCALE FACTOR",
@@ -67,7 +72,7 @@ pub(in crate::interpreter) fn command(name: &str) -> Option<(&'static str, Step,
     }
     let &(words, step) = COMMANDS.iter().find(|(words, _)| begins(words))?;
     let mut further = name[words.len()..].split(' ');
-    let off = further.any(|word| matches!(word, "OFF" | "DEL"));
+    let off = further.any(|word| matches!(word, "OFF" | "DEL" | "OUT"));
     // The older name of one command.
     let words = if words == "#SET SPLINE" {
         "#SPLINE"
@@ -117,6 +122,15 @@ pub(in crate::interpreter) fn is_named_g(number: u32) -> bool {
     )
 }
 
+/// G functions that are known by name (R2.94): those that leave coordinates alone, and mirroring, weights,
+/// splines, diameters, the operator's hand wheel (vscode-isg-cnc, descriptions of commands).
+pub(in crate::interpreter) fn is_known_g(number: u32) -> bool {
+    is_named_g(number)
+        || is_implicit_call(number)
+        || Group::of(number).is_some()
+        || matches!(number, 20..=23 | 51 | 52 | 66 | 68 | 69 | 150 | 151 | 200..=202 | 351)
+}
+
 /// Implicit calls: G80 to G89, G800 to G839 (PM/206278923, P-CHAN-00187).
 pub(in crate::interpreter) fn is_implicit_call(number: u32) -> bool {
     matches!(number, 80..=89 | 800..=839)
@@ -145,5 +159,8 @@ mod tests {
         assert_eq!(of("#SET SPLINETYPE AKIMA"), None);
         assert_eq!(of("#SET AX LINK"), None);
         assert_eq!(of("#MSG"), None);
+        assert_eq!(of("#SYNC IN"), Some(("#SYNC", false)));
+        assert_eq!(of("#SYNC OUT"), Some(("#SYNC", true)));
+        assert_eq!(of("#KIN TCP DEF"), None);
     }
 }

@@ -1,5 +1,6 @@
 //! What words of geometry mean: G functions, positions, motions.
 
+pub(super) mod arc;
 pub(super) mod axis_words;
 pub(super) mod chain;
 pub(super) mod geometry;

@@ -211,7 +211,8 @@ pub(in crate::interpreter) fn of_g(number: u32) -> Option<(Simplification, Holds
 }
 
 /// `#` commands that simplify, by their first words.
-const COMMANDS: [(&str, Simplification); 12] = [
+const COMMANDS: [(&str, Simplification); 13] = [
+    ("#FF", Simplification::ForeignFeed),
     ("#CONTOUR MODE", Simplification::Contouring),
     ("#HSC", Simplification::HighSpeed),
     ("#SLOPE", Simplification::Slope),

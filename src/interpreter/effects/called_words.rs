@@ -80,7 +80,7 @@ impl Interpreter {
         self.work.diagnostics.push(at.diagnostic(fault));
     }
 
-    /// An implicit call without a program (R2.82): it may have moved axes.
+    /// An implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.
     pub(in crate::interpreter) fn pass_over_implicit(&mut self, number: u32) {
         self.state.modal.forget_positions();
         self.perhaps_move_all();
@@ -123,7 +123,12 @@ impl Interpreter {
                     }
                     _ => true,
                 };
-                if letter == 'G' && chain::is_implicit_call(number) {
+                let is_call = chain::is_implicit_call(number) || !chain::is_known_g(number);
+                let harmless = &self.machine.harmless;
+                if harmless.has_function(word.letter, i64::from(number)) {
+                    return;
+                }
+                if letter == 'G' && is_call {
                     self.pass_over_implicit(number);
                 } else if !known {
                     let word = format!("{letter}{number}");

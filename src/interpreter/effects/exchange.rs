@@ -8,11 +8,13 @@
 use std::collections::BTreeSet;
 
 use crate::comp::{AxisIndex, CompensationError};
+use crate::diagnostic::Code;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::channel_axes::{Addressed, ChannelAxes, Meaning};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::value::rounded;
+use crate::syntax::Fault;
 use crate::syntax::ast::Hash;
 
 /// What an exchange command does.
@@ -26,10 +28,13 @@ enum Exchange {
     Define,
     /// The axes are again those of an earlier moment.
     Restore,
+    /// Axes come or go in a way that no public page describes.
+    Undescribed,
 }
 
 /// The exchange commands by their first words.
-const COMMANDS: [(&str, Exchange); 7] = [
+const COMMANDS: [(&str, Exchange); 8] = [
+    ("#ACHSTAUSCH", Exchange::Undescribed),
     ("#CALL AX", Exchange::Request),
     ("#AX REQUEST", Exchange::Request),
     ("#PUT AX", Exchange::Release),
@@ -71,6 +76,18 @@ impl Interpreter {
         match exchange {
             Exchange::Restore if self.state.channel_axes == ChannelAxes::default() => {}
             Exchange::Restore => self.doubt_exchange(),
+            Exchange::Undescribed => {
+                self.doubt_exchange();
+                let fault = Fault::new(
+                    Code::Fc902,
+                    hash.span,
+                    format!(
+                        "which axes `{}` exchanges is not documented; a COMP command after it may switch any axis",
+                        hash.name
+                    ),
+                );
+                self.work.diagnostics.push(at.diagnostic(fault));
+            }
             Exchange::Request => self.request_axes(rest, at),
             Exchange::Release if every("ALL") => self.release_others(&[]),
             Exchange::Release => {

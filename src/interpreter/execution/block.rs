@@ -39,6 +39,9 @@ impl Interpreter {
         if self.work.again != 0 {
             self.refuse_repeated_axes(intent.axis_words, at);
         }
+        if !self.work.lacking.is_empty() {
+            self.say_lacking(intent.axis_words, at);
+        }
         self.move_around(intent.axis_words);
         if self.any_required && self.state.described.is_none() {
             let goes_on = !self.work.diagnostics.iter().any(stops);

@@ -105,6 +105,7 @@ impl Interpreter {
         self.state.left_loops.clear();
         self.state.watching = false;
         self.state.refused.clear();
+        self.state.once.clear();
         self.state.ending = None;
         self.state.last = None;
         self.state.parked = None;

@@ -7,7 +7,7 @@ use super::finder::{Finder, NoProgram};
 use super::index::{EntryIndex, Index, LabelName, ProgramId, Section};
 use super::unit::{Parsed, Unit};
 use super::wanted::Wanted;
-use crate::diagnostic::{Advice, Code, did_you_mean};
+use crate::diagnostic::{Advice, Code, nearest};
 use crate::interpreter::values::effort::{Effort, ITEM};
 use crate::syntax::ast::{Block, CallScope};
 use crate::syntax::{Comments, Fault, Stretch};
@@ -248,16 +248,17 @@ impl Programs {
         );
         let left = MAX_COMPARED.saturating_sub(self.compared);
         let mut compared = 0;
-        let near = self.units.get(unit).and_then(|unit| {
+        let near = self.units.get(unit).map(|unit| {
             let known = unit.index.local_names().take(left);
-            did_you_mean(name, known.inspect(|_| compared += 1))
+            nearest(name, known.inspect(|_| compared += 1))
         });
-        let fault = match (near, wanted.named) {
-            (Some(near), Some(named)) => fault.with_near(named, near),
-            (Some(near), None) => fault.with_help(Advice::DidYouMean(near.to_owned())),
-            (None, _) => fault.with_help(format!(
+        let near = near.unwrap_or_default();
+        let fault = match (near.as_slice(), wanted.named) {
+            ([], _) => fault.with_help(format!(
                 "a local subprogram begins with `%L {name}` in the same file"
             )),
+            (near, Some(named)) => fault.with_near(named, near),
+            (near, None) => fault.with_help(Advice::did_you_mean(near)),
         };
         self.compared += compared;
         effort.charge(compared);
@@ -281,7 +282,7 @@ fn not_at_hand(wanted: &Wanted, why: &NoProgram) -> Box<Fault> {
         NoProgram::Near(near) => {
             let fault = fault(Code::Fc320, "was not found");
             let fault = match wanted.named {
-                Some(named) => fault.with_near(named, near),
+                Some(named) => fault.with_near(named, &[near]),
                 None => fault.with_help(Advice::DidYouMean(near.clone())),
             };
             fault.with_help(on_machine_only(name))

@@ -99,6 +99,7 @@ impl Interpreter {
             blocks: 0,
             effort: Effort::default(),
             opaque: BTreeMap::new(),
+            once: BTreeSet::new(),
             occurred,
             couplings: Couplings::default(),
             channel_axes: ChannelAxes::default(),

@@ -36,6 +36,8 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) effort: Effort,
     /// Words and commands that were passed over.
     pub(in crate::interpreter) opaque: BTreeMap<String, u64>,
+    /// The words of the program of which something was said that is said once (R2.94).
+    pub(in crate::interpreter) once: BTreeSet<String>,
     /// The axes that occurred.
     pub(in crate::interpreter) occurred: Vec<bool>,
     pub(in crate::interpreter) couplings: Couplings,

@@ -30,6 +30,8 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) perhaps_moved: Vec<AxisIndex>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
+    /// Words of axes that the machine does not have.
+    pub(in crate::interpreter) lacking: Vec<(String, Span)>,
     /// The axes that have a word, and those that may have another, a bit each.
     pub(in crate::interpreter) seen: u64,
     pub(in crate::interpreter) again: u64,
@@ -68,6 +70,7 @@ impl Work {
         self.doubted.clear();
         self.perhaps_moved.clear();
         self.moved.clear();
+        self.lacking.clear();
         self.seen = 0;
         self.again = 0;
         self.diagnostics.clear();

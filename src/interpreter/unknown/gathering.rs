@@ -9,7 +9,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::comp::AxisIndex;
+use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::simplified::{self, Simplification};
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
@@ -30,7 +30,7 @@ use crate::syntax::ast::{
     Address, Block, Call, CallName, CallScope, Effect as Unread, Expression, Flow,
     Hash as HashCommand, Item, JumpTarget, Levels, Node, Operand, Owner, Word,
 };
-use crate::syntax::{Stretch, is_letter};
+use crate::syntax::{Stretch, Touches, hash_command, is_letter, is_program_number};
 use crate::text::Span;
 
 /// A region on its way to be known.
@@ -285,6 +285,16 @@ impl Gathering<'_> {
             return;
         }
         self.effect(Effect::Hash(hash.name.clone()));
+        match hash_command(&hash.name) {
+            Some(Touches::Motion) => self.effect(Effect::Positions),
+            Some(Touches::Friction) => {
+                for axis in self.run.axes_or_all(hash.rest.of(at.text)) {
+                    let name = self.run.machine.axis(axis).name.clone();
+                    self.effect(Effect::Compensation(name, KindSet::of(Kind::Frict)));
+                }
+            }
+            _ => {}
+        }
         if let Some(point) = point_after(hash, at) {
             let inner = at.rest(&point);
             let items = point.items.iter().filter_map(|item| match item {
@@ -382,6 +392,7 @@ impl Gathering<'_> {
             Address::Letter(b'F') => self.effect(Effect::Feeds),
             Address::Letter(b'S') => self.effect(Effect::Spindle),
             Address::Letter(b'R') => self.effect(Effect::Radius),
+            Address::Letter(b'O') if is_program_number(at.block) => {}
             Address::Letter(letter @ b'A'..=b'Z') if !is_letter(letter) => {
                 self.effect(Effect::All);
             }

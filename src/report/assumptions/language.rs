@@ -323,4 +323,11 @@ pub(super) const ASSUMED: &[Assumption] = &[
         shows: "FC905, `repeated` in the end record",
         when: &[Reported(Code::Fc905)],
     },
+    Assumption {
+        rule: "R2.94",
+        sentence: "a word that calls a program, and whose program is not known, keeps every compensation as it is",
+        changes: "the states after `G80` to `G89` and `G800` onwards without a configured program",
+        shows: "FC325, once for each word and program",
+        when: &[Reported(Code::Fc325)],
+    },
 ];

@@ -3,7 +3,7 @@
 use pest::iterators::Pair;
 
 use super::lowering::{Lowering, not_closed, span_of, trimmed};
-use crate::diagnostic::{Code, Fix, did_you_mean};
+use crate::diagnostic::{Code, Fix, did_you_mean, nearest};
 use crate::syntax::ast::{Address, Effect, Item, Word};
 use crate::syntax::known::{axis_commands, is_axis_command, is_spindle_command, is_spindle_word};
 use crate::syntax::{
@@ -140,8 +140,9 @@ fn invalid_keyword(span: Span, word: &str) -> Fault {
         span,
         format!("invalid first keyword `{word}` in an axis bracket"),
     );
-    match did_you_mean(word, known) {
-        Some(near) => fault.with_near(span, near),
-        None => fault.with_help("friction compensation is switched with `COMP ON FRICT`"),
+    let near = nearest(word, known);
+    if near.is_empty() {
+        return fault.with_help("friction compensation is switched with `COMP ON FRICT`");
     }
+    fault.with_near(span, &near)
 }

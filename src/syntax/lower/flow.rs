@@ -3,7 +3,7 @@
 use pest::iterators::Pair;
 
 use super::lowering::{Lowering, not_closed, not_understood, span_of, trimmed};
-use crate::diagnostic::{Code, did_you_mean};
+use crate::diagnostic::{Code, nearest};
 use crate::syntax::ast::{Effect, Expression, Flow, Item, JumpTarget, Operand, Target};
 use crate::syntax::known::FLOW_WORDS;
 use crate::syntax::{expression, fault::Fault, grammar::Rule};
@@ -122,8 +122,8 @@ impl Lowering<'_> {
     /// A statement that is none: a misspelt one counts for the pairing as the one that it means, any
     /// other could be anything (R2.70).
     fn unknown_statement(&mut self, word: &str, span: Span) -> Option<Flow> {
-        let near = did_you_mean(word, FLOW_WORDS).filter(|_| word.len() > 1);
-        let Some(near) = near else {
+        let near = nearest(word, FLOW_WORDS);
+        let Some(first) = near.first().filter(|_| word.len() > 1) else {
             self.unread(Effect::Everything, span);
             return None;
         };
@@ -132,10 +132,10 @@ impl Lowering<'_> {
         let word_span = Span::new(start, start + word.len());
         self.block.faults.push(
             Fault::new(Code::Fc207, span, format!("unknown statement `{word}`"))
-                .with_near(word_span, near),
+                .with_near(word_span, &near),
         );
         let place = expression::unread(span, self.block);
-        Some(meant(near, place, span))
+        Some(meant(first, place, span))
     }
 }
 

@@ -4,7 +4,7 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::lowering::{Lowering, span_of, trimmed};
-use crate::diagnostic::did_you_mean;
+use crate::diagnostic::nearest;
 use crate::syntax::ast::{Effect, Hash, Item, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
 use crate::syntax::known::{Touches, hash_command, hash_commands};
@@ -33,7 +33,7 @@ impl Lowering<'_> {
         };
         let written = match touches {
             Touches::Values => self.places_in(rest),
-            Touches::Nothing | Touches::Axes => Vec::new(),
+            _ => Vec::new(),
         };
         self.block.items.push(Item::Hash(Hash {
             name,
@@ -48,10 +48,9 @@ impl Lowering<'_> {
     /// A `#` command that no table names could do anything (R2.70).
     fn unknown_hash(&mut self, name: &str, length: usize, span: Span) {
         let mut fault = not_known(name, span);
-        if let Some(near) = did_you_mean(name, hash_commands()) {
-            let start = span.start as usize;
-            fault = fault.with_near(Span::new(start, start + length), near);
-        }
+        let start = span.start as usize;
+        let near = nearest(name, hash_commands());
+        fault = fault.with_near(Span::new(start, start + length), &near);
         fault = fault.with_help(format!(
             "if it affects nothing that frictcomp follows, add `harmless = [\"{name}\"]` to `[machine]` in frictcomp.toml"
         ));

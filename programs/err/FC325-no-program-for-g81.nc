@@ -1,0 +1,8 @@
+%DRILL
+; wrong: no program is configured for G81
+N10 G90 G01 X0 Y0 F1000
+N20 X[COMP OFF FRICT]
+N30 G81 Z-5
+N40 G81 Z-5 X10
+N50 X[COMP ON FRICT]
+N60 M30

@@ -1,0 +1,7 @@
+; wrong: written for another control
+N10 G90 G54 G0 X0 Y0
+N20 R1=5
+N30 TRANS X10
+N40 IF R1>3 GOTOF DONE
+N50 G1 X10 F1000
+N60 DONE: M30

@@ -1,0 +1,38 @@
+//! FC326: a program that is plainly one of another control (R2.97).
+
+use super::Program;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::syntax::{Foreign, foreign};
+use crate::text::{Place, Span};
+
+/// Number of messages that such a file may say: this one and 20 others.
+pub(super) const MAX_SAID: usize = 21;
+
+/// Looks at the head of a program, as far as it is at hand.
+pub(super) fn look(file: &str, program: &mut Program<'_>) -> Option<Diagnostic> {
+    let head = match program {
+        Program::Lines(lines) => lines.ahead(),
+        Program::Whole(source) => source.text(),
+    };
+    let found = foreign(head)?;
+    let mut lines = head.lines().zip(1..);
+    let (line, number) = lines.find(|(line, _)| !line.trim().is_empty())?;
+    let place = Place {
+        file: file.into(),
+        text: line.trim_end().into(),
+        first_line: number,
+        span: Span::new(0, line.trim_end().len()),
+    };
+    let Foreign {
+        dialect,
+        words,
+        blocks,
+        of,
+    } = found;
+    let words = words.join("`, `");
+    let message = format!(
+        "this is a program for {dialect}, not for an ISG control: {blocks} of the first {of} blocks have words such as `{words}`"
+    );
+    let help = "what is said about it below holds for no machine; leave it out, or translate it";
+    Some(Diagnostic::new(Code::Fc326, place, message).with_help(help))
+}

@@ -1,0 +1,332 @@
+//! Programs of other controls, known by their words (R2.97).
+//!
+//! What is plain DIN 66025 is fine on every control and tells nothing.
+
+use std::fmt;
+
+use super::hash_words::hash_name;
+use super::known::{FLOW_WORDS, hash_command};
+use super::scan::code_stretches;
+
+/// Number of blocks at the head of a program that are looked at.
+const MAX_LOOKED_AT: usize = 400;
+
+/// Number of lines, with comments and without.
+const MAX_LINES: usize = 4000;
+
+/// Number of blocks with foreign words below which a program may be one with slips.
+const MIN_FOREIGN: usize = 3;
+
+/// Number of words that a message shows.
+const MAX_SHOWN: usize = 3;
+
+/// A control whose programs are of another dialect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Dialect {
+    Sinumerik,
+    Fanuc,
+    Rs274,
+}
+
+impl fmt::Display for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Sinumerik => "SINUMERIK",
+            Self::Fanuc => "Fanuc",
+            Self::Rs274 => "RS-274 (LinuxCNC)",
+        })
+    }
+}
+
+/// What shows that a program is of another control.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Foreign {
+    pub(crate) dialect: Dialect,
+    /// The first of its words that showed it.
+    pub(crate) words: Vec<String>,
+    /// How many blocks have such words.
+    pub(crate) blocks: usize,
+    /// How many were looked at.
+    pub(crate) of: usize,
+}
+
+/// The words of SINUMERIK that are neither DIN nor ISG.
+const SINUMERIK: [&str; 44] = [
+    "AMIRROR",
+    "AROT",
+    "ATRANS",
+    "BRISK",
+    "CALL",
+    "CASE",
+    "CFC",
+    "CFTCP",
+    "COMPCAD",
+    "COMPOF",
+    "DEF",
+    "DIAMOF",
+    "DIAMON",
+    "ENDFOR",
+    "ENDIF",
+    "ENDLOOP",
+    "ENDPROC",
+    "ENDWHILE",
+    "EXTERN",
+    "FFWOF",
+    "FFWON",
+    "FOR",
+    "GOTOB",
+    "GOTOC",
+    "GOTOF",
+    "LIMS",
+    "LOOP",
+    "MCALL",
+    "MIRROR",
+    "MSG",
+    "PROC",
+    "REPEAT",
+    "RET",
+    "ROT",
+    "SETMS",
+    "SOFT",
+    "SPOS",
+    "STOPRE",
+    "SUPA",
+    "TRAFOOF",
+    "TRANS",
+    "TRAORI",
+    "UNTIL",
+    "WORKPIECE",
+];
+
+/// Beginnings of cycles of SINUMERIK, before a number.
+const SINUMERIK_CYCLES: [&str; 5] = ["CYCLE", "HOLES", "LONGHOLE", "POCKET", "SLOT"];
+
+/// Beginnings of system variables of SINUMERIK after `$`.
+const SINUMERIK_VARIABLES: [&str; 9] =
+    ["P_", "A_", "AA_", "AC_", "TC_", "MN_", "MC_", "MA_", "VA_"];
+
+/// What stands after the number of an O word of RS-274.
+const O_WORDS: [&str; 13] = [
+    "BREAK", "CALL", "CONTINUE", "DO", "ELSE", "ELSEIF", "ENDIF", "ENDSUB", "ENDWHILE", "IF",
+    "RETURN", "SUB", "WHILE",
+];
+
+/// Looks at the head of a program: more than a quarter of its blocks have words of another control, and
+/// none has one of ISG's.
+pub(crate) fn foreign(text: &str) -> Option<Foreign> {
+    let mut counts = [
+        (Dialect::Sinumerik, 0),
+        (Dialect::Fanuc, 0),
+        (Dialect::Rs274, 0),
+    ];
+    let mut shown: Vec<(Dialect, String)> = Vec::new();
+    let (mut blocks, mut found) = (0, 0);
+    for line in text.split(['\n', '\r']).take(MAX_LINES) {
+        let code = code_of(line);
+        let code = code.trim();
+        if code.is_empty() {
+            continue;
+        }
+        let word = match meaning(code) {
+            Meaning::Isg => return None,
+            Meaning::Any => None,
+            Meaning::Of(dialect, word) => Some((dialect, word)),
+        };
+        if let Some((dialect, word)) = word {
+            found += 1;
+            counts
+                .iter_mut()
+                .filter(|(known, _)| *known == dialect)
+                .for_each(|(_, count)| *count += 1);
+            if !shown.iter().any(|(_, known)| *known == word) {
+                shown.push((dialect, word));
+            }
+        }
+        blocks += 1;
+        if blocks == MAX_LOOKED_AT {
+            break;
+        }
+    }
+    if found < MIN_FOREIGN || found * 4 <= blocks {
+        return None;
+    }
+    let (dialect, _) = counts.into_iter().rev().max_by_key(|(_, count)| *count)?;
+    let words = shown.into_iter().filter(|(of, _)| *of == dialect);
+    Some(Foreign {
+        dialect,
+        words: words.take(MAX_SHOWN).map(|(_, word)| word).collect(),
+        blocks: found,
+        of: blocks,
+    })
+}
+
+/// What a block tells of its control.
+enum Meaning {
+    Isg,
+    Of(Dialect, String),
+    /// It is fine on every control, or nothing is known of it.
+    Any,
+}
+
+/// A line without comments and strings in upper case; the name of a program stays.
+fn code_of(line: &str) -> String {
+    if line.trim_start().starts_with('%') {
+        return line.to_ascii_uppercase();
+    }
+    let stretches = code_stretches(line.as_bytes());
+    let code: Vec<&str> = stretches.filter_map(|stretch| line.get(stretch)).collect();
+    code.join(" ").to_ascii_uppercase()
+}
+
+fn meaning(code: &str) -> Meaning {
+    if let Some(name) = code.strip_prefix('%') {
+        return match name {
+            name if name.starts_with("_N_") => Meaning::Of(Dialect::Sinumerik, "%_N_".to_owned()),
+            name if name.starts_with("L ") => Meaning::Isg,
+            _ => Meaning::Any,
+        };
+    }
+    let mut foreign = None;
+    let bytes = code.as_bytes();
+    let mut at = 0;
+    while at < code.len() {
+        let rest = &code[at..];
+        let length = word_length(rest);
+        let meaning = match bytes[at] {
+            b'#' => after_hash(rest),
+            b'$' => after_dollar(rest),
+            b'@' if rest[1..].starts_with('P') => Meaning::Isg,
+            _ if length > 0 => of_word(&code[..at], &rest[..length], &rest[length..]),
+            _ => Meaning::Any,
+        };
+        match meaning {
+            Meaning::Isg => return Meaning::Isg,
+            Meaning::Of(dialect, word) => foreign = foreign.or(Some((dialect, word))),
+            Meaning::Any => {}
+        }
+        let first = rest.chars().next().map_or(1, char::len_utf8);
+        at += length.max(first);
+    }
+    match foreign {
+        Some((dialect, word)) => Meaning::Of(dialect, word),
+        None => Meaning::Any,
+    }
+}
+
+/// The length of the word that a text begins with; a block number before a word does not belong to it.
+fn word_length(text: &str) -> usize {
+    let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    if !begins {
+        return 0;
+    }
+    if let Some(number) = text.strip_prefix('N') {
+        let digits = number.bytes().take_while(u8::is_ascii_digit).count();
+        if digits > 0 {
+            return digits + 1;
+        }
+    }
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.find(|c| !is_part(c)).unwrap_or(text.len())
+}
+
+fn after_hash(text: &str) -> Meaning {
+    let dialect = match text.as_bytes().get(1) {
+        Some(b'<') => Dialect::Rs274,
+        Some(b'0'..=b'9' | b'[') => Dialect::Fanuc,
+        _ => {
+            return match hash_command(&hash_name(text).0) {
+                Some(_) => Meaning::Isg,
+                None => Meaning::Any,
+            };
+        }
+    };
+    let is_part = |c: char| c.is_ascii_alphanumeric() || "#_<>".contains(c);
+    let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
+    Meaning::Of(dialect, text[..end].to_owned())
+}
+
+fn after_dollar(text: &str) -> Meaning {
+    let length = 1 + word_length(&text[1..]);
+    let word = &text[..length];
+    if FLOW_WORDS.contains(&word) {
+        Meaning::Isg
+    } else if SINUMERIK_VARIABLES
+        .iter()
+        .any(|begin| word[1..].starts_with(begin))
+    {
+        Meaning::Of(Dialect::Sinumerik, word.to_owned())
+    } else {
+        Meaning::Any
+    }
+}
+
+/// What a word tells, between what stands before and after it.
+fn of_word(before: &str, word: &str, after: &str) -> Meaning {
+    let numbered = |begin: &str| {
+        let number = word.strip_prefix(begin);
+        number.is_some_and(|it| !it.is_empty() && it.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    let next = after.trim_start();
+    let is_assigned = next.starts_with('=');
+    let of = |dialect| Meaning::Of(dialect, word.to_owned());
+    match word {
+        "V" if after.starts_with('.') => Meaning::Isg,
+        "COMP" if before.trim_end().ends_with('[') => Meaning::Isg,
+        "LL" => Meaning::Isg,
+        "L" if next.starts_with("CYCLE") => Meaning::Isg,
+        _ if numbered("P") && is_assigned => Meaning::Isg,
+        _ if numbered("R") && is_assigned => Meaning::Of(Dialect::Sinumerik, format!("{word}=")),
+        "O" if after.starts_with('<') => Meaning::Of(Dialect::Rs274, "O<".to_owned()),
+        _ if numbered("O") && O_WORDS.contains(&&next[..word_length(next)]) => Meaning::Of(
+            Dialect::Rs274,
+            format!("{word} {}", &next[..word_length(next)]),
+        ),
+        "G38" | "G33" if after.starts_with('.') => of(Dialect::Rs274),
+        "M98" | "M99" | "G65" => of(Dialect::Fanuc),
+        "IF" | "WHILE" if next.starts_with('[') => of(Dialect::Fanuc),
+        "GOTO" if next.starts_with(|c: char| c.is_ascii_digit()) => of(Dialect::Fanuc),
+        _ if numbered("END") || numbered("DO") => of(Dialect::Fanuc),
+        "IF" | "WHILE" | "GOTO" => of(Dialect::Sinumerik),
+        "IC" | "AC" | "DC" if before.trim_end().ends_with('=') => of(Dialect::Sinumerik),
+        _ if SINUMERIK.contains(&word) => of(Dialect::Sinumerik),
+        _ if SINUMERIK_CYCLES.iter().any(|cycle| numbered(cycle)) => of(Dialect::Sinumerik),
+        _ => Meaning::Any,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dialect(text: &str) -> Option<(Dialect, String)> {
+        foreign(text).map(|found| (found.dialect, found.words.join(" ")))
+    }
+
+    #[test]
+    fn other_controls_are_known_by_their_words() {
+        // R2.97
+        let sinumerik = "%_N_PART_MPF\nN10 G54 G0 X0\nN20 R1=5\nN30 IF R1>3 GOTOF ENDE\nN40 MCALL CYCLE81(5,0)\n";
+        let found = dialect(sinumerik);
+        assert_eq!(found, Some((Dialect::Sinumerik, "%_N_ R1= IF".to_owned())));
+        let fanuc = "%\nO1000\nG90 G54 G0 X0\n#100=5\nWHILE [#100 GT 0] DO1\nG1 X[#100]\n#100=#100-1\nEND1\nM98 P2000\nM30\n%\n";
+        assert_eq!(dialect(fanuc).map(|found| found.0), Some(Dialect::Fanuc));
+        let linuxcnc =
+            "o100 sub\n#<depth> = 5\no110 if [#<depth> GT 2]\nG1 X1\no110 endif\no100 endsub\n";
+        assert_eq!(dialect(linuxcnc).map(|found| found.0), Some(Dialect::Rs274));
+    }
+
+    #[test]
+    fn plain_din_and_isg_are_none_of_them() {
+        // R2.97
+        for text in [
+            "%\nO1234\nN10 G90 G54 G17\nN20 G43 H1 Z50\nN30 G28\nN40 G1 X5 F100\nN50 M30\n",
+            "N10 G1 X1\nN20 M98 P1\n",
+            "N10 IF\nN20 ENDIF\nN30 GOTOF\n$IF P1 == 1\n$ENDIF\n",
+            "(IF THEN GOTOF)\n; MCALL\n#MSG [\"GOTOF\"]\nX[COMP OFF FRICT]\nM30\n",
+            "P1=5\nR1=1\nR2=2\nR3=3\n",
+            "",
+        ] {
+            assert_eq!(dialect(text), None, "{text}");
+        }
+    }
+}

@@ -154,6 +154,7 @@ impl Recorder<'_> {
             && executed.diagnostics.is_empty()
             && executed.outcomes.is_empty()
             && executed.changes.is_empty()
+            && executed.doubted.is_empty()
             && executed.comments == Comments::Absent
             && executed.remark.is_none()
             && self.linter.knows(executed.moved)
@@ -185,6 +186,9 @@ impl Recorder<'_> {
         self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
         self.note_allows(executed);
+        for withheld in executed.withheld {
+            is_allowed(&mut self.allows, withheld, executed.line);
+        }
         if !self.said.is_empty() {
             self.filter(executed.line);
         }

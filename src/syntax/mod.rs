@@ -26,6 +26,7 @@ mod lower;
 mod mask;
 mod parse;
 mod raw;
+mod skip_levels;
 mod unread;
 mod upper_case;
 
@@ -52,6 +53,7 @@ pub use raw::{Comments, MAX_LINE, Remark};
 pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
+pub use skip_levels::{NoSkipLevels, SkipLevels};
 pub(crate) use unread::not_known;
 
 #[cfg(test)]

@@ -7,3 +7,4 @@ pub(super) mod evaluate;
 pub(super) mod exchange;
 pub(super) mod external;
 pub(super) mod forget;
+pub(super) mod machine_data;

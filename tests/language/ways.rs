@@ -123,7 +123,7 @@ fn what_another_way_leaves_otherwise_is_unknown() {
         for handed in [Handed::Whole, Handed::LineByLine] {
             let (claimed, said) = left(&bench().handed(handed), program);
             assert_eq!(claimed, expected, "{program}\n{said}");
-            assert!(said.contains("FC902"), "{program}\n{said}");
+            assert!(said.contains("FC90"), "{program}\n{said}");
         }
         for value in [0.0, 1.0, 2.0] {
             let (left, said) = left(&bench().set("V.E.A", value), program);

@@ -118,7 +118,7 @@ impl Interpreter {
     }
 
     #[cold]
-    fn complain(&mut self, fault: Fault, at: &At<'_>) {
+    pub(in crate::interpreter) fn complain(&mut self, fault: Fault, at: &At<'_>) {
         if self.work.diagnostics.len() < MAX_SAID || !self.work.diagnostics.iter().any(stops) {
             self.work.diagnostics.push(at.diagnostic(fault));
         } else {

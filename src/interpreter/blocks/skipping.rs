@@ -34,8 +34,19 @@ impl Interpreter {
         self.note_exits(&region, next.saturating_sub(1)..=next, &cause, None);
     }
 
-    /// Says which COMP commands the control refuses if it executes the block.
+    /// Says which COMP commands and values the control refuses if it executes the block.
     fn perhaps_refused(&mut self, at: &At<'_>) {
+        let after = at.block.items.iter().filter_map(|item| match item {
+            Item::Word(word) => word.value,
+            Item::Assign(assignment) => Some(assignment.value),
+            _ => None,
+        });
+        let words = at.block.words.iter().filter_map(|word| word.value);
+        for operand in words.chain(after) {
+            if let Err(fault) = self.value(operand, at) {
+                self.complain(*fault, at);
+            }
+        }
         let commands = at.block.items.iter().filter_map(|item| match item {
             Item::Comp(command) => Some(command),
             _ => None,

@@ -1,7 +1,7 @@
 //! `#MACHINE DATA`, which writes a parameter of an axis while the program runs (R2.92; TF5200
 //! Programming manual, 207492747).
 
-use crate::comp::{AxisIndex, Kind, KindSet};
+use crate::comp::{AxisIndex, Kind, KindSet, State};
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::values::value::rounded;
@@ -60,7 +60,8 @@ impl Interpreter {
         let start = self.machine.compensation();
         let now = &self.state.compensation;
         let is_lost = |axis: AxisIndex, kind: &Kind| {
-            written(text) == Written::Friction || now.state(axis, *kind) != start.state(axis, *kind)
+            let (now, start) = (now.state(axis, *kind), start.state(axis, *kind));
+            written(text) == Written::Friction || (now != start && now != State::Unknown)
         };
         let lost = axes.into_iter().map(|axis| {
             let kinds = Kind::ALL.into_iter().filter(|kind| is_lost(axis, kind));

@@ -8,3 +8,4 @@ pub(super) mod exchange;
 pub(super) mod external;
 pub(super) mod forget;
 pub(super) mod machine_data;
+pub(super) mod roots;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::comp::{Kind, KindSet, State};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::comp::{AxisIndex, Kind, KindSet, State};
+use crate::diagnostic::Code;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::Motions;
 use crate::interpreter::effects::exchange::is_exchange;
@@ -61,33 +61,6 @@ impl Interpreter {
         self.enter_root(cause, span, at);
     }
 
-    /// Remembers where an unknown value came in first.
-    pub(in crate::interpreter) fn enter_root(
-        &mut self,
-        cause: &Arc<str>,
-        span: Span,
-        at: &At<'_>,
-    ) {
-        self.state.told.enter(cause, || at.place(at.in_block(span)));
-    }
-
-    /// The message with the block that brought the value in, where its own block does not show it.
-    pub(in crate::interpreter) fn with_origin(
-        &self,
-        said: Diagnostic,
-        cause: &str,
-        at: &At<'_>,
-    ) -> Diagnostic {
-        let is_shown = at.text.contains(cause) || at.block.skip.is_some();
-        let origin = self.state.told.origin(cause).filter(|_| !is_shown);
-        match origin {
-            Some(origin) if (&origin.file, origin.first_line) != (at.file, at.line) => {
-                said.with_label(origin.clone(), "the unknown value comes from here")
-            }
-            _ => said,
-        }
-    }
-
     /// Completes the message about a part of the program, or withholds it where nothing differs or
     /// where it was said before.
     #[cold]
@@ -139,27 +112,8 @@ impl Interpreter {
         }
     }
 
-    /// Says something about an unknown value once a program (FC902); again only where `what` differs.
-    pub(in crate::interpreter) fn tell_once(
-        &mut self,
-        cause: &Arc<str>,
-        what: &str,
-        fault: Fault,
-        at: &At<'_>,
-    ) {
-        let span = fault.span;
-        let said = at.diagnostic(fault);
-        let said = self.with_origin(said, cause, at);
-        self.enter_root(cause, span, at);
-        if self.state.told.is_new(cause, [what.to_owned()]) {
-            self.work.diagnostics.push(said);
-        } else {
-            self.work.withheld.push(said);
-        }
-    }
-
     /// What the blocks of a skip level switch in the file that runs: one message names them all.
-    fn switched_by_level(&mut self, level: u8) -> Vec<(crate::comp::AxisIndex, KindSet)> {
+    fn switched_by_level(&mut self, level: u8) -> Vec<(AxisIndex, KindSet)> {
         let Some(unit) = self.state.frames.running().map(|frame| frame.unit) else {
             return Vec::new();
         };
@@ -204,7 +158,8 @@ impl Interpreter {
 
     fn weigh(&self, effect: &Effect, is_skip: bool, differing: &mut Differing) {
         match effect {
-            Effect::Compensation(..) => differing.decides = true,
+            // What a skipped block would be refused for is said itself.
+            Effect::Compensation(..) => differing.decides |= !is_skip,
             Effect::All => differing.name("everything that a program can change"),
             Effect::Coupling(_) => differing.name("axis couplings"),
             Effect::Hash(name) if is_coupling(name) => differing.name("axis couplings"),
@@ -264,7 +219,7 @@ impl Interpreter {
         if self.programs.index(place.unit).entries.len() < here.max(target) as usize {
             return true;
         }
-        let between: Range<EntryIndex> = here.min(target)..here.max(target);
+        let between = self.passed_by(place.unit, here.min(target)..here.max(target));
         let region = self.region(place.unit, between);
         let mut differing = Differing::default();
         for effect in &region.effects {
@@ -281,8 +236,26 @@ impl Interpreter {
             || !region.exits.is_empty()
             || region.targets.iter().any(outlives)
     }
+
+    /// The blocks that one of two ways may execute and the other does not, where they part before some
+    /// blocks and meet after them: a way into a loop or out of it is one past all its passes.
+    fn passed_by(&self, unit: usize, blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+        let index = self.programs.index(unit);
+        self.state.effort.charge(index.loops.len());
+        let mut around = blocks;
+        for &opener in &index.loops {
+            let end = index.links(opener).end;
+            let opens = around.contains(&opener);
+            let closes = around.contains(&end);
+            if opens != closes {
+                around = around.start.min(opener)..around.end.max(end + 1);
+            }
+        }
+        around
+    }
 }
 
+/// How a message names a kind of several axes.
 fn of_axes(kind: Kind, axes: &[&str]) -> String {
     let shown: Vec<String> = axes
         .iter()

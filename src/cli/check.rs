@@ -11,6 +11,7 @@ use clap::Args;
 
 use super::console::{Console, Printed, Target};
 use super::execution::ExecutionArgs;
+use super::fail_on::of_axis;
 use super::failure::Failure;
 use super::failures::Failures;
 use super::listing::{Lister, ListingArgs, of_records, passed_over, total};
@@ -114,6 +115,9 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         console.remark(&(total(listing.tally()) + &passed_over));
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
+    if let Some(remark) = listing.unknown_remark() {
+        console.remark(&remark);
+    }
     failures.status(console, listing.status())
 }
 
@@ -210,6 +214,7 @@ impl CheckArgs {
             for diagnostic in found.findings.diagnostics() {
                 flow = listing.diagnostic(diagnostic);
             }
+            listing.unknown(found.unknown);
             for (severity, more) in &found.unsaid {
                 listing.count(*severity, *more);
             }
@@ -223,6 +228,8 @@ struct Found {
     findings: Findings,
     /// How many more messages there are, by severity (R2.85).
     unsaid: BTreeMap<Severity, u64>,
+    /// The states that are not known at its end or where their axis moves.
+    unknown: BTreeSet<String>,
 }
 
 /// Runs one program from the start of the control.
@@ -239,5 +246,11 @@ fn check_file(
     let mut findings = Findings::default();
     let session = run_alone(input, loaded, alone, &mut findings)?;
     let unsaid = findings.unsaid(session.counts());
-    Ok(Found { findings, unsaid })
+    let unknown = session.unknown();
+    let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+    Ok(Found {
+        findings,
+        unsaid,
+        unknown,
+    })
 }

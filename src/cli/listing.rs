@@ -1,6 +1,6 @@
 //! Diagnostics as `check` and `lists` list them: which of them, and in which form.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -83,6 +83,7 @@ impl ListingArgs {
             listing: Listing::new(writer, format, look),
             counted,
             counts: BTreeMap::new(),
+            unknown: BTreeSet::new(),
         })
     }
 }
@@ -94,6 +95,8 @@ pub(super) struct Lister<'a> {
     /// Where the counts go, in place of the list.
     counted: Option<Target>,
     counts: BTreeMap<(Code, Severity), u64>,
+    /// States that are not known.
+    unknown: BTreeSet<String>,
 }
 
 impl Lister<'_> {
@@ -109,6 +112,16 @@ impl Lister<'_> {
         }
         *self.counts.entry((said.code, said.severity)).or_default() += 1;
         self.listing.diagnostic(said)
+    }
+
+    /// Takes states that are not known.
+    pub(super) fn unknown(&mut self, states: BTreeSet<String>) {
+        self.unknown.extend(states);
+    }
+
+    /// What is said about them, where they count for the exit status.
+    pub(super) fn unknown_remark(&self) -> Option<String> {
+        self.args.fail_on.unknown_remark(&self.unknown)
     }
 
     /// Counts diagnostics that are too many to be listed (R2.85).
@@ -162,7 +175,8 @@ impl Lister<'_> {
 
     /// The exit status that the list gives.
     pub(super) fn status(&self) -> u8 {
-        self.args.fail_on.status(&self.tally().counts)
+        let status = self.args.fail_on.status(&self.tally().counts);
+        status.max(self.args.fail_on.unknown_status(&self.unknown))
     }
 
     /// How to read more about what was said, once (R9.79).

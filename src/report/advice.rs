@@ -52,7 +52,7 @@ pub(super) fn all_home(footing: Footing) -> &'static str {
     match footing {
         Footing::Known => "Nothing to do: every axis is as at the start of the control.",
         Footing::Assumed => {
-            "Every axis is as at the start of the control if what FC902 assumes is so."
+            "Every axis is as at the start of the control as far as it is known: see FC902."
         }
     }
 }

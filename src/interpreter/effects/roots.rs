@@ -48,7 +48,7 @@ impl Interpreter {
         let said = at.diagnostic(fault);
         let said = self.with_origin(said, cause, at);
         self.enter_root(cause, span, at);
-        if self.state.told.is_new(cause, [what.to_owned()]) {
+        if self.state.told.is_new(cause, [what.to_owned()], &said.place) {
             self.work.diagnostics.push(said);
         } else {
             self.work.withheld.push(said);

@@ -50,8 +50,8 @@ pub(in crate::interpreter) struct Told {
 struct Root {
     /// The block that brought the value in.
     place: Place,
-    /// What messages named as unknown because of it.
-    named: BTreeSet<String>,
+    /// What messages named as unknown because of it, with the line of the first that did.
+    named: BTreeMap<String, (Arc<str>, u32)>,
 }
 
 impl Told {
@@ -64,7 +64,7 @@ impl Told {
         if self.roots.len() < MAX_ROOTS && !self.roots.contains_key(cause) {
             let root = Root {
                 place: place(),
-                named: BTreeSet::new(),
+                named: BTreeMap::new(),
             };
             self.roots.insert(cause.clone(), root);
         }
@@ -75,17 +75,22 @@ impl Told {
         self.roots.get(cause).map(|root| &root.place)
     }
 
-    /// Whether a message names anything that none about the same value named before.
+    /// Whether a message names anything that none of another block about the same value named before.
+    /// What a loop brings up again at its own place is counted, not withheld (R2.85).
     pub(in crate::interpreter) fn is_new(
         &mut self,
         cause: &str,
         named: impl IntoIterator<Item = String>,
+        place: &Place,
     ) -> bool {
         let Some(root) = self.roots.get_mut(cause) else {
             return true;
         };
-        let before = root.named.len();
-        root.named.extend(named);
-        root.named.len() > before
+        let here = (place.file.clone(), place.first_line);
+        let mut is_new = false;
+        for name in named {
+            is_new |= *root.named.entry(name).or_insert_with(|| here.clone()) == here;
+        }
+        is_new
     }
 }

@@ -98,7 +98,8 @@ impl Interpreter {
         keys.push(String::new());
         let shown: Vec<String> = kinds.iter().map(|(kind, axes)| of_axes(*kind, axes)).collect();
         differing.decides |= !shown.is_empty();
-        let is_new = self.state.told.is_new(&cause, keys);
+        let place = &self.work.diagnostics[said].place;
+        let is_new = self.state.told.is_new(&cause, keys, place);
         if !(differing.decides && is_new) {
             let said = self.work.diagnostics.remove(said);
             self.work.withheld.push(said);

@@ -51,9 +51,8 @@ impl FailOn {
     pub(super) fn unknown_remark(self, unknown: &BTreeSet<String>) -> Option<String> {
         let named: Vec<&str> = unknown.iter().map(String::as_str).collect();
         let named = named.join(", ");
-        (self.unknown_status(unknown) != super::exit::CLEAN).then(|| {
-            format!("not known at the end of a program or where the axis moves: {named}")
-        })
+        (self.unknown_status(unknown) != super::exit::CLEAN)
+            .then(|| format!("not known at the end of a program or where the axis moves: {named}"))
     }
 
     /// The exit status for how many diagnostics were said at each severity (R9.26).

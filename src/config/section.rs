@@ -147,9 +147,9 @@ impl<'a> Section<'a> {
         };
         let levels = match value.get_ref() {
             DeValue::String(text) => text.parse().ok(),
-            DeValue::Array(values) => values.iter().try_fold(SkipLevels::NONE, |levels, value| {
-                levels.with(level(value)?)
-            }),
+            DeValue::Array(values) => values
+                .iter()
+                .try_fold(SkipLevels::NONE, |levels, value| levels.with(level(value)?)),
             _ => level(value).and_then(|level| SkipLevels::NONE.with(level)),
         };
         levels

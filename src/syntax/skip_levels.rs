@@ -80,9 +80,8 @@ impl FromStr for SkipLevels {
             if first > last {
                 return Err(NoSkipLevels(format!("`{part}` runs backwards")));
             }
-            levels = (first..=last).fold(levels, |levels, level| {
-                levels.with(level).unwrap_or(levels)
-            });
+            levels =
+                (first..=last).fold(levels, |levels, level| levels.with(level).unwrap_or(levels));
         }
         Ok(levels)
     }

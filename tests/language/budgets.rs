@@ -434,8 +434,7 @@ fn a_region_in_a_loop_is_looked_through_once() {
 #[test]
 fn a_computed_target_in_a_region_may_be_any() {
     // R2.51
-    let text =
-        "P3=1\nP4=1\nP2=3\n$WHILE V.E.X\nPP2=5\nP2=P2+1\n$ENDWHILE\n$IF P4==1 $GOTO N9\nX[COMP OFF FRICT]\nN9: M30";
+    let text = "P3=1\nP4=1\nP2=3\n$WHILE V.E.X\nPP2=5\nP2=P2+1\n$ENDWHILE\n$IF P4==1 $GOTO N9\nX[COMP OFF FRICT]\nN9: M30";
     assert!(
         run(text).codes().contains(&"FC902"),
         "P4 may have been written"

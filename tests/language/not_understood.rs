@@ -445,7 +445,8 @@ fn what_the_user_declares_harmless_is_passed_over() {
         ("#SHOP", false),
         ("#OTHER", false),
     ] {
-        let program = format!("P1=1\n{line}\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30");
+        let program =
+            format!("P1=1\n{line}\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30");
         let said = bench.said(&program);
         assert_eq!(!said.contains("FC210"), silent, "{line}: {said}");
         assert_eq!(!said.contains("FC901"), silent, "{line}: {said}");

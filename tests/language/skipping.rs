@@ -66,13 +66,20 @@ fn the_user_says_which_levels_are_on() {
         assert!(!said.contains("FC901"), "{said}");
         let toml = match levels.parse::<u8>() {
             Ok(level) => format!("[machine]\nskip = [{level}]\n{}", crate::support::MACHINE),
-            Err(_) => format!("[machine]\nskip = \"{levels}\"\n{}", crate::support::MACHINE),
+            Err(_) => format!(
+                "[machine]\nskip = \"{levels}\"\n{}",
+                crate::support::MACHINE
+            ),
         };
         let (found_x, found_y, _) = left(&Bench::on(&toml), program);
         assert_eq!((found_x, found_y), (x, y), "{toml}");
         // The option goes before the configuration.
         let (found_x, found_y, _) = left(&Bench::on(&toml).skip("all"), program);
-        assert_eq!((found_x, found_y), (State::Inactive, State::Active), "{toml}");
+        assert_eq!(
+            (found_x, found_y),
+            (State::Inactive, State::Active),
+            "{toml}"
+        );
     }
 }
 
@@ -88,13 +95,22 @@ fn a_skip_level_is_spoken_of_once() {
         ),
         "{said}"
     );
-    assert!(said.contains("`--skip 1`") && said.contains("`skip` in `[machine]`"), "{said}");
+    assert!(
+        said.contains("`--skip 1`") && said.contains("`skip` in `[machine]`"),
+        "{said}"
+    );
     // What a value that it leaves decides names the level and where it came from.
     let program = "P1=0\nX1\n/P1=1\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     let said = Bench::new().said(program);
     assert_eq!(count(&said, "FC901"), 1, "{said}");
-    assert!(said.contains("FC901 4:1 this control block depends on skip level 1"), "{said}");
-    assert!(said.contains("3:1: the unknown value comes from here"), "{said}");
+    assert!(
+        said.contains("FC901 4:1 this control block depends on skip level 1"),
+        "{said}"
+    );
+    assert!(
+        said.contains("3:1: the unknown value comes from here"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -135,7 +151,9 @@ fn a_block_that_may_be_skipped_only_perhaps_moves() {
 fn what_the_control_refuses_in_a_block_that_may_be_skipped_is_said() {
     // R2.90
     for bench in [Bench::new(), Bench::new().check_all()] {
-        let said = bench.said("/Z[COMP ON FRICT]\n/X[COMP ONN FRICT]\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30");
+        let said = bench.said(
+            "/Z[COMP ON FRICT]\n/X[COMP ONN FRICT]\nX[COMP OFF FRICT]\nX[COMP ON FRICT]\nM30",
+        );
         assert!(said.contains("P-ERR-70495 1:2"), "{said}");
         assert!(said.contains("FC202 2:"), "{said}");
         assert!(!said.contains("FC310"), "{said}");
@@ -145,7 +163,8 @@ fn what_the_control_refuses_in_a_block_that_may_be_skipped_is_said() {
 #[test]
 fn a_modal_cycle_may_be_repeated_after_a_skipped_block() {
     // R2.13 R2.90
-    let program = "%L S\nX[COMP OFF FRICT]\nM17\n%MAIN\nLL CYCLE [NAME=S MODAL_BLOCK]\nX[COMP ON FRICT]\nM30";
+    let program =
+        "%L S\nX[COMP OFF FRICT]\nM17\n%MAIN\nLL CYCLE [NAME=S MODAL_BLOCK]\nX[COMP ON FRICT]\nM30";
     let (x, _, said) = left(&Bench::new(), program);
     assert_eq!(x, State::Inactive, "{said}");
     let program = "%L S\nX[COMP OFF FRICT]\nM17\n%MAIN\nX[COMP ON FRICT]\nLL CYCLE [NAME=S MODAL_MOVE]\n#DISABLE MODAL CYCLE\nX[COMP ON FRICT]\nM30";
@@ -181,11 +200,17 @@ fn a_jump_beside_a_probe_may_be_taken() {
     let said = Bench::new().said("G310 X10 $GOTO N50\nX20\nN50: M30");
     assert_eq!(said, "");
     // Without a probe the jump is one.
-    let (x, ..) = left(&Bench::new(), "G1 X10 F100 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30");
+    let (x, ..) = left(
+        &Bench::new(),
+        "G1 X10 F100 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30",
+    );
     assert_eq!(x, State::Active);
     // Where the axis stopped, only the probe knows.
     let stands = Bench::new().positions("G90 G1 X1 F100\nG310 X10\nM30");
-    assert!(stands.lines().nth(1).is_some_and(|row| row.contains("X:?")), "{stands}");
+    assert!(
+        stands.lines().nth(1).is_some_and(|row| row.contains("X:?")),
+        "{stands}"
+    );
 }
 
 #[test]
@@ -194,7 +219,10 @@ fn an_unknown_jump_is_no_all_clear() {
     let program = "$IF V.E.A == 1 $GOTO N50\nX[COMP OFF FRICT]\nN50: M30";
     let said = Bench::new().said(program);
     assert!(!said.contains("assumes"), "{said}");
-    assert!(said.contains("FC902 1:1 whether this jump is taken depends on `V.E.A`"), "{said}");
+    assert!(
+        said.contains("FC902 1:1 whether this jump is taken depends on `V.E.A`"),
+        "{said}"
+    );
     assert!(said.contains("FC401"), "{said}");
 }
 
@@ -231,7 +259,10 @@ fn written_machine_data_transfers_the_list_again() {
     let (x, _, said) = left(&Bench::new(), &format!("X[COMP OFF FRICT]\n{other}\nM30"));
     assert_eq!(x, State::Unknown, "{said}");
     assert!(said.contains("FC314 2:1"), "{said}");
-    let (x, _, said) = left(&Bench::new(), &format!("$IF V.E.A==1\n{other}\n$ENDIF\nM30"));
+    let (x, _, said) = left(
+        &Bench::new(),
+        &format!("$IF V.E.A==1\n{other}\n$ENDIF\nM30"),
+    );
     assert_eq!(x, State::Unknown, "{said}");
 }
 
@@ -241,17 +272,28 @@ fn an_unknown_value_is_spoken_of_once_with_its_root() {
     let program = "$IF V.E.A == 1\nP1 = 3\n$ELSE\nP1 = 4\n$ENDIF\n$IF P1 == 3\nX[COMP OFF FRICT]\n$ENDIF\n$IF P1 == 4\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     let said = Bench::new().said(program);
     assert_eq!(count(&said, "FC901"), 1, "{said}");
-    assert!(said.contains("FC901 6:1 this control block depends on `V.E.A`"), "{said}");
+    assert!(
+        said.contains("FC901 6:1 this control block depends on `V.E.A`"),
+        "{said}"
+    );
     assert!(said.contains("including `FRICT` of `X`"), "{said}");
-    assert!(said.contains("1:1: the unknown value comes from here"), "{said}");
+    assert!(
+        said.contains("1:1: the unknown value comes from here"),
+        "{said}"
+    );
     // Another axis is another thing to say.
-    let program = "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.E.A == 2\nY[COMP OFF FRICT]\n$ENDIF\nM30";
+    let program =
+        "$IF V.E.A == 1\nX[COMP OFF FRICT]\n$ENDIF\n$IF V.E.A == 2\nY[COMP OFF FRICT]\n$ENDIF\nM30";
     assert_eq!(count(&Bench::new().said(program), "FC901"), 2);
     // Many equal calls.
     let said = Bench::new().said("L V.E.NAME\nL V.E.NAME\nX[COMP ON FRICT]\nL V.E.NAME\nM30");
     assert_eq!(count(&said, "FC902"), 1, "{said}");
-    let external = format!("[machine]\nexternal = [\"*.ecy\"]\n{}", crate::support::MACHINE);
-    let program = "L meas.ecy\nL meas.ecy\nL other.ecy\n$IF V.P.RESULT > 3\nX[COMP OFF FRICT]\n$ENDIF\nM30";
+    let external = format!(
+        "[machine]\nexternal = [\"*.ecy\"]\n{}",
+        crate::support::MACHINE
+    );
+    let program =
+        "L meas.ecy\nL meas.ecy\nL other.ecy\n$IF V.P.RESULT > 3\nX[COMP OFF FRICT]\n$ENDIF\nM30";
     let said = Bench::on(&external).said(program);
     assert_eq!(count(&said, "FC902"), 2, "{said}");
     assert!(!said.contains("FC311"), "{said}");
@@ -265,8 +307,14 @@ fn a_missing_program_is_the_root_of_what_it_would_have_written() {
     assert_eq!(count(&said, "FC320"), 1, "{said}");
     assert_eq!(count(&said, "FC311"), 0, "{said}");
     assert_eq!(count(&said, "FC901"), 1, "{said}");
-    assert!(said.contains("the program `meas.ecy`, which is not at hand"), "{said}");
-    assert!(said.contains("1:1: the unknown value comes from here"), "{said}");
+    assert!(
+        said.contains("the program `meas.ecy`, which is not at hand"),
+        "{said}"
+    );
+    assert!(
+        said.contains("1:1: the unknown value comes from here"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -339,12 +339,7 @@ impl Interpreter {
     }
 
     /// A jump that may be taken (R2.91): the dry run goes on after it.
-    pub(in crate::interpreter) fn leave_jump(
-        &mut self,
-        cause: &Arc<str>,
-        span: Span,
-        at: &At<'_>,
-    ) {
+    pub(in crate::interpreter) fn leave_jump(&mut self, cause: &Arc<str>, span: Span, at: &At<'_>) {
         if self.pass_jump(cause, at) {
             self.doubt_jump("whether this jump is taken", cause, span, at);
         }

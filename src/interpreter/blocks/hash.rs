@@ -107,7 +107,11 @@ impl Interpreter {
             .iter()
             .map(|(axis, kinds)| {
                 let kinds: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
-                format!("`{}` of `{}`", kinds.join(" "), self.machine.axis(*axis).name)
+                format!(
+                    "`{}` of `{}`",
+                    kinds.join(" "),
+                    self.machine.axis(*axis).name
+                )
             })
             .collect();
         let what = if friction {

@@ -31,7 +31,9 @@ impl Interpreter {
     /// modal words, parameters and variables (R2.52).
     pub(in crate::interpreter) fn forget_all(&mut self, cause: &Arc<str>) {
         if let Some(undecided) = &mut self.work.undecided {
-            undecided.differing.name("everything that a program can change");
+            undecided
+                .differing
+                .name("everything that a program can change");
         }
         self.forget_memory(cause);
         self.state.memory.forget_macros(cause, |_, _| false);

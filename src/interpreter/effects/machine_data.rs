@@ -126,7 +126,8 @@ fn numbered(machine: &Machine, number: Option<i64>) -> Vec<AxisIndex> {
     let has = |wanted: Option<u32>| {
         let axes = machine.axes.iter().enumerate();
         let axes = axes.filter(move |(_, axis)| axis.number == wanted);
-        axes.map(|(axis, _)| AxisIndex::new(axis)).collect::<Vec<_>>()
+        axes.map(|(axis, _)| AxisIndex::new(axis))
+            .collect::<Vec<_>>()
     };
     match number {
         None => (0..machine.axes.len()).map(AxisIndex::new).collect(),
@@ -165,7 +166,10 @@ mod tests {
             assert_eq!(named(text), Some(Named::Name("X")), "{text}");
             assert_eq!(written(text), Written::Friction, "{text}");
         }
-        assert_eq!(named("[AXNR=[P1 + 1] a=2]"), Some(Named::Number("[P1 + 1]")));
+        assert_eq!(
+            named("[AXNR=[P1 + 1] a=2]"),
+            Some(Named::Number("[P1 + 1]"))
+        );
         assert_eq!(named("[AXNR 2 a=2]"), Some(Named::Number("2")));
         assert_eq!(named("[P-CHAN-00001=0]"), None);
         assert_eq!(written("[AX=X kenngr.swe_pos=1]"), Written::Other);

@@ -10,12 +10,7 @@ use crate::text::Span;
 
 impl Interpreter {
     /// Remembers where an unknown value came in first.
-    pub(in crate::interpreter) fn enter_root(
-        &mut self,
-        cause: &Arc<str>,
-        span: Span,
-        at: &At<'_>,
-    ) {
+    pub(in crate::interpreter) fn enter_root(&mut self, cause: &Arc<str>, span: Span, at: &At<'_>) {
         self.state.told.enter(cause, || at.place(at.in_block(span)));
     }
 
@@ -48,7 +43,11 @@ impl Interpreter {
         let said = at.diagnostic(fault);
         let said = self.with_origin(said, cause, at);
         self.enter_root(cause, span, at);
-        if self.state.told.is_new(cause, [what.to_owned()], &said.place) {
+        if self
+            .state
+            .told
+            .is_new(cause, [what.to_owned()], &said.place)
+        {
             self.work.diagnostics.push(said);
         } else {
             self.work.withheld.push(said);

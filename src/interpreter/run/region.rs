@@ -90,7 +90,10 @@ impl Region {
     /// Whether it could move an axis.
     pub(in crate::interpreter) fn moves(&self) -> bool {
         let moves = |effect: &Effect| {
-            matches!(effect, Effect::Position(_) | Effect::Positions | Effect::All)
+            matches!(
+                effect,
+                Effect::Position(_) | Effect::Positions | Effect::All
+            )
         };
         self.effects.iter().any(moves)
     }

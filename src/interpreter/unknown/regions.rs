@@ -106,11 +106,7 @@ impl Interpreter {
     }
 
     /// Makes unknown what one block could change, which may be of lines that are not kept.
-    pub(in crate::interpreter) fn forget_block(
-        &mut self,
-        at: &At<'_>,
-        cause: &Arc<str>,
-    ) -> Region {
+    pub(in crate::interpreter) fn forget_block(&mut self, at: &At<'_>, cause: &Arc<str>) -> Region {
         let version = self.state.memory.macro_version();
         let region = self.suffer_block(at, cause);
         if self.state.memory.macro_version() != version {

@@ -74,7 +74,12 @@ impl Interpreter {
         if said >= self.work.diagnostics.len() {
             return;
         }
-        let mut doubted = self.work.doubted.get(doubted..).unwrap_or_default().to_vec();
+        let mut doubted = self
+            .work
+            .doubted
+            .get(doubted..)
+            .unwrap_or_default()
+            .to_vec();
         if !doubted.is_empty()
             && let Some(level) = decided_level(&cause)
         {
@@ -96,7 +101,10 @@ impl Interpreter {
         }
         // What has no name is said once, too.
         keys.push(String::new());
-        let shown: Vec<String> = kinds.iter().map(|(kind, axes)| of_axes(*kind, axes)).collect();
+        let shown: Vec<String> = kinds
+            .iter()
+            .map(|(kind, axes)| of_axes(*kind, axes))
+            .collect();
         differing.decides |= !shown.is_empty();
         let place = &self.work.diagnostics[said].place;
         let is_new = self.state.told.is_new(&cause, keys, place);
@@ -126,7 +134,9 @@ impl Interpreter {
             };
             if let Ok(Addressed::Axis(axis)) = self.addressed(name) {
                 let state = |kind: &Kind| self.state.compensation.state(axis, *kind);
-                let set = kinds.iter().filter(|kind| state(kind) != State::Unconfigured);
+                let set = kinds
+                    .iter()
+                    .filter(|kind| state(kind) != State::Unconfigured);
                 switched.push((axis, KindSet::from_iter(set)));
             }
         }

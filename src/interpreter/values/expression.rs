@@ -509,7 +509,9 @@ enum VariableKey {
 
 fn pop(stack: &mut Vec<Slot>) -> Slot {
     // Nothing stands where an operand should: that is no zero (R2.50).
-    stack.pop().unwrap_or_else(|| Ok(Value::Unknown("an expression".into())))
+    stack
+        .pop()
+        .unwrap_or_else(|| Ok(Value::Unknown("an expression".into())))
 }
 
 fn never_written(span: Span, text: &str) -> Box<Fault> {

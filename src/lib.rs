@@ -120,6 +120,6 @@ pub use diagnostic::{Code, Diagnostic, Severity};
 pub use facade::{check, currents, run};
 pub use machine::Machine;
 pub use session::Session;
-pub use syntax::parse_comp;
+pub use syntax::{NoSkipLevels, SkipLevels, parse_comp};
 pub use text::SourceFile;
 pub use timeline::{Record, Row};

@@ -61,6 +61,30 @@ fn only_what_counts_is_said_where_that_is_wanted() {
 }
 
 #[test]
+fn a_state_that_is_not_known_may_fail() {
+    // R2.98
+    let program = "N10 X[COMP OFF FRICT]\n/N20 X[COMP ON FRICT]\nN30 M30\n";
+    let known = "N10 X[COMP OFF FRICT]\n/N20 X[COMP ON FRICT]\nN25 X[COMP ON FRICT]\nN30 M30\n";
+    let moved =
+        "N10 X[COMP OFF FRICT]\n/N20 X[COMP ON FRICT]\nN22 G0 X5\nN25 X[COMP ON FRICT]\nN30 M30\n";
+    let bench = Bench::new(&[("a.nc", program), ("b.nc", known), ("c.nc", moved)]);
+    let status = |arguments: &[&str]| bench.call(arguments).status.code();
+    for command in ["check", "run"] {
+        let strict = [command, "--fail-on", "unknown"];
+        let of = |rest: &[&str]| status(&[&strict[..], rest].concat());
+        assert_eq!(status(&[command, "a.nc"]), Some(0), "{command}");
+        assert_eq!(of(&["a.nc"]), Some(1), "{command}");
+        assert_eq!(of(&["--skip", "none", "a.nc"]), Some(0), "{command}");
+        assert_eq!(of(&["b.nc"]), Some(0), "{command}");
+        assert_eq!(of(&["c.nc"]), Some(1), "{command}");
+    }
+    let audit = |program| status(&["audit", "--fail-on", "unknown", program]);
+    assert_eq!((audit("a.nc"), audit("b.nc")), (Some(1), Some(0)));
+    let said = stderr(&bench.call(&["check", "--fail-on", "unknown", "a.nc"]));
+    assert!(said.contains("`FRICT` of `X`"), "{said}");
+}
+
+#[test]
 fn codes_are_counted() {
     // R9.72
     let bench = Bench::new(&[("a.nc", LEAVE_OFF)]);

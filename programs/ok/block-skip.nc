@@ -1,5 +1,5 @@
 %SKIP
-; Without a skip level that is set, skipped blocks are executed
+; Whether skipped blocks are executed is a switch of the machine: unknown without `--skip`
 / N10 G01 X50 F1500
 /2 N20 G01 Y50
 /10 N30 X[COMP OFF FRICT]

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::console::{Console, Printed};
 use super::execution::ExecutionArgs;
 use super::exit;
-use super::fail_on::FailOn;
+use super::fail_on::{FailOn, of_axis};
 use super::failure::{Failure, shown};
 use super::failures::Failures;
 use super::html::Files;
@@ -20,8 +20,8 @@ use super::outputs::Outputs;
 use super::painted::difference;
 use super::settings;
 use super::severities::SeverityArgs;
-use crate::audit::{Archive, MendedEnd};
-use crate::comp::KindSet;
+use crate::audit::{Archive, MendedEnd, Selected};
+use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Severity;
 use crate::host::{
     ArchiveAuditor, AuditOptions, Input, Ledger, Machines, MendedProgram, find_programs, read_text,
@@ -176,7 +176,9 @@ impl AuditArgs {
         outputs.finish()?;
         self.machine.say_unread(&ledger, console);
         let errors = say_lists(&auditor, console);
-        failures.status(console, self.status(report.has_warnings(), errors))
+        let unknown = self.unknown_status(report.unknown(), console);
+        let status = self.status(report.has_warnings(), errors);
+        failures.status(console, status.max(unknown))
     }
 
     /// The programs that can run on their machines.
@@ -196,6 +198,19 @@ impl AuditArgs {
             options = options.with_workers(jobs);
         }
         failures.keep(ArchiveAuditor::new(inputs, machines, options))
+    }
+
+    /// The exit status of states that are not known, which are said where they count (R2.98).
+    fn unknown_status<'a>(
+        &self,
+        unknown: impl Iterator<Item = (&'a str, Kind)>,
+        console: Console,
+    ) -> u8 {
+        let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+        if let Some(remark) = self.fail_on.unknown_remark(&unknown) {
+            console.remark(&remark);
+        }
+        self.fail_on.unknown_status(&unknown)
     }
 
     fn status(&self, warnings: bool, errors: bool) -> u8 {
@@ -235,7 +250,11 @@ impl AuditArgs {
         let errors = say_lists(&auditor, console) || is_cut;
         let mut axes = steps.iter().flat_map(|step| &step.axes);
         let inherits = axes.any(|axis| axis.left_by.is_some());
-        failures.status(console, self.status(inherits, errors))
+        let axes = steps.iter().flat_map(|step| &step.axes);
+        let unknown = axes.filter(|axis| axis.end == Selected::Unknown);
+        let unknown = unknown.map(|axis| (axis.axis.as_str(), axis.kind));
+        let unknown = self.unknown_status(unknown, console);
+        failures.status(console, self.status(inherits, errors).max(unknown))
     }
 }
 

@@ -11,6 +11,7 @@ use clap::Args;
 
 use super::console::{Console, Printed, Target};
 use super::execution::ExecutionArgs;
+use super::fail_on::of_axis;
 use super::failure::Failure;
 use super::failures::Failures;
 use super::listing::{Lister, ListingArgs, Uncompensated, of_records, passed_over, total};
@@ -115,6 +116,9 @@ pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
         console.remark(&(total(listing.tally()) + &passed_over));
         listing.hint().iter().for_each(|hint| console.remark(hint));
     }
+    if let Some(remark) = listing.unknown_remark() {
+        console.remark(&remark);
+    }
     failures.status(console, listing.status())
 }
 
@@ -212,6 +216,7 @@ impl CheckArgs {
             for (axis, moves) in found.uncompensated {
                 listing.feed_moves(axis, &moves);
             }
+            listing.unknown(found.unknown);
             for (severity, more) in &found.unsaid {
                 listing.count(*severity, *more);
             }
@@ -232,6 +237,8 @@ struct Found {
     unsaid: BTreeMap<Severity, u64>,
     /// Its feed moves without compensation, by axes.
     uncompensated: Vec<(String, Uncompensated)>,
+    /// The states that are not known at its end or where their axis moves.
+    unknown: BTreeSet<String>,
 }
 
 /// Runs one program from the start of the control.
@@ -260,9 +267,12 @@ fn check_file(
     };
     let session = run_alone(input, loaded, alone, &mut sink)?;
     let unsaid = findings.unsaid(session.counts());
+    let unknown = session.unknown();
+    let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
     Ok(Found {
         findings,
         unsaid,
         uncompensated,
+        unknown,
     })
 }

@@ -76,6 +76,9 @@ fn append_machine(output: &mut String, loaded: &LoadedMachine) {
     if let Some(build) = machine.build {
         let _ = writeln!(output, "CNC build      {build}");
     }
+    if let Some(levels) = machine.skip {
+        let _ = writeln!(output, "skip levels    {levels}");
+    }
     if let Some(cycle) = machine.cycle_time_ms {
         let _ = writeln!(output, "cycle time     {cycle} ms");
     }

@@ -2,17 +2,19 @@
 
 use clap::Args;
 
-use super::settings::{self, SkipLevels};
 use crate::host::LoadedMachine;
 use crate::report::command_line;
 use crate::session::{Limits, Options, SessionOptions, StopPolicy};
+use crate::syntax::SkipLevels;
 
 /// What a dry run skips and where it ends.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Execution")]
 pub(super) struct ExecutionArgs {
-    /// Skip blocks that begin with `/`, by level: `1,3-5` or `all`
-    #[arg(long, value_name = "LEVELS", value_parser = settings::parse_levels)]
+    /// The skip levels that are on: `none`, `all` or `1,3-5`, where `/` is level 1; all others are
+    /// off. Without it and without `skip` in `[machine]` it is unknown whether the control executes
+    /// a block that begins with `/`
+    #[arg(long, value_name = "LEVELS")]
     skip: Option<SkipLevels>,
     /// The largest number of executed blocks
     #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
@@ -53,7 +55,7 @@ impl ExecutionArgs {
         };
         Options::default()
             .with_stop(stop)
-            .with_skip(self.skip.unwrap_or_default().0)
+            .with_skip(self.skip)
             .with_limits(limits)
     }
 

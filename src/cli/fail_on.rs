@@ -1,9 +1,10 @@
 //! The severity from which on a command fails.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use clap::ValueEnum;
 
+use crate::comp::Kind;
 use crate::diagnostic::Severity;
 
 /// From which severity on the exit status is 1.
@@ -16,6 +17,8 @@ pub(super) enum FailOn {
     Warning,
     /// Any message.
     Info,
+    /// An error, or a state that is not known at a program's end or where its axis moves.
+    Unknown,
     /// Nothing.
     Never,
 }
@@ -28,11 +31,28 @@ impl FailOn {
 
     fn least(self) -> Option<Severity> {
         match self {
-            Self::Error => Some(Severity::Error),
+            Self::Error | Self::Unknown => Some(Severity::Error),
             Self::Warning => Some(Severity::Warning),
             Self::Info => Some(Severity::Info),
             Self::Never => None,
         }
+    }
+
+    /// The exit status with states that are not known, and how they are named (R2.98).
+    pub(super) fn unknown_status(self, unknown: &BTreeSet<String>) -> u8 {
+        if self == Self::Unknown && !unknown.is_empty() {
+            super::exit::FOUND
+        } else {
+            super::exit::CLEAN
+        }
+    }
+
+    /// What is said about states that are not known, where they give the status 1.
+    pub(super) fn unknown_remark(self, unknown: &BTreeSet<String>) -> Option<String> {
+        let named: Vec<&str> = unknown.iter().map(String::as_str).collect();
+        let named = named.join(", ");
+        (self.unknown_status(unknown) != super::exit::CLEAN)
+            .then(|| format!("not known at the end of a program or where the axis moves: {named}"))
     }
 
     /// The exit status for how many diagnostics were said at each severity (R9.26).
@@ -44,6 +64,11 @@ impl FailOn {
             super::exit::CLEAN
         }
     }
+}
+
+/// How a kind of an axis is named where its state is not known.
+pub(super) fn of_axis(axis: &str, kind: Kind) -> String {
+    format!("`{kind}` of `{axis}`")
 }
 
 #[cfg(test)]
@@ -62,5 +87,11 @@ mod tests {
         counts.insert(Severity::Error, 1);
         assert_eq!(FailOn::Error.status(&counts), 1);
         assert_eq!(FailOn::Never.status(&counts), 0);
+        // R2.98
+        let unknown = BTreeSet::from(["FRICT of X".to_owned()]);
+        assert_eq!(FailOn::Unknown.status(&counts), 1);
+        assert_eq!(FailOn::Unknown.unknown_status(&unknown), 1);
+        assert_eq!(FailOn::Error.unknown_status(&unknown), 0);
+        assert_eq!(FailOn::Unknown.unknown_status(&BTreeSet::new()), 0);
     }
 }

@@ -1,6 +1,6 @@
 //! Diagnostics as `check` and `lists` list them: which of them, and in which form.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -85,6 +85,7 @@ impl ListingArgs {
             counted,
             counts: BTreeMap::new(),
             uncompensated: BTreeMap::new(),
+            unknown: BTreeSet::new(),
         })
     }
 }
@@ -98,6 +99,8 @@ pub(super) struct Lister<'a> {
     counts: BTreeMap<(Code, Severity), u64>,
     /// Feed moves without compensation, by the names of the axes.
     uncompensated: BTreeMap<String, Uncompensated>,
+    /// States that are not known.
+    unknown: BTreeSet<String>,
 }
 
 /// The feed moves of an axis without compensation, in all programs (R13.12).
@@ -140,6 +143,16 @@ impl Lister<'_> {
         axis.axis_type = of_program.axis_type;
         axis.moves.append(&of_program.moves);
         axis.programs += of_program.programs;
+    }
+
+    /// Takes states that are not known.
+    pub(super) fn unknown(&mut self, states: BTreeSet<String>) {
+        self.unknown.extend(states);
+    }
+
+    /// What is said about them, where they count for the exit status.
+    pub(super) fn unknown_remark(&self) -> Option<String> {
+        self.args.fail_on.unknown_remark(&self.unknown)
     }
 
     /// Counts diagnostics that are too many to be listed (R2.85).
@@ -197,7 +210,8 @@ impl Lister<'_> {
 
     /// The exit status that the list gives.
     pub(super) fn status(&self) -> u8 {
-        self.args.fail_on.status(&self.tally().counts)
+        let status = self.args.fail_on.status(&self.tally().counts);
+        status.max(self.args.fail_on.unknown_status(&self.unknown))
     }
 
     /// How to read more about what was said, once (R9.79).

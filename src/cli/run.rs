@@ -1,12 +1,13 @@
 //! `frictcomp run`: programs one after the other in one session of the control.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
 use super::console::{Console, Target};
 use super::execution::ExecutionArgs;
-use super::fail_on::FailOn;
+use super::fail_on::{FailOn, of_axis};
 use super::failure::Failure;
 use super::html::HtmlFile;
 use super::listing::explain;
@@ -233,7 +234,13 @@ pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
     if let (TimelineFormat::Text, Some(code)) = (args.format, hint) {
         console.remark(&explain(code));
     }
+    let unknown = start.session.unknown();
+    let unknown: BTreeSet<String> = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+    if let Some(remark) = args.fail_on.unknown_remark(&unknown) {
+        console.remark(&remark);
+    }
     let status = args.fail_on.status(start.session.counts());
+    let status = status.max(args.fail_on.unknown_status(&unknown));
     // Programs that did not run are no all-clear, whatever kept them from it.
     let unrun = (played.unrun > 0).then_some(super::exit::FOUND);
     Ok(status.max(unrun.unwrap_or_default()))

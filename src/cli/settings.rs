@@ -1,4 +1,4 @@
-//! Small languages of the options: `NAME=VALUE`, `1,3-5`, `FRICT,LEAD`.
+//! Small languages of the options: `NAME=VALUE`, `FRICT,LEAD`.
 
 use super::console::WIDTHS;
 use crate::comp::{Kind, KindSet};
@@ -11,13 +11,6 @@ pub(super) struct SetVariable {
     pub(super) name: String,
     pub(super) value: Setting,
 }
-
-/// Levels of blocks that are skipped; bit 1 is level 1 (R2.3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct SkipLevels(pub(super) u16);
-
-/// The highest level of skipped blocks.
-const LEVELS: u16 = 10;
 
 /// Parses `V.E.PART=3`; a value that is no number is a text.
 pub(super) fn parse_setting(text: &str) -> Result<SetVariable, String> {
@@ -70,33 +63,6 @@ pub(super) fn parse_width(text: &str) -> Result<usize, String> {
     })
 }
 
-/// Parses `1,3-5` or `all`.
-pub(super) fn parse_levels(text: &str) -> Result<SkipLevels, String> {
-    let mut levels = SkipLevels::default();
-    if text.eq_ignore_ascii_case("all") {
-        (1..=LEVELS).for_each(|level| levels.0 |= 1 << level);
-        return Ok(levels);
-    }
-    for part in text.split(',') {
-        let (first, last) = part.split_once('-').unwrap_or((part, part));
-        let (first, last) = (parse_level(first)?, parse_level(last)?);
-        if first > last {
-            return Err(format!("`{part}` runs backwards"));
-        }
-        (first..=last).for_each(|level| levels.0 |= 1 << level);
-    }
-    Ok(levels)
-}
-
-fn parse_level(text: &str) -> Result<u16, String> {
-    let level = text.trim().parse().ok();
-    level
-        .filter(|level| (1..=LEVELS).contains(level))
-        .ok_or_else(|| {
-            format!("`{text}` is not a level from 1 to {LEVELS}; write `1,3-5` or `all`")
-        })
-}
-
 /// Parses `FRICT,LEAD` or `all`.
 pub(super) fn parse_kinds(text: &str) -> Result<KindSet, String> {
     if text.eq_ignore_ascii_case("all") {
@@ -136,15 +102,6 @@ mod tests {
         assert_eq!(value("p4=1"), Setting::Number(1.0));
         assert_eq!(value("@P4=1"), Setting::Number(1.0));
         assert_eq!(value("V.E.NAME=\"\""), Setting::Text(String::new()));
-    }
-
-    #[test]
-    fn levels_are_numbers_and_ranges() {
-        assert_eq!(parse_levels("1,3-5").unwrap().0, 0b11_1010);
-        assert_eq!(parse_levels("ALL").unwrap().0, 0b111_1111_1110);
-        for wrong in ["", "0", "11", "5-3", "1,,2", "-1", "x"] {
-            assert!(parse_levels(wrong).is_err(), "{wrong}");
-        }
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub(crate) fn example(key: &str) -> Option<&'static str> {
 }
 
 /// A row a key.
-const EXAMPLES: [(&str, &str); 22] = [
+const EXAMPLES: [(&str, &str); 23] = [
     ("machine", "write `[machine]`, in single brackets"),
     (
         "axis",
@@ -58,6 +58,10 @@ const EXAMPLES: [(&str, &str); 22] = [
     (
         "cycle_time_ms",
         "write `cycle_time_ms = 1.0` for a CNC cycle of 1 ms",
+    ),
+    (
+        "skip",
+        "write `skip = \"none\"`, or `skip = [1, 3]` for the levels that are on",
     ),
     ("cnc_build", "write `cnc_build = \"3.1.3132.0\"`"),
     ("program_dirs", "write `program_dirs = [\"cycles\"]`"),

@@ -4,6 +4,7 @@ use super::error::ConfigError;
 use super::section::{Section, Shape};
 use crate::comp::{CncBuild, NoBuild};
 use crate::lists::Given;
+use crate::syntax::SkipLevels;
 
 /// What `[machine]` says.
 #[derive(Debug, Clone, Default)]
@@ -34,6 +35,8 @@ pub(crate) struct MachineTable {
     pub(crate) harmless: Vec<Given<String>>,
     /// Whether P parameters outlive a program.
     pub(crate) keep_parameters: bool,
+    /// The skip levels that are on.
+    pub(crate) skip: Option<SkipLevels>,
 }
 
 pub(super) const MACHINE: Shape = Shape {
@@ -46,6 +49,7 @@ pub(super) const MACHINE: Shape = Shape {
         "start_program",
         "end_program",
         "keep_parameters",
+        "skip",
         "programs",
         "external",
         "external_keeps",
@@ -82,6 +86,7 @@ impl MachineTable {
             keep_parameters: section
                 .truth("keep_parameters")?
                 .is_some_and(|given| given.value),
+            skip: section.skip_levels("skip")?,
             ..Self::default()
         };
         let patterns = section.strings("external")?;

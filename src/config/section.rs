@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 use super::advice::example;
 use super::error::ConfigError;
 use crate::lists::{Given, Number, Written};
+use crate::syntax::SkipLevels;
 use crate::text::{SourceFile, Span};
 
 /// What a table is called and which keys it may have.
@@ -132,6 +133,28 @@ impl<'a> Section<'a> {
             }
         }
         Ok(texts)
+    }
+
+    /// Skip levels: `"none"`, `"all"`, a list of levels or texts as `"1,3-5"`.
+    pub(super) fn skip_levels(&self, key: &str) -> Result<Option<SkipLevels>, ConfigError> {
+        const WANTED: &str = "`\"none\"`, `\"all\"` or a list of levels from 1 to 10";
+        let Some(value) = self.table.get(key) else {
+            return Ok(None);
+        };
+        let level = |value: &Spanned<DeValue<'_>>| match self.written(value)?.number? {
+            Number::Integer(level) => u8::try_from(level).ok(),
+            _ => None,
+        };
+        let levels = match value.get_ref() {
+            DeValue::String(text) => text.parse().ok(),
+            DeValue::Array(values) => values
+                .iter()
+                .try_fold(SkipLevels::NONE, |levels, value| levels.with(level(value)?)),
+            _ => level(value).and_then(|level| SkipLevels::NONE.with(level)),
+        };
+        levels
+            .map(Some)
+            .ok_or_else(|| self.expected(value, key, WANTED))
     }
 
     /// A truth value, also as `0` or `1`.

@@ -60,6 +60,8 @@ pub enum Advice {
     DescribeMachine(Vec<String>),
     /// Give this parameter or variable its value.
     SetVariable(String),
+    /// Say which skip levels are on, of which the blocks of this one wait.
+    SetSkip(u8),
     /// Write this parameter or variable before it is read, or give it its value.
     AssignVariable(String),
     /// Test the value of the machine that ends the loop in its condition, and give it.
@@ -161,6 +163,10 @@ impl fmt::Display for Advice {
             Self::SetVariable(name) => {
                 write!(f, "give `{name}` its value, in `[variables]` of frictcomp.toml for instance")
             }
+            Self::SetSkip(level) => write!(
+                f,
+                "say which skip levels are on: `skip = [{level}]` or `skip = \"none\"` in `[machine]` of frictcomp.toml"
+            ),
             Self::AssignVariable(name) => {
                 write!(f, "assign it first, `{name} = …`, or give it its value")
             }

@@ -6,6 +6,7 @@ use super::programs::ConfiguredPrograms;
 use crate::comp::{AxisIndex, AxisSetup, CncBuild, Compensation};
 use crate::diagnostic::NamedFix;
 use crate::lists::{ChannelSettings, Origin};
+use crate::syntax::SkipLevels;
 
 /// Where the axes of a machine come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -41,6 +42,8 @@ pub struct Machine {
     pub harmless: HarmlessWords,
     /// What a program start does to P parameters.
     pub parameters: Parameters,
+    /// The skip levels that are on, where the configuration says so (R2.90).
+    pub skip: Option<SkipLevels>,
     /// What the channel list says about motion.
     pub channel: ChannelSettings,
 }

@@ -70,6 +70,7 @@ impl Configuration {
         }
         self.machine.cycle_time_ms = table.cycle_time_ms;
         self.machine.build = table.build;
+        self.machine.skip = table.skip;
         self.program_dirs.clone_from(&table.program_dirs);
         if table.keep_parameters {
             self.machine.parameters = Parameters::Kept;

@@ -60,7 +60,7 @@ pub(super) fn all_home(axes: &[AxisSummary], footing: Footing) -> &'static str {
         }
         Footing::Known => "Every axis is as at the start of the control.",
         Footing::Assumed => {
-            "Every axis is as at the start of the control if what FC902 assumes is so."
+            "Every axis is as at the start of the control as far as it is known: see FC902."
         }
     }
 }

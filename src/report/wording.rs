@@ -25,6 +25,9 @@ pub fn command_line(advice: &Advice) -> Option<String> {
         Advice::SetVariable(name) => {
             format!("give it with `--set {name}=VALUE` or in `[variables]` of frictcomp.toml")
         }
+        Advice::SetSkip(level) => format!(
+            "say which skip levels are on, with `--skip {level}` or `--skip none`, or with `skip` in `[machine]` of frictcomp.toml"
+        ),
         Advice::AssignVariable(name) => {
             format!("assign it first, `{name} = …`, or give it with `--set {name}=VALUE`")
         }

@@ -13,7 +13,7 @@ mod said;
 mod saved;
 mod undescribed;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -192,6 +192,7 @@ impl Session {
                 changes: vec![0; axes],
                 footing: Footing::Known,
                 feed_moves: FeedMoveCounter::new(axes),
+                unknown: BTreeSet::new(),
             },
             notes: NoteBook::default(),
         }
@@ -337,6 +338,7 @@ impl Session {
             allows: HashMap::new(),
             here: Vec::new(),
             broken: false,
+            doubtful: false,
         };
         let mut listen = |event: Event<'_>| recorder.event(event);
         let outcome = match program {
@@ -360,6 +362,13 @@ impl Session {
     /// How many diagnostics were said at each severity.
     pub fn counts(&self) -> &BTreeMap<Severity, u64> {
         &self.tally.counts
+    }
+
+    /// The configured kinds of each axis that were not known at a program's end or where the axis
+    /// moved (R2.98).
+    pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
+        let unknown = self.tally.unknown.iter();
+        unknown.map(|(axis, kind)| (self.machine.axis(*axis).name.as_str(), *kind))
     }
 
     /// Says the summary.

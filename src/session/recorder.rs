@@ -1,11 +1,11 @@
 //! Events of a program become records: lints are added, the user's severities and `allow` comments
 //! applied, everything is counted.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::comp::{AxisIndex, Kind, State};
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet, State};
 use crate::diagnostic::{Code, Diagnostic, Fix, Levels, Severity, Wording};
 use crate::interpreter::{Ended, Event, Executed, Note, NoteKind};
 use crate::lint::{Linter, Told};
@@ -40,6 +40,8 @@ pub(super) struct Tally {
     pub(super) changes: Vec<u64>,
     pub(super) footing: Footing,
     pub(super) feed_moves: FeedMoveCounter,
+    /// The configured kinds that were unknown at a program's end or where their axis moved.
+    pub(super) unknown: BTreeSet<(AxisIndex, Kind)>,
 }
 
 impl Tally {
@@ -86,6 +88,8 @@ pub(super) struct Recorder<'a> {
     /// What the comments of the block allow.
     pub(super) here: Vec<Code>,
     pub(super) broken: bool,
+    /// Whether a configured kind of an axis is unknown at the moment.
+    pub(super) doubtful: bool,
 }
 
 impl Recorder<'_> {
@@ -101,6 +105,7 @@ impl Recorder<'_> {
                     self.linter.named(name);
                 }
                 self.linter.starts(compensation);
+                self.doubtful = self.is_doubtful(compensation);
                 self.sink.record(&Record::Program {
                     program: self.program,
                     file: self.file,
@@ -129,6 +134,9 @@ impl Recorder<'_> {
         self.said.clear();
         if !self.is_quiet(executed) {
             self.judge(executed);
+        }
+        if self.doubtful {
+            self.note_unknown_motion(executed);
         }
         self.sink.record(&Record::Block(Row {
             program: self.program,
@@ -159,9 +167,32 @@ impl Recorder<'_> {
             && executed.diagnostics.is_empty()
             && executed.outcomes.is_empty()
             && executed.changes.is_empty()
+            && executed.doubted.is_empty()
             && executed.comments == Comments::Absent
             && executed.remark.is_none()
             && self.linter.knows(executed.moved)
+    }
+
+    /// The configured kinds of an axis that are unknown.
+    fn unknown_of(&self, compensation: &Compensation, axis: AxisIndex) -> KindSet {
+        let configured = self.machine.axis(axis).configured;
+        compensation.unknown(axis).intersection(configured)
+    }
+
+    fn is_doubtful(&self, compensation: &Compensation) -> bool {
+        let mut axes = (0..compensation.len()).map(AxisIndex::new);
+        axes.any(|axis| !self.unknown_of(compensation, axis).is_empty())
+    }
+
+    /// Remembers what is unknown where its axis moves (R2.98).
+    #[cold]
+    fn note_unknown_motion(&mut self, executed: &Executed<'_>) {
+        let moved = executed.moved.iter().map(|word| word.axis);
+        for axis in moved.chain(executed.perhaps_moved.iter().copied()) {
+            let kinds = self.unknown_of(executed.compensation, axis);
+            let kinds = kinds.iter().map(|kind| (axis, kind));
+            self.tally.unknown.extend(kinds);
+        }
     }
 
     #[inline(never)]
@@ -191,9 +222,13 @@ impl Recorder<'_> {
         self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
         self.note_allows(executed);
+        for withheld in executed.withheld {
+            is_allowed(&mut self.allows, withheld, executed.line);
+        }
         if !self.said.is_empty() {
             self.filter(executed.line);
         }
+        self.doubtful = self.is_doubtful(executed.compensation);
         for change in executed.changes {
             if change.kind == Kind::Frict {
                 self.note_change(executed, change.axis, change.to);
@@ -297,6 +332,11 @@ impl Recorder<'_> {
     #[inline(never)]
     fn ended(&mut self, ended: &Ended<'_>) -> ControlFlow<()> {
         self.tally.note_footing(ended.diagnostics);
+        for axis in (0..ended.compensation.len()).map(AxisIndex::new) {
+            let kinds = self.unknown_of(ended.compensation, axis);
+            let kinds = kinds.iter().map(|kind| (axis, kind));
+            self.tally.unknown.extend(kinds);
+        }
         let foreign = self.foreign.take();
         let said = foreign.iter().chain(ended.diagnostics);
         let mut notes: Vec<EndNote> = said

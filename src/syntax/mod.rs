@@ -28,6 +28,7 @@ mod mask;
 mod parse;
 mod raw;
 mod scan;
+mod skip_levels;
 mod unread;
 mod upper_case;
 
@@ -59,6 +60,7 @@ pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 pub use raw::{LostRemarks, RawBlock, Stretch};
 
 pub(crate) use scan::{SwitchScan, calls_files, code_words, has_axis_word};
+pub use skip_levels::{NoSkipLevels, SkipLevels};
 pub(crate) use unread::not_known;
 
 #[cfg(test)]

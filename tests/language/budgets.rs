@@ -422,7 +422,7 @@ fn a_region_in_a_loop_is_looked_through_once() {
     assert!(a_pass < 400, "{a_pass}");
     assert_eq!(often.states[0], ("X".to_owned(), "unknown".to_owned()));
     let asks = format!(
-        "{}$IF P5==3 $GOTO N99\nN99: M30",
+        "{}$IF P5==3 $GOTO N99\nY[COMP OFF FRICT]\nN99: M30",
         program(3).replace("M30", "")
     );
     assert!(
@@ -434,13 +434,12 @@ fn a_region_in_a_loop_is_looked_through_once() {
 #[test]
 fn a_computed_target_in_a_region_may_be_any() {
     // R2.51
-    let text =
-        "P3=1\nP4=1\nP2=3\n$WHILE V.E.X\nPP2=5\nP2=P2+1\n$ENDWHILE\n$IF P4==1 $GOTO N9\nN9: M30";
+    let text = "P3=1\nP4=1\nP2=3\n$WHILE V.E.X\nPP2=5\nP2=P2+1\n$ENDWHILE\n$IF P4==1 $GOTO N9\nX[COMP OFF FRICT]\nN9: M30";
     assert!(
         run(text).codes().contains(&"FC902"),
         "P4 may have been written"
     );
-    let text = "V.P.A[1]=1\nV.P.A[2]=1\nP2=1\n$WHILE V.E.X\nV.P.A[P2]=5\nP2=P2+1\n$ENDWHILE\n$IF V.P.A[2]==1 $GOTO N9\nN9: M30";
+    let text = "V.P.A[1]=1\nV.P.A[2]=1\nP2=1\n$WHILE V.E.X\nV.P.A[P2]=5\nP2=P2+1\n$ENDWHILE\n$IF V.P.A[2]==1 $GOTO N9\nX[COMP OFF FRICT]\nN9: M30";
     assert!(
         run(text).codes().contains(&"FC902"),
         "V.P.A[2] may have been written"

@@ -8,6 +8,7 @@ mod not_understood;
 mod parts;
 mod places;
 mod programs;
+mod skipping;
 mod text;
 mod unknown;
 mod ways;

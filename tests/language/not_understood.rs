@@ -165,7 +165,7 @@ fn an_unreadable_condition_opens_its_block_and_is_said_once() {
         }
     }
     // What follows from it later is said, in words that fit.
-    let said = Bench::new().said("P1=FOO[1]\n$IF P1 == 1\n$ENDIF\nM30");
+    let said = Bench::new().said("P1=FOO[1]\n$IF P1 == 1\nX[COMP OFF FRICT]\n$ENDIF\nM30");
     assert!(
         said.contains("depends on `FOO[1]`, which frictcomp does not know"),
         "{said}"
@@ -203,7 +203,6 @@ fn conditional_interpretation_is_executed() {
         (format!("$IF TRUE\n#IF FALSE\n{off}\n#ENDIF\n$ENDIF"), false),
         (format!("#if true\n{off}\n#endif"), true),
         (format!("#IF TRUE $GOTO N9\n{off}\nN9: X1"), false),
-        (format!("/#IF TRUE\n{off}\n/#ENDIF"), true),
     ] {
         let text = run(&format!("{program}\nM30"));
         assert_eq!(
@@ -213,6 +212,9 @@ fn conditional_interpretation_is_executed() {
         );
         assert!(!text.contains("Y:active>"), "{program}: {text}");
     }
+    let marked = format!("/#IF TRUE\n{off}\n/#ENDIF\nM30");
+    let text = Bench::new().skip("none").run(&[&marked]);
+    assert!(text.contains("X:active>inactive"), "{text}");
     let said = Bench::new().said("X1\n#IF 1\nX2\nM30");
     assert!(
         said.contains("`#IF` has no `#ENDIF`") && said.contains(" 2:1"),
@@ -418,7 +420,7 @@ fn values_are_named_as_the_program_writes_them_and_given_by_that_name() {
     // The name itself is told apart by its case (P-EXTV-00001).
     let other = Bench::new()
         .set("V.E.PART", 2.0)
-        .said("$IF V.E.Part > 1\nX1\n$ENDIF\nM30");
+        .said("$IF V.E.Part > 1\nX[COMP OFF FRICT]\n$ENDIF\nM30");
     assert!(other.contains("FC901"), "{other}");
     // Parameters and variables of programs, too.
     let bench = Bench::new().set("p5", 3.0).set("v.p.a", 4.0);
@@ -442,7 +444,8 @@ fn what_the_user_declares_harmless_is_passed_over() {
         ("#SHOP", false),
         ("#OTHER", false),
     ] {
-        let program = format!("P1=1\n{line}\n$IF P1==1\nX1\n$ENDIF\nX[COMP ON FRICT]\nM30");
+        let program =
+            format!("P1=1\n{line}\n$IF P1==1\nX[COMP OFF FRICT]\n$ENDIF\nX[COMP ON FRICT]\nM30");
         let said = bench.said(&program);
         assert_eq!(!said.contains("FC210"), silent, "{line}: {said}");
         assert_eq!(!said.contains("FC901"), silent, "{line}: {said}");

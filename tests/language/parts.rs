@@ -95,7 +95,7 @@ fn a_part_of_another_program() {
     }
     // A part of skipped blocks only is not gone through without end.
     let skipped = "/N10 X1\nL SEQUENCE [N10 N10 REPEAT=9000000000]\nM30";
-    assert!(Bench::new().skip(2).run(&[skipped]).contains("end 2 M30"));
+    assert!(Bench::new().skip("1").run(&[skipped]).contains("end 2 M30"));
 }
 
 #[test]

@@ -53,7 +53,7 @@ fn a_block_is_a_line() {
 fn blocks_are_skipped_by_level() {
     // R2.3
     let program = "/N10 X[COMP OFF FRICT]\n/2 N20 Y[COMP OFF FRICT]\n/10N30 X[COMP ON FRICT]\n/ Y[COMP ON FRICT]\nM30";
-    assert_snapshot!(run(program), @"
+    assert_snapshot!(Bench::new().skip("none").run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 N10 X:active>inactive
@@ -63,7 +63,7 @@ fn blocks_are_skipped_by_level() {
       5 line 5 -
       end 5 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
-    assert_snapshot!(Bench::new().skip(1 << 1).run(&[program]), @"
+    assert_snapshot!(Bench::new().skip("1").run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 2 N20 Y:active>inactive
@@ -72,7 +72,7 @@ fn blocks_are_skipped_by_level() {
         FC401 2:8-25
       end 3 M30 X:active Y:inactive Z:unconfigured B:ineffective
     ");
-    assert_snapshot!(Bench::new().skip(1 << 2 | 1 << 10).run(&[program]), @"
+    assert_snapshot!(Bench::new().skip("2,10").run(&[program]), @"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
       1 line 1 N10 X:active>inactive

@@ -56,7 +56,6 @@ fn unknown_branches_are_not_executed() {
       9 line 15 - Y:inactive>active
       10 line 16 -
       11 line 17 -
-        FC901 17:1-10
       12 line 19 -
       end 12 M30 X:active Y:active Z:unconfigured B:ineffective
     ");

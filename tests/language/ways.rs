@@ -123,7 +123,7 @@ fn what_another_way_leaves_otherwise_is_unknown() {
         for handed in [Handed::Whole, Handed::LineByLine] {
             let (claimed, said) = left(&bench().handed(handed), program);
             assert_eq!(claimed, expected, "{program}\n{said}");
-            assert!(said.contains("FC902"), "{program}\n{said}");
+            assert!(said.contains("FC90"), "{program}\n{said}");
         }
         for value in [0.0, 1.0, 2.0] {
             let (left, said) = left(&bench().set("V.E.A", value), program);
@@ -172,7 +172,7 @@ fn a_condition_that_cannot_be_computed_is_unknown() {
 fn skipped_blocks_change_nothing_in_a_branch_either() {
     // R2.3 R2.51
     let program = "$IF V.E.A==1\n/X[COMP OFF FRICT]\n$ENDIF\nM30";
-    assert_eq!(left(&Bench::new().skip(1 << 1), program).0, State::Active);
+    assert_eq!(left(&Bench::new().skip("1"), program).0, State::Active);
     assert_eq!(left(&Bench::new(), program).0, State::Unknown);
 }
 

@@ -309,13 +309,14 @@ fn hash_commands() {
     assert_snapshot!(run("#MACHINE DATA [AX=X lr_param.frict_comp 0]\n#MACHINE DATA [AX=X frict_comp.mode 0]\n#MACHINE DATA [AX=X other 1]\nM30"), @r##"
     start X:active Y:active Z:unconfigured B:ineffective
     a.nc -
-      1 line 1 -
+      1 line 1 - X:active>unknown
         FC314 1:1-43
       2 line 2 -
         FC314 2:1-39
       3 line 3 -
       4 line 4 -
-      end 4 M30 X:active Y:active Z:unconfigured B:ineffective
+        FC401 2:1-39
+      end 4 M30 X:unknown Y:active Z:unconfigured B:ineffective
     opaque {"#MACHINE DATA": 3}
     "##);
 }

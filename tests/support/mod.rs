@@ -77,8 +77,8 @@ impl Bench {
         self
     }
 
-    pub(crate) fn skip(mut self, levels: u16) -> Self {
-        self.options.run.skip = levels;
+    pub(crate) fn skip(mut self, levels: &str) -> Self {
+        self.options.run.skip = levels.parse().ok();
         self
     }
 

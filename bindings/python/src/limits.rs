@@ -1,5 +1,6 @@
 //! What limits a dry run.
 
+use frictcomp::SkipLevels;
 use frictcomp::session::{Limits, Options};
 use pyo3::prelude::*;
 
@@ -7,9 +8,6 @@ use crate::failure::refused;
 
 /// The deepest nesting of macros that can be allowed.
 const MACROS: u32 = 64;
-
-/// The highest level of skipped blocks.
-const LEVELS: u16 = 10;
 
 /// What a dry run skips and where it ends, with the numbers of the command line.
 #[pyclass(frozen, name = "Limits", module = "frictcomp")]
@@ -28,7 +26,7 @@ impl PyLimits {
         calls: Option<u32>,
         nesting: Option<u32>,
         macros: Option<u32>,
-        skip: Option<Vec<u16>>,
+        skip: Option<Vec<u8>>,
     ) -> PyResult<Self> {
         let mut limits = Limits::default();
         limits.blocks = blocks.unwrap_or(limits.blocks);
@@ -45,15 +43,14 @@ impl PyLimits {
                 "macros can be nested from 1 to {MACROS} deep"
             )));
         }
-        let mut levels = 0;
-        for level in skip.unwrap_or_default() {
-            if !(1..=LEVELS).contains(&level) {
-                return Err(refused(format!(
-                    "{level} is not a level from 1 to {LEVELS}"
-                )));
-            }
-            levels |= 1 << level;
-        }
+        let levels = skip.map(|levels| {
+            levels.iter().try_fold(SkipLevels::NONE, |on, level| {
+                let highest = SkipLevels::HIGHEST;
+                let refuse = || refused(format!("{level} is not a level from 1 to {highest}"));
+                on.with(*level).ok_or_else(refuse)
+            })
+        });
+        let levels = levels.transpose()?;
         Ok(Self(
             Options::default().with_limits(limits).with_skip(levels),
         ))

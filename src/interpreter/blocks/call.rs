@@ -51,7 +51,7 @@ impl Interpreter {
                     format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", unknown_value(&cause)),
                 )
                 .with_help(how_to_set(&cause));
-                self.work.diagnostics.push(at.diagnostic(fault));
+                self.tell_once(&cause, "call", fault, at);
                 Ok(None)
             }
             Value::Number(_) => Err(Box::new(Fault::new(

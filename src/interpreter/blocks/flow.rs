@@ -13,7 +13,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::Step;
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::cause::{how_to_set, skip_level, unknown_value};
 use crate::interpreter::values::functions::finite;
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
@@ -42,8 +42,7 @@ impl Interpreter {
         }
         let value = self.value(*condition, at)?;
         if let Value::Unknown(cause) = &value {
-            self.assume_no_jump("whether this jump is taken", cause, flow_span(at.block), at);
-            self.pass_jump(cause, at);
+            self.leave_jump(cause, flow_span(at.block), at);
             return Ok(Some(false));
         }
         let truth = value.truth();
@@ -71,6 +70,9 @@ impl Interpreter {
         }
         let links = index.links(entry);
         let after = Step::Jump(links.end + 1);
+        if let Some(level) = self.split_level() {
+            return Ok(self.skip_unknown(entry..links.end, &skip_level(level), span, at));
+        }
         Ok(match flow {
             Flow::If(condition) => self.branch(*condition, links.next, span, at)?,
             Flow::ElseIf(condition) => match seeking {
@@ -304,8 +306,9 @@ impl Interpreter {
             Value::Number(number) => LabelName::numbered(*number),
             Value::Text(name) => LabelName::Text(name.trim_matches(['[', ']']).to_owned()),
             Value::Unknown(cause) => {
-                self.assume_no_jump("where this jump goes", cause, span, at);
-                self.note_jump(&Exit::AnyLabel, cause);
+                if self.note_jump(&Exit::AnyLabel, cause) {
+                    self.doubt_jump("where this jump goes", cause, span, at);
+                }
                 return Ok(None);
             }
         };
@@ -335,14 +338,23 @@ impl Interpreter {
         }
     }
 
-    /// Passes over the jump of a block, which may be taken.
-    pub(in crate::interpreter) fn pass_jump(&mut self, cause: &Arc<str>, at: &At<'_>) {
+    /// A jump that may be taken (R2.91): the dry run goes on after it.
+    pub(in crate::interpreter) fn leave_jump(&mut self, cause: &Arc<str>, span: Span, at: &At<'_>) {
+        if self.pass_jump(cause, at) {
+            self.doubt_jump("whether this jump is taken", cause, span, at);
+        }
+    }
+
+    /// Passes over the jumps of a block, which may be taken; whether anything differs where they are.
+    pub(in crate::interpreter) fn pass_jump(&mut self, cause: &Arc<str>, at: &At<'_>) -> bool {
+        let mut differs = false;
         for item in &at.block.items {
             if let Item::Flow(Flow::Goto(target), _) = item {
                 let exit = self.exit(target, at).unwrap_or(Exit::AnyLabel);
-                self.note_jump(&exit, cause);
+                differs |= self.note_jump(&exit, cause);
             }
         }
+        differs
     }
 
     /// Passes over what a statement decides whose operands cannot be computed.
@@ -356,10 +368,10 @@ impl Interpreter {
         let whole = self.current_block();
         let region = match flow {
             Flow::Goto(_) => {
-                self.note_jump(&Exit::AnyLabel, cause);
+                let _ = self.note_jump(&Exit::AnyLabel, cause);
                 return None;
             }
-            Flow::EndFor | Flow::EndDo(_) | Flow::Until(_) => {
+            Flow::EndFor | Flow::EndDo(_) | Flow::EndWhile | Flow::Until(_) => {
                 let frame = self.state.frames.running()?;
                 self.programs.index(frame.unit).links(whole.start).opener..whole.start
             }
@@ -382,16 +394,17 @@ impl Interpreter {
         })
     }
 
-    /// FC902: a jump that is not known offline is not taken (R2.52).
-    fn assume_no_jump(&mut self, what: &str, cause: &str, span: Span, at: &At<'_>) {
+    /// FC902: a jump that is not known offline (R2.91).
+    fn doubt_jump(&mut self, what: &str, cause: &Arc<str>, span: Span, at: &At<'_>) {
         if self.work.unread.get() {
             return;
         }
         let value = unknown_value(cause);
-        let message =
-            format!("{what} depends on {value}; the rest of the run assumes that it is not");
+        let message = format!(
+            "{what} depends on {value}; the dry run goes on after it, and where both ways meet what differs is unknown"
+        );
         let fault = Fault::new(Code::Fc902, span, message).with_help(how_to_set(cause));
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.tell_once(cause, what, fault, at);
     }
 }
 

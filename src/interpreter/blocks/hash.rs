@@ -6,6 +6,7 @@ use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::chain;
 use crate::interpreter::effects::descriptions::description_end;
 use crate::interpreter::effects::exchange::is_exchange;
+use crate::interpreter::effects::machine_data::{Written, is_machine_data, written};
 use crate::interpreter::programs::file_names::is_file_name;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::cycles::ModalCycles;
@@ -85,15 +86,8 @@ impl Interpreter {
                 };
                 self.pass_over(word, hash.span, at);
                 self.touch(hash, at);
-                if name.starts_with("#MACHINE DATA") && names_friction(rest) {
-                    return Err(Box::new(
-                        Fault::new(
-                            Code::Fc314,
-                            hash.span,
-                            "the program writes friction parameters into the machine data",
-                        )
-                        .with_help("from here on the machine may differ from its lists; this run continues with the lists"),
-                    ));
+                if is_machine_data(name) {
+                    self.write_machine_data(hash, at);
                 }
             }
         }
@@ -151,6 +145,46 @@ impl Interpreter {
         self.work.diagnostics.push(at.diagnostic(fault));
     }
 
+    /// FC314: the whole list of the axis is transferred again (R2.92).
+    fn write_machine_data(&mut self, hash: &Hash, at: &At<'_>) {
+        let text = hash.rest.of(at.text);
+        let lost = self.transferred(hash, at);
+        let friction = written(text) == Written::Friction;
+        if lost.is_empty() && !friction {
+            return;
+        }
+        let doubts = self.work.doubted.len();
+        for (axis, kinds) in lost {
+            self.doubt(axis, kinds);
+        }
+        let doubted = self.work.doubted.get(doubts..).unwrap_or_default();
+        let named: Vec<String> = doubted
+            .iter()
+            .map(|(axis, kinds)| {
+                let kinds: Vec<&str> = kinds.iter().map(Kind::as_str).collect();
+                format!(
+                    "`{}` of `{}`",
+                    kinds.join(" "),
+                    self.machine.axis(*axis).name
+                )
+            })
+            .collect();
+        let what = if friction {
+            "the program writes a parameter of friction compensation into the machine data"
+        } else {
+            "the control transfers the whole list of the axis again, over what NC commands had set"
+        };
+        let message = match named.as_slice() {
+            [] if !friction => return,
+            [] => what.to_owned(),
+            named => format!("{what}; {} is unknown from here on", named.join(", ")),
+        };
+        let fault = Fault::new(Code::Fc314, hash.span, message)
+            .with_help("set the state after it, with `X[COMP ON FRICT]` for instance");
+        let diagnostic = at.diagnostic(fault);
+        self.work.diagnostics.push(diagnostic);
+    }
+
     /// `#RT WHILE` runs as long as a variable of real time says so (tf5261, 783727499).
     fn real_time_loop(&mut self, span: Span, at: &At<'_>, intent: &mut Intent) {
         let whole = self.current_block();
@@ -193,8 +227,4 @@ fn remedy_class(text: &str) -> Option<&str> {
     let mut words = outside_of_texts.flat_map(|part| part.split([' ', '\t', '[', ',']));
     let word = words.find_map(|word| word.strip_prefix("RC"))?;
     Some(word.trim_start_matches('=').trim_end_matches(']'))
-}
-
-fn names_friction(text: &str) -> bool {
-    text.contains("lr_param.frict_comp") || text.contains("frict_comp.")
 }

@@ -12,7 +12,7 @@ use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::stopping::{is_harmless, stops};
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::cause::{PROBE, how_to_set, unknown_value};
 use crate::interpreter::values::expression::unquoted;
 use crate::interpreter::values::value::{Value, rounded};
 use crate::syntax::ast::{Block, Flow, Item, Operand};
@@ -118,7 +118,7 @@ impl Interpreter {
     }
 
     #[cold]
-    fn complain(&mut self, fault: Fault, at: &At<'_>) {
+    pub(in crate::interpreter) fn complain(&mut self, fault: Fault, at: &At<'_>) {
         if self.work.diagnostics.len() < MAX_SAID || !self.work.diagnostics.iter().any(stops) {
             self.work.diagnostics.push(at.diagnostic(fault));
         } else {
@@ -191,7 +191,7 @@ impl Interpreter {
                 let condition = condition.or_else(|fault| {
                     let cause = cause_of(&fault, at);
                     self.undecidable(*fault, at)?;
-                    self.pass_jump(&cause, at);
+                    let _ = self.pass_jump(&cause, at);
                     Ok::<_, Box<Fault>>(Some(false))
                 })?;
                 if condition.is_some() {
@@ -199,6 +199,10 @@ impl Interpreter {
                     return Ok(());
                 }
                 if intent.condition == Some(false) {
+                    return Ok(());
+                }
+                if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(intent, at) {
+                    self.leave_jump(&PROBE.into(), *span, at);
                     return Ok(());
                 }
                 let step = self.flow(flow, *span, at);

@@ -12,6 +12,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::step::{Passage, Request, Step};
 use crate::interpreter::run::stopping::stops;
+use crate::interpreter::values::cause::program;
 use crate::machine::Keeps;
 use crate::syntax::Fault;
 use crate::syntax::ast::{CallForm, CallScope};
@@ -67,6 +68,9 @@ impl Interpreter {
         ) {
             Ok(found) => found?,
             Err(fault) => {
+                let cause = program(&wanted.name);
+                self.enter_root(&cause, wanted.span, at);
+                self.state.memory.miss(&cause);
                 self.work.diagnostics.push(at.diagnostic(*fault));
                 return None;
             }
@@ -137,7 +141,7 @@ impl Interpreter {
                 ),
             )
             .with_help("if it leaves them as they are, say so in `[machine.external_keeps]`");
-            self.work.diagnostics.push(at.diagnostic(fault));
+            self.tell_once(&program(&name), "call", fault, at);
         }
         if let Some(after_motion_only) = wanted.repeat {
             self.state.cycles = ModalCycles::of(Repeated {

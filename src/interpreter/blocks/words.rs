@@ -308,6 +308,7 @@ impl Interpreter {
         match (letter, whole) {
             (b'G', Some(number)) => return self.g_word(number, span, at, intent),
             (b'G', None) => {
+                intent.probes = true;
                 self.unknown_word("G", span, at);
                 self.state.modal.forget_g(None);
             }
@@ -321,7 +322,7 @@ impl Interpreter {
                 self.unknown_word("M", span, at);
                 // It may be M30 or M17.
                 for exit in [Exit::End, Exit::Return] {
-                    self.note_jump(&exit, &"M".into());
+                    let _ = self.note_jump(&exit, &"M".into());
                 }
             }
             (b'M' | b'T' | b'D', number) => {
@@ -356,6 +357,7 @@ impl Interpreter {
             return Ok(());
         };
         let group = Group::of(number);
+        intent.probes |= chain::is_measuring(number);
         if let Some(group) = group {
             let first = *intent.groups[group as usize].get_or_insert(number);
             if first != number {

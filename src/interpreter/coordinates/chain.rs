@@ -138,7 +138,7 @@ pub(in crate::interpreter) fn is_implicit_call(number: u32) -> bool {
 
 /// Measuring motions, which end where the probe says.
 pub(in crate::interpreter) fn is_measuring(number: u32) -> bool {
-    matches!(number, 100..=102 | 106 | 108)
+    matches!(number, 100..=102 | 106 | 108 | 310)
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ pub(in crate::interpreter) fn foreign(number: u32) -> Option<&'static str> {
     Some(match number {
         33 => "G33 follows a spindle",
         63 => "G63 follows a spindle",
-        100..=102 | 106 | 108 => "a measuring motion ends where the probe triggers",
+        100..=102 | 106 | 108 | 310 => "a measuring motion ends where the probe triggers",
         301 | 302 => "G301 and G302 insert a contour",
         303 => "G303 is an arc in space",
         _ => return None,

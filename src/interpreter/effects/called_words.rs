@@ -66,7 +66,7 @@ impl Interpreter {
                  everything that a program could change becomes unknown"
             ),
         );
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.tell_once(&letter.into(), "function", fault, at);
     }
 
     pub(in crate::interpreter) fn unknown_program(&mut self, cause: &str, span: Span, at: &At<'_>) {
@@ -77,7 +77,7 @@ impl Interpreter {
             format!("which program is called depends on {}; the call is passed over, and everything that a program could change becomes unknown", unknown_value(cause)),
         )
         .with_help(how_to_set(cause));
-        self.work.diagnostics.push(at.diagnostic(fault));
+        self.tell_once(&cause.into(), "call", fault, at);
     }
 
     /// An implicit call without a program, or an unknown function (R2.82, R2.94): it may have moved axes.

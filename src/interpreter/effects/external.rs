@@ -2,6 +2,7 @@
 
 use crate::interpreter::programs::wanted::Wanted;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::cause::program;
 use crate::syntax::ast::CallScope;
 
 impl Interpreter {
@@ -14,12 +15,15 @@ impl Interpreter {
     pub(in crate::interpreter) fn leave_to_machine(&mut self, name: &str) {
         let keeps = self.machine.programs.keeps(name);
         if !keeps.compensation {
+            if let Some(undecided) = &mut self.work.undecided {
+                undecided.differing.name(format!("what `{name}` does"));
+            }
             self.doubt_couplings();
             self.forget_compensation();
         }
         if !keeps.parameters {
             // It writes the P parameters and variables of its caller (R2.33, R2.52).
-            self.forget_memory(&name.into());
+            self.forget_memory(&program(name));
         }
         if !keeps.positions {
             self.state.modal.forget_positions();

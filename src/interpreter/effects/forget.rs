@@ -30,6 +30,11 @@ impl Interpreter {
     /// Everything that a program could change becomes unknown: every kind of every axis, positions and
     /// modal words, parameters and variables (R2.52).
     pub(in crate::interpreter) fn forget_all(&mut self, cause: &Arc<str>) {
+        if let Some(undecided) = &mut self.work.undecided {
+            undecided
+                .differing
+                .name("everything that a program can change");
+        }
         self.forget_memory(cause);
         self.state.memory.forget_macros(cause, |_, _| false);
         self.state.modal.forget_words();

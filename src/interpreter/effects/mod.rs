@@ -7,3 +7,5 @@ pub(super) mod evaluate;
 pub(super) mod exchange;
 pub(super) mod external;
 pub(super) mod forget;
+pub(super) mod machine_data;
+pub(super) mod roots;

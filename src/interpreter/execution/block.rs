@@ -33,7 +33,10 @@ impl Interpreter {
         let mut intent = Intent::default();
         let limit = self.first_refusal(at.block);
         let number = self.block_number(at);
-        if !self.is_halted() {
+        let undecided = self.undecided_level(at.block);
+        if let Some(level) = undecided {
+            self.perhaps_execute(level, at, &mut intent);
+        } else if !self.is_halted() {
             self.items(at, &mut intent, limit);
         }
         if self.work.again != 0 {
@@ -56,7 +59,9 @@ impl Interpreter {
             self.resolve_all(std::mem::take(&mut intent.calls), at, finder)
         };
         let refused = self.work.diagnostics.iter().any(stops);
-        let stopped = self.options.stop == StopPolicy::FirstError && (limit.is_some() || refused);
+        let stopped = undecided.is_none()
+            && self.options.stop == StopPolicy::FirstError
+            && (limit.is_some() || refused);
         if !at.block.faults.is_empty() {
             self.take_faults(at, stopped);
         }
@@ -76,6 +81,8 @@ impl Interpreter {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
             Some(Step::End(ended_by(&self.work.diagnostics)))
+        } else if undecided.is_some() {
+            intent.step
         } else if calls.is_empty() && intent.goes_on() && self.state.cycles.is_empty() {
             None
         } else {
@@ -104,6 +111,7 @@ impl Interpreter {
             motion: self.work.motion.as_ref(),
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
+            withheld: &self.work.withheld,
             stopped,
             compensation: &self.state.compensation,
             modal: &self.state.modal,
@@ -129,8 +137,8 @@ impl Interpreter {
         if !self.pending.is_empty() {
             self.forget_called(finder);
         }
-        if !self.work.doubted.is_empty() {
-            self.name_doubted();
+        if let Some(undecided) = self.work.undecided.take() {
+            self.tell_undecided(*undecided);
         }
         if !self.departing.is_empty() {
             self.depart(finder, at);

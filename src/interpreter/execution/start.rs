@@ -16,6 +16,7 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Handed, RunOutcome, StopPolicy};
 use crate::interpreter::run::step::{Request, Step};
 use crate::interpreter::run::stopping::one;
+use crate::interpreter::run::undecided::Told;
 use crate::interpreter::run::ways::Ways;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::{Place, SourceFile, Span};
@@ -113,6 +114,7 @@ impl Interpreter {
         self.state.channel_axes = ChannelAxes::default();
         self.state.described = None;
         self.state.ways = Ways::default();
+        self.state.told = Told::default();
         self.programs.clear();
         self.pending.clear();
         self.departing.clear();

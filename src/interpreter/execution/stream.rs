@@ -93,7 +93,7 @@ impl Interpreter {
             if raw.stretch == Stretch::Block {
                 notes.extend(never_begun.take().map(never_run));
             }
-            if !raw.plain && needs_rest(&raw, &block) {
+            if !raw.plain && (needs_rest(&raw, &block) || self.names_others(&block)) {
                 let (mut text, first) = opening(&raw);
                 reader.append_rest(&mut text);
                 self.note_lost(&file, reader.lost_remarks());
@@ -197,6 +197,11 @@ impl Interpreter {
             return outcome;
         }
         self.end_of_lines(stage, &progress.notes, observer)
+    }
+
+    /// Whether a message about the skip level of a block would name what others of the level do.
+    fn names_others(&self, block: &Block) -> bool {
+        self.undecided_level(block).is_some() && !block.items.is_empty()
     }
 
     /// Whether a block is passed over on the way to the one that M17 returned to.

@@ -87,6 +87,8 @@ impl Index {
                 remarks: HashMap::new(),
                 lost: LostRemarks::default(),
                 interpreted: BTreeMap::new(),
+                skips: BTreeMap::new(),
+                split: BTreeMap::new(),
                 openings: Collected::default(),
                 main: None,
                 refused: Collected::default(),
@@ -154,6 +156,9 @@ impl Builder {
                     });
                     if let Some(remark) = raw.remark {
                         self.index.remarks.insert(entry.start, remark.clone());
+                    }
+                    if let Some(level) = block.skip {
+                        self.index.skips.insert(entry.start, level);
                     }
                     self.block(entry.start, &block, raw.text);
                 }
@@ -352,6 +357,12 @@ impl Builder {
             self.index.interpreted.insert(open.opener, at.entry);
         }
         open.parts.push(at.entry);
+        let skips = &self.index.skips;
+        if !skips.contains_key(&open.opener)
+            && let Some(level) = open.parts.iter().find_map(|part| skips.get(part))
+        {
+            self.index.split.insert(open.opener, *level);
+        }
         for pair in open.parts.windows(2) {
             let links = Links {
                 opener: open.opener,

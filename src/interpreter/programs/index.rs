@@ -100,6 +100,10 @@ pub(in crate::interpreter) struct Index {
     pub(in crate::interpreter) lost: LostRemarks,
     /// Where the branches of each `#IF` end.
     pub(in crate::interpreter) interpreted: BTreeMap<EntryIndex, EntryIndex>,
+    /// The blocks with a skip mark, with their levels.
+    pub(in crate::interpreter) skips: BTreeMap<EntryIndex, u8>,
+    /// The openers of control blocks of which another part has a skip mark, with its level.
+    pub(in crate::interpreter) split: BTreeMap<EntryIndex, u8>,
     /// What there is to say about the `%` lines.
     pub(in crate::interpreter) openings: Collected,
     /// The section that a run of the file executes.

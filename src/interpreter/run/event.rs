@@ -131,6 +131,9 @@ pub struct Executed<'a> {
     pub notes: &'a [Note],
     /// What is to be said about it, in no order.
     pub diagnostics: &'a [Diagnostic],
+    /// Messages about unknown values that are not said, because nothing differs or because they
+    /// were said before; a comment that allows one is in use (R2.95).
+    pub withheld: &'a [Diagnostic],
     /// Whether an error stopped the program in this block.
     pub stopped: bool,
     /// The state after it.

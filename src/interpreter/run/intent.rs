@@ -38,6 +38,8 @@ pub(in crate::interpreter) struct Intent {
     pub(in crate::interpreter) radius: Option<Span>,
     /// The condition of an `$IF` in a block with `$GOTO`.
     pub(in crate::interpreter) condition: Option<bool>,
+    /// Whether a probe decides where the block leads (R2.91).
+    pub(in crate::interpreter) probes: bool,
 }
 
 impl Intent {

@@ -13,6 +13,7 @@ use super::options::{Handed, Options};
 use super::stack::CallStack;
 use super::state::State;
 use super::step::Sought;
+use super::undecided::Told;
 use super::ways::{Departing, Ways};
 use super::work::Work;
 use crate::comp::{AxisIndex, Compensation, KindSet};
@@ -24,6 +25,7 @@ use crate::interpreter::values::effort::Effort;
 use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::value::Value;
 use crate::machine::{AxisSet, Machine, Setting};
+use crate::syntax::SkipLevels;
 use crate::syntax::ast::Block;
 
 /// Runs programs on a machine.
@@ -115,6 +117,7 @@ impl Interpreter {
             named: BTreeMap::new(),
             described: None,
             ways: Ways::default(),
+            told: Told::default(),
         };
         let mut interpreter = Self::with_state(machine, options, state);
         interpreter.define_machine_macros();
@@ -270,10 +273,30 @@ impl Interpreter {
         self.work.new_axes |= !std::mem::replace(&mut self.state.occurred[axis.get()], true);
     }
 
+    /// The skip levels that are on, where they are known (R2.90).
+    pub(in crate::interpreter) fn skip_levels(&self) -> Option<SkipLevels> {
+        self.options.skip.or(self.machine.skip)
+    }
+
+    /// Whether a block is known not to be executed.
     pub(in crate::interpreter) fn is_skipped(&self, block: &Block) -> bool {
-        block
-            .skip
-            .is_some_and(|level| self.options.skip & (1 << level.min(15)) != 0)
+        let skips = |level| self.skip_levels().is_some_and(|levels| levels.has(level));
+        block.skip.is_some_and(skips)
+    }
+
+    /// The skip level that decides whether a block is executed, where that is not known.
+    #[inline]
+    pub(in crate::interpreter) fn undecided_level(&self, block: &Block) -> Option<u8> {
+        block.skip.filter(|_| self.skip_levels().is_none())
+    }
+
+    /// The level that decides whether the parts of a control block belong together: one of them has a
+    /// skip mark and its opener has none.
+    pub(in crate::interpreter) fn split_level(&self) -> Option<u8> {
+        let frame = self.state.frames.running()?;
+        let entry = frame.next.checked_sub(1)?;
+        let level = self.programs.index(frame.unit).split.get(&entry).copied()?;
+        self.skip_levels().is_none().then_some(level)
     }
 
     /// The work of the session so far, in units: characters of macros, texts and regions that were

@@ -18,5 +18,6 @@ pub(super) mod stack;
 pub(super) mod state;
 pub(super) mod step;
 pub(super) mod stopping;
+pub(super) mod undecided;
 pub(super) mod ways;
 pub(super) mod work;

@@ -3,7 +3,7 @@
 use super::event::{EndedBy, Notes};
 use super::limits::Limits;
 use crate::interpreter::coordinates::motion::Motions;
-use crate::syntax::FastPath;
+use crate::syntax::{FastPath, SkipLevels};
 
 /// What happens at an error of the control (R9.20).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,8 +24,9 @@ pub enum StopPolicy {
 pub struct Options {
     /// What happens at an error.
     pub stop: StopPolicy,
-    /// The levels of blocks that are skipped, bit 1 for `/` and `/1`, up to bit 10 (R2.3).
-    pub skip: u16,
+    /// The skip levels that are on; without them those of the machine count. Where neither says
+    /// them, it is unknown whether a block with a skip mark is executed (R2.90).
+    pub skip: Option<SkipLevels>,
     /// Budgets.
     pub limits: Limits,
     /// Whether plain blocks are parsed by hand.
@@ -44,8 +45,8 @@ impl Options {
     }
 
     /// The same with another value of [`skip`](Self::skip).
-    pub fn with_skip(mut self, skip: u16) -> Self {
-        self.skip = skip;
+    pub fn with_skip(mut self, skip: impl Into<Option<SkipLevels>>) -> Self {
+        self.skip = skip.into();
         self
     }
 

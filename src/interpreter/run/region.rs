@@ -87,6 +87,17 @@ pub(in crate::interpreter) struct Region {
 }
 
 impl Region {
+    /// Whether it could move an axis.
+    pub(in crate::interpreter) fn moves(&self) -> bool {
+        let moves = |effect: &Effect| {
+            matches!(
+                effect,
+                Effect::Position(_) | Effect::Positions | Effect::All
+            )
+        };
+        self.effects.iter().any(moves)
+    }
+
     /// Whether the region could write what was written.
     pub(in crate::interpreter) fn writes(&self, written: &Target) -> bool {
         let whole = match written {

@@ -14,6 +14,7 @@ use super::event::EndedBy;
 use super::loops::{LeftLoop, Loop};
 use super::stack::CallStack;
 use super::step::Step;
+use super::undecided::Told;
 use super::ways::Ways;
 use crate::comp::Compensation;
 use crate::interpreter::coordinates::modal::Modal;
@@ -66,6 +67,8 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) described: Option<Box<Description>>,
     /// Where the control may have gone instead (R2.52).
     pub(in crate::interpreter) ways: Ways,
+    /// The unknown values that messages were about.
+    pub(in crate::interpreter) told: Told,
 }
 
 /// The last executed block, in case that the program ends without M30.

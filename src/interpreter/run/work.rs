@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 
 use super::event::{Note, Outcome};
+use super::undecided::Undecided;
 use crate::comp::{AxisIndex, Change, KindSet};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::coordinates::axis_words::AxisWord;
@@ -36,6 +37,10 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) seen: u64,
     pub(in crate::interpreter) again: u64,
     pub(in crate::interpreter) diagnostics: Vec<Diagnostic>,
+    /// Messages about unknown values that make no difference, or were said before.
+    pub(in crate::interpreter) withheld: Vec<Diagnostic>,
+    /// What of the block may or may not be executed.
+    pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
     /// How many messages about the block are not said, and where the first of them belongs.
     pub(in crate::interpreter) unsaid: Option<(Span, u64)>,
     pub(in crate::interpreter) stack: Vec<Result<Value, Box<Fault>>>,
@@ -74,6 +79,8 @@ impl Work {
         self.seen = 0;
         self.again = 0;
         self.diagnostics.clear();
+        self.withheld.clear();
+        self.undecided = None;
         self.geometry = None;
         self.dwells = false;
         self.motion = None;

@@ -26,6 +26,7 @@ impl Interpreter {
             let labels = self.aims(exit, place);
             for to in labels {
                 if !matches!(to, Aim::Block(target) if passed.contains(&target)) {
+                    self.note_leaving(to, *passed.end());
                     self.departing.push(Departing {
                         to,
                         cause: cause.clone(),
@@ -45,6 +46,7 @@ impl Interpreter {
                 Exit::Far => Aim::Far,
                 Exit::Label(_) | Exit::AnyLabel | Exit::Block(_) | Exit::Return => continue,
             };
+            self.note_leaving(to, 0);
             self.departing.push(Departing {
                 to,
                 cause: cause.clone(),
@@ -54,14 +56,16 @@ impl Interpreter {
         }
     }
 
-    /// A jump that is not taken.
-    pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Arc<str>) {
+    /// A jump that may be taken; whether anything differs where it is.
+    pub(in crate::interpreter) fn note_jump(&mut self, exit: &Exit, cause: &Arc<str>) -> bool {
         let Some(frame) = self.state.frames.running() else {
-            return;
+            return false;
         };
         let here = frame.next;
+        let mut differs = false;
         for to in self.aims(exit, frame.program()) {
             if to != Aim::Block(here) {
+                differs = differs || self.differs(to, here);
                 self.departing.push(Departing {
                     to,
                     cause: cause.clone(),
@@ -70,6 +74,7 @@ impl Interpreter {
                 });
             }
         }
+        differs
     }
 
     pub(in crate::interpreter) fn aims(&self, exit: &Exit, program: ProgramId) -> Vec<Aim> {

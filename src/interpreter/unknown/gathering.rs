@@ -12,6 +12,7 @@ use std::sync::Arc;
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::simplified::{self, Simplification};
+use crate::interpreter::effects::machine_data::is_machine_data;
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
@@ -284,6 +285,12 @@ impl Gathering<'_> {
             self.effect(Effect::Coupling(axes));
             return;
         }
+        if is_machine_data(&hash.name) {
+            for axis in self.run.perhaps_transferred(hash.rest.of(at.text)) {
+                let name = self.run.machine.axis(axis).name.clone();
+                self.effect(Effect::Compensation(name, KindSet::ALL));
+            }
+        }
         self.effect(Effect::Hash(hash.name.clone()));
         match hash_command(&hash.name) {
             Some(Touches::Motion) => self.effect(Effect::Positions),
@@ -475,31 +482,64 @@ impl Interpreter {
         if let Some(known) = known.filter(|known| known.macro_version == version) {
             return Arc::clone(known);
         }
-        let mut gathering = Gathering {
+        let mut gathering = self.gathering((unit, range.start));
+        gathering.blocks(unit, range.clone());
+        if gathering.whole
+            && let Some(section) = self.section_of((unit, range.start))
+        {
+            gathering.blocks(unit, section);
+        }
+        let region = Arc::new(gathering.region);
+        self.regions.insert(key, Arc::clone(&region));
+        region
+    }
+
+    fn gathering(&self, place: (usize, EntryIndex)) -> Gathering<'_> {
+        Gathering {
             run: self,
             region: Region {
-                macro_version: version,
+                macro_version: self.state.memory.macro_version(),
                 ..Region::default()
             },
             effects: HashSet::new(),
             calls: HashSet::new(),
             exits: HashSet::new(),
-            place: (unit, range.start),
+            place,
             macros: Vec::new(),
             expanded: HashSet::new(),
             whole: false,
-        };
-        gathering.blocks(unit, range.clone());
-        if gathering.whole {
-            let sections = &self.programs.index(unit).sections;
-            let around = |section: &&Section| (section.start..section.end).contains(&range.start);
-            if let Some(section) = sections.iter().find(around) {
-                gathering.blocks(unit, section.start..section.end);
-            }
         }
-        let region = Arc::new(gathering.region);
-        self.regions.insert(key, Arc::clone(&region));
-        region
+    }
+
+    /// What one block could change, which may be of lines that are not kept.
+    pub(in crate::interpreter) fn region_of_block(&self, unit: usize, at: &At<'_>) -> Region {
+        let mut gathering = self.gathering((unit, self.state.frames.entry().unwrap_or_default()));
+        gathering.block(at);
+        gathering.expand(at);
+        if gathering.whole
+            && let Some(section) = self.section_of(gathering.place)
+        {
+            gathering.blocks(unit, section);
+        }
+        gathering.region
+    }
+
+    /// What the blocks of a skip level could change in a file.
+    pub(in crate::interpreter) fn region_of_level(&self, unit: usize, level: u8) -> Region {
+        let skips = &self.programs.index(unit).skips;
+        let mut gathering = self.gathering((unit, 0));
+        for (entry, _) in skips.iter().filter(|(_, of)| **of == level) {
+            gathering.blocks(unit, *entry..entry + 1);
+        }
+        gathering.region
+    }
+
+    /// The blocks of the section that holds one.
+    fn section_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Range<EntryIndex>> {
+        let sections = &self.programs.index(unit).sections;
+        let around = |section: &&Section| (section.start..section.end).contains(&entry);
+        let section = sections.iter().find(around)?;
+        Some(section.start..section.end)
     }
 
     /// Notes the values of the machine that a block would read.

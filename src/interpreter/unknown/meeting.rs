@@ -25,8 +25,10 @@ impl Interpreter {
     #[cold]
     pub(in crate::interpreter) fn depart(&mut self, finder: &mut dyn Finder, at: &At<'_>) {
         let said = self.departing.iter().filter(|way| way.say.is_some());
-        if let Some(way) = said.max_by_key(|way| rank(way.to))
+        let said = said.max_by_key(|way| rank(way.to)).cloned();
+        if let Some(way) = said
             && !self.work.unread.get()
+            && self.differs(way.to, way.here)
         {
             let what = match way.to {
                 Aim::End => "the program may end here, which",
@@ -34,13 +36,14 @@ impl Interpreter {
                 Aim::Block(_) => "a jump may leave this control block, which",
             };
             let value = unknown_value(&way.cause);
-            let message =
-                format!("{what} depends on {value}; the rest assumes that this does not happen");
+            let message = format!(
+                "{what} depends on {value}; the dry run goes on, and where both ways meet what differs is unknown"
+            );
             let span = way.say.filter(|span| span.end > span.start);
             let span = span.unwrap_or(Span::new(0, at.text.len()));
             let help = how_to_set(&way.cause);
             let fault = Fault::new(Code::Fc902, span, message).with_help(help);
-            self.work.diagnostics.push(at.diagnostic(fault));
+            self.tell_once(&way.cause, what, fault, at);
         }
         let here = self.take_departing();
         self.meet(here, finder);

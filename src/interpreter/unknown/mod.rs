@@ -4,3 +4,4 @@ pub(super) mod departing;
 pub(super) mod gathering;
 pub(super) mod meeting;
 pub(super) mod regions;
+pub(super) mod telling;

@@ -5,8 +5,6 @@ use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::comp::Kind;
-use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::simplified::Holds;
 use crate::interpreter::effects::exchange::is_exchange;
 use crate::interpreter::programs::finder::Finder;
@@ -20,15 +18,10 @@ use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::journal::Scan;
 use crate::interpreter::run::region::{Effect, Region};
 use crate::interpreter::run::step::Step;
-use crate::interpreter::values::cause::{how_to_set, unknown_value};
 use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::target::Target;
 use crate::interpreter::values::value::Value;
-use crate::syntax::Fault;
 use crate::text::Span;
-
-/// How many axes a message names.
-const MAX_NAMED: usize = 8;
 
 impl Interpreter {
     /// Passes over a control block, from its statement to its end, and says so (FC901).
@@ -39,15 +32,7 @@ impl Interpreter {
         span: Span,
         at: &At<'_>,
     ) -> Option<Step> {
-        if !self.work.unread.get() {
-            let what = unknown_value(cause);
-            let message = format!(
-                "this control block depends on {what}; whatever it could change is unknown from here on"
-            );
-            let fault = Fault::new(Code::Fc901, span, message);
-            let fault = fault.with_help(how_to_set(cause));
-            self.work.diagnostics.push(at.diagnostic(fault));
-        }
+        self.open_undecided(cause, span, at);
         let unit = self.state.frames.running()?.unit;
         let (from, after) = (passed.start, passed.end + 1);
         self.programs.unit_mut(unit).undecided.insert(from);
@@ -88,6 +73,7 @@ impl Interpreter {
         self.state
             .effort
             .charge(ITEM * (region.effects.len() + region.calls.len()));
+        self.note_differing(&region);
         for effect in &region.effects {
             self.suffer(effect, unit, cause);
         }
@@ -114,6 +100,39 @@ impl Interpreter {
             cause: cause.clone(),
             unit,
             region: Some(key),
+        });
+        self.pending.extend(calls);
+        region
+    }
+
+    /// Makes unknown what one block could change, which may be of lines that are not kept.
+    pub(in crate::interpreter) fn forget_block(&mut self, at: &At<'_>, cause: &Arc<str>) -> Region {
+        let version = self.state.memory.macro_version();
+        let region = self.suffer_block(at, cause);
+        if self.state.memory.macro_version() != version {
+            return self.suffer_block(at, cause);
+        }
+        region
+    }
+
+    fn suffer_block(&mut self, at: &At<'_>, cause: &Arc<str>) -> Region {
+        let unit = self.state.frames.running().map_or(0, |frame| frame.unit);
+        let region = self.region_of_block(unit, at);
+        self.state
+            .effort
+            .charge(ITEM * (region.effects.len() + region.calls.len() + region.targets.len()));
+        self.note_differing(&region);
+        for effect in &region.effects {
+            self.suffer(effect, unit, cause);
+        }
+        for target in &region.targets {
+            self.lose(target, cause);
+        }
+        let calls = region.calls.iter().map(|call| Scan {
+            call: call.clone(),
+            cause: cause.clone(),
+            unit,
+            region: None,
         });
         self.pending.extend(calls);
         region
@@ -178,41 +197,6 @@ impl Interpreter {
         }
     }
 
-    /// Names the kinds that a control block makes unknown, as soon as the programs are known that it
-    /// may call.
-    #[cold]
-    pub(in crate::interpreter) fn name_doubted(&mut self) {
-        let is_block = |said: &Diagnostic| said.code == Code::Fc901;
-        if !self.work.diagnostics.iter().any(is_block) {
-            return;
-        }
-        let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
-        for (axis, doubted) in &self.work.doubted {
-            for kind in doubted.iter() {
-                let names = kinds.entry(kind).or_default();
-                let name = self.machine.axis(*axis).name.as_str();
-                if !names.contains(&name) {
-                    names.push(name);
-                }
-            }
-        }
-        let named = kinds.iter().map(|(kind, axes)| {
-            let shown: Vec<String> = axes
-                .iter()
-                .take(MAX_NAMED)
-                .map(|it| format!("`{it}`"))
-                .collect();
-            let more = if axes.len() > MAX_NAMED { " …" } else { "" };
-            format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
-        });
-        let named: Vec<String> = named.collect();
-        let said = self.work.diagnostics.iter_mut();
-        for said in said.filter(|said| is_block(said)) {
-            said.message.push_str(", including ");
-            said.message.push_str(&named.join(", "));
-        }
-    }
-
     /// What called programs of a region could change becomes unknown too (R2.51).
     pub(in crate::interpreter) fn forget_called(&mut self, finder: &mut dyn Finder) {
         let mut pending = std::mem::take(&mut self.pending);
@@ -255,6 +239,10 @@ impl Interpreter {
                 Ok(None) => continue,
                 Err(_) => {
                     // What it would have done is not known.
+                    if let Some(undecided) = &mut self.work.undecided {
+                        let missing = format!("what `{}` does, which is not found", call.name);
+                        undecided.differing.name(missing);
+                    }
                     self.forget_all(&cause);
                     continue;
                 }

@@ -1,11 +1,43 @@
 //! How messages name a value that is not known offline, and what they advise (R2.50).
 
+use std::sync::Arc;
+
 use crate::diagnostic::Advice;
 use crate::syntax::is_command;
 
+/// The name of a skip level as a cause.
+const SKIP: &str = "skip level ";
+
+/// The name of a program that is not at hand as a cause.
+const PROGRAM: &str = "program ";
+
+/// The signal of a probe as a cause (R2.91).
+pub(in crate::interpreter) const PROBE: &str = "the signal of the probe";
+
+/// A skip level as what decides (R2.90).
+pub(in crate::interpreter) fn skip_level(level: u8) -> Arc<str> {
+    format!("{SKIP}{level}").into()
+}
+
+/// The skip level that decides, where one does.
+pub(in crate::interpreter) fn decided_level(name: &str) -> Option<u8> {
+    name.strip_prefix(SKIP)?.parse().ok()
+}
+
+/// A program that is not at hand as what decides (R2.83, R2.95).
+pub(in crate::interpreter) fn program(name: &str) -> Arc<str> {
+    format!("{PROGRAM}{name}").into()
+}
+
 /// A value that is not known offline, and why.
 pub(in crate::interpreter) fn unknown_value(name: &str) -> String {
-    if is_settable(name) {
+    if decided_level(name).is_some() {
+        format!("{name}, a switch of the machine")
+    } else if name == PROBE {
+        format!("{name}, which only the machine knows")
+    } else if let Some(program) = name.strip_prefix(PROGRAM) {
+        format!("the program `{program}`, which is not at hand")
+    } else if is_settable(name) {
         format!("`{name}`, which only the machine knows")
     } else if is_command(name) {
         format!("`{name}`, whose result only the machine knows")
@@ -27,6 +59,15 @@ fn is_settable(name: &str) -> bool {
 
 /// How a user makes a value known.
 pub(in crate::interpreter) fn how_to_set(name: &str) -> Advice {
+    if let Some(level) = decided_level(name) {
+        return Advice::SetSkip(level);
+    }
+    if name == PROBE {
+        return "set afterwards what must not depend on it, `X[COMP ON FRICT]` for instance".into();
+    }
+    if let Some(program) = name.strip_prefix(PROGRAM) {
+        return format!("give frictcomp `{program}`, or say in `[machine.external_keeps]` that it keeps parameters").into();
+    }
     if is_command(name) {
         return format!("to check one case, assign the value in a block after `{name}`").into();
     }

@@ -113,7 +113,7 @@ impl Evaluator<'_> {
             Operand::Expression(expression) => {
                 let bottom = stack.len();
                 self.run(expression, stack);
-                let value = stack.pop().unwrap_or(Ok(Value::Number(0.0)));
+                let value = pop(stack);
                 stack.truncate(bottom);
                 value
             }
@@ -508,7 +508,10 @@ enum VariableKey {
 }
 
 fn pop(stack: &mut Vec<Slot>) -> Slot {
-    stack.pop().unwrap_or(Ok(Value::Number(0.0)))
+    // Nothing stands where an operand should: that is no zero (R2.50).
+    stack
+        .pop()
+        .unwrap_or_else(|| Ok(Value::Unknown("an expression".into())))
 }
 
 fn never_written(span: Span, text: &str) -> Box<Fault> {

@@ -224,6 +224,12 @@ impl Memory {
         }
     }
 
+    /// A program is missing that may have written what the run never wrote.
+    pub(in crate::interpreter) fn miss(&mut self, cause: &Arc<str>) {
+        self.lost.get_or_insert_with(|| cause.clone());
+        self.unknown_names.get_or_insert_with(|| cause.clone());
+    }
+
     pub(in crate::interpreter) fn delete_parameter(&mut self, index: u32) {
         if let Some(before) = self.parameters.remove(&index) {
             self.weight.take(weight("", &before) - 1);

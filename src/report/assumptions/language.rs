@@ -188,12 +188,27 @@ pub(super) const ASSUMED: &[Assumption] = &[
     },
     Assumption {
         rule: "R2.52",
-        sentence: "a jump with an unknown condition or target is not taken; a call of an unknown name is \
-            passed over",
-        changes: "which blocks are executed; what may differ is `unknown` from where the other way \
+        sentence: "after a jump with an unknown condition or target the run goes on with the next block; a \
+            call of an unknown name is passed over",
+        changes: "which blocks are shown; what may differ is `unknown` from where the other way \
             meets, at the latest at program end; every axis is `unknown` after such a call",
-        shows: "FC902 says that the rest depends on it",
+        shows: "FC902 names the value and how to give it",
         when: &[Reported(Code::Fc902)],
+    },
+    Assumption {
+        rule: "R2.90",
+        sentence: "a block with a skip mark may or may not be executed while the switches of the machine are \
+            not given; `/` is level 1",
+        changes: "the state of the axes named there",
+        shows: "FC901 names the level and how to give it",
+        when: &[Reported(Code::Fc901)],
+    },
+    Assumption {
+        rule: "R2.92",
+        sentence: "a list that `#MACHINE DATA` transfers again may take back what NC commands selected",
+        changes: "the state of the axis is `unknown`",
+        shows: "FC314",
+        when: &[Reported(Code::Fc314)],
     },
     Assumption {
         rule: "R2.60",

@@ -48,6 +48,14 @@ impl AuditReport {
         self.findings().any(AxisFinding::is_worth_a_warning)
     }
 
+    /// The axes and kinds of which it is not known what a program makes of them.
+    pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
+        let programs = self.machines.iter().flat_map(|it| it.archive.programs());
+        let axes = programs.flat_map(|program| &program.axes);
+        let unknown = axes.filter(|axis| axis.effect == ProgramEffect::Unknown);
+        unknown.map(|axis| (axis.axis.as_str(), axis.kind))
+    }
+
     /// How many programs were audited.
     pub fn programs(&self) -> usize {
         let programs = self.machines.iter().map(|it| it.archive.programs().len());

@@ -267,7 +267,9 @@ class Limits:
 
     ``blocks`` bounds the executed blocks, ``work`` what macros, strings and unknown conditions cost
     beyond them, ``values`` the values that a program holds; ``calls``, ``nesting`` and ``macros``
-    bound the depth of calls, control blocks and macros. ``skip`` are the levels of skipped blocks.
+    bound the depth of calls, control blocks and macros. ``skip`` are the skip levels that are on, all
+    others are off; without it and without ``skip`` in ``frictcomp.toml`` it is unknown whether a
+    block with a skip mark is executed.
     """
 
     def __new__(

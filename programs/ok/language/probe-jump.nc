@@ -1,0 +1,9 @@
+%PROBE
+; The jump is taken only if the probe answers
+N10 G90 G01 X0 F1000
+N20 G310 X50 $GOTO N60
+N30 X[COMP OFF FRICT]
+N40 G01 X60
+N60: G00 X0
+N70 X[COMP ON FRICT]
+N80 M30

@@ -1,0 +1,34 @@
+//! Blocks whose jump waits for the signal of a probe (R2.91).
+
+use crate::interpreter::coordinates::chain::is_measuring;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::value::exact;
+use crate::syntax::ast::{Address, Item};
+
+impl Interpreter {
+    /// Whether the jump of a block waits for the signal of a probe (R2.91).
+    pub(in crate::interpreter) fn jump_is_probed(&mut self, intent: &Intent, at: &At<'_>) -> bool {
+        if intent.probes {
+            return true;
+        }
+        let words = at.block.items.iter().filter_map(|item| match item {
+            Item::Word(word) => Some(word),
+            _ => None,
+        });
+        let mut numbers = words
+            .filter(|word| word.address == Address::Letter(b'G'))
+            .filter_map(|word| word.value);
+        numbers.any(|number| {
+            let number = self.value(number, at);
+            number.is_ok_and(|number| number.number().is_none_or(measures))
+        })
+    }
+}
+
+/// G310 measures, and `$GOTO` in its block is taken if the probe answers (TF5200 Programming manual,
+/// 206197003). What the other measuring functions do with it is not said; they wait for the probe, too.
+fn measures(number: f64) -> bool {
+    exact(number).is_some_and(is_measuring)
+}

@@ -1,0 +1,106 @@
+//! Blocks with a skip mark whose level is not known to be on or off (R2.90).
+
+use std::sync::Arc;
+
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::cycles::RepeatedCall;
+use crate::interpreter::run::event::{Note, NoteKind, Notes};
+use crate::interpreter::run::intent::Intent;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::region::Region;
+use crate::interpreter::values::cause::skip_level;
+use crate::syntax::ast::{Block, Flow, Item};
+use crate::text::Span;
+
+impl Interpreter {
+    /// Passes over a block that the control executes or skips: what it could change becomes unknown,
+    /// and it may lead elsewhere.
+    #[cold]
+    pub(in crate::interpreter) fn perhaps_execute(
+        &mut self,
+        level: u8,
+        at: &At<'_>,
+        intent: &mut Intent,
+    ) {
+        let cause = skip_level(level);
+        self.note_unknown(&cause, at);
+        self.perhaps_refused(at);
+        if let Some((flow, span)) = structure(at.block) {
+            intent.step = self.undecided(flow, &cause, span, at);
+            return;
+        }
+        self.open_undecided(&cause, Span::new(0, at.text.trim_end().len()), at);
+        let region = self.forget_block(at, &cause);
+        self.perhaps_repeat_cycles(&region, &cause);
+        let next = self.state.frames.running().map_or(0, |frame| frame.next);
+        self.note_exits(&region, next.saturating_sub(1)..=next, &cause, None);
+    }
+
+    /// Takes a note of the level as of a value of the machine.
+    fn note_unknown(&mut self, cause: &str, at: &At<'_>) {
+        if self.options.notes == Notes::Taken {
+            let note = Note {
+                kind: NoteKind::Unknown,
+                name: cause.to_owned(),
+                place: at.place(Span::new(0, at.text.trim_end().len())),
+            };
+            self.work.notes.borrow_mut().push(note);
+        }
+    }
+
+    /// Says which COMP commands and values the control refuses if it executes the block.
+    fn perhaps_refused(&mut self, at: &At<'_>) {
+        let after = at.block.items.iter().filter_map(|item| match item {
+            Item::Word(word) => word.value,
+            Item::Assign(assignment) => Some(assignment.value),
+            _ => None,
+        });
+        let words = at.block.words.iter().filter_map(|word| word.value);
+        for operand in words.chain(after) {
+            if let Err(fault) = self.value(operand, at) {
+                self.complain(*fault, at);
+            }
+        }
+        let commands = at.block.items.iter().filter_map(|item| match item {
+            Item::Comp(command) => Some(command),
+            _ => None,
+        });
+        let before = self.state.compensation.clone();
+        let (changes, outcomes) = (self.work.changes.len(), self.work.outcomes.len());
+        let doubted = self.work.doubted.len();
+        for command in commands {
+            self.comp(command, at);
+        }
+        self.state.compensation = before;
+        self.work.changes.truncate(changes);
+        self.work.outcomes.truncate(outcomes);
+        self.work.doubted.truncate(doubted);
+    }
+
+    /// A modal cycle is repeated after the block if the control executes it.
+    fn perhaps_repeat_cycles(&mut self, region: &Region, cause: &Arc<str>) {
+        for cycle in self.state.cycles.known().to_vec() {
+            if cycle.after_motion_only && !region.moves() {
+                continue;
+            }
+            match cycle.call {
+                RepeatedCall::Program(found) | RepeatedCall::Perhaps(found) => {
+                    let section = self.programs.section(found);
+                    let blocks = section.start..section.end;
+                    self.forget_region(found.unit, blocks, cause);
+                }
+                RepeatedCall::External(name) => self.leave_to_machine(&name),
+            }
+        }
+    }
+}
+
+/// The statement of a block that opens, divides or closes a control block.
+fn structure(block: &Block) -> Option<(&Flow, Span)> {
+    let parts = block.items.iter().filter_map(|item| match item {
+        Item::Flow(flow, span) => Some((flow, *span)),
+        _ => None,
+    });
+    let mut parts = parts.filter(|_| !block.jumps());
+    parts.find(|(flow, _)| !matches!(flow, Flow::Break | Flow::Continue | Flow::Goto(_)))
+}

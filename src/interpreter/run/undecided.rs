@@ -1,0 +1,96 @@
+//! Parts of a program of which it is not known whether they are executed, and what differs where
+//! they are (R2.90, R2.95).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::text::Place;
+
+/// Unknown values that are remembered; beyond them a message may be said again.
+const MAX_ROOTS: usize = 1000;
+
+/// A part of the program that may or may not be executed, until it is known what it could change.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct Undecided {
+    /// The value that decides.
+    pub(in crate::interpreter) cause: Arc<str>,
+    /// The position of its message among those of the block.
+    pub(in crate::interpreter) said: usize,
+    /// The number of doubts of the block before it.
+    pub(in crate::interpreter) doubted: usize,
+    pub(in crate::interpreter) differing: Differing,
+}
+
+/// What differs between the ways besides compensation states.
+#[derive(Debug, Clone, Default)]
+pub(in crate::interpreter) struct Differing {
+    /// Whether anything does that a user may ask for.
+    pub(in crate::interpreter) decides: bool,
+    /// Its names in a message.
+    pub(in crate::interpreter) named: BTreeSet<String>,
+}
+
+impl Differing {
+    /// Something differs that has a name.
+    pub(in crate::interpreter) fn name(&mut self, name: impl Into<String>) {
+        self.decides = true;
+        self.named.insert(name.into());
+    }
+}
+
+/// The unknown values that messages of the program were about, by what makes them unknown.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(in crate::interpreter) struct Told {
+    roots: BTreeMap<Arc<str>, Root>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Root {
+    /// The block that brought the value in.
+    place: Place,
+    /// What messages named as unknown because of it, with the line of the first that did.
+    named: BTreeMap<String, (Arc<str>, u32)>,
+}
+
+impl Told {
+    /// Remembers where a value came in first.
+    pub(in crate::interpreter) fn enter(
+        &mut self,
+        cause: &Arc<str>,
+        place: impl FnOnce() -> Place,
+    ) {
+        if self.roots.len() < MAX_ROOTS && !self.roots.contains_key(cause) {
+            let root = Root {
+                place: place(),
+                named: BTreeMap::new(),
+            };
+            self.roots.insert(cause.clone(), root);
+        }
+    }
+
+    /// The block that brought a value in.
+    pub(in crate::interpreter) fn origin(&self, cause: &str) -> Option<&Place> {
+        self.roots.get(cause).map(|root| &root.place)
+    }
+
+    /// Whether a message names anything that none of another block about the same value named before.
+    /// What a loop brings up again at its own place is counted, not withheld (R2.85).
+    pub(in crate::interpreter) fn is_new(
+        &mut self,
+        cause: &str,
+        named: impl IntoIterator<Item = String>,
+        place: &Place,
+    ) -> bool {
+        let Some(root) = self.roots.get_mut(cause) else {
+            return true;
+        };
+        let here = (place.file.clone(), place.first_line);
+        let mut is_new = false;
+        for name in named {
+            is_new |= *root.named.entry(name).or_insert_with(|| here.clone()) == here;
+        }
+        is_new
+    }
+}

@@ -1,0 +1,297 @@
+//! What is said about a part of the program that may or may not be executed: which value decides,
+//! where it comes from, and what it makes unknown (R2.95).
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::comp::{AxisIndex, Kind, KindSet, State};
+use crate::diagnostic::Code;
+use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::coordinates::motion::Motions;
+use crate::interpreter::effects::exchange::is_exchange;
+use crate::interpreter::programs::index::EntryIndex;
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::channel_axes::Addressed;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::region::{Effect, Region};
+use crate::interpreter::run::undecided::{Differing, Undecided};
+use crate::interpreter::run::ways::Aim;
+use crate::interpreter::values::cause::{decided_level, how_to_set, unknown_value};
+use crate::interpreter::values::target::Target;
+use crate::machine::Parameters;
+use crate::syntax::Fault;
+use crate::text::Span;
+
+/// How many axes a message names.
+const MAX_NAMED: usize = 8;
+
+impl Interpreter {
+    /// Prepares the message about a part of the program (FC901); [`Self::tell_undecided`] completes
+    /// it, as soon as the programs are known that the part may call.
+    pub(in crate::interpreter) fn open_undecided(
+        &mut self,
+        cause: &Arc<str>,
+        span: Span,
+        at: &At<'_>,
+    ) {
+        if self.work.unread.get() || self.work.undecided.is_some() {
+            return;
+        }
+        let message = match decided_level(cause) {
+            Some(level) if at.block.skip == Some(level) => format!(
+                "whether the control executes the blocks of {cause} depends on a switch of the \
+                 machine; whatever they could change is unknown from here on"
+            ),
+            _ => format!(
+                "this control block depends on {}; whatever it could change is unknown from here on",
+                unknown_value(cause)
+            ),
+        };
+        let fault = Fault::new(Code::Fc901, span, message).with_help(how_to_set(cause));
+        let said = at.diagnostic(fault);
+        let said = self.with_origin(said, cause, at);
+        self.work.undecided = Some(Box::new(Undecided {
+            cause: cause.clone(),
+            said: self.work.diagnostics.len(),
+            doubted: self.work.doubted.len(),
+            differing: Differing::default(),
+        }));
+        self.work.diagnostics.push(said);
+        self.enter_root(cause, span, at);
+    }
+
+    /// Completes the message about a part of the program, or withholds it where nothing differs or
+    /// where it was said before.
+    #[cold]
+    pub(in crate::interpreter) fn tell_undecided(&mut self, undecided: Undecided) {
+        let Undecided {
+            cause,
+            said,
+            doubted,
+            mut differing,
+        } = undecided;
+        if said >= self.work.diagnostics.len() {
+            return;
+        }
+        let mut doubted = self
+            .work
+            .doubted
+            .get(doubted..)
+            .unwrap_or_default()
+            .to_vec();
+        if !doubted.is_empty()
+            && let Some(level) = decided_level(&cause)
+        {
+            doubted.extend(self.switched_by_level(level));
+        }
+        let mut kinds: BTreeMap<Kind, Vec<&str>> = BTreeMap::new();
+        for (axis, doubted) in &doubted {
+            for kind in doubted.iter() {
+                let names = kinds.entry(kind).or_default();
+                let name = self.machine.axis(*axis).name.as_str();
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+        }
+        let mut keys: Vec<String> = differing.named.iter().cloned().collect();
+        for (kind, axes) in &kinds {
+            keys.extend(axes.iter().map(|axis| format!("{kind} {axis}")));
+        }
+        // What has no name is said once, too.
+        keys.push(String::new());
+        let shown: Vec<String> = kinds
+            .iter()
+            .map(|(kind, axes)| of_axes(*kind, axes))
+            .collect();
+        differing.decides |= !shown.is_empty();
+        let place = &self.work.diagnostics[said].place;
+        let is_new = self.state.told.is_new(&cause, keys, place);
+        if !(differing.decides && is_new) {
+            let said = self.work.diagnostics.remove(said);
+            self.work.withheld.push(said);
+            return;
+        }
+        let named: Vec<String> = shown.into_iter().chain(differing.named).collect();
+        if !named.is_empty() {
+            let message = &mut self.work.diagnostics[said].message;
+            message.push_str(", including ");
+            message.push_str(&named.join(", "));
+        }
+    }
+
+    /// What the blocks of a skip level switch in the file that runs: one message names them all.
+    fn switched_by_level(&mut self, level: u8) -> Vec<(AxisIndex, KindSet)> {
+        let Some(unit) = self.state.frames.running().map(|frame| frame.unit) else {
+            return Vec::new();
+        };
+        let region = self.region_of_level(unit, level);
+        let mut switched = Vec::new();
+        for effect in &region.effects {
+            let Effect::Compensation(name, kinds) = effect else {
+                continue;
+            };
+            if let Ok(Addressed::Axis(axis)) = self.addressed(name) {
+                let state = |kind: &Kind| self.state.compensation.state(axis, *kind);
+                let set = kinds
+                    .iter()
+                    .filter(|kind| state(kind) != State::Unconfigured);
+                switched.push((axis, KindSet::from_iter(set)));
+            }
+        }
+        switched
+    }
+
+    /// Notes what a region changes that may differ afterwards.
+    pub(in crate::interpreter) fn note_differing(&mut self, region: &Region) {
+        let Some(mut undecided) = self.work.undecided.take() else {
+            return;
+        };
+        let is_skip = decided_level(&undecided.cause).is_some();
+        for effect in &region.effects {
+            self.weigh(effect, is_skip, &mut undecided.differing);
+        }
+        for target in &region.targets {
+            if let Target::Variable(name) | Target::Elements(name) = target
+                && outlives(name)
+            {
+                undecided.differing.name(format!("`{name}`"));
+            }
+            if matches!(target, Target::Parameter(..) | Target::Parameters)
+                && self.machine.parameters == Parameters::Kept
+            {
+                undecided.differing.decides = true;
+            }
+        }
+        self.work.undecided = Some(undecided);
+    }
+
+    fn weigh(&self, effect: &Effect, is_skip: bool, differing: &mut Differing) {
+        match effect {
+            // What a skipped block would be refused for is said itself.
+            Effect::Compensation(..) => differing.decides |= !is_skip,
+            Effect::All => differing.name("everything that a program can change"),
+            Effect::Coupling(_) => differing.name("axis couplings"),
+            Effect::Hash(name) if is_coupling(name) => differing.name("axis couplings"),
+            Effect::Hash(name) if is_exchange(name) => differing.name("the axes of the channel"),
+            Effect::Hash(name) if name == "#DISABLE MODAL CYCLE" => differing.name("modal cycles"),
+            Effect::Hash(name) if name == "#ERROR" => differing.decides = true,
+            Effect::Declaration(name) if outlives(name) => differing.name(format!("`{name}`")),
+            Effect::Position(axis) if !self.machine.axis(*axis).required.is_empty() => {
+                differing.decides = true;
+            }
+            // A block that may be skipped and only moves matters to those who ask for motion.
+            Effect::G(number) if !is_skip && is_modal_word(*number) => {
+                differing.name("modal words");
+            }
+            Effect::G(_)
+            | Effect::Feeds
+            | Effect::Spindle
+            | Effect::Overrides
+            | Effect::Simplified(_)
+            | Effect::Radius
+            | Effect::Position(_)
+            | Effect::Positions
+            | Effect::Reference(_)
+                if self.options.motions == Motions::Taken =>
+            {
+                differing.name("positions and what paces motion");
+            }
+            // A value that reaches something is spoken of there; called programs are looked through.
+            _ => {}
+        }
+    }
+
+    /// Notes a way that leaves what may or may not be executed.
+    pub(in crate::interpreter) fn note_leaving(&mut self, to: Aim, here: EntryIndex) {
+        if self.work.undecided.is_none() || !self.differs(to, here) {
+            return;
+        }
+        if let Some(undecided) = &mut self.work.undecided {
+            match to {
+                Aim::End => undecided.differing.name("whether the program ends here"),
+                Aim::Return | Aim::Far => {
+                    undecided.differing.name("whether the program is left here");
+                }
+                Aim::Block(_) => undecided.differing.name("which blocks follow"),
+            }
+        }
+    }
+
+    /// Whether anything differs between a way and the one of the dry run, which goes on at a block.
+    pub(in crate::interpreter) fn differs(&mut self, to: Aim, here: EntryIndex) -> bool {
+        let Aim::Block(target) = to else {
+            return true;
+        };
+        let Some(place) = self.state.frames.program() else {
+            return true;
+        };
+        if self.programs.index(place.unit).entries.len() < here.max(target) as usize {
+            return true;
+        }
+        let between = self.passed_by(place.unit, here.min(target)..here.max(target));
+        let region = self.region(place.unit, between);
+        let mut differing = Differing::default();
+        for effect in &region.effects {
+            self.weigh(effect, false, &mut differing);
+        }
+        let outlives = |target: &Target| match target {
+            Target::Variable(name) | Target::Elements(name) => outlives(name),
+            Target::Parameter(..) | Target::Parameters => {
+                self.machine.parameters == Parameters::Kept
+            }
+        };
+        differing.decides
+            || !region.calls.is_empty()
+            || !region.exits.is_empty()
+            || region.targets.iter().any(outlives)
+    }
+
+    /// The blocks that one of two ways may execute and the other does not, where they part before some
+    /// blocks and meet after them: a way into a loop or out of it is one past all its passes.
+    fn passed_by(&self, unit: usize, blocks: Range<EntryIndex>) -> Range<EntryIndex> {
+        let index = self.programs.index(unit);
+        self.state.effort.charge(index.loops.len());
+        let mut around = blocks;
+        for &opener in &index.loops {
+            let end = index.links(opener).end;
+            let opens = around.contains(&opener);
+            let closes = around.contains(&end);
+            if opens != closes {
+                around = around.start.min(opener)..around.end.max(end + 1);
+            }
+        }
+        around
+    }
+}
+
+/// How a message names a kind of several axes.
+fn of_axes(kind: Kind, axes: &[&str]) -> String {
+    let shown: Vec<String> = axes
+        .iter()
+        .take(MAX_NAMED)
+        .map(|it| format!("`{it}`"))
+        .collect();
+    let more = if axes.len() > MAX_NAMED { " …" } else { "" };
+    format!("`{}` of {}{more}", kind.as_str(), shown.join(" "))
+}
+
+/// Whether a G function is of a group that outlives a motion and is no motion itself.
+fn is_modal_word(number: Option<i64>) -> bool {
+    let number = number.and_then(|number| u32::try_from(number).ok());
+    number.is_none_or(|number| match Group::of(number) {
+        Some(group) => group != Group::Motion,
+        None => (20..=23).contains(&number),
+    })
+}
+
+fn is_coupling(name: &str) -> bool {
+    name.contains("AX LINK")
+}
+
+/// Whether a variable is read by others than the program that writes it (R2.34, R2.36).
+fn outlives(name: &str) -> bool {
+    let own = ["V.P.", "V.L.", "V.CYC."];
+    name.starts_with("V.") && !own.iter().any(|prefix| name.starts_with(prefix))
+}

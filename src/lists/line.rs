@@ -7,6 +7,8 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::known::{blanked, is_known};
+use super::reference::resolve;
 use super::value::{Given, Number, Written};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::{Place, SourceFile, Span, changed_direction};
@@ -112,21 +114,22 @@ impl Entry {
         word.with(truth)
     }
 
-    /// The value as a set of words, `A | B |` (R3.4). After the last word all is comment.
+    /// The value as a set of words and numbers, `A | '16#3' |` (R3.4). After the last one all is
+    /// comment.
     pub fn words(&self) -> Vec<Given<&str>> {
         let value = self.value_span.of(self.source.text());
-        let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+        let is_between = |c: char| c.is_whitespace() || QUOTES.contains(&c);
         let mut words = Vec::new();
         let mut rest = value;
         loop {
-            rest = rest.trim_start();
-            let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
+            rest = rest.trim_start_matches(is_between);
+            let end = word_end(rest);
             if end == 0 {
                 return words;
             }
             let start = value.len() - rest.len();
             words.push(self.part(start..start + end));
-            rest = rest[end..].trim_start();
+            rest = rest[end..].trim_start_matches(is_between);
             match rest.strip_prefix('|') {
                 Some(after) => rest = after,
                 None => return words,
@@ -147,6 +150,21 @@ impl Entry {
     }
 }
 
+/// The end of the word or number that a text begins with; `'16#3'` and `16#3` are numbers.
+fn word_end(text: &str) -> usize {
+    let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+    let plain = |text: &str| text.find(|c| !is_word(c)).unwrap_or(text.len());
+    if let Some(quoted) = text.strip_prefix('\'') {
+        return quoted.find('\'').map_or(0, |end| end + 2);
+    }
+    let end = plain(text);
+    let is_base = end > 0 && text[..end].bytes().all(|byte| byte.is_ascii_digit());
+    match text[end..].strip_prefix('#') {
+        Some(digits) if is_base => end + 1 + plain(digits),
+        _ => end,
+    }
+}
+
 /// The entries of one list.
 #[derive(Debug, Clone)]
 pub struct Entries {
@@ -154,6 +172,10 @@ pub struct Entries {
     pub entries: Vec<Entry>,
     /// What the lines themselves give reason to say: FC120, FC121, FC124.
     pub diagnostics: Vec<Diagnostic>,
+    /// The entries whose value is a reference that leads nowhere (R3.40).
+    pub(super) unresolved: Vec<Entry>,
+    /// Lines whose key lost its underscores.
+    lost: usize,
     source: Arc<SourceFile>,
 }
 
@@ -164,6 +186,7 @@ impl Entries {
         let mut reader = Reader {
             source,
             lines: Vec::new(),
+            lost: Vec::new(),
             diagnostics: Vec::new(),
         };
         if source.text().trim_start().starts_with('<') {
@@ -185,8 +208,10 @@ impl Entries {
                 .with_help("write `Ende` on a line of its own after the last entry"),
             );
         }
+        reader.tell_lost();
         let mut entries = Self::of(reader);
         entries.drop_repeated();
+        entries.unresolved = resolve(&mut entries.entries, &mut entries.diagnostics);
         entries
     }
 
@@ -194,8 +219,15 @@ impl Entries {
         Self {
             entries: reader.lines,
             diagnostics: reader.diagnostics,
+            unresolved: Vec::new(),
+            lost: reader.lost.len(),
             source: reader.source.clone(),
         }
+    }
+
+    /// Whether keys lost their underscores, which is said.
+    pub(crate) fn lost_underscores(&self) -> bool {
+        self.lost > 0
     }
 
     /// The list as a source.
@@ -255,6 +287,8 @@ enum Line {
     End,
     /// An entry.
     Entry(Entry),
+    /// A key whose underscores became blanks, and the key that is meant.
+    Lost(Span, &'static str),
     /// Nothing of these; the reason as a sentence without its start.
     Odd(&'static str),
 }
@@ -262,6 +296,8 @@ enum Line {
 struct Reader<'a> {
     source: &'a Arc<SourceFile>,
     lines: Vec<Entry>,
+    /// Keys that lost their underscores, with those that are meant.
+    lost: Vec<(Span, &'static str)>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -283,6 +319,7 @@ impl Reader<'_> {
                     break;
                 }
                 Line::Entry(entry) => self.lines.push(entry),
+                Line::Lost(written, key) => self.lost.push((written, key)),
                 Line::Odd(why) => {
                     odd.push(span);
                     if odd.len() <= MAX_ODD {
@@ -323,6 +360,26 @@ impl Reader<'_> {
                 format!("{why}; the line is passed over"),
             )
             .with_help("an entry is `key value`, a comment begins with `#`"),
+        );
+    }
+
+    /// FC124 for keys without their underscores, once for all of them.
+    fn tell_lost(&mut self) {
+        let Some(&(span, key)) = self.lost.first() else {
+            return;
+        };
+        let written = span.of(self.source.text());
+        let lines = match self.lost.len() {
+            1 => "this line is".to_owned(),
+            several => format!("{several} such lines are"),
+        };
+        let message = format!(
+            "the underscores of this list were lost, as in a copy from a PDF: `{written}` stands \
+             for `{key}`; {lines} passed over"
+        );
+        self.diagnostics.push(
+            Diagnostic::new(Code::Fc124, self.source.place(span), message)
+                .with_help("put the underscores back, or take the list from the control"),
         );
     }
 
@@ -412,6 +469,10 @@ impl Reader<'_> {
         } else {
             key_end + (rest.len() - rest.trim_start().len())
         };
+        let is_odd = value.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_known(&pattern);
+        if let Some(found) = is_odd.then(|| blanked(line)).flatten() {
+            return Line::Lost(Span::new(start, start + found.length), found.pattern);
+        }
         Line::Entry(Entry {
             pattern,
             indices,

@@ -104,6 +104,8 @@ impl Check<'_> {
             (None, Some((3, list))) => {
                 self.check_first_point(&list);
                 self.check_drive_range(&list);
+                let found = doubts(self.draft, &list.table, self.conditions.axis_type);
+                self.diagnostics.extend(found);
                 Verdict::Accepted(list)
             }
             (None, _) => Verdict::Off,
@@ -132,7 +134,10 @@ impl Check<'_> {
         }
         self.check_mode(mode, entries);
         let is_empty = mode == Some(3) && self.has(Code::PErr110592);
-        let table = if is_empty { Vec::new() } else { self.table(mode, entries) };
+        let table = match is_empty {
+            true => Vec::new(),
+            false => self.table(entries),
+        };
         let _: Option<u32> = max_points;
         Some((
             mode?,
@@ -200,16 +205,12 @@ impl Check<'_> {
     }
 
     /// The points that are used, as far as they are numbers, after all checks of the table.
-    fn table(&mut self, mode: Option<u16>, entries: Option<u16>) -> Vec<TablePoint> {
+    fn table(&mut self, entries: Option<u16>) -> Vec<TablePoint> {
         if let Some(entries) = entries {
             self.check_count(u32::from(entries));
         }
         let points = self.points(entries.map_or(u32::MAX, u32::from));
         self.check_ascending(&points);
-        if mode != Some(0) {
-            let found = doubts(self.draft, &points, self.conditions.axis_type);
-            self.diagnostics.extend(found);
-        }
         points.into_iter().map(|(_, point)| point).collect()
     }
 
@@ -272,7 +273,9 @@ impl Check<'_> {
             self.diagnostics
                 .push(Diagnostic::new(Code::Fc134, given.place(), message));
         }
-        let Some(given) = self.draft.get(Field::TableEntries) else {
+        // A number of entries that has no room is wrong itself, and said.
+        let number = self.draft.get(Field::TableEntries);
+        let Some(given) = number.filter(|_| !self.has(Code::Fc131)) else {
             return;
         };
         let mut missing = (0..entries).filter(|index| !self.draft.table.contains_key(index));

@@ -31,6 +31,8 @@ pub struct Entry {
     pub key_span: Span,
     /// Everything after the key, without blanks at either end.
     pub value_span: Span,
+    /// Where the value stands that holds: there, or where a reference leads (R3.40).
+    pub(super) meant: Span,
     source: Arc<SourceFile>,
 }
 
@@ -74,7 +76,7 @@ impl Entry {
     /// The value as one word, as numbers and truth values are written: it ends at a blank or at
     /// the start of a comment (R3.2).
     pub fn word(&self) -> Given<&str> {
-        let value = self.value_span.of(self.source.text());
+        let value = self.meant.of(self.source.text());
         let end = value
             .find(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
             .unwrap_or(value.len());
@@ -85,7 +87,7 @@ impl Entry {
     /// The value as a text; only `(` opens a comment after it. A text in quotes may hold one
     /// (R3.2).
     pub fn text(&self) -> Given<&str> {
-        let value = self.value_span.of(self.source.text());
+        let value = self.meant.of(self.source.text());
         if let Some(quote) = value.chars().next().filter(|first| QUOTES.contains(first))
             && let Some(length) = value[quote.len_utf8()..].find(QUOTES)
         {
@@ -117,7 +119,7 @@ impl Entry {
     /// The value as a set of words and numbers, `A | '16#3' |` (R3.4). After the last one all is
     /// comment.
     pub fn words(&self) -> Vec<Given<&str>> {
-        let value = self.value_span.of(self.source.text());
+        let value = self.meant.of(self.source.text());
         let is_between = |c: char| c.is_whitespace() || QUOTES.contains(&c);
         let mut words = Vec::new();
         let mut rest = value;
@@ -139,13 +141,13 @@ impl Entry {
 
     /// The bytes `range` of the value with their place; nothing has the place of the key.
     fn part(&self, range: Range<usize>) -> Given<&str> {
-        let start = self.value_span.range().start;
+        let start = self.meant.range().start;
         let span = if range.is_empty() {
             self.key_span
         } else {
             Span::new(start + range.start, start + range.end)
         };
-        let value = self.value_span.of(self.source.text());
+        let value = self.meant.of(self.source.text());
         Given::new(&value[range], &self.source, span)
     }
 }
@@ -473,11 +475,13 @@ impl Reader<'_> {
         if let Some(found) = is_odd.then(|| blanked(line)).flatten() {
             return Line::Lost(Span::new(start, start + found.length), found.pattern);
         }
+        let value = Span::new(start + value_start, start + value_start + value.len());
         Line::Entry(Entry {
             pattern,
             indices,
             key_span: Span::new(start, start + key_end),
-            value_span: Span::new(start + value_start, start + value_start + value.len()),
+            value_span: value,
+            meant: value,
             source: self.source.clone(),
         })
     }

@@ -12,10 +12,10 @@ const SLOW_TABLE: f64 = 1000.0;
 /// A smaller scaling factor leaves less than a tenth of the outputs.
 const SMALL_SCALING: i64 = 100;
 
-/// What is hardly meant in a list; `points` are those that are numbers, with their indices.
+/// What is hardly meant in a list with these points.
 pub(super) fn doubts(
     draft: &FrictionDraft,
-    points: &[(u32, TablePoint)],
+    points: &[TablePoint],
     axis_type: AxisType,
 ) -> Vec<Diagnostic> {
     let checks = [
@@ -50,13 +50,13 @@ fn small_scaling(draft: &FrictionDraft) -> Option<Diagnostic> {
 }
 
 /// A table of velocities in mm/s instead of \u{b5}m/s.
-fn slow(draft: &FrictionDraft, points: &[(u32, TablePoint)]) -> Option<Diagnostic> {
-    let (index, last) = points.last()?;
+fn slow(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let (index, last) = (0_u32..).zip(points).last()?;
     let fastest = last.input;
     if !(fastest > 0.0 && fastest < SLOW_TABLE) {
         return None;
     }
-    let place = draft.table.get(index)?.input.as_ref()?.place();
+    let place = draft.table.get(&index)?.input.as_ref()?.place();
     let message = format!(
         "the table ends at {fastest} \u{b5}m/s, so that all of it lies below 1 mm/s: velocities are \
          in \u{b5}m/s"
@@ -68,12 +68,11 @@ fn slow(draft: &FrictionDraft, points: &[(u32, TablePoint)]) -> Option<Diagnosti
 }
 
 /// Outputs of both signs: at one speed the current would push, at another it would brake.
-fn signs(draft: &FrictionDraft, points: &[(u32, TablePoint)]) -> Option<Diagnostic> {
-    let mut outputs = points.iter().filter(|(_, point)| point.output != 0.0);
-    let &(_, first) = outputs.next()?;
-    let &(index, other) = outputs.find(|(_, point)| {
-        point.output.is_sign_negative() != first.output.is_sign_negative()
-    })?;
+fn signs(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let mut outputs = (0..).zip(points).filter(|(_, point)| point.output != 0.0);
+    let (_, first) = outputs.next()?;
+    let is_negative = |point: &TablePoint| point.output.is_sign_negative();
+    let (index, other) = outputs.find(|(_, point)| is_negative(point) != is_negative(first))?;
     let message = format!(
         "`frict_comp.table[{index}].out` is {}, of the other sign than the {} before: friction has \
          one sign at all velocities",
@@ -83,8 +82,8 @@ fn signs(draft: &FrictionDraft, points: &[(u32, TablePoint)]) -> Option<Diagnost
 }
 
 /// Outputs that fall to less than half and rise again, or the reverse.
-fn jump(draft: &FrictionDraft, points: &[(u32, TablePoint)]) -> Option<Diagnostic> {
-    let sizes: Vec<f64> = points.iter().map(|(_, point)| point.output.abs()).collect();
+fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let sizes: Vec<f64> = points.iter().map(|point| point.output.abs()).collect();
     let mut after: Vec<(f64, f64)> = Vec::with_capacity(sizes.len());
     let mut range = (f64::INFINITY, f64::NEG_INFINITY);
     for &size in sizes.iter().rev() {
@@ -93,7 +92,7 @@ fn jump(draft: &FrictionDraft, points: &[(u32, TablePoint)]) -> Option<Diagnosti
     }
     after.reverse();
     let mut before = (f64::INFINITY, f64::NEG_INFINITY);
-    for (&(index, point), (&size, after)) in points.iter().zip(sizes.iter().zip(after)) {
+    for ((index, point), (&size, after)) in (0..).zip(points).zip(sizes.iter().zip(after)) {
         let valley = size < 0.5 * before.1.min(after.1);
         let peak = 0.5 * size > before.0.max(after.0);
         if valley || peak {

@@ -56,7 +56,7 @@ pub(super) fn resolve(entries: &mut Vec<Entry>, diagnostics: &mut Vec<Diagnostic
     let mut broken = Vec::new();
     for at in referring {
         match follow(entries, at) {
-            Ok(Some(value)) => entries[at].value_span = value,
+            Ok(Some(value)) => entries[at].meant = value,
             Ok(None) => {}
             // A circle is said at the first of its members.
             Err((_, passed)) if passed.iter().any(|it| broken.contains(it)) => broken.push(at),
@@ -92,7 +92,7 @@ fn follow(
     loop {
         let last = &entries[*passed.last().unwrap_or(&first)];
         let Some(reference) = Reference::parse(last.word().value) else {
-            return Ok((passed.len() > 1).then_some(last.value_span));
+            return Ok((passed.len() > 1).then_some(last.meant));
         };
         let next = match reference.find(entries) {
             Ok(next) => next,

@@ -81,7 +81,7 @@ const AXIS_KEYS: &[&str] = &[
 ];
 
 fn holds(list: &Entries, beginnings: &[&str]) -> bool {
-    list.entries.iter().any(|entry| {
+    list.entries.iter().chain(&list.unresolved).any(|entry| {
         let begins = |beginning: &&str| entry.pattern.starts_with(*beginning);
         beginnings.iter().any(begins)
     })

@@ -189,6 +189,7 @@ impl AxisDraft {
             axis.enable();
         }
         diagnostics.extend(self.check_selection(&axis));
+        diagnostics.extend(self.check_monitor(&axis));
         for diagnostic in &mut diagnostics[first..] {
             diagnostic.axis.get_or_insert_with(|| self.name.clone());
         }
@@ -233,6 +234,27 @@ impl AxisDraft {
         let on = selectors.filter(|(_, on)| on.value).map(|(&kind, _)| kind);
         let known = KindSet::ALL.without(self.values.unread);
         known.without(on.collect())
+    }
+
+    /// FC124 for kinds that are required where nothing says whether they are configured (R1.36).
+    fn check_monitor(&self, axis: &Axis) -> Option<Diagnostic> {
+        let required = self.values.required.as_ref()?;
+        let known = axis.configured.union(axis.unselected);
+        let open = axis.required.without(known.union(KindSet::of(Kind::Frict)));
+        if open.is_empty() {
+            return None;
+        }
+        let words: Vec<_> = open.iter().map(|kind| format!("`{kind}`")).collect();
+        let message = format!(
+            "axis `{}` requires {}, but nothing says whether it is configured; whether the axis moves \
+             without it is not judged",
+            axis.name,
+            words.join(", ")
+        );
+        Some(
+            Diagnostic::new(Code::Fc124, required.place(), message)
+                .with_help("name the kind in `compensations`, or give the axis list of the control"),
+        )
     }
 
     fn parameterisation(&self, verdict: Verdict, conflict: Option<Code>) -> Parameterisation {

@@ -15,9 +15,6 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
     let Some(first) = first else {
         return "an empty file";
     };
-    if has_nothing(entries) {
-        return "a list without entries";
-    }
     let tables = ["[machine", "[[axis", "[variables", "[lint", "[check"];
     let key = |entry: &Entry| {
         OTHERS

@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::files::{folder, is_absolute};
+use super::files::{folder, is_absolute, join};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::Given;
 
 /// The folders in which lists were looked for, and what of it was not found.
 #[derive(Debug, Default)]
 pub(super) struct Missing {
-    /// Folders with a list that was found: the list that names it, and the folder as it is written.
+    /// Folders with a list that was found: the list that names it, and the folder.
     found: BTreeSet<(Arc<str>, String)>,
     lacking: Vec<Lacking>,
 }
@@ -88,7 +88,7 @@ impl Missing {
     }
 }
 
-/// The list that names a path, and the folder of the path as it is written.
+/// The list that names a path, and the folder of the path.
 fn whereabouts(asked: &Given<String>) -> (Arc<str>, String) {
-    (asked.file().into(), folder(&asked.value).to_owned())
+    (asked.file().into(), join("", folder(&asked.value)))
 }

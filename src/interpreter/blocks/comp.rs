@@ -81,9 +81,9 @@ impl Interpreter {
             return;
         }
         let message = format!(
-            "COMP stands under {}: while a transformation is active the control may refuse it, and \
-             which transformations count is not documented",
-            active.join(", ")
+            "the control may refuse COMP while {} is active (error 50546); for which transformations \
+             it does is not documented",
+            active.join(" or ")
         );
         let fault = Fault::new(Code::Fc411, command.span, message)
             .with_help("switch compensation before the transformation is activated, or after its end");

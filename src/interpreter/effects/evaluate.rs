@@ -64,7 +64,7 @@ impl Interpreter {
         let found = at.text.find(name).map(|start| Span::new(start, start + name.len()));
         let span = found.unwrap_or_else(|| Span::new(0, at.text.len()));
         let message = format!(
-            "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active"
+            "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
         );
         let fault = Fault::new(Code::Fc412, span, message)
             .with_help("read it before G41 or G42, into a parameter for instance");

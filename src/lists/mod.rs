@@ -22,7 +22,7 @@ pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
 pub use channel_settings::{ChannelDraft, ChannelSettings, FeedUnit};
 pub use check::{Conditions, FrictionReading, Verdict};
 pub use friction::{Field, FrictionDraft, WrittenPoint};
-#[cfg(feature = "cli")]
+#[cfg(all(test, feature = "cli"))]
 pub(crate) use known::KEYS;
 pub use line::{Entries, Entry};
 pub use monitor::Monitor;

@@ -611,7 +611,8 @@ fn only_configured_kinds_are_monitored_and_not_while_homing() {
 }
 
 /// X with an axis list of the control that selects FRICT and LEAD.
-const LISTED: &str = "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nlr_param.ssfk 1\nEnde";
+const LISTED: &str =
+    "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nlr_param.ssfk 1\nEnde";
 
 /// A machine with X as [`LISTED`].
 fn listed() -> Machine {
@@ -641,7 +642,9 @@ fn kinds_that_the_axis_list_does_not_select_are_refused() {
         bench.machine = listed();
         let on = bench.run(&[&format!("X[COMP ON FRICT LEAD {kind}]\nM30")]);
         assert!(on.contains(&format!("{code} 1:1")), "{kind}: {on}");
-        let off = bench.run(&[&format!("X[COMP OFF {kind}]\nX[COMP OFF_ALL]\nX[COMP ON FRICT LEAD]\nM30")]);
+        let off = bench.run(&[&format!(
+            "X[COMP OFF {kind}]\nX[COMP OFF_ALL]\nX[COMP ON FRICT LEAD]\nM30"
+        )]);
         assert!(!off.contains("P-ERR"), "{kind}: {off}");
     }
     // frictcomp.toml alone does not say that a kind is not selected.
@@ -650,7 +653,11 @@ fn kinds_that_the_axis_list_does_not_select_are_refused() {
         assert!(!run.contains("P-ERR"), "{kind}: {run}");
     }
     let lead = "[[axis]]\nname = \"X\"\n";
-    assert!(Bench::on(lead).run(&["X[COMP ON FRICT]"]).contains("P-ERR-70495"));
+    assert!(
+        Bench::on(lead)
+            .run(&["X[COMP ON FRICT]"])
+            .contains("P-ERR-70495")
+    );
 }
 
 #[test]

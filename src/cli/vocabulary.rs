@@ -1,11 +1,16 @@
 //! The words that `explain` knows besides codes and parameters: the sections of `docs/words.md`,
 //! and the rules and contradictions of `docs/rules.md`.
 
+use crate::report::wrap;
+
 /// The words, a section each; its title names them in backquotes.
 const WORDS: &str = include_str!("../../docs/words.md");
 
 /// The rules, a line each: `- **R1.24** …`.
 const RULES: &str = include_str!("../../docs/rules.md");
+
+/// Columns of a rule on its page.
+const WIDTH: usize = 80;
 
 /// Objects of a further axis of one device lie this much higher.
 const PER_CHANNEL: u32 = 0x800;
@@ -34,7 +39,8 @@ fn names(section: &'static str) -> impl Iterator<Item = &'static str> {
 /// The section of a word, in whatever form it is written.
 fn word(text: &str) -> Option<String> {
     let wanted = canonical(text);
-    let section = sections().find(|section| names(section).any(|name| canonical(name) == wanted))?;
+    let section =
+        sections().find(|section| names(section).any(|name| canonical(name) == wanted))?;
     Some(format!("# {}\n", section.trim_end()))
 }
 
@@ -46,7 +52,7 @@ fn rule(text: &str) -> Option<String> {
     let is_title = number.starts_with(['R', 'C']);
     let rest = RULES[at..].split("\n- ").next().unwrap_or_default();
     let rule = rest.split("\n\n").next().unwrap_or_default();
-    is_title.then(|| format!("# {number}\n\n{}\n", rule.trim_end()))
+    is_title.then(|| format!("# {number}\n\n{}\n", wrap(rule.trim_end(), WIDTH, 0)))
 }
 
 /// One form of a word for all ways to write it: a command, a variable of an axis, a machine
@@ -64,7 +70,9 @@ fn canonical(text: &str) -> String {
         text.truncate(text.find('.').unwrap_or(text.len()));
         return text;
     }
-    idn(&text).or_else(|| object(&text)).unwrap_or_else(|| without_indices(&text))
+    idn(&text)
+        .or_else(|| object(&text))
+        .unwrap_or_else(|| without_indices(&text))
 }
 
 /// `S_0_81` and `IDN 81` are `S-0-0081`, in every parameter set.
@@ -84,7 +92,10 @@ fn object(text: &str) -> Option<String> {
     let digits = text.strip_prefix("0X").or_else(|| text.strip_prefix("#X"));
     let digits = digits.unwrap_or(text);
     let end = digits.find(['_', ':', '.']).unwrap_or(digits.len());
-    let is_first = matches!(digits[end..].trim_start_matches(['_', ':', '.']), "" | "0" | "00");
+    let is_first = matches!(
+        digits[end..].trim_start_matches(['_', ':', '.']),
+        "" | "0" | "00"
+    );
     let digits = digits[..end].trim_end_matches('H');
     if digits.len() != 4 || !is_first {
         return None;
@@ -105,7 +116,9 @@ fn without_indices(text: &str) -> String {
     for part in parts {
         key.push('[');
         match part.split_once(']') {
-            Some((index, rest)) if index == "I" || index.bytes().all(|it| it.is_ascii_digit() || it == b' ') => {
+            Some((index, rest))
+                if index == "I" || index.bytes().all(|it| it.is_ascii_digit() || it == b' ') =>
+            {
                 key.push(']');
                 key.push_str(rest);
             }
@@ -132,13 +145,18 @@ mod tests {
 
     #[test]
     fn every_kind_and_every_key_is_known() {
-        let is_friction = |text: &str| text.starts_with("frict_comp.") || text == "lr_param.frict_comp";
+        let is_friction =
+            |text: &str| text.starts_with("frict_comp.") || text == "lr_param.frict_comp";
         for key in KEYS.iter().filter(|key| !is_friction(key.pattern)) {
             if key.pattern.contains("prog_movement") {
                 continue;
             }
             assert!(word(key.pattern).is_some(), "{}", key.pattern);
-            assert!(key.number.is_empty() || word(key.number).is_some(), "{}", key.number);
+            assert!(
+                key.number.is_empty() || word(key.number).is_some(),
+                "{}",
+                key.number
+            );
         }
         for kind in Kind::ALL {
             let page = word(kind.as_str()).expect("a kind");
@@ -170,9 +188,12 @@ mod tests {
             ("C12", "C12"),
         ] {
             let page = find(text).unwrap_or_default();
-            assert!(page.lines().next().is_some_and(|it| it.contains(title)), "{text}: {page}");
+            assert!(
+                page.lines().next().is_some_and(|it| it.contains(title)),
+                "{text}: {page}"
+            );
         }
-        for text in ["", "R1.2700", "C99", "R", "60B3", "S-0-9999", "COMB", "V.A.X"] {
+        for text in ["", "R99.1", "C99", "R", "60B3", "S-0-9999", "COMB", "V.A.X"] {
             assert_eq!(find(text), None, "{text}");
         }
     }

@@ -5,8 +5,8 @@ use super::section::{Section, Shape};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Label;
 use crate::lists::{
-    AXIS_NAME_HELP, AxisValues, Field, FrictionDraft, Given, Monitor, UnknownAxisType, WrittenPoint,
-    is_axis_name,
+    AXIS_NAME_HELP, AxisValues, Field, FrictionDraft, Given, Monitor, UnknownAxisType,
+    WrittenPoint, is_axis_name,
 };
 
 /// What `[[axis]]` says.

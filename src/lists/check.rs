@@ -134,9 +134,10 @@ impl Check<'_> {
         }
         self.check_mode(mode, entries);
         let is_empty = mode == Some(3) && self.has(Code::PErr110592);
-        let table = match is_empty {
-            true => Vec::new(),
-            false => self.table(entries),
+        let table = if is_empty {
+            Vec::new()
+        } else {
+            self.table(entries)
         };
         let _: Option<u32> = max_points;
         Some((

@@ -176,7 +176,13 @@ mod tests {
             let found = blanked(line).map(|found| found.pattern);
             assert_eq!(found, Some(key), "{line}");
         }
-        for line in ["frict_comp.mode 3", "frict", "kopf.achs nrx 1", "mode 3", ""] {
+        for line in [
+            "frict_comp.mode 3",
+            "frict",
+            "kopf.achs nrx 1",
+            "mode 3",
+            "",
+        ] {
             assert_eq!(blanked(line), None, "{line}");
         }
     }

@@ -3,6 +3,7 @@
 mod axis;
 mod channel_settings;
 mod check;
+mod entry;
 mod friction;
 mod known;
 mod line;
@@ -21,10 +22,11 @@ pub use axis::AxisValues;
 pub(crate) use axis::{AXIS_NAME_HELP, is_axis_name};
 pub use channel_settings::{ChannelDraft, ChannelSettings, FeedUnit};
 pub use check::{Conditions, FrictionReading, Verdict};
+pub use entry::Entry;
 pub use friction::{Field, FrictionDraft, WrittenPoint};
 #[cfg(all(test, feature = "cli"))]
 pub(crate) use known::KEYS;
-pub use line::{Entries, Entry};
+pub use line::Entries;
 pub use monitor::Monitor;
 pub use parameter::{AxisType, Origin, Parameter, UnknownAxisType};
 pub use program::{ChannelPrograms, Role};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::line::Entry;
+use super::entry::Entry;
 use super::value::{Given, Number};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic, nearest};

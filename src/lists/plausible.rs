@@ -4,7 +4,7 @@ use super::friction::{Field, FrictionDraft};
 use super::parameter::AxisType;
 use super::table::TablePoint;
 use super::value::Number;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Severity, Shown};
 
 /// A linear axis whose fastest point is slower than 1 mm/s has velocities in mm/s, most likely.
 const SLOW_TABLE: f64 = 1000.0;
@@ -19,15 +19,16 @@ pub(super) fn doubts(
     axis_type: AxisType,
 ) -> Vec<Diagnostic> {
     let checks = [
-        small_scaling(draft),
+        small_scaling(draft, points),
         slow(draft, points).filter(|_| axis_type == AxisType::Linear),
         signs(draft, points).or_else(|| jump(draft, points)),
     ];
     checks.into_iter().flatten().collect()
 }
 
-/// A scaling factor that leaves next to nothing, as 10 in the manual's sample (C13).
-fn small_scaling(draft: &FrictionDraft) -> Option<Diagnostic> {
+/// A scaling factor that leaves little of the outputs, as 10 in the manual's sample (C13). It may be
+/// meant, for a table of integers becomes finer by it.
+fn small_scaling(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
     let given = draft.get(Field::ScalingFactor)?;
     let Some(Number::Integer(factor)) = given.value.number else {
         return None;
@@ -35,18 +36,19 @@ fn small_scaling(draft: &FrictionDraft) -> Option<Diagnostic> {
     if factor.saturating_abs() >= SMALL_SCALING {
         return None;
     }
-    let tenths = factor % 10;
-    let percent = match tenths {
-        0 => (factor / 10).to_string(),
-        _ => format!("{}.{}", factor / 10, tenths.abs()),
-    };
+    let largest = points.iter().map(|point| point.output);
+    let largest = largest.max_by(|one, other| one.abs().total_cmp(&other.abs()))?;
+    let scale = Number::Integer(factor).to_f64();
     let message = format!(
-        "`frict_comp.scaling_factor` is {factor}, which sends {percent} % of the outputs to the drive"
+        "`frict_comp.scaling_factor` is {factor}, which is {} %: the largest output, {largest}, \
+         reaches the drive as {}",
+        Shown(scale / 10.0),
+        Shown(largest * scale / 1000.0)
     );
-    Some(
-        Diagnostic::new(Code::Fc139, given.place(), message)
-            .with_help("the unit is 0.1 %: 1000 sends the outputs as they are"),
-    )
+    let mut said = Diagnostic::new(Code::Fc139, given.place(), message)
+        .with_help("the unit is 0.1 %: 1000 sends the outputs as they are");
+    said.severity = Severity::Info;
+    Some(said)
 }
 
 /// A table of velocities in mm/s instead of \u{b5}m/s.
@@ -96,7 +98,11 @@ fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
         let valley = size < 0.5 * before.1.min(after.1);
         let peak = 0.5 * size > before.0.max(after.0);
         if valley || peak {
-            let what = if valley { "less than half" } else { "more than twice" };
+            let what = if valley {
+                "less than half"
+            } else {
+                "more than twice"
+            };
             let message = format!(
                 "`frict_comp.table[{index}].out` is {}, {what} of what stands before and after it",
                 point.output

@@ -1,7 +1,7 @@
 //! Values that refer to another parameter of the list: `P-AXIS-00008.0` (R3.40).
 
+use super::entry::Entry;
 use super::known::{KEYS, is_known};
-use super::line::Entry;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::text::Span;
 
@@ -30,7 +30,10 @@ impl Reference {
 
     /// The entry of the parameter. An index that is left out is 0.
     fn find(&self, entries: &[Entry]) -> Result<usize, &'static str> {
-        let mut keys = KEYS.iter().filter(|key| key.number == self.number).peekable();
+        let mut keys = KEYS
+            .iter()
+            .filter(|key| key.number == self.number)
+            .peekable();
         if keys.peek().is_none() {
             return Err("whose key is not known to frictcomp");
         }
@@ -84,10 +87,7 @@ pub(super) fn resolve(entries: &mut Vec<Entry>, diagnostics: &mut Vec<Diagnostic
 }
 
 /// Where the value stands that an entry refers to; `None` when it refers to none.
-fn follow(
-    entries: &[Entry],
-    first: usize,
-) -> Result<Option<Span>, (&'static str, Vec<usize>)> {
+fn follow(entries: &[Entry], first: usize) -> Result<Option<Span>, (&'static str, Vec<usize>)> {
     let mut passed = vec![first];
     loop {
         let last = &entries[*passed.last().unwrap_or(&first)];

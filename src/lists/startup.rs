@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 use super::axis::{axis_number, text};
 use super::channel_settings::{ChannelDraft, ChannelSettings};
-use super::line::{Entries, Entry};
+use super::entry::Entry;
+use super::line::Entries;
 use super::program::ChannelPrograms;
 use super::value::Given;
 use crate::diagnostic::{Code, Diagnostic};

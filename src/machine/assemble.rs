@@ -252,8 +252,9 @@ impl AxisDraft {
             words.join(", ")
         );
         Some(
-            Diagnostic::new(Code::Fc124, required.place(), message)
-                .with_help("name the kind in `compensations`, or give the axis list of the control"),
+            Diagnostic::new(Code::Fc124, required.place(), message).with_help(
+                "name the kind in `compensations`, or give the axis list of the control",
+            ),
         )
     }
 

@@ -117,7 +117,8 @@ impl Configuration {
         let mut masters = self.machine.axes.iter();
         let master = masters.find(|axis| axis.number.is_some() && axis.number == number);
         if let (Some(master), Some(link)) = (master, &link) {
-            self.diagnostics.extend(gantry::compare(master, &slave, link));
+            self.diagnostics
+                .extend(gantry::compare(master, &slave, link));
         }
         self.machine.gantry_slaves.push(GantrySlave {
             master: master.map(|axis| axis.name.clone()),

@@ -1,6 +1,6 @@
 //! Static gantries: axes that follow others in the position controller (R1.43).
 //!
-//! A slave is not known in the channel (tf5200_gantry_operation/285764875, P-AXIS-00070).
+//! A slave is not known in the channel (TF5200 Gantry operation, 285764875, P-AXIS-00070).
 
 use super::axis::{Axis, Parameterisation};
 use crate::comp::Kind;
@@ -64,7 +64,10 @@ fn differing(one: &FrictionList, other: &FrictionList) -> Vec<&'static str> {
         ("table", one.table == other.table),
         ("scaling_factor", one.scaling_factor == other.scaling_factor),
         ("position_delay", one.position_delay == other.position_delay),
-        ("reversal_lookahead", one.reversal_lookahead == other.reversal_lookahead),
+        (
+            "reversal_lookahead",
+            one.reversal_lookahead == other.reversal_lookahead,
+        ),
         ("delay_cycles", one.delay_cycles == other.delay_cycles),
     ];
     let unlike = checks.into_iter().filter(|(_, same)| !same);

@@ -35,13 +35,13 @@ impl Missing {
 
     /// Remembers that a list is not there, which the diagnostic with this number says.
     pub(super) fn lack(&mut self, asked: &Given<String>, message: usize) {
-        let (asker, folder) = whereabouts(asked);
+        let (list, folder) = whereabouts(asked);
         if folder.is_empty() || is_absolute(&asked.value) {
             return;
         }
         let name = asked.value.rsplit(['\\', '/']).next().unwrap_or_default();
         self.lacking.push(Lacking {
-            asker,
+            asker: list,
             folder,
             name: name.to_owned(),
             message,
@@ -74,7 +74,9 @@ impl Missing {
                 0,
                 "the control finds it from its own working folder; copy it beside this list".into(),
             );
-            first.advice.push(format!("the lists are {}", names.join(", ")).into());
+            first
+                .advice
+                .push(format!("the lists are {}", names.join(", ")).into());
             surplus.extend(same[1..].iter().map(|it| it.message));
         }
         surplus.sort_unstable();

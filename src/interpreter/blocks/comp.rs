@@ -85,8 +85,9 @@ impl Interpreter {
              it does is not documented",
             active.join(" or ")
         );
-        let fault = Fault::new(Code::Fc411, command.span, message)
-            .with_help("switch compensation before the transformation is activated, or after its end");
+        let fault = Fault::new(Code::Fc411, command.span, message).with_help(
+            "switch compensation before the transformation is activated, or after its end",
+        );
         let diagnostic = at.diagnostic(fault).with_axis(command.axis.clone());
         self.work.diagnostics.push(diagnostic);
     }

@@ -61,7 +61,10 @@ impl Interpreter {
     /// FC412: the control may refuse to read the state of a compensation while G41 or G42 is active
     /// (R1.42).
     fn note_flush(&mut self, name: &str, at: &At<'_>) {
-        let found = at.text.find(name).map(|start| Span::new(start, start + name.len()));
+        let found = at
+            .text
+            .find(name)
+            .map(|start| Span::new(start, start + name.len()));
         let span = found.unwrap_or_else(|| Span::new(0, at.text.len()));
         let message = format!(
             "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"

@@ -6,6 +6,7 @@ use frictcomp::comp::{Kind, KindSet, Selection, State};
 use frictcomp::machine::Machine;
 use frictcomp::session::{Session, SessionOptions};
 use frictcomp::syntax::parse_comp;
+use frictcomp::text::SourceFile;
 use insta::assert_snapshot;
 use support::{Bench, MACHINE};
 
@@ -586,6 +587,131 @@ fn motion_may_require_compensations() {
       6 line 6 -
         P-ERR-70435 6:7-10
       end 6 error X:inactive Y:unconfigured
+    ");
+}
+
+#[test]
+fn only_configured_kinds_are_monitored_and_not_while_homing() {
+    // R1.36: the control speaks of kinds that its axis list selects, and never while homing.
+    let machine = "[[axis]]\nname = \"X\"\nrequired = [\"FRICT\"]\n[[axis]]\nname = \"Y\"\n\
+                   frict_comp = true\nrequired = [\"FRICT\"]\nvalue = { mode = 3, table = [[0, 12]] }\n";
+    let program = "X1\nY[COMP OFF FRICT]\nG74 X1 Y2\nG01 X2 F100\nY[COMP ON FRICT]\nM30";
+    assert_snapshot!(Bench::on(machine).run(&[program]), @"
+    start X:unconfigured Y:active
+    a.nc -
+      1 line 1 -
+      2 line 2 - Y:active>inactive
+      3 line 3 -
+      4 line 4 -
+      5 line 5 - Y:inactive>active
+      6 line 6 -
+      end 6 M30 X:unconfigured Y:active
+    opaque {\"G74\": 1}
+    ");
+}
+
+/// X with an axis list of the control that selects FRICT and LEAD.
+const LISTED: &str =
+    "kopf.achs_nr 1\nkopf.log_achs_name X\nlr_param.frict_comp 1\nlr_param.ssfk 1\nEnde";
+
+/// A machine with X as [`LISTED`].
+fn listed() -> Machine {
+    struct Lists;
+    impl frictcomp::machine::ListFiles for Lists {
+        fn read(&mut self, _path: &str) -> Result<SourceFile, frictcomp::machine::NoList> {
+            Ok(SourceFile::new("x.lis", LISTED))
+        }
+    }
+    let startup = SourceFile::new("hochlauf.lis", "achs_mds[0] x.lis\nEnde");
+    let mut found = frictcomp::machine::Configuration::from_startup(startup, &mut Lists);
+    found.machine.enable("X");
+    found.machine
+}
+
+#[test]
+fn kinds_that_the_axis_list_does_not_select_are_refused() {
+    // R1.41: each with its own number; FRICT and what the list selects are not.
+    for (kind, code) in [
+        ("TEMP", "P-ERR-70313"),
+        ("CROSS", "P-ERR-70316"),
+        ("PLANE", "P-ERR-70319"),
+        ("CROSSTALK", "P-ERR-70631"),
+        ("BACKLASH", "P-ERR-70637"),
+    ] {
+        let mut bench = Bench::new();
+        bench.machine = listed();
+        let on = bench.run(&[&format!("X[COMP ON FRICT LEAD {kind}]\nM30")]);
+        assert!(on.contains(&format!("{code} 1:1")), "{kind}: {on}");
+        let off = bench.run(&[&format!(
+            "X[COMP OFF {kind}]\nX[COMP OFF_ALL]\nX[COMP ON FRICT LEAD]\nM30"
+        )]);
+        assert!(!off.contains("P-ERR"), "{kind}: {off}");
+    }
+    // frictcomp.toml alone does not say that a kind is not selected.
+    for kind in Kind::ALL {
+        let run = Bench::new().run(&[&format!("X[COMP ON {kind}]\nM30")]);
+        assert!(!run.contains("P-ERR"), "{kind}: {run}");
+    }
+    let lead = "[[axis]]\nname = \"X\"\n";
+    assert!(
+        Bench::on(lead)
+            .run(&["X[COMP ON FRICT]"])
+            .contains("P-ERR-70495")
+    );
+}
+
+#[test]
+fn comp_under_a_transformation_is_said() {
+    // R1.42
+    let program = "X[COMP OFF FRICT]\n#TRAFO ON\nX[COMP ON FRICT]\nY[COMP OFF LEAD]\n#TRAFO OFF\n\
+                   X[COMP ON FRICT]\n#KIN ID[9]\n#CS ON [1]\nY[COMP OFF FRICT]\n#CS OFF\n\
+                   G41 G01 X1 F100\nY[COMP ON FRICT]\nG40\nM30";
+    assert_snapshot!(Bench::new().run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 - X:active>inactive
+      2 line 2 -
+      3 line 3 - X:inactive>active
+        FC411 3:1-17
+      4 line 4 -
+        FC411 4:1-17
+      5 line 5 -
+      6 line 6 -
+        FC402 6:1-17
+      7 line 7 -
+      8 line 8 -
+      9 line 9 - Y:active>inactive
+        FC411 9:1-18
+      10 line 10 -
+      11 line 11 -
+      12 line 12 - Y:inactive>active
+      13 line 13 -
+      14 line 14 -
+      end 14 M30 X:active Y:active Z:unconfigured B:ineffective
+    opaque {\"#CS\": 2, \"#KIN\": 1, \"#TRAFO\": 2}
+    ");
+}
+
+#[test]
+fn reading_the_state_flushes_the_channel() {
+    // R1.42
+    let program = "P1 = V.A.FRICT_COMP_ACTIVE.X\nG41 G01 X1 F100\n\
+                   $IF V.A.FRICT_COMP_ACTIVE.X == 0\n$ENDIF\nP2 = V.A.LEAD_COMP_INIT.Y + V.A.ABS.X\n\
+                   G40\nP3 = V.A.FRICT_COMP_INIT.X\nM30";
+    assert_snapshot!(Bench::new().run(&[program]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 2 -
+      3 line 3 -
+        FC412 3:5-28
+      4 line 4 -
+      5 line 5 -
+        FC412 5:6-26
+      6 line 6 -
+      7 line 7 -
+      8 line 8 -
+      end 8 M30 X:active Y:active Z:unconfigured B:ineffective
     ");
 }
 

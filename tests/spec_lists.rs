@@ -12,5 +12,6 @@ mod lists {
     mod lines;
     mod programs;
     mod robust;
+    mod values;
     mod written;
 }

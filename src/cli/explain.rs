@@ -1,4 +1,6 @@
-//! `frictcomp explain`: the page of a code or a parameter.
+//! `frictcomp explain`: the page of a code, a parameter, a rule or another word.
+
+use std::borrow::Cow;
 
 use clap::Args;
 
@@ -6,13 +8,15 @@ use super::console::Console;
 use super::exit;
 use super::failure::Failure;
 use super::painted::page as titles;
+use super::vocabulary;
 use crate::diagnostic::{Code, did_you_mean};
 
-/// Explain a message or a parameter
+/// Explain a message, a parameter, a rule or another word
 #[derive(Debug, Args)]
 pub(super) struct ExplainArgs {
-    /// A code or parameter, such as `FC201`, `P-ERR-70495`, `70495`, `P-COMP-00043` or
-    /// `frict_comp.mode`
+    /// A code, parameter, rule or word, such as `FC201`, `70495`, `P-COMP-00043`,
+    /// `frict_comp.mode`, `R1.27`, `C12`, `COMP`, `V.A.FRICT_COMP_ACTIVE`, `60B2` or `MP1511`
+    #[arg(value_name = "WORD")]
     code: String,
 }
 
@@ -56,10 +60,13 @@ pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
     Ok(exit::CLEAN)
 }
 
-/// The page of a code, of a parameter's number or of its key.
-fn find(text: &str) -> Option<&'static str> {
-    if let Ok(code) = text.parse::<Code>() {
-        return Some(code.page());
+/// The page of a code, of a parameter's number or of its key, of a rule or of a word.
+fn find(text: &str) -> Option<Cow<'static, str>> {
+    let number = text.bytes().all(|byte| byte.is_ascii_digit());
+    let bare = number.then(|| format!("FC{text}"));
+    let code = text.parse::<Code>().ok();
+    if let Some(code) = code.or_else(|| bare?.parse().ok()) {
+        return Some(code.page().into());
     }
     let key = general_key(text);
     PARAMETERS
@@ -67,7 +74,8 @@ fn find(text: &str) -> Option<&'static str> {
         .find(|parameter| {
             parameter.number.eq_ignore_ascii_case(text) || parameter.key.eq_ignore_ascii_case(&key)
         })
-        .map(|parameter| parameter.page)
+        .map(|parameter| parameter.page.into())
+        .or_else(|| vocabulary::find(text).map(Cow::Owned))
 }
 
 /// `frict_comp.table[3].in` is `frict_comp.table[i].in`.
@@ -89,7 +97,7 @@ fn unknown(text: &str) -> Failure {
         .iter()
         .flat_map(|parameter| [parameter.number, parameter.key]);
     let failure = Failure::new(format!("there is no page about `{text}`"));
-    match did_you_mean(text, codes.chain(parameters)) {
+    match did_you_mean(text, codes.chain(parameters).chain(vocabulary::words())) {
         Some(near) => failure.with_help(format!("did you mean `{near}`?")),
         None => failure.with_help("`frictcomp codes` lists every code"),
     }
@@ -110,10 +118,15 @@ mod tests {
             "frict_comp.mode",
             "frict_comp.table[7].in",
             "frict_comp.table[i].out",
+            "139",
+            "R1.27",
+            "COMP",
         ] {
             assert!(find(name).is_some(), "{name}");
         }
         assert!(find("P-ERR-1").is_none());
+        assert!(find("1").is_none() && find("").is_none());
         assert_eq!(unknown("FC20l").help, ["did you mean `FC201`?"]);
+        assert_eq!(unknown("FRIKT").help, ["did you mean `FRICT`?"]);
     }
 }

@@ -49,6 +49,7 @@ mod trace;
 mod tune;
 mod values;
 mod verify;
+mod vocabulary;
 mod wildcards;
 
 use std::ffi::OsString;

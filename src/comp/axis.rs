@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::kind::KindSet;
+use super::kind::{Kind, KindSet};
 
 /// The position of an axis in the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -30,6 +30,9 @@ pub struct AxisSetup {
     pub is_spindle: bool,
     /// The kinds that the axis parameters configure.
     pub configured: KindSet,
+    /// The kinds that are known not to be configured, so that the control refuses to switch them on
+    /// (R1.24, R1.41).
+    pub unselected: KindSet,
     /// The kinds that only the program activates and that fall off at program end (R1.40).
     pub manual: KindSet,
     /// The kinds that have the values that they need to work.
@@ -37,13 +40,14 @@ pub struct AxisSetup {
 }
 
 impl AxisSetup {
-    /// An axis on which the kinds are configured and parameterised, and the others are not
-    /// configured.
+    /// An axis on which the kinds are configured and parameterised. Of the others only FRICT is
+    /// known not to be configured.
     pub fn new(name: impl Into<String>, configured: KindSet) -> Self {
         Self {
             name: name.into(),
             is_spindle: false,
             configured,
+            unselected: KindSet::of(Kind::Frict).without(configured),
             manual: KindSet::NONE,
             parameterised: configured,
         }

@@ -12,6 +12,8 @@ use super::state::{Change, State};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 struct AxisState {
     configured: KindSet,
+    /// The kinds that are known not to be configured.
+    unselected: KindSet,
     parameterised: KindSet,
     /// The kinds that fall off at program end and reset.
     manual: KindSet,
@@ -91,6 +93,7 @@ impl Compensation {
         for axis in axes {
             compensation.axes.push(AxisState {
                 configured: axis.configured,
+                unselected: axis.unselected.without(axis.configured),
                 parameterised: axis.parameterised,
                 manual: axis.manual,
                 selected: axis.configured.without(axis.manual),
@@ -134,7 +137,7 @@ impl Compensation {
     /// Applies a command and returns what it changed.
     ///
     /// # Errors
-    /// The control's refusal; nothing is changed then (R1.24).
+    /// The control's refusal; nothing is changed then (R1.24, R1.41).
     pub fn apply(&mut self, command: &CompCommand) -> Result<Vec<Change>, CompensationError> {
         let axis = self.resolve(&command.axis)?;
         let mut changes = Vec::new();
@@ -159,7 +162,7 @@ impl Compensation {
     /// Applies a selection to an axis and appends what it changed to `changes`.
     ///
     /// # Errors
-    /// The control's refusal; nothing is changed then (R1.24).
+    /// The control's refusal; nothing is changed then (R1.24, R1.41).
     pub fn switch(
         &mut self,
         axis: AxisIndex,
@@ -173,9 +176,11 @@ impl Compensation {
             return Err(CompensationError::Coupled { axis: name.clone() });
         }
         let on = matches!(selection, Selection::On(_));
-        if on && selection.kinds().contains(Kind::Frict) && !state.configured.contains(Kind::Frict)
-        {
-            return Err(CompensationError::NotConfigured { axis: name.clone() });
+        let refused = selection.kinds().intersection(state.unselected);
+        let friction = refused.contains(Kind::Frict).then_some(Kind::Frict);
+        if let Some(kind) = friction.or_else(|| refused.iter().next()).filter(|_| on) {
+            let axis = name.clone();
+            return Err(CompensationError::NotConfigured { axis, kind });
         }
         let membership = if on { Membership::In } else { Membership::Out };
         for kind in selection.kinds().intersection(state.configured).iter() {

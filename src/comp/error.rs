@@ -2,17 +2,25 @@
 
 use thiserror::Error;
 
+use super::kind::Kind;
 use crate::diagnostic::Code;
 
 /// Why the control, or this tool in its place, refuses a COMP command.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum CompensationError {
-    /// `X[COMP ON FRICT]` while P-AXIS-00522 of X is 0 (R1.24).
-    #[error("friction compensation of axis `{axis}` is switched on, but P-AXIS-00522 is not set")]
+    /// `X[COMP ON FRICT]` while P-AXIS-00522 of X is 0 (R1.24), and any other kind that the list of
+    /// the axis does not select (R1.41).
+    #[error(
+        "{} of axis `{axis}` is switched on, but {} is not set",
+        named(*.kind),
+        .kind.facts().parameter
+    )]
     NotConfigured {
         /// The axis of the command.
         axis: String,
+        /// The kind that is not configured.
+        kind: Kind,
     },
     /// `Q[COMP ON FRICT]` on a machine without an axis Q.
     #[error("the machine has no axis `{axis}`")]
@@ -38,7 +46,7 @@ impl CompensationError {
     /// The control's error number, or ours where the control documents none.
     pub fn code(&self) -> Code {
         match self {
-            Self::NotConfigured { .. } => Code::PErr70495,
+            Self::NotConfigured { kind, .. } => kind.facts().refusal,
             Self::UnknownAxis { .. } => Code::PErr21947,
             Self::Coupled { .. } => Code::PErr21403,
             Self::Spindle { .. } => Code::Fc302,
@@ -48,10 +56,18 @@ impl CompensationError {
     /// The axis that the command names.
     pub fn axis(&self) -> &str {
         match self {
-            Self::NotConfigured { axis }
+            Self::NotConfigured { axis, .. }
             | Self::UnknownAxis { axis }
             | Self::Coupled { axis }
             | Self::Spindle { axis } => axis,
         }
+    }
+}
+
+/// The name of a kind in a message.
+fn named(kind: Kind) -> String {
+    match kind {
+        Kind::Frict => "friction compensation".to_owned(),
+        other => format!("`{other}`"),
     }
 }

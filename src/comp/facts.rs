@@ -2,8 +2,9 @@
 
 use super::build::CncBuild;
 use super::kind::Kind;
+use crate::diagnostic::Code;
 
-/// What the control's documents say about a kind (R1.10, R1.40).
+/// What the control's documents say about a kind (R1.10, R1.36, R1.40, R1.41).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Facts {
     /// The kind.
@@ -16,12 +17,17 @@ pub struct Facts {
     pub manual_activation: Option<&'static str>,
     /// The number of the manual-activation parameter where one is documented.
     pub manual_parameter: Option<&'static str>,
+    /// The control's error for `COMP ON` of the kind on an axis whose list does not select it.
+    pub refusal: Code,
+    /// The bit that stands for the kind in P-AXIS-00465, where one is documented.
+    pub monitor_bit: Option<u64>,
     /// The CNC build that brought the keyword.
     pub since: CncBuild,
 }
 
 /// Sources: *Selecting/deselecting axis compensation in the NC program* (builds), the axis and
-/// compensation parameter descriptions (selectors, manual activation).
+/// compensation parameter descriptions (selectors, manual activation), the control's error texts
+/// (refusals), ISG kernel page 117737611 (bits of P-AXIS-00465).
 const TABLE: [Facts; 7] = [
     Facts {
         kind: Kind::Backlash,
@@ -29,6 +35,8 @@ const TABLE: [Facts; 7] = [
         parameter: "P-AXIS-00021",
         manual_activation: None,
         manual_parameter: None,
+        refusal: Code::PErr70637,
+        monitor_bit: Some(0x1),
         since: CncBuild::new([3, 1, 3081, 5]),
     },
     Facts {
@@ -37,6 +45,8 @@ const TABLE: [Facts; 7] = [
         parameter: "P-AXIS-00047",
         manual_activation: Some("kw.crosscomp.manual_activation"),
         manual_parameter: Some("P-COMP-00029"),
+        refusal: Code::PErr70316,
+        monitor_bit: Some(0x8),
         since: CncBuild::new([2, 10, 1501, 0]),
     },
     Facts {
@@ -45,6 +55,8 @@ const TABLE: [Facts; 7] = [
         parameter: "P-AXIS-00174",
         manual_activation: Some("kw.crosscomp2.manual_activation"),
         manual_parameter: Some("P-COMP-00030"),
+        refusal: Code::PErr70319,
+        monitor_bit: Some(0x10),
         since: CncBuild::new([2, 10, 1501, 0]),
     },
     Facts {
@@ -53,6 +65,8 @@ const TABLE: [Facts; 7] = [
         parameter: "P-AXIS-00175",
         manual_activation: Some("kw.ssfk.manual_activation"),
         manual_parameter: Some("P-COMP-00028"),
+        refusal: Code::PErr70310,
+        monitor_bit: Some(0x2),
         since: CncBuild::new([2, 10, 1501, 0]),
     },
     Facts {
@@ -61,6 +75,8 @@ const TABLE: [Facts; 7] = [
         parameter: "P-AXIS-00271",
         manual_activation: Some("lr_param.temp_comp_manual_activation"),
         manual_parameter: Some("P-AXIS-00482"),
+        refusal: Code::PErr70313,
+        monitor_bit: Some(0x4),
         since: CncBuild::new([2, 10, 1501, 0]),
     },
     Facts {
@@ -69,6 +85,8 @@ const TABLE: [Facts; 7] = [
         parameter: "P-AXIS-00522",
         manual_activation: None,
         manual_parameter: None,
+        refusal: Code::PErr70495,
+        monitor_bit: None,
         since: CncBuild::new([2, 11, 2022, 5]),
     },
     Facts {
@@ -77,6 +95,8 @@ const TABLE: [Facts; 7] = [
         parameter: "P-AXIS-00789",
         manual_activation: Some("kw.crosstalk.manual_activation"),
         manual_parameter: None,
+        refusal: Code::PErr70631,
+        monitor_bit: None,
         since: CncBuild::new([3, 1, 3079, 32]),
     },
 ];

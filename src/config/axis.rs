@@ -5,8 +5,8 @@ use super::section::{Section, Shape};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Label;
 use crate::lists::{
-    AXIS_NAME_HELP, AxisValues, Field, FrictionDraft, Given, UnknownAxisType, WrittenPoint,
-    is_axis_name,
+    AXIS_NAME_HELP, AxisValues, Field, FrictionDraft, Given, Monitor, UnknownAxisType,
+    WrittenPoint, is_axis_name,
 };
 
 /// What `[[axis]]` says.
@@ -149,7 +149,7 @@ fn values(section: &Section<'_>) -> Result<AxisValues, ConfigError> {
     if let Some(whole) = section.given("required") {
         let required = kinds(section, "required")?.into_iter();
         let required: KindSet = required.map(|(kind, _)| kind).collect();
-        values.required = Some(whole.with(required));
+        values.required = Some(whole.with(Monitor::of_kinds(required)));
     }
     Ok(values)
 }

@@ -52,8 +52,14 @@ codes! {
     PErr21301 "P-ERR-21301" Error "invalid first keyword in an axis bracket";
     PErr21403 "P-ERR-21403" Error "COMP on an axis in an active coupling";
     PErr21947 "P-ERR-21947" Error "unknown axis";
+    PErr70310 "P-ERR-70310" Error "leadscrew error compensation is not selected";
+    PErr70313 "P-ERR-70313" Error "temperature compensation is not selected";
+    PErr70316 "P-ERR-70316" Error "cross compensation is not selected";
+    PErr70319 "P-ERR-70319" Error "plane compensation is not selected";
     PErr70435 "P-ERR-70435" Error "motion without a compensation that the axis requires";
     PErr70495 "P-ERR-70495" Error "friction compensation is not configured";
+    PErr70631 "P-ERR-70631" Error "crosstalk compensation is not selected";
+    PErr70637 "P-ERR-70637" Error "backlash compensation is not selected";
     PErr110229 "P-ERR-110229" Error "axis number differs between the lists";
     PErr110464 "P-ERR-110464" Error "torque offset on a drive that takes none";
     PErr110465 "P-ERR-110465" Error "denominator of the torque scaling is 0";
@@ -78,6 +84,8 @@ codes! {
     Fc136 "FC136" Warning "first table point comes too late";
     Fc137 "FC137" Warning "value exceeds 16 bits";
     Fc138 "FC138" Warning "friction values on a spindle";
+    Fc139 "FC139" Warning "friction values that are hardly meant";
+    Fc140 "FC140" Warning "gantry slave compensated differently from its master";
     Fc201 "FC201" Error "incomplete COMP command";
     Fc202 "FC202" Error "unknown compensation kind";
     Fc203 "FC203" Error "kind after OFF_ALL";
@@ -116,6 +124,8 @@ codes! {
     Fc406 "FC406" Info "kind named twice";
     Fc407 "FC407" Warning "the second run differs from the first";
     Fc408 "FC408" Warning "effect depends on a machine that is not described";
+    Fc411 "FC411" Warning "COMP while a transformation is active";
+    Fc412 "FC412" Info "compensation state read under cutter radius compensation";
     Fc490 "FC490" Warning "unused `allow` comment";
     Fc491 "FC491" Warning "`allow` comment not understood";
     Fc501 "FC501" Error "no additive torque command in the cyclic data";

@@ -3,14 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use super::line::{Entries, Entry};
+use super::entry::Entry;
+use super::line::Entries;
+use super::monitor::{Monitor, REQUIRED};
 use super::parameter::{AxisType, Origin, Parameter};
 use super::value::{Given, Number};
 use crate::comp::{Kind, KindSet};
-use crate::diagnostic::{Code, Diagnostic, Fix, nearest};
-
-/// P-AXIS-00465: the kinds without which the axis must not move (R1.36).
-const REQUIRED: &str = "lr_param.prog_movement_requires_compensations";
+use crate::diagnostic::{Code, Diagnostic, Fix};
 
 /// The values of one axis list, or of the head of a value list.
 #[derive(Debug, Clone, Default)]
@@ -25,8 +24,12 @@ pub struct AxisValues {
     pub selectors: BTreeMap<Kind, Given<bool>>,
     /// The manual activation of the kinds (R1.40).
     pub manual: BTreeMap<Kind, Given<bool>>,
+    /// The kinds whose selector or manual activation is given, but with no value that can be used.
+    pub unread: KindSet,
     /// The kinds that must be active while the axis moves, P-AXIS-00465.
-    pub required: Option<Given<KindSet>>,
+    pub required: Option<Given<Monitor>>,
+    /// The number of the master of a static gantry, P-AXIS-00070; `None` on any axis but its slave.
+    pub gantry_master: Option<Given<u32>>,
     /// The entries of the drive by their keys: `antr.*`, its type and its torque offset.
     pub drive: BTreeMap<String, Entry>,
     /// The end of the last entry, after which another one could stand, and how many columns the key
@@ -66,12 +69,19 @@ impl AxisValues {
             end: list.entries.last().map(Entry::end),
             ..Self::default()
         };
+        for entry in &list.unresolved {
+            values.unread = values.unread.union(switched_by(&entry.pattern));
+        }
         for entry in &list.entries {
             match entry.pattern.as_str() {
                 "kopf.achs_nr" => values.number = axis_number(entry, diagnostics),
                 "kopf.log_achs_name" => values.name = text(entry),
                 "kenngr.achs_typ" => values.axis_type = axis_type(entry, diagnostics),
-                REQUIRED => values.required = Some(required(entry, diagnostics)),
+                REQUIRED => values.required = Some(Monitor::of(entry, diagnostics)),
+                "kenngr.gantry_ax_nr" => {
+                    let master = axis_number(entry, diagnostics);
+                    values.gantry_master = master.filter(|number| number.value != 0);
+                }
                 pattern if is_drive_key(pattern) => {
                     if values.drive.len() < MAX_DRIVE_ENTRIES {
                         values.drive.insert(entry.key(), entry.clone());
@@ -90,7 +100,9 @@ impl AxisValues {
         self.axis_type = other.axis_type.or(self.axis_type.take());
         self.selectors.extend(other.selectors);
         self.manual.extend(other.manual);
+        self.unread = self.unread.union(other.unread);
         self.required = other.required.or(self.required.take());
+        self.gantry_master = other.gantry_master.or(self.gantry_master.take());
         self.drive.extend(other.drive);
         self.end = other.end.or(self.end.take());
     }
@@ -155,8 +167,12 @@ impl AxisValues {
             }
         }
         if let Some(required) = &self.required {
-            let words: Vec<_> = required.value.iter().map(Kind::as_str).collect();
-            row("P-AXIS-00465", REQUIRED, words.join(" | "), required.into());
+            let value = required.value.to_string();
+            row("P-AXIS-00465", REQUIRED, value, required.into());
+        }
+        if let Some(master) = &self.gantry_master {
+            let (number, key) = ("P-AXIS-00070", "kenngr.gantry_ax_nr");
+            row(number, key, master.value.to_string(), master.into());
         }
         rows
     }
@@ -178,12 +194,22 @@ impl AxisValues {
                 }
                 _ => truth(entry, diagnostics),
             };
-            if let Some(on) = on {
-                switches.insert(kind, on);
+            match on {
+                Some(on) => _ = switches.insert(kind, on),
+                None => self.unread.insert(kind),
             }
             return;
         }
     }
+}
+
+/// The kinds that a key selects or activates.
+fn switched_by(pattern: &str) -> KindSet {
+    let switches = |kind: &Kind| {
+        let facts = kind.facts();
+        pattern == facts.selector || facts.manual_activation == Some(pattern)
+    };
+    Kind::ALL.into_iter().filter(switches).collect()
 }
 
 /// The line that sets P-AXIS-00522, after the last entry of a list.
@@ -258,26 +284,4 @@ fn axis_type(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Option<Given<A
         diagnostics.push(no_value(entry, expected));
     }
     axis_type.map(|axis_type| given.with(axis_type))
-}
-
-fn required(entry: &Entry, diagnostics: &mut Vec<Diagnostic>) -> Given<KindSet> {
-    let mut kinds = KindSet::NONE;
-    for word in entry.words() {
-        if let Ok(kind) = word.value.parse::<Kind>() {
-            kinds.insert(kind);
-        } else if word.value != "0" && !word.value.eq_ignore_ascii_case("NONE") {
-            let diagnostic = Diagnostic::new(
-                Code::Fc124,
-                word.place(),
-                format!(
-                    "`{}` is not a kind of compensation; the words from here on are passed over",
-                    word.value
-                ),
-            );
-            let near = nearest(word.value, Kind::ALL.map(Kind::as_str));
-            diagnostics.push(diagnostic.with_near(word.value, &near));
-            break;
-        }
-    }
-    entry.word().with(kinds)
 }

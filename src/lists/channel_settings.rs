@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use super::line::{Entries, Entry};
+use super::entry::Entry;
+use super::line::Entries;
 use super::parameter::Parameter;
 use super::value::{Given, Number};
 use crate::diagnostic::{Code, Diagnostic};

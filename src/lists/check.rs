@@ -2,6 +2,7 @@
 
 use super::friction::{Field, FrictionDraft};
 use super::parameter::{AxisType, Parameter};
+use super::plausible::doubts;
 use super::table::{FrictionList, TablePoint};
 use super::value::{Given, Number, Written};
 use crate::comp::CncBuild;
@@ -59,8 +60,9 @@ pub struct FrictionReading {
 }
 
 impl FrictionDraft {
-    /// Checks what is written as the control does when it loads the list (R3.20 to R3.29). Checks
-    /// that need the axis list are made where the axis is put together.
+    /// Checks what is written as the control does when it loads the list (R3.20 to R3.29), and
+    /// whether it is plausible. Checks that need the axis list are made where the axis is put
+    /// together.
     pub fn check(&self, conditions: &Conditions) -> FrictionReading {
         let mut check = Check {
             draft: self,
@@ -90,21 +92,20 @@ struct Check<'a> {
 impl Check<'_> {
     fn verdict(&mut self) -> Verdict {
         let list = self.values();
-        for diagnostic in &mut self.diagnostics {
-            if diagnostic.severity == Severity::Error {
-                let consequence = "the list is rejected, so friction compensation has no effect";
-                diagnostic.advice.push(consequence.into());
-            }
-        }
-        let rejected = self
-            .diagnostics
-            .iter()
-            .find(|diagnostic| diagnostic.severity == Severity::Error);
+        let mut errors = self.diagnostics.iter_mut();
+        let rejected = errors.find(|diagnostic| diagnostic.severity == Severity::Error);
+        let rejected = rejected.map(|first| {
+            let consequence = "the list is rejected, so friction compensation has no effect";
+            first.advice.push(consequence.into());
+            first.code
+        });
         match (rejected, list) {
-            (Some(first), _) => Verdict::Rejected(first.code),
+            (Some(first), _) => Verdict::Rejected(first),
             (None, Some((3, list))) => {
                 self.check_first_point(&list);
                 self.check_drive_range(&list);
+                let found = doubts(self.draft, &list.table, self.conditions.axis_type);
+                self.diagnostics.extend(found);
                 Verdict::Accepted(list)
             }
             (None, _) => Verdict::Off,
@@ -117,7 +118,8 @@ impl Check<'_> {
             .any(|diagnostic| diagnostic.code == code)
     }
 
-    /// The mode and the values, as far as every single one is a number of its type.
+    /// The mode and the values, where every scalar is a number of its type; an error is said where a
+    /// point is not.
     fn values(&mut self) -> Option<(u16, FrictionList)> {
         let mode = self.scalar(Field::Mode);
         let max_points = self.scalar(Field::MaxPoints);
@@ -127,12 +129,16 @@ impl Check<'_> {
         let scaling_factor = self.scalar(Field::ScalingFactor);
         let delay_cycles = self.scalar(Field::DelayCycles);
         let entries: Option<u16> = entries;
-        let fits = match entries {
-            Some(entries) if max_points.is_some() => self.check_size(entries),
-            _ => false,
-        };
+        if let (Some(entries), Some(_)) = (entries, max_points) {
+            self.check_size(entries);
+        }
         self.check_mode(mode, entries);
-        let table = entries.filter(|_| fits).and_then(|n| self.table(n));
+        let is_empty = mode == Some(3) && self.has(Code::PErr110592);
+        let table = if is_empty {
+            Vec::new()
+        } else {
+            self.table(entries)
+        };
         let _: Option<u32> = max_points;
         Some((
             mode?,
@@ -142,7 +148,7 @@ impl Check<'_> {
                 scaling_factor: scaling_factor?,
                 delay_cycles: delay_cycles?,
                 max_points: self.draft.max_points(),
-                table: table?,
+                table,
             },
         ))
     }
@@ -199,30 +205,37 @@ impl Check<'_> {
         T::try_from(if field.floors(value) { 0 } else { value }).ok()
     }
 
-    /// R3.23: whether the table fits into the reserved room; `≤` (reading C6).
-    fn check_size(&mut self, entries: u16) -> bool {
-        let max_points = self.draft.max_points();
-        let fits = u32::from(entries) <= max_points;
-        if let Some(given) = self.draft.get(Field::TableEntries)
-            && !fits
-        {
-            let diagnostic = Diagnostic::new(
-                Code::Fc131,
-                given.place(),
-                format!(
-                    "`frict_comp.table_entries` is {entries}, but `frict_comp.max_points` \
-                     reserves {max_points} points"
-                ),
-            );
-            self.diagnostics
-                .push(match self.draft.get(Field::MaxPoints) {
-                    Some(max) => diagnostic.with_label(max.place(), "the reserved size"),
-                    None => diagnostic.with_help(format!(
-                        "20 is the default; set `frict_comp.max_points` to {entries} or more"
-                    )),
-                });
+    /// The points that are used, as far as they are numbers, after all checks of the table.
+    fn table(&mut self, entries: Option<u16>) -> Vec<TablePoint> {
+        if let Some(entries) = entries {
+            self.check_count(u32::from(entries));
         }
-        fits
+        let points = self.points(entries.map_or(u32::MAX, u32::from));
+        self.check_ascending(&points);
+        points.into_iter().map(|(_, point)| point).collect()
+    }
+
+    /// R3.23: whether the table fits into the reserved room; `≤` (reading C6).
+    fn check_size(&mut self, entries: u16) {
+        let max_points = self.draft.max_points();
+        let Some(given) = self.draft.get(Field::TableEntries) else {
+            return;
+        };
+        if u32::from(entries) <= max_points {
+            return;
+        }
+        let message = format!(
+            "`frict_comp.table_entries` is {entries}, but `frict_comp.max_points` reserves \
+             {max_points} points"
+        );
+        let diagnostic = Diagnostic::new(Code::Fc131, given.place(), message);
+        self.diagnostics
+            .push(match self.draft.get(Field::MaxPoints) {
+                Some(max) => diagnostic.with_label(max.place(), "the reserved size"),
+                None => diagnostic.with_help(format!(
+                    "20 is the default; set `frict_comp.max_points` to {entries} or more"
+                )),
+            });
     }
 
     /// R3.21: the mode is 0 or 3 (reading C8), and mode 3 needs points.
@@ -248,59 +261,52 @@ impl Check<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// The points that are used, after R3.20, R3.24 and R3.26; `None` when one of them is wrong.
-    fn table(&mut self, entries: u16) -> Option<Vec<TablePoint>> {
-        let entries = u32::from(entries);
-        let written: Vec<_> = self.draft.table.range(..entries).collect();
+    /// R3.26: whether there are as many points as are used.
+    fn check_count(&mut self, entries: u32) {
         let surplus = self.draft.table.range(entries..).next();
         if let Some((index, point)) = surplus
             && !self.has(Code::PErr110592)
             && let Some(given) = point.input.as_ref().or(point.output.as_ref())
         {
-            self.diagnostics.push(Diagnostic::new(
-                Code::Fc134,
-                given.place(),
-                format!(
-                    "`frict_comp.table[{index}]` is not used: `frict_comp.table_entries` is \
-                     {entries}"
-                ),
-            ));
+            let message = format!(
+                "`frict_comp.table[{index}]` is not used: `frict_comp.table_entries` is {entries}"
+            );
+            self.diagnostics
+                .push(Diagnostic::new(Code::Fc134, given.place(), message));
         }
-        if let Some(given) = self.draft.get(Field::TableEntries)
-            && let Some(missing) = (0..entries)
-                .zip(
-                    written
-                        .iter()
-                        .map(|(index, _)| Some(**index))
-                        .chain(std::iter::repeat(None)),
-                )
-                .find_map(|(at, index)| (index != Some(at)).then_some(at))
-        {
-            self.diagnostics.push(Diagnostic::new(
-                Code::Fc133,
-                given.place(),
-                format!(
-                    "`frict_comp.table_entries` is {entries}, but `frict_comp.table[{missing}]` \
-                     is missing"
-                ),
-            ));
-            return None;
+        // A number of entries that has no room is wrong itself, and said.
+        let number = self.draft.get(Field::TableEntries);
+        let Some(given) = number.filter(|_| !self.has(Code::Fc131)) else {
+            return;
+        };
+        let mut missing = (0..entries).filter(|index| !self.draft.table.contains_key(index));
+        let Some(first) = missing.next() else {
+            return;
+        };
+        let lacks = match missing.count() {
+            0 => "is missing".to_owned(),
+            more => format!("and {more} more are missing"),
+        };
+        let message = format!(
+            "`frict_comp.table_entries` is {entries}, but `frict_comp.table[{first}]` {lacks}"
+        );
+        self.diagnostics
+            .push(Diagnostic::new(Code::Fc133, given.place(), message));
+    }
+
+    /// The points below an index whose values are numbers of their type (R3.24).
+    fn points(&mut self, end: u32) -> Vec<(u32, TablePoint)> {
+        let mut points = Vec::new();
+        for (&index, point) in self.draft.table.range(..end) {
+            let input = self.point_value(point.input.as_ref(), index, "in");
+            let output = self.point_value(point.output.as_ref(), index, "out");
+            if let (Some(input), Some(output)) = (input, output) {
+                points.push((index, TablePoint { input, output }));
+            } else if self.diagnostics.len() > MAX_DIAGNOSTICS {
+                break;
+            }
         }
-        let mut points: Vec<TablePoint> = Vec::with_capacity(written.len());
-        let mut whole = true;
-        for (index, point) in written {
-            let input = self.point_value(point.input.as_ref(), *index, "in");
-            let output = self.point_value(point.output.as_ref(), *index, "out");
-            let (Some(input), Some(output)) = (input, output) else {
-                whole = false;
-                if self.diagnostics.len() > MAX_DIAGNOSTICS {
-                    break;
-                }
-                continue;
-            };
-            points.push(TablePoint { input, output });
-        }
-        (whole && self.check_ascending(&points)).then_some(points)
+        points
     }
 
     /// One value of a point, 0 when it is not written; `None` after FC130 (R3.24).
@@ -348,36 +354,32 @@ impl Check<'_> {
     }
 
     /// R3.20: velocities are not negative and strictly ascending (readings C4, C5).
-    fn check_ascending(&mut self, points: &[TablePoint]) -> bool {
+    fn check_ascending(&mut self, points: &[(u32, TablePoint)]) {
         let mut before: Option<f64> = None;
-        for (index, point) in (0_u32..).zip(points) {
-            let input = point.input;
+        for &(index, TablePoint { input, .. }) in points {
             let why = match before {
-                _ if input < 0.0 => "but velocities must not be negative".to_owned(),
-                Some(before) if input <= before => {
-                    format!("which is not above the {before} of the previous point")
-                }
-                _ => {
-                    before = Some(input);
-                    continue;
-                }
+                _ if input < 0.0 => Some("but velocities must not be negative".to_owned()),
+                Some(before) if input <= before => Some(format!(
+                    "which is not above the {before} of the previous point"
+                )),
+                _ => None,
             };
+            before = Some(input);
             let written = self.draft.table.get(&index);
-            if let Some(given) = written.and_then(|w| w.input.as_ref().or(w.output.as_ref())) {
-                self.diagnostics.push(
-                    Diagnostic::new(
-                        Code::PErr110591,
-                        given.place(),
-                        format!("`frict_comp.table[{index}].in` is {input}, {why}"),
-                    )
-                    .with_help(
-                        "write the points with ascending velocities, starting at 0 or above",
-                    ),
-                );
+            let given = written.and_then(|w| w.input.as_ref().or(w.output.as_ref()));
+            let (Some(why), Some(given)) = (why, given) else {
+                continue;
+            };
+            if self.diagnostics.len() > MAX_DIAGNOSTICS {
+                break;
             }
-            return false;
+            let message = format!("`frict_comp.table[{index}].in` is {input}, {why}");
+            self.diagnostics.push(
+                Diagnostic::new(Code::PErr110591, given.place(), message).with_help(
+                    "write the points with ascending velocities, starting at 0 or above",
+                ),
+            );
         }
-        true
     }
 
     /// R3.28: a first point (0, 0) leaves the axis without current until it reaches the second

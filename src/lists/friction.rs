@@ -5,7 +5,8 @@
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-use super::line::{Entries, Entry};
+use super::entry::Entry;
+use super::line::Entries;
 use super::parameter::{AxisType, Origin, Parameter};
 use super::table::DEFAULT_MAX_POINTS;
 use super::value::{Given, Number, Written};

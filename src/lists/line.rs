@@ -1,151 +1,18 @@
 //! The line format that all lists share: one entry a line, key, value, comment (R3.1 to R3.5).
 //!
-//! This file knows no key. What a value may be depends on the key, so an entry keeps its raw value
-//! and gives it as a number, a text or a set of words when asked.
+//! Keys are known here only where they lost their underscores.
 
 use std::collections::HashMap;
-use std::ops::Range;
 use std::sync::Arc;
 
-use super::value::{Given, Number, Written};
+use super::entry::Entry;
+use super::known::{blanked, is_known};
+use super::reference::resolve;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::text::{Place, SourceFile, Span, changed_direction};
-
-/// What a text that holds `(` is put between; printed samples have the slanted ones (TF5200 Channel
-/// parameters, comments in the ASCII list file).
-const QUOTES: [char; 4] = ['"', '\u{201c}', '\u{201d}', '\u{2033}'];
+use crate::text::{SourceFile, Span, changed_direction};
 
 /// More lines that are no entries than a list has by mistake. What follows is counted.
 const MAX_ODD: usize = 20;
-
-/// One line `path.with[index].dots  value  comment`.
-#[derive(Debug, Clone)]
-pub struct Entry {
-    /// The key with every index left empty: `frict_comp.table[].in`.
-    pub pattern: String,
-    /// The indices from left to right.
-    pub indices: Vec<u32>,
-    /// Where the key stands.
-    pub key_span: Span,
-    /// Everything after the key, without blanks at either end.
-    pub value_span: Span,
-    source: Arc<SourceFile>,
-}
-
-impl Entry {
-    /// The key without blanks: `frict_comp.table[0].in`.
-    pub fn key(&self) -> String {
-        let mut key = String::with_capacity(self.pattern.len() + 4 * self.indices.len());
-        let mut indices = self.indices.iter();
-        for part in self.pattern.split_inclusive('[') {
-            key.push_str(part);
-            if part.ends_with('[')
-                && let Some(index) = indices.next()
-            {
-                key.push_str(&index.to_string());
-            }
-        }
-        key
-    }
-
-    /// The key as it stands there.
-    pub(super) fn written_key(&self) -> &str {
-        self.key_span.of(self.source.text())
-    }
-
-    /// Where the key stands.
-    pub fn key_place(&self) -> Place {
-        self.source.place(self.key_span)
-    }
-
-    /// The end of its line, and how many columns its key takes with the blanks after it.
-    pub(super) fn end(&self) -> Given<usize> {
-        let (source, start) = (&self.source, self.key_span.start);
-        let line = source
-            .lines()
-            .line_span(source.text(), source.lines().line(start));
-        let end = line.range().end;
-        let columns = self.value_span.range().start - self.key_span.range().start;
-        Given::new(columns, source, Span::new(end, end))
-    }
-
-    /// The value as one word, as numbers and truth values are written: it ends at a blank or at
-    /// the start of a comment (R3.2).
-    pub fn word(&self) -> Given<&str> {
-        let value = self.value_span.of(self.source.text());
-        let end = value
-            .find(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
-            .unwrap_or(value.len());
-        let end = value.find("/*").map_or(end, |comment| end.min(comment));
-        self.part(0..end)
-    }
-
-    /// The value as a text; only `(` opens a comment after it. A text in quotes may hold one
-    /// (R3.2).
-    pub fn text(&self) -> Given<&str> {
-        let value = self.value_span.of(self.source.text());
-        if let Some(quote) = value.chars().next().filter(|first| QUOTES.contains(first))
-            && let Some(length) = value[quote.len_utf8()..].find(QUOTES)
-        {
-            return self.part(quote.len_utf8()..quote.len_utf8() + length);
-        }
-        let end = value.find('(').unwrap_or(value.len());
-        self.part(0..value[..end].trim_end().len())
-    }
-
-    /// The value as a number, with the word that stands there.
-    pub fn number(&self) -> Given<Written> {
-        let word = self.word();
-        word.with(Written::new(word.value))
-    }
-
-    /// The value as a truth value, `0`, `1`, `FALSE` or `TRUE`; `None` when it is none (R3.4).
-    pub fn truth(&self) -> Given<Option<bool>> {
-        let word = self.word();
-        let truth = match Number::parse(word.value) {
-            Some(Number::Integer(0)) => Some(false),
-            Some(Number::Integer(1)) => Some(true),
-            None if word.value.eq_ignore_ascii_case("FALSE") => Some(false),
-            None if word.value.eq_ignore_ascii_case("TRUE") => Some(true),
-            _ => None,
-        };
-        word.with(truth)
-    }
-
-    /// The value as a set of words, `A | B |` (R3.4). After the last word all is comment.
-    pub fn words(&self) -> Vec<Given<&str>> {
-        let value = self.value_span.of(self.source.text());
-        let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
-        let mut words = Vec::new();
-        let mut rest = value;
-        loop {
-            rest = rest.trim_start();
-            let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
-            if end == 0 {
-                return words;
-            }
-            let start = value.len() - rest.len();
-            words.push(self.part(start..start + end));
-            rest = rest[end..].trim_start();
-            match rest.strip_prefix('|') {
-                Some(after) => rest = after,
-                None => return words,
-            }
-        }
-    }
-
-    /// The bytes `range` of the value with their place; nothing has the place of the key.
-    fn part(&self, range: Range<usize>) -> Given<&str> {
-        let start = self.value_span.range().start;
-        let span = if range.is_empty() {
-            self.key_span
-        } else {
-            Span::new(start + range.start, start + range.end)
-        };
-        let value = self.value_span.of(self.source.text());
-        Given::new(&value[range], &self.source, span)
-    }
-}
 
 /// The entries of one list.
 #[derive(Debug, Clone)]
@@ -154,6 +21,10 @@ pub struct Entries {
     pub entries: Vec<Entry>,
     /// What the lines themselves give reason to say: FC120, FC121, FC124.
     pub diagnostics: Vec<Diagnostic>,
+    /// The entries whose value is a reference that leads nowhere (R3.40).
+    pub(super) unresolved: Vec<Entry>,
+    /// Lines whose key lost its underscores.
+    lost: usize,
     source: Arc<SourceFile>,
 }
 
@@ -164,6 +35,7 @@ impl Entries {
         let mut reader = Reader {
             source,
             lines: Vec::new(),
+            lost: Vec::new(),
             diagnostics: Vec::new(),
         };
         if source.text().trim_start().starts_with('<') {
@@ -185,8 +57,10 @@ impl Entries {
                 .with_help("write `Ende` on a line of its own after the last entry"),
             );
         }
+        reader.tell_lost();
         let mut entries = Self::of(reader);
         entries.drop_repeated();
+        entries.unresolved = resolve(&mut entries.entries, &mut entries.diagnostics);
         entries
     }
 
@@ -194,8 +68,15 @@ impl Entries {
         Self {
             entries: reader.lines,
             diagnostics: reader.diagnostics,
+            unresolved: Vec::new(),
+            lost: reader.lost.len(),
             source: reader.source.clone(),
         }
+    }
+
+    /// Whether keys lost their underscores, which is said.
+    pub(crate) fn lost_underscores(&self) -> bool {
+        self.lost > 0
     }
 
     /// The list as a source.
@@ -255,6 +136,8 @@ enum Line {
     End,
     /// An entry.
     Entry(Entry),
+    /// A key whose underscores became blanks, and the key that is meant.
+    Lost(Span, &'static str),
     /// Nothing of these; the reason as a sentence without its start.
     Odd(&'static str),
 }
@@ -262,6 +145,8 @@ enum Line {
 struct Reader<'a> {
     source: &'a Arc<SourceFile>,
     lines: Vec<Entry>,
+    /// Keys that lost their underscores, with those that are meant.
+    lost: Vec<(Span, &'static str)>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -283,6 +168,7 @@ impl Reader<'_> {
                     break;
                 }
                 Line::Entry(entry) => self.lines.push(entry),
+                Line::Lost(written, key) => self.lost.push((written, key)),
                 Line::Odd(why) => {
                     odd.push(span);
                     if odd.len() <= MAX_ODD {
@@ -323,6 +209,26 @@ impl Reader<'_> {
                 format!("{why}; the line is passed over"),
             )
             .with_help("an entry is `key value`, a comment begins with `#`"),
+        );
+    }
+
+    /// FC124 for keys without their underscores, once for all of them.
+    fn tell_lost(&mut self) {
+        let Some(&(span, key)) = self.lost.first() else {
+            return;
+        };
+        let written = span.of(self.source.text());
+        let lines = match self.lost.len() {
+            1 => "this line is".to_owned(),
+            several => format!("{several} such lines are"),
+        };
+        let message = format!(
+            "the underscores of this list were lost, as in a copy from a PDF: `{written}` stands \
+             for `{key}`; {lines} passed over"
+        );
+        self.diagnostics.push(
+            Diagnostic::new(Code::Fc124, self.source.place(span), message)
+                .with_help("put the underscores back, or take the list from the control"),
         );
     }
 
@@ -412,11 +318,17 @@ impl Reader<'_> {
         } else {
             key_end + (rest.len() - rest.trim_start().len())
         };
+        let is_odd = value.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_known(&pattern);
+        if let Some(found) = is_odd.then(|| blanked(line)).flatten() {
+            return Line::Lost(Span::new(start, start + found.length), found.pattern);
+        }
+        let value = Span::new(start + value_start, start + value_start + value.len());
         Line::Entry(Entry {
             pattern,
             indices,
             key_span: Span::new(start, start + key_end),
-            value_span: Span::new(start + value_start, start + value_start + value.len()),
+            value_span: value,
+            meant: value,
             source: self.source.clone(),
         })
     }
@@ -424,6 +336,7 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::value::Number;
     use super::*;
 
     fn parse(text: &str) -> Entries {

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 use super::axis::{axis_number, text};
 use super::channel_settings::{ChannelDraft, ChannelSettings};
-use super::line::{Entries, Entry};
+use super::entry::Entry;
+use super::line::Entries;
 use super::program::ChannelPrograms;
 use super::value::Given;
 use crate::diagnostic::{Code, Diagnostic};
@@ -81,7 +82,7 @@ const AXIS_KEYS: &[&str] = &[
 ];
 
 fn holds(list: &Entries, beginnings: &[&str]) -> bool {
-    list.entries.iter().any(|entry| {
+    list.entries.iter().chain(&list.unresolved).any(|entry| {
         let begins = |beginning: &&str| entry.pattern.starts_with(*beginning);
         beginnings.iter().any(begins)
     })

@@ -30,6 +30,22 @@ pub struct AxisReport {
     /// P-AXIS-00522, where a list gives it.
     #[serde(skip)]
     pub selector: Option<Given<bool>>,
+    /// How far the lists that describe the axis are known.
+    #[serde(skip)]
+    pub extent: Extent,
+}
+
+/// How far the axis lists of the control that describe an axis are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Extent {
+    /// None is.
+    #[default]
+    Nothing,
+    /// The list of the axis is, looked at by itself.
+    Part,
+    /// The list of the axis is, and the default list that the start-up list names.
+    Whole,
 }
 
 impl AxisReport {
@@ -68,6 +84,8 @@ pub(super) struct AxisDraft {
     pub(super) dynamics: Dynamics,
     /// Whether compensation is assumed, as by [`Axis::enable`].
     pub(super) enabled: bool,
+    /// How far the axis lists of the control are known.
+    pub(super) extent: Extent,
     /// The list of defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
 }
@@ -83,6 +101,7 @@ impl AxisDraft {
             value_list: ValueList::default(),
             dynamics: Dynamics::default(),
             enabled: false,
+            extent: Extent::Nothing,
             shared: None,
         }
     }
@@ -90,6 +109,7 @@ impl AxisDraft {
     /// Lets another axis list override what is here.
     #[cfg(feature = "toml")]
     pub(super) fn add_list(&mut self, list: AxisValues) {
+        self.extent = Extent::Whole;
         if list.number.is_some() {
             self.number_in_list.clone_from(&list.number);
         }
@@ -143,6 +163,7 @@ impl AxisDraft {
             number: self.values.number.as_ref().map(|number| number.value),
             axis_type,
             configured: set(&self.values.selectors),
+            unselected: self.unselected(),
             configuring: self.values.configuring(self.shared.as_deref()),
             frict_comp_origin: self
                 .values
@@ -153,7 +174,7 @@ impl AxisDraft {
                 .values
                 .required
                 .as_ref()
-                .map_or(KindSet::NONE, |r| r.value),
+                .map_or(KindSet::NONE, |required| required.value.kinds),
             friction,
             max_points: reading.max_points,
             max_points_place: max_points_given
@@ -168,6 +189,7 @@ impl AxisDraft {
             axis.enable();
         }
         diagnostics.extend(self.check_selection(&axis));
+        diagnostics.extend(self.check_monitor(&axis));
         for diagnostic in &mut diagnostics[first..] {
             diagnostic.axis.get_or_insert_with(|| self.name.clone());
         }
@@ -191,6 +213,7 @@ impl AxisDraft {
             parameters,
             selector: values.frict_comp().cloned(),
             drive: values.drive,
+            extent: self.extent,
         };
         let list = match &axis.friction {
             Parameterisation::Accepted(list) => Some(list),
@@ -200,6 +223,39 @@ impl AxisDraft {
         diagnostics.extend(drive.diagnostics);
         axis.torque_scale = drive.scale;
         (axis, report)
+    }
+
+    /// The kinds that the axis list leaves at their default, which is not selected (R1.41).
+    fn unselected(&self) -> KindSet {
+        if self.extent == Extent::Nothing {
+            return KindSet::NONE;
+        }
+        let selectors = self.values.selectors.iter();
+        let on = selectors.filter(|(_, on)| on.value).map(|(&kind, _)| kind);
+        let known = KindSet::ALL.without(self.values.unread);
+        known.without(on.collect())
+    }
+
+    /// FC124 for kinds that are required where nothing says whether they are configured (R1.36).
+    fn check_monitor(&self, axis: &Axis) -> Option<Diagnostic> {
+        let required = self.values.required.as_ref()?;
+        let known = axis.configured.union(axis.unselected);
+        let open = axis.required.without(known.union(KindSet::of(Kind::Frict)));
+        if open.is_empty() {
+            return None;
+        }
+        let words: Vec<_> = open.iter().map(|kind| format!("`{kind}`")).collect();
+        let message = format!(
+            "axis `{}` requires {}, but nothing says whether it is configured; whether the axis moves \
+             without it is not judged",
+            axis.name,
+            words.join(", ")
+        );
+        Some(
+            Diagnostic::new(Code::Fc124, required.place(), message).with_help(
+                "name the kind in `compensations`, or give the axis list of the control",
+            ),
+        )
     }
 
     fn parameterisation(&self, verdict: Verdict, conflict: Option<Code>) -> Parameterisation {
@@ -255,16 +311,7 @@ impl AxisDraft {
         let anchor = self.value_list.friction.anchor();
         let selector = self.values.frict_comp();
         if axis.is_spindle() {
-            return anchor.map(|anchor| {
-                Diagnostic::new(
-                    Code::Fc138,
-                    anchor.place(),
-                    format!(
-                        "`{}` is a spindle; friction compensation is for linear and rotary axes",
-                        axis.name
-                    ),
-                )
-            });
+            return on_spindle(&axis.name, anchor.as_ref(), selector);
         }
         let configured = axis.configured.contains(Kind::Frict);
         if configured {
@@ -303,5 +350,36 @@ impl AxisDraft {
                  `frictcomp.toml`",
             ),
         })
+    }
+}
+
+/// FC138: a spindle whose lists want friction compensation.
+pub(super) fn on_spindle(
+    name: &str,
+    values: Option<&Given<()>>,
+    selector: Option<&Given<bool>>,
+) -> Option<Diagnostic> {
+    let selector = selector.filter(|given| given.value).map(Given::place);
+    let said = |place, message: &str| {
+        let message = format!("{message}; friction compensation is for linear and rotary axes");
+        Diagnostic::new(Code::Fc138, place, message)
+    };
+    let named = match name {
+        "" => "this axis".to_owned(),
+        name => format!("`{name}`"),
+    };
+    match (values, selector) {
+        (Some(values), selector) => {
+            let diagnostic = said(values.place(), &format!("{named} is a spindle"));
+            Some(match selector {
+                Some(place) => diagnostic.with_label(place, "P-AXIS-00522 is 1 here"),
+                None => diagnostic,
+            })
+        }
+        (None, Some(place)) => {
+            let message = format!("P-AXIS-00522 is 1, but {named} is a spindle");
+            Some(said(place, &message).with_help("set `lr_param.frict_comp` to 0"))
+        }
+        (None, None) => None,
     }
 }

@@ -41,13 +41,17 @@ pub struct Axis {
     pub axis_type: AxisType,
     /// The kinds whose selector in the axis list is set; FRICT is P-AXIS-00522.
     pub configured: KindSet,
+    /// The kinds that the axis list of the control is known not to select (R1.41); none where no
+    /// such list describes the axis.
+    pub unselected: KindSet,
     /// Where P-AXIS-00522 came from.
     pub frict_comp_origin: Origin,
     /// The change of the list of the axis that sets P-AXIS-00522, where it has one and it is not set.
     pub configuring: Option<Fix>,
     /// The kinds that only the program activates and that fall off at program end (R1.40).
     pub manual: KindSet,
-    /// The kinds that must be active while the axis moves, P-AXIS-00465 (R1.36).
+    /// The kinds that must be active while the axis moves, P-AXIS-00465 (R1.36). The control
+    /// monitors those of them that are configured.
     pub required: KindSet,
     /// The friction value list.
     pub friction: Parameterisation,
@@ -73,6 +77,7 @@ impl Axis {
             number: None,
             axis_type: AxisType::Linear,
             configured: KindSet::NONE,
+            unselected: KindSet::NONE,
             frict_comp_origin: Origin::Default,
             configuring: None,
             manual: KindSet::NONE,
@@ -85,6 +90,11 @@ impl Axis {
             max_jerk_per_s3: None,
             torque_scale: TorqueScale::default(),
         }
+    }
+
+    /// The kinds without which the control refuses a motion of the axis (R1.36).
+    pub fn monitored(&self) -> KindSet {
+        self.required.intersection(self.configured)
     }
 
     /// The kinds that have what they need to work. Only the friction value list is read; the

@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::assemble::AxisReport;
+use super::assemble::{AxisReport, Extent, on_spindle};
 use super::axis::Parameterisation;
 use super::configuration::Configuration;
-use super::described::{describe, is_no_matter};
+use super::described::{describe, has_nothing, is_no_matter};
 use super::description::Machine;
 use super::files::ListFiles;
 use super::value_list::ValueList;
 use crate::comp::CncBuild;
-use crate::diagnostic::{Advice, Code, Diagnostic};
-use crate::drive_interface::{Evidence, check_drive};
+use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
+use crate::drive_interface::{DriveSettings, Evidence, check_drive};
 use crate::lists::{
     AxisType, AxisValues, ChannelList, Conditions, Entries, FrictionList, ListKind, Parameter,
     Verdict,
@@ -79,6 +79,7 @@ pub fn check_list(
         let mut configuration = Configuration::default();
         configuration.machine.build = build;
         configuration.read_startup(&source, files);
+        configuration.check_drives();
         return ListsReport {
             kind,
             diagnostics: configuration.diagnostics,
@@ -106,8 +107,14 @@ pub fn check_list(
             report.parameters = values.parameters();
             report.selector = values.frict_comp().cloned();
             report.drive = values.drive;
+            report.extent = Extent::Part;
             let drive = check_drive(&report.listed_drive(None), &Evidence::default());
             diagnostics.extend(drive.diagnostics);
+            diagnostics.extend(without_torque(&report));
+            if report.axis_type == AxisType::Spindle {
+                let selector = report.selector.as_ref();
+                diagnostics.extend(on_spindle(&report.axis, None, selector));
+            }
             reports.push(report);
         }
         Some(ListKind::Value) => {
@@ -134,7 +141,13 @@ pub fn check_list(
             report.parameters.extend(reading.parameters);
             reports.push(report);
         }
-        None if is_no_matter(&entries) => {}
+        None if is_no_matter(&entries) || entries.lost_underscores() => {}
+        None if has_nothing(&entries) => {
+            let place = source.place(Span::new(0, 0));
+            let mut empty = Diagnostic::new(Code::Fc124, place, "this list has no entries");
+            empty.severity = Severity::Info;
+            diagnostics.push(empty);
+        }
         None => {
             let message = format!(
                 "this is {}: no key belongs to an axis, value, channel or start-up list",
@@ -162,15 +175,18 @@ pub fn check_list(
 pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> ListsReport {
     let name = file.name().clone();
     match Configuration::from_toml(file, files) {
-        Ok(configuration) => ListsReport {
-            kind: None,
-            accepted: AcceptedList::of(&configuration.machine),
-            diagnostics: configuration.diagnostics,
-            reports: configuration.reports,
-            programs: configuration.programs,
-            files: std::iter::once(name).chain(configuration.files).collect(),
-            missing: configuration.missing,
-        },
+        Ok(mut configuration) => {
+            configuration.check_drives();
+            ListsReport {
+                kind: None,
+                accepted: AcceptedList::of(&configuration.machine),
+                diagnostics: configuration.diagnostics,
+                reports: configuration.reports,
+                programs: configuration.programs,
+                files: std::iter::once(name).chain(configuration.files).collect(),
+                missing: configuration.missing,
+            }
+        }
         Err(error) => ListsReport {
             kind: None,
             diagnostics: vec![*error.diagnostic],
@@ -197,5 +213,65 @@ fn head(values: &AxisValues) -> AxisReport {
         parameters: Vec::new(),
         drive: BTreeMap::new(),
         selector: None,
+        extent: Extent::Nothing,
     }
+}
+
+impl Configuration {
+    /// Says which axes have friction compensation and no drive that takes it (R3.41), under the
+    /// user's severities.
+    fn check_drives(&mut self) {
+        for report in &self.reports {
+            let mut said = without_torque(report);
+            if let Some(diagnostic) = &mut said {
+                match self.levels.severity(diagnostic.code) {
+                    Some(severity) => diagnostic.severity = severity,
+                    None => said = None,
+                }
+            }
+            self.diagnostics.extend(said);
+        }
+    }
+}
+
+/// FC503 for an axis with P-AXIS-00522 and a simulated or virtual drive, which takes no additive
+/// torque. Without `kenngr.antr_typ` the drive is a simulation (R3.41).
+fn without_torque(report: &AxisReport) -> Option<Diagnostic> {
+    let selector = report.selector.as_ref().filter(|given| given.value)?;
+    if report.axis_type == AxisType::Spindle {
+        return None;
+    }
+    let settings = DriveSettings::from_entries(&report.drive, &mut Vec::new());
+    // Entries of telegrams are those of a drive, whose type TwinCAT fills in (R7.5).
+    let mut keys = report.drive.keys();
+    let is_given = keys.any(|key| key == "kenngr.antr_typ" || key.starts_with("antr."));
+    let (place, message) = match &settings.drive_type {
+        Some(given) if given.value.is_without_drive() => {
+            let name = given.value.as_str();
+            let message = format!(
+                "friction compensation is configured, but the drive type is {name}: no additive \
+                 torque is sent"
+            );
+            (given.place(), message)
+        }
+        None if !is_given && report.extent != Extent::Nothing => {
+            let unless = match report.extent {
+                Extent::Part => ", unless the default list gives another one",
+                _ => "",
+            };
+            let message = format!(
+                "friction compensation is configured, but no list gives the drive type: the \
+                 control takes 4, simulation, and sends no additive torque{unless}"
+            );
+            (selector.place(), message)
+        }
+        _ => return None,
+    };
+    let mut said = Diagnostic::new(Code::Fc503, place, message)
+        .with_help("set `kenngr.antr_typ` to `2` for SERCOS or `8` for CANopen");
+    if report.extent == Extent::Part && !is_given {
+        said.severity = Severity::Warning;
+    }
+    said.axis = (!report.axis.is_empty()).then(|| report.axis.clone());
+    Some(said)
 }

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::assemble::{AxisDraft, AxisReport};
 use super::described::describe;
-use super::description::{AxisSet, Machine};
+use super::description::{AxisSet, GantrySlave, Machine};
 use super::files::ListFiles;
+use super::gantry;
 use super::loader::Loader;
 use super::setting::Setting;
 use crate::diagnostic::{Code, Diagnostic, Levels};
@@ -31,7 +32,8 @@ pub struct Configuration {
     pub files: Vec<Arc<str>>,
     /// How many lists are named and are not there.
     pub missing: usize,
-    /// The effective parameters of each axis, in the order of [`Machine::axes`].
+    /// The effective parameters of each axis, in the order of [`Machine::axes`], then those of the
+    /// slaves of static gantries.
     pub reports: Vec<AxisReport>,
     /// The programs and macros that the configuration names, and what the channel list says about
     /// motion; and where.
@@ -61,7 +63,8 @@ impl Configuration {
 
     /// Puts the axes together under the machine's build and takes over what the lists gave reason
     /// to say, with the user's severities.
-    pub(super) fn assemble(&mut self, axes: Vec<AxisDraft>, loader: Loader<'_>) {
+    pub(super) fn assemble(&mut self, axes: Vec<AxisDraft>, mut loader: Loader<'_>) {
+        loader.merge_missing();
         self.diagnostics.extend(loader.diagnostics);
         self.files.extend(loader.names);
         self.missing += loader.missing;
@@ -90,6 +93,9 @@ impl Configuration {
             self.machine.axes.push(finished);
             self.reports.push(report);
         }
+        for slave in loader.slaves {
+            self.add_slave(slave, &conditions);
+        }
         let levels = &self.levels;
         self.diagnostics
             .retain_mut(|diagnostic| match levels.severity(diagnostic.code) {
@@ -99,6 +105,26 @@ impl Configuration {
                 }
                 None => false,
             });
+    }
+}
+
+impl Configuration {
+    /// Takes the slave of a static gantry: it is no axis of a program (R1.43).
+    fn add_slave(&mut self, draft: AxisDraft, conditions: &Conditions) {
+        let link = draft.values.gantry_master.clone();
+        let (slave, report) = draft.finish(conditions, &mut self.diagnostics);
+        let number = link.as_ref().map(|link| link.value);
+        let mut masters = self.machine.axes.iter();
+        let master = masters.find(|axis| axis.number.is_some() && axis.number == number);
+        if let (Some(master), Some(link)) = (master, &link) {
+            self.diagnostics
+                .extend(gantry::compare(master, &slave, link));
+        }
+        self.machine.gantry_slaves.push(GantrySlave {
+            master: master.map(|axis| axis.name.clone()),
+            name: slave.name,
+        });
+        self.reports.push(report);
     }
 }
 

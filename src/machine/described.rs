@@ -37,14 +37,22 @@ pub(super) fn describe(entries: &Entries) -> &'static str {
 }
 
 /// Lists of the control that say nothing about compensation, by the beginnings of their keys.
-const OTHERS: [(&str, &str); 9] = [
+const OTHERS: [(&str, &str); 17] = [
     ("wz[", "a tool list"),
     ("np_grp[", "a zero offset list"),
+    ("g53_verfuegbar", "a zero offset list"),
+    ("default_index", "a zero offset list"),
     ("pzv_grp[", "a clamp position list"),
     ("hr_data[", "a manual mode list"),
     ("tasten_data[", "a manual mode list"),
     ("feedhold.", "a manual mode list"),
     ("var[", "a list of external variables"),
+    ("name_rd_", "a list of external variables"),
+    ("number_used_variables", "a list of external variables"),
+    ("use_extended_string_var", "a list of external variables"),
+    ("interrupt_source", "a list of real-time tasks"),
+    ("time_slice", "a list of real-time tasks"),
+    ("thread[", "a list of real-time tasks"),
     ("object[", "a list of display objects"),
     ("kin_step[", "a kinematics list"),
 ];
@@ -53,6 +61,12 @@ const OTHERS: [(&str, &str); 9] = [
 pub(super) fn is_no_matter(entries: &Entries) -> bool {
     let other = |entry: &Entry| OTHERS.iter().any(|(key, _)| entry.pattern.starts_with(key));
     entries.entries.iter().any(other)
+}
+
+/// Whether a list is closed with `Ende` and has comments at most before it, as a template has.
+pub(super) fn has_nothing(entries: &Entries) -> bool {
+    let is_plain = entries.diagnostics.is_empty() && entries.entries.is_empty();
+    is_plain && !entries.source().text().trim().is_empty()
 }
 
 /// Whether a line begins as NC programs do: a name, a comment, a letter with its number.

@@ -32,6 +32,8 @@ pub struct Machine {
     /// The change of the configuration that adds an axis, where it lists the axes and no list of the
     /// control does.
     pub one_more_axis: Option<NamedFix>,
+    /// The slaves of static gantries, which no program knows (R1.43).
+    pub gantry_slaves: Vec<GantrySlave>,
     /// The CNC cycle in milliseconds.
     pub cycle_time_ms: Option<f64>,
     /// The kernel version, where the user gave it.
@@ -46,6 +48,15 @@ pub struct Machine {
     pub skip: Option<SkipLevels>,
     /// What the channel list says about motion.
     pub channel: ChannelSettings,
+}
+
+/// An axis that follows another one in the position controller, P-AXIS-00070 (R1.43).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GantrySlave {
+    /// Its name, where its list gives one.
+    pub name: String,
+    /// The name of its master; `None` where no list describes it.
+    pub master: Option<String>,
 }
 
 /// What a program start does to P parameters (R2.33).
@@ -114,6 +125,7 @@ impl Machine {
     pub(crate) fn axis_setups(&self) -> impl Iterator<Item = AxisSetup> {
         self.axes.iter().map(|axis| {
             let mut setup = AxisSetup::new(&axis.name, axis.configured);
+            setup.unselected = setup.unselected.union(axis.unselected);
             setup.is_spindle = axis.is_spindle();
             setup.manual = axis.manual;
             setup.parameterised = axis.parameterised();

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use super::assemble::AxisDraft;
 use super::described::describe;
 use super::files::{ListFiles, NoList, folder, is_absolute, join};
+use super::missing::Missing;
 use super::value_list::ValueList;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lists::{
@@ -23,6 +25,10 @@ pub(super) struct Loader<'f> {
     pub(super) names: Vec<Arc<str>>,
     /// How many lists were asked for and are not there.
     pub(super) missing: usize,
+    /// Where they were looked for.
+    lookups: Missing,
+    /// The slaves of static gantries, which no channel knows (R1.43).
+    pub(super) slaves: Vec<AxisDraft>,
     /// What the list of the first channel says.
     pub(super) channel: Option<FirstChannel>,
 }
@@ -42,6 +48,8 @@ impl<'f> Loader<'f> {
             diagnostics: Vec::new(),
             names: Vec::new(),
             missing: 0,
+            lookups: Missing::default(),
+            slaves: Vec::new(),
             channel: None,
         }
     }
@@ -71,6 +79,7 @@ impl<'f> Loader<'f> {
     pub(super) fn load(&mut self, asked: &Given<String>, wanted: ListKind) -> Option<Entries> {
         match self.find(asked) {
             Ok(file) => {
+                self.lookups.find(asked);
                 let entries = self.entries(&file.into());
                 if wanted.admits(&entries) {
                     return Some(entries);
@@ -80,10 +89,16 @@ impl<'f> Loader<'f> {
             }
             Err(diagnostic) => {
                 self.missing += 1;
+                self.lookups.lack(asked, self.diagnostics.len());
                 self.diagnostics.push(*diagnostic);
                 None
             }
         }
+    }
+
+    /// Says once what is missing of a folder that is not there at all.
+    pub(super) fn merge_missing(&mut self) {
+        std::mem::take(&mut self.lookups).merge(&mut self.diagnostics);
     }
 
     /// The first of the files that a path may mean: from the folder of the list that names it, from

@@ -9,21 +9,23 @@ mod description;
 mod files;
 #[cfg(feature = "toml")]
 mod from_toml;
+mod gantry;
 mod harmless;
 mod loader;
+mod missing;
 mod outline;
 mod programs;
 mod setting;
 mod startup;
 mod value_list;
 
-pub use assemble::AxisReport;
+pub use assemble::{AxisReport, Extent};
 pub use axis::{Axis, Parameterisation};
 #[cfg(feature = "toml")]
 pub use check::check_configuration;
 pub use check::{AcceptedList, ListsReport, check_list};
 pub use configuration::Configuration;
-pub use description::{AxisSet, Machine, Parameters};
+pub use description::{AxisSet, GantrySlave, Machine, Parameters};
 pub use files::{ListFiles, NoList, NoLists};
 pub use harmless::HarmlessWords;
 pub use outline::Outline;

@@ -1,6 +1,6 @@
 //! From a start-up list to the axes that it describes (R3.12 to R3.14).
 
-use super::assemble::AxisDraft;
+use super::assemble::{AxisDraft, Extent};
 use super::files::folder;
 use super::loader::{FirstChannel, Loader};
 use crate::diagnostic::{Code, Diagnostic};
@@ -25,13 +25,19 @@ impl Loader<'_> {
             if let Some(own) = self.axis_list(asked) {
                 let mut values = default.clone();
                 values.override_with(own);
-                listed.push((asked.clone(), AxisDraft::new(String::new(), values)));
+                let mut draft = AxisDraft::new(String::new(), values);
+                draft.extent = Extent::Whole;
+                listed.push((asked.clone(), draft));
             }
         }
         let mut axes = self.channels(&startup, &mut listed, &default);
         for (asked, mut draft) in listed {
             if let Some(name) = &draft.values.name {
                 draft.name.clone_from(&name.value);
+            }
+            if draft.values.gantry_master.is_some() {
+                self.slaves.push(draft);
+            } else if draft.values.name.is_some() {
                 axes.push(draft);
             } else {
                 self.diagnostics.push(
@@ -127,6 +133,7 @@ impl Loader<'_> {
             .unwrap_or_default();
         default.number = None;
         default.name = None;
+        default.gantry_master = None;
         default.end = None;
         default
     }
@@ -176,17 +183,18 @@ impl Loader<'_> {
             .into_iter()
             .filter_map(Clone::clone)
             .collect();
+        let known = || axes.iter().chain(&self.slaves);
         let position = if numbers.is_empty() {
             let name = list.head.name.as_ref().map(|name| &name.value);
-            axes.iter().position(|axis| Some(&axis.name) == name)
+            known().position(|axis| Some(&axis.name) == name)
         } else {
             numbers.iter().find_map(|number| {
                 let number = Some(number.value);
-                axes.iter().position(|axis| axis.list_number() == number)
+                known().position(|axis| axis.list_number() == number)
             })
         };
-        if let Some(position) = position {
-            let owner = &mut axes[position];
+        let mut owners = axes.iter_mut().chain(&mut self.slaves);
+        if let Some(owner) = position.and_then(|position| owners.nth(position)) {
             owner.startup_number.clone_from(&named.axis_number);
             owner.value_list = list;
             return;

@@ -4,6 +4,7 @@ use crate::comp::{
     AxisIndex, CncBuild, CompCommand, CompensationError, Coupling, Kind, KindSet, Selection, State,
 };
 use crate::diagnostic::{Advice, Code, Diagnostic, nearest};
+use crate::interpreter::coordinates::chain;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::channel_axes::Addressed;
 use crate::interpreter::run::event::Outcome;
@@ -35,6 +36,7 @@ impl Interpreter {
         match &result {
             Ok(axis) => {
                 self.warn_coupled(command, *axis, at);
+                self.warn_transformed(command, at);
                 self.warn_opposite(command, *axis, at);
                 self.warn_build(command, at);
                 self.warn_ineffective(command, *axis, at);
@@ -64,6 +66,29 @@ impl Interpreter {
         let fault = Fault::new(Code::Fc902, command.span, message)
             .with_help("release all couplings first, with `#DISABLE AX LINK ALL`");
         let diagnostic = at.diagnostic(fault).with_axis(name.clone());
+        self.work.diagnostics.push(diagnostic);
+    }
+
+    /// FC411: the control may refuse COMP while a transformation is active; which ones is not
+    /// documented (R1.42).
+    fn warn_transformed(&mut self, command: &CompCommand, at: &At<'_>) {
+        let active = self.state.modal.transformed.iter();
+        let active: Vec<String> = active
+            .filter(|name| chain::is_transformation(name))
+            .map(|name| format!("`{name}`"))
+            .collect();
+        if active.is_empty() {
+            return;
+        }
+        let message = format!(
+            "the control may refuse COMP while {} is active (error 50546); for which transformations \
+             it does is not documented",
+            active.join(" or ")
+        );
+        let fault = Fault::new(Code::Fc411, command.span, message).with_help(
+            "switch compensation before the transformation is activated, or after its end",
+        );
+        let diagnostic = at.diagnostic(fault).with_axis(command.axis.clone());
         self.work.diagnostics.push(diagnostic);
     }
 
@@ -179,6 +204,13 @@ impl Interpreter {
         let fault = Fault::new(error.code(), span, error.to_string());
         let mut diagnostic = at.diagnostic(fault).with_axis(name.clone());
         match error {
+            CompensationError::NotConfigured { kind, .. } if *kind != Kind::Frict => {
+                let facts = kind.facts();
+                diagnostic = diagnostic.with_help(format!(
+                    "set {} (`{}`) in the axis list of `{name}` and restart the control",
+                    facts.parameter, facts.selector
+                ));
+            }
             CompensationError::NotConfigured { .. } => {
                 let axis = self.machine.find(name).map(|axis| self.machine.axis(axis));
                 let described = self.machine.is_described();
@@ -221,6 +253,16 @@ impl Interpreter {
             .map(|axis| axis.name.as_str())
             .collect();
         let configured = self.machine.axis_set == AxisSet::Configured;
+        let slaves = &self.machine.gantry_slaves;
+        if let Some(slave) = slaves.iter().find(|slave| slave.name == name) {
+            // R1.43
+            return diagnostic.with_help(match &slave.master {
+                Some(master) => format!(
+                    "`{name}` follows `{master}` as its static gantry slave; programs know only `{master}`"
+                ),
+                None => format!("`{name}` is the slave of a static gantry, which no program knows"),
+            });
+        }
         let near = if configured {
             nearest(name, known.iter().copied())
         } else {

@@ -240,16 +240,17 @@ impl Interpreter {
         });
     }
 
-    /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
-    /// block took effect before the motion (R1.9).
+    /// P-ERR-70435: an axis moves without a compensation that it requires, except while homing
+    /// (R1.36). COMP commands of the block took effect before the motion (R1.9).
     pub(in crate::interpreter) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
-        if !self.any_required || matches!(words, AxisWords::Reference | AxisWords::Other) {
+        let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring);
+        if !self.any_required || !is_motion {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);
         for &AxisWord { axis, span, .. } in &self.work.moved {
             let state = |kind| self.state.compensation.state(axis, kind);
-            let required = machine.axis(axis).required;
+            let required = machine.axis(axis).monitored();
             let missing = required
                 .iter()
                 .find(|kind| !matches!(state(*kind), State::Active | State::Unknown));

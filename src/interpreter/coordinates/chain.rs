@@ -51,6 +51,13 @@ const COMMANDS: [(&str, Step); 29] = [
     ("#AX DEF", Step::Origin),
 ];
 
+/// Whether a name stands for a transformation between the coordinates of the program and those of
+/// the axes. `#KIN` only chooses one (R1.42).
+pub(in crate::interpreter) fn is_transformation(name: &str) -> bool {
+    let is_one = |(words, step): &(&str, Step)| *words == name && *step == Step::Coordinates;
+    name != "#KIN" && COMMANDS.iter().any(is_one)
+}
+
 /// Commands that begin like those and touch nothing.
 const APART: [&str; 5] = [
     // It says where the tool centre is, and switches nothing.

@@ -52,7 +52,26 @@ impl Interpreter {
         let mut stack = std::mem::take(&mut self.work.stack);
         let value = self.with_evaluator(at, |evaluator| evaluator.value(operand, &mut stack));
         self.work.stack = stack;
+        if let Some(name) = self.work.flushing.take() {
+            self.note_flush(&name, at);
+        }
         value
+    }
+
+    /// FC412: the control may refuse to read the state of a compensation while G41 or G42 is active
+    /// (R1.42).
+    fn note_flush(&mut self, name: &str, at: &At<'_>) {
+        let found = at
+            .text
+            .find(name)
+            .map(|start| Span::new(start, start + name.len()));
+        let span = found.unwrap_or_else(|| Span::new(0, at.text.len()));
+        let message = format!(
+            "reading `{name}` flushes the channel, which the control may refuse while G41 or G42 is active (error 20651)"
+        );
+        let fault = Fault::new(Code::Fc412, span, message)
+            .with_help("read it before G41 or G42, into a parameter for instance");
+        self.work.diagnostics.push(at.diagnostic(fault));
     }
 
     pub(in crate::interpreter) fn with_evaluator<T>(
@@ -123,7 +142,12 @@ impl Interpreter {
         if let Some(index) = given_parameter(name) {
             return self.is_given(index);
         }
-        match self.own_variable(name)? {
+        let own = self.own_variable(name)?;
+        let is_state = matches!(own, OwnVariable::Active(..) | OwnVariable::Ready(..));
+        if is_state && self.state.modal.transformed.contains("G41") {
+            self.work.flushing.replace(Some(name.to_owned()));
+        }
+        match own {
             OwnVariable::Active(axis, kind) => match self.state.compensation.state(axis, kind) {
                 State::Unknown => None,
                 state => Some((state == State::Active).into()),

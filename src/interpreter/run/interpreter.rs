@@ -143,7 +143,7 @@ impl Interpreter {
             }
         }
         Self {
-            any_required: machine.axes.iter().any(|axis| !axis.required.is_empty()),
+            any_required: machine.axes.iter().any(|axis| !axis.monitored().is_empty()),
             machine,
             options,
             programs: Programs::new(options.limits.nesting),

@@ -54,6 +54,8 @@ pub(in crate::interpreter) struct Work {
     /// Whether a text of the block had no meaning that is known here; what depends on it is not said
     /// again (R2.71).
     pub(in crate::interpreter) unread: Cell<bool>,
+    /// A variable that was read and whose reading flushes the channel, where that matters (R1.42).
+    pub(in crate::interpreter) flushing: RefCell<Option<String>>,
     /// Macros that the block has expanded.
     pub(in crate::interpreter) expansions: Cell<u32>,
     /// The block of the main program that says that the program ends.

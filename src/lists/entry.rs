@@ -1,0 +1,160 @@
+//! One line of a list: its key, and its value as a number, a text or a set of words.
+//!
+//! What a value may be depends on the key, which is not known here.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::value::{Given, Number, Written};
+use crate::text::{Place, SourceFile, Span};
+
+/// What a text that holds `(` is put between; printed samples have the slanted ones (TF5200 Channel
+/// parameters, comments in the ASCII list file).
+const QUOTES: [char; 4] = ['"', '\u{201c}', '\u{201d}', '\u{2033}'];
+
+/// One line `path.with[index].dots  value  comment`.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The key with every index left empty: `frict_comp.table[].in`.
+    pub pattern: String,
+    /// The indices from left to right.
+    pub indices: Vec<u32>,
+    /// Where the key stands.
+    pub key_span: Span,
+    /// Everything after the key, without blanks at either end.
+    pub value_span: Span,
+    /// Where the value stands that holds: there, or where a reference leads (R3.40).
+    pub(super) meant: Span,
+    pub(super) source: Arc<SourceFile>,
+}
+
+impl Entry {
+    /// The key without blanks: `frict_comp.table[0].in`.
+    pub fn key(&self) -> String {
+        let mut key = String::with_capacity(self.pattern.len() + 4 * self.indices.len());
+        let mut indices = self.indices.iter();
+        for part in self.pattern.split_inclusive('[') {
+            key.push_str(part);
+            if part.ends_with('[')
+                && let Some(index) = indices.next()
+            {
+                key.push_str(&index.to_string());
+            }
+        }
+        key
+    }
+
+    /// The key as it stands there.
+    pub(super) fn written_key(&self) -> &str {
+        self.key_span.of(self.source.text())
+    }
+
+    /// Where the key stands.
+    pub fn key_place(&self) -> Place {
+        self.source.place(self.key_span)
+    }
+
+    /// The end of its line, and how many columns its key takes with the blanks after it.
+    pub(super) fn end(&self) -> Given<usize> {
+        let (source, start) = (&self.source, self.key_span.start);
+        let line = source
+            .lines()
+            .line_span(source.text(), source.lines().line(start));
+        let end = line.range().end;
+        let columns = self.value_span.range().start - self.key_span.range().start;
+        Given::new(columns, source, Span::new(end, end))
+    }
+
+    /// The value as one word, as numbers and truth values are written: it ends at a blank or at
+    /// the start of a comment (R3.2).
+    pub fn word(&self) -> Given<&str> {
+        let value = self.meant.of(self.source.text());
+        let end = value
+            .find(|c: char| c.is_whitespace() || matches!(c, '#' | '('))
+            .unwrap_or(value.len());
+        let end = value.find("/*").map_or(end, |comment| end.min(comment));
+        self.part(0..end)
+    }
+
+    /// The value as a text; only `(` opens a comment after it. A text in quotes may hold one
+    /// (R3.2).
+    pub fn text(&self) -> Given<&str> {
+        let value = self.meant.of(self.source.text());
+        if let Some(quote) = value.chars().next().filter(|first| QUOTES.contains(first))
+            && let Some(length) = value[quote.len_utf8()..].find(QUOTES)
+        {
+            return self.part(quote.len_utf8()..quote.len_utf8() + length);
+        }
+        let end = value.find('(').unwrap_or(value.len());
+        self.part(0..value[..end].trim_end().len())
+    }
+
+    /// The value as a number, with the word that stands there.
+    pub fn number(&self) -> Given<Written> {
+        let word = self.word();
+        word.with(Written::new(word.value))
+    }
+
+    /// The value as a truth value, `0`, `1`, `FALSE` or `TRUE`; `None` when it is none (R3.4).
+    pub fn truth(&self) -> Given<Option<bool>> {
+        let word = self.word();
+        let truth = match Number::parse(word.value) {
+            Some(Number::Integer(0)) => Some(false),
+            Some(Number::Integer(1)) => Some(true),
+            None if word.value.eq_ignore_ascii_case("FALSE") => Some(false),
+            None if word.value.eq_ignore_ascii_case("TRUE") => Some(true),
+            _ => None,
+        };
+        word.with(truth)
+    }
+
+    /// The value as a set of words and numbers, `A | '16#3' |` (R3.4). After the last one all is
+    /// comment.
+    pub fn words(&self) -> Vec<Given<&str>> {
+        let value = self.meant.of(self.source.text());
+        let is_between = |c: char| c.is_whitespace() || QUOTES.contains(&c);
+        let mut words = Vec::new();
+        let mut rest = value;
+        loop {
+            rest = rest.trim_start_matches(is_between);
+            let end = word_end(rest);
+            if end == 0 {
+                return words;
+            }
+            let start = value.len() - rest.len();
+            words.push(self.part(start..start + end));
+            rest = rest[end..].trim_start_matches(is_between);
+            match rest.strip_prefix('|') {
+                Some(after) => rest = after,
+                None => return words,
+            }
+        }
+    }
+
+    /// The bytes `range` of the value with their place; nothing has the place of the key.
+    fn part(&self, range: Range<usize>) -> Given<&str> {
+        let start = self.meant.range().start;
+        let span = if range.is_empty() {
+            self.key_span
+        } else {
+            Span::new(start + range.start, start + range.end)
+        };
+        let value = self.meant.of(self.source.text());
+        Given::new(&value[range], &self.source, span)
+    }
+}
+
+/// The end of the word or number that a text begins with; `'16#3'` and `16#3` are numbers.
+fn word_end(text: &str) -> usize {
+    let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+    let plain = |text: &str| text.find(|c| !is_word(c)).unwrap_or(text.len());
+    if let Some(quoted) = text.strip_prefix('\'') {
+        return quoted.find('\'').map_or(0, |end| end + 2);
+    }
+    let end = plain(text);
+    let is_base = end > 0 && text[..end].bytes().all(|byte| byte.is_ascii_digit());
+    match text[end..].strip_prefix('#') {
+        Some(digits) if is_base => end + 1 + plain(digits),
+        _ => end,
+    }
+}

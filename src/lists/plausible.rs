@@ -1,0 +1,124 @@
+//! Values that the control takes and that are hardly meant (FC139).
+
+use super::friction::{Field, FrictionDraft};
+use super::parameter::AxisType;
+use super::table::TablePoint;
+use super::value::Number;
+use crate::diagnostic::{Code, Diagnostic, Severity, Shown};
+
+/// A linear axis whose fastest point is slower than 1 mm/s has velocities in mm/s, most likely.
+const SLOW_TABLE: f64 = 1000.0;
+
+/// A smaller scaling factor leaves less than a tenth of the outputs.
+const SMALL_SCALING: i64 = 100;
+
+/// What is hardly meant in a list with these points.
+pub(super) fn doubts(
+    draft: &FrictionDraft,
+    points: &[TablePoint],
+    axis_type: AxisType,
+) -> Vec<Diagnostic> {
+    let checks = [
+        small_scaling(draft, points),
+        slow(draft, points).filter(|_| axis_type == AxisType::Linear),
+        signs(draft, points).or_else(|| jump(draft, points)),
+    ];
+    checks.into_iter().flatten().collect()
+}
+
+/// A scaling factor that leaves little of the outputs, as 10 in the manual's sample (C13). It may be
+/// meant, for a table of integers becomes finer by it.
+fn small_scaling(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let given = draft.get(Field::ScalingFactor)?;
+    let Some(Number::Integer(factor)) = given.value.number else {
+        return None;
+    };
+    if factor.saturating_abs() >= SMALL_SCALING {
+        return None;
+    }
+    let largest = points.iter().map(|point| point.output);
+    let largest = largest.max_by(|one, other| one.abs().total_cmp(&other.abs()))?;
+    let scale = Number::Integer(factor).to_f64();
+    let message = format!(
+        "`frict_comp.scaling_factor` is {factor}, which is {} %: the largest output, {largest}, \
+         reaches the drive as {}",
+        Shown(scale / 10.0),
+        Shown(largest * scale / 1000.0)
+    );
+    let mut said = Diagnostic::new(Code::Fc139, given.place(), message)
+        .with_help("the unit is 0.1 %: 1000 sends the outputs as they are");
+    said.severity = Severity::Info;
+    Some(said)
+}
+
+/// A table of velocities in mm/s instead of \u{b5}m/s.
+fn slow(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let (index, last) = (0_u32..).zip(points).last()?;
+    let fastest = last.input;
+    if !(fastest > 0.0 && fastest < SLOW_TABLE) {
+        return None;
+    }
+    let place = draft.table.get(&index)?.input.as_ref()?.place();
+    let message = format!(
+        "the table ends at {fastest} \u{b5}m/s, so that all of it lies below 1 mm/s: velocities are \
+         in \u{b5}m/s"
+    );
+    Some(
+        Diagnostic::new(Code::Fc139, place, message)
+            .with_help("if these are mm/s, multiply them by 1000"),
+    )
+}
+
+/// Outputs of both signs: at one speed the current would push, at another it would brake.
+fn signs(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let mut outputs = (0..).zip(points).filter(|(_, point)| point.output != 0.0);
+    let (_, first) = outputs.next()?;
+    let is_negative = |point: &TablePoint| point.output.is_sign_negative();
+    let (index, other) = outputs.find(|(_, point)| is_negative(point) != is_negative(first))?;
+    let message = format!(
+        "`frict_comp.table[{index}].out` is {}, of the other sign than the {} before: friction has \
+         one sign at all velocities",
+        other.output, first.output
+    );
+    said(draft, index, message)
+}
+
+/// Outputs that fall to less than half and rise again, or the reverse.
+fn jump(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
+    let sizes: Vec<f64> = points.iter().map(|point| point.output.abs()).collect();
+    let mut after: Vec<(f64, f64)> = Vec::with_capacity(sizes.len());
+    let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+    for &size in sizes.iter().rev() {
+        after.push(range);
+        range = (range.0.min(size), range.1.max(size));
+    }
+    after.reverse();
+    let mut before = (f64::INFINITY, f64::NEG_INFINITY);
+    for ((index, point), (&size, after)) in (0..).zip(points).zip(sizes.iter().zip(after)) {
+        let valley = size < 0.5 * before.1.min(after.1);
+        let peak = 0.5 * size > before.0.max(after.0);
+        if valley || peak {
+            let what = if valley {
+                "less than half"
+            } else {
+                "more than twice"
+            };
+            let message = format!(
+                "`frict_comp.table[{index}].out` is {}, {what} of what stands before and after it",
+                point.output
+            );
+            return said(draft, index, message);
+        }
+        before = (before.0.min(size), before.1.max(size));
+    }
+    None
+}
+
+/// FC139 at an output.
+fn said(draft: &FrictionDraft, index: u32, message: String) -> Option<Diagnostic> {
+    let place = draft.table.get(&index)?.output.as_ref()?.place();
+    Some(
+        Diagnostic::new(Code::Fc139, place, message)
+            .with_help("compare the points with the measured friction"),
+    )
+}

@@ -25,9 +25,9 @@ impl Linter<'_> {
             self.memory.forgotten(executed);
         }
         // The commands of a block act before its motion (R1.9).
-        for word in executed.moved {
-            if self.memory.moved(word, executed) {
-                said.extend(moved_before::lint(self, word.axis, executed));
+        for motion in executed.motions() {
+            if self.memory.moved(&motion, executed) {
+                said.extend(moved_before::lint(self, motion.axis, executed));
             }
         }
     }

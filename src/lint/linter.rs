@@ -4,7 +4,7 @@ use super::history::{History, Told};
 use super::memory::Memory;
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::{AxisWord, Executed, Outcome};
+use crate::interpreter::{Executed, Outcome};
 use crate::machine::Machine;
 use crate::text::Place;
 
@@ -80,8 +80,10 @@ impl<'m> Linter<'m> {
 
     /// Whether every axis that a block moves has moved before, so that this is nothing new.
     #[inline]
-    pub(crate) fn knows(&self, moved: &[AxisWord]) -> bool {
-        moved.iter().all(|word| self.memory.has_moved(word.axis))
+    pub(crate) fn knows(&self, executed: &Executed<'_>) -> bool {
+        let mut words = executed.moved.iter();
+        words.all(|word| self.memory.has_moved(word.axis))
+            && (executed.also_moved.is_empty() || self.memory.knows_all(executed.also_moved))
     }
 
     /// What became of a note that [`end`](Self::end) gave.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Change, Kind, KindSet, Selection, State};
-use crate::interpreter::{AxisWord, Executed, Outcome};
+use crate::interpreter::{AxisMotion, Certainty, Executed, MotionKind, Outcome};
 use crate::text::{Place, Span};
 
 /// A block that a lint may have to name later.
@@ -75,14 +75,24 @@ pub(super) struct KindMemory {
     pub(super) last: Option<(Deed, Arc<Site>)>,
 }
 
+/// A motion of an axis in any way.
+#[derive(Debug, Clone)]
+pub(super) struct Touch {
+    pub(super) site: Site,
+    pub(super) kind: MotionKind,
+    pub(super) certainty: Certainty,
+}
+
 /// What the program did to one axis.
 #[derive(Debug, Clone, Default)]
 pub(super) struct AxisMemory {
     kinds: [KindMemory; Kind::ALL.len()],
     /// Whether a command of the program named the axis.
     pub(super) commanded: bool,
-    /// The first block that moved the axis.
+    /// The first block that moved the axis for sure, homing apart.
     pub(super) moved: Option<Site>,
+    /// The first block that moved it in any way, or may have; what is not known at all apart.
+    pub(super) touched: Option<Touch>,
 }
 
 impl AxisMemory {
@@ -95,6 +105,16 @@ impl AxisMemory {
             self.kinds[kind as usize].last = Some((deed, Arc::clone(site)));
         }
     }
+}
+
+/// Whether a motion counts for the second run (R1.53, R10.7).
+fn counts(motion: &AxisMotion) -> bool {
+    motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
+}
+
+/// Whether a form of R10.7 moves the axis, or may; not something that is not known at all.
+fn is_of_a_kind(motion: &AxisMotion) -> bool {
+    motion.certainty == Certainty::Certain || motion.kind != MotionKind::Unknown
 }
 
 /// What the program did.
@@ -145,13 +165,39 @@ impl Memory {
         self.axes[axis.get()].moved.is_some()
     }
 
-    /// An axis word that moves. Says whether it is the first of its axis.
-    pub(super) fn moved(&mut self, word: &AxisWord, executed: &Executed<'_>) -> bool {
-        let memory = &mut self.axes[word.axis.get()];
-        let first = memory.moved.is_none();
-        if first {
-            memory.moved = Some(Site::new(executed, word.span));
+    /// Whether none of these motions is anything new.
+    pub(super) fn knows_all(&self, motions: &[AxisMotion]) -> bool {
+        let is_known = |motion: &AxisMotion| {
+            let memory = &self.axes[motion.axis.get()];
+            (memory.touched.is_some() || !is_of_a_kind(motion))
+                && (memory.moved.is_some() || !counts(motion))
+        };
+        motions.iter().all(is_known)
+    }
+
+    /// A motion. Says whether it is the first of its axis.
+    pub(super) fn moved(&mut self, motion: &AxisMotion, executed: &Executed<'_>) -> bool {
+        let memory = &mut self.axes[motion.axis.get()];
+        let site = || {
+            let whole = Span::new(0, executed.text.len());
+            let span = if motion.span.end > motion.span.start {
+                motion.span
+            } else {
+                whole
+            };
+            Site::new(executed, span)
+        };
+        if counts(motion) {
+            memory.moved.get_or_insert_with(site);
         }
-        first
+        let is_new = memory.touched.is_none() && is_of_a_kind(motion);
+        if is_new {
+            memory.touched = Some(Touch {
+                site: site(),
+                kind: motion.kind,
+                certainty: motion.certainty,
+            });
+        }
+        is_new
     }
 }

@@ -156,7 +156,7 @@ impl Recorder<'_> {
             && executed.changes.is_empty()
             && executed.comments == Comments::Absent
             && executed.remark.is_none()
-            && self.linter.knows(executed.moved)
+            && self.linter.knows(executed)
     }
 
     #[inline(never)]

@@ -70,6 +70,9 @@ impl Interpreter {
             name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
                 self.state.modal.hash(name);
+                self.rotate(name, rest, at);
+                self.couple_by(name, rest);
+                self.command_motion(name, rest, hash.span);
                 self.pace_command(name, rest, at);
                 for target in &hash.written {
                     let place = self.target_place(target.place, at)?;

@@ -265,6 +265,7 @@ impl Interpreter {
         };
         let inner = at.in_macro(&code, span, &shown);
         let (said, moved) = (self.work.diagnostics.len(), self.work.moved.len());
+        let also_moved = self.work.also_moved.len();
         let (switched, noted) = (self.work.outcomes.len(), self.work.notes.borrow().len());
         let limit = self.first_refusal(&block);
         self.items(&inner, intent, limit);
@@ -275,6 +276,9 @@ impl Interpreter {
         }
         for word in &mut self.work.moved[moved..] {
             word.span = span;
+        }
+        for motion in &mut self.work.also_moved[also_moved..] {
+            motion.span = span;
         }
         for outcome in &mut self.work.outcomes[switched..] {
             outcome.command.span = span;

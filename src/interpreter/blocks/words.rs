@@ -10,6 +10,7 @@ use crate::interpreter::coordinates::chain;
 use crate::interpreter::coordinates::geometry::foreign;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
+use crate::interpreter::coordinates::moving::{self, AxisMotion, Certainty, MotionKind};
 use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::at::At;
@@ -198,14 +199,28 @@ impl Interpreter {
         });
     }
 
+    /// The axes that the block moves for sure, homing apart, and the words that move them (R1.36).
+    fn moved_in_automatic(&self, words: AxisWords) -> Vec<(AxisIndex, Span)> {
+        let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring);
+        let of_words = self.work.moved.iter().filter(|_| is_motion);
+        let of_words = of_words.map(|word| (word.axis, word.span));
+        let counts = |motion: &&AxisMotion| {
+            motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
+        };
+        let others = self.work.also_moved.iter().filter(counts);
+        of_words
+            .chain(others.map(|motion| (motion.axis, motion.span)))
+            .collect()
+    }
+
     /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
     /// block took effect before the motion (R1.9).
     pub(in crate::interpreter) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
-        if !self.any_required || matches!(words, AxisWords::Reference | AxisWords::Other) {
+        if !self.any_required {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);
-        for &AxisWord { axis, span, .. } in &self.work.moved {
+        for (axis, span) in self.moved_in_automatic(words) {
             let state = |kind| self.state.compensation.state(axis, kind);
             let required = machine.axis(axis).required;
             let missing = required
@@ -336,6 +351,16 @@ impl Interpreter {
             // PM/207256971, 207263627
             (None, 150) => self.state.modal.hash("#SPLINE OFF"),
             (None, 151) => self.state.modal.hash("#SPLINE ON"),
+            // PM/969743115: its axis words are the centre of the rotation.
+            (None, 68) => {
+                self.state.modal.hash("#ROTATION ON");
+                intent.axis_words = AxisWords::Other;
+                self.pass_over("G68", span, at);
+            }
+            (None, 69) => {
+                self.state.modal.hash("#ROTATION OFF");
+                self.pass_over("G69", span, at);
+            }
             (None, 60) => self.geometry().end = BlockEnd::ExactStop,
             // PM/206744331
             (None, 166) => self.geometry().at_full_speed = true,
@@ -353,6 +378,9 @@ impl Interpreter {
             (None, _) => {
                 if self.g_program(number, span, at, intent) {
                     return Ok(());
+                }
+                if let Some(row) = moving::of_g(number) {
+                    self.work.word_row = Some(row);
                 }
                 if number == HOMING {
                     intent.axis_words = AxisWords::Homing;

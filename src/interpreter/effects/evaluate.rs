@@ -124,10 +124,13 @@ impl Interpreter {
             return self.is_given(index);
         }
         match self.own_variable(name)? {
-            OwnVariable::Active(axis, kind) => match self.state.compensation.state(axis, kind) {
-                State::Unknown => None,
-                state => Some((state == State::Active).into()),
-            },
+            OwnVariable::Active(axis, kind) => {
+                self.work.asked.borrow_mut().push((axis, kind));
+                match self.state.compensation.state(axis, kind) {
+                    State::Unknown => None,
+                    state => Some((state == State::Active).into()),
+                }
+            }
             OwnVariable::Ready(axis, kind) => {
                 let machine = self.machine.axis(axis);
                 let ready =

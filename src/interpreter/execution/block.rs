@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::items::MAX_SAID;
+use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
@@ -40,6 +41,7 @@ impl Interpreter {
             self.refuse_repeated_axes(intent.axis_words, at);
         }
         self.move_around(intent.axis_words);
+        self.carry_along(intent.axis_words);
         if self.any_required && self.state.described.is_none() {
             let goes_on = !self.work.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
@@ -97,8 +99,14 @@ impl Interpreter {
             changes: &self.work.changes,
             doubted: &self.work.doubted,
             moved: if stopped { &[] } else { &self.work.moved },
-            perhaps_moved: &self.work.perhaps_moved,
+            also_moved: if stopped {
+                &[]
+            } else {
+                &self.work.also_moved
+            },
+            word_motion: self.work.word_row.map(|row| row.kind),
             motion: self.work.motion.as_ref(),
+            asked: &self.work.asked.borrow(),
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
             stopped,
@@ -125,6 +133,7 @@ impl Interpreter {
     fn doubt_ways(&mut self, at: &At<'_>, finder: &mut dyn Finder) {
         if !self.pending.is_empty() {
             self.forget_called(finder);
+            self.move_followers(AxisWords::Other);
         }
         if !self.work.doubted.is_empty() {
             self.name_doubted();

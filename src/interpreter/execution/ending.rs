@@ -87,6 +87,7 @@ impl Interpreter {
         }
         self.state.frames.clear();
         self.release_couplings();
+        self.state.couplings.end_following();
         // The observer wants no more, or it does not: the program has ended either way.
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,

@@ -7,11 +7,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, KindSet};
+use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::modal::Modal;
+use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::Motion;
+use crate::interpreter::coordinates::moving::{AxisMotion, MotionKind};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
 use crate::text::Place;
@@ -120,13 +122,18 @@ pub struct Executed<'a> {
     pub changes: &'a [Change],
     /// What it leaves unknown, though no command of it names that (R2.51).
     pub doubted: &'a [(AxisIndex, KindSet)],
-    /// The axes that it moves.
+    /// Its axis words, as far as they move; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
-    /// The axes that may be moved by what it calls or contains and is not executed here: it is not
-    /// known offline whether it is (R2.51, R2.52).
-    pub perhaps_moved: &'a [AxisIndex],
+    /// The axes that it moves, or may, without a word of their own: by a command in their bracket,
+    /// through another axis, in a rotated frame, or by what it calls or contains and is not executed
+    /// here (R10.7, R2.51, R2.52).
+    pub also_moved: &'a [AxisMotion],
+    /// How its axis words move, where the G functions in force do not say it.
+    pub word_motion: Option<MotionKind>,
     /// What it makes the machine do, where motions are taken.
     pub motion: Option<&'a Motion>,
+    /// The states of compensation that it reads (R1.35).
+    pub asked: &'a [(AxisIndex, Kind)],
     /// The notes on it, where they are taken.
     pub notes: &'a [Note],
     /// What is to be said about it, in no order.
@@ -141,6 +148,28 @@ pub struct Executed<'a> {
     pub occurred: &'a [bool],
     /// Rises whenever the state or the axes that occurred change.
     pub version: u64,
+}
+
+impl Executed<'_> {
+    /// Every axis that the block moves, or may, and how (R10.7): its words first.
+    #[inline]
+    pub fn motions(&self) -> impl Iterator<Item = AxisMotion> {
+        let kind = self.word_kind();
+        let words = self.moved.iter();
+        let words = words.map(move |word| AxisMotion::of_word(word, kind));
+        words.chain(self.also_moved.iter().copied())
+    }
+
+    /// How its axis words move.
+    #[inline]
+    fn word_kind(&self) -> MotionKind {
+        match self.word_motion {
+            Some(kind) => kind,
+            None if !self.modal.is_known(Group::Motion) => MotionKind::Unknown,
+            None if self.modal.functions.motion == 0 => MotionKind::Rapid,
+            None => MotionKind::Feed,
+        }
+    }
 }
 
 /// The end of a program.

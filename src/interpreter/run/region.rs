@@ -35,6 +35,8 @@ pub(in crate::interpreter) enum Effect {
     Reference(AxisIndex),
     /// A `#` command.
     Hash(String),
+    /// These axes may follow others from here on, or no longer.
+    Followers(Vec<AxisIndex>),
     /// A coupling group is defined with these axes.
     Coupling(Vec<AxisIndex>),
     /// A declaration.

@@ -3,11 +3,12 @@
 use std::cell::{Cell, RefCell};
 
 use super::event::{Note, Outcome};
-use crate::comp::{AxisIndex, Change, KindSet};
+use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
+use crate::interpreter::coordinates::moving::{AxisMotion, Row};
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::Block;
@@ -26,8 +27,10 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) changes: Vec<Change>,
     /// What may or may not have been switched.
     pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
-    /// The axes that it may or may not move.
-    pub(in crate::interpreter) perhaps_moved: Vec<AxisIndex>,
+    /// The axes that it moves, or may, without a word of their own.
+    pub(in crate::interpreter) also_moved: Vec<AxisMotion>,
+    /// How its axis words move, where the G functions in force do not say it.
+    pub(in crate::interpreter) word_row: Option<Row>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
     /// The axes that have a word, and those that may have another, a bit each.
@@ -44,6 +47,8 @@ pub(in crate::interpreter) struct Work {
     /// What the block moves, where motions are taken.
     pub(in crate::interpreter) motion: Option<Motion>,
     pub(in crate::interpreter) notes: RefCell<Vec<Note>>,
+    /// The states of compensation that its expressions read.
+    pub(in crate::interpreter) asked: RefCell<Vec<(AxisIndex, Kind)>>,
     /// Whether a text of the block had no meaning that is known here; what depends on it is not said
     /// again (R2.71).
     pub(in crate::interpreter) unread: Cell<bool>,
@@ -66,7 +71,8 @@ impl Work {
         self.outcomes.clear();
         self.changes.clear();
         self.doubted.clear();
-        self.perhaps_moved.clear();
+        self.also_moved.clear();
+        self.word_row = None;
         self.moved.clear();
         self.seen = 0;
         self.again = 0;
@@ -75,6 +81,7 @@ impl Work {
         self.dwells = false;
         self.motion = None;
         self.notes.get_mut().clear();
+        self.asked.get_mut().clear();
         self.unread.set(false);
         self.expansions.set(0);
         self.new_axes = false;

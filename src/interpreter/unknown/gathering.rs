@@ -11,7 +11,9 @@ use std::sync::Arc;
 
 use crate::comp::AxisIndex;
 use crate::interpreter::coordinates::group::Group;
-use crate::interpreter::coordinates::simplified::{self, Simplification};
+use crate::interpreter::coordinates::moving::{self, Moves};
+use crate::interpreter::coordinates::simplified;
+use crate::interpreter::effects::couple::{ends_following, is_follower_command};
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
 use crate::interpreter::programs::wanted::{FunctionWord, Wanted};
@@ -193,24 +195,30 @@ impl Gathering<'_> {
             Item::Bracket { axis, keyword, .. } => {
                 let name = axis.of(at.text);
                 let keyword = keyword.of(at.text).to_ascii_uppercase();
-                self.bracket(name, &keyword);
+                let body = item.span().of(at.text).to_ascii_uppercase();
+                self.bracket(name, &keyword, &body);
             }
             Item::BadCommand(_) | Item::BareNumber(..) | Item::Label(_) => {}
         }
     }
 
     /// A command in the bracket of an axis or spindle.
-    fn bracket(&mut self, name: &str, keyword: &str) {
+    fn bracket(&mut self, name: &str, keyword: &str, body: &str) {
         if keyword.starts_with("OVERRIDE") {
             self.effect(Effect::Overrides);
         } else if name.starts_with('S') {
             self.effect(Effect::Spindle);
         }
-        if let Some(what) = simplified::of_bracket(keyword) {
+        if let Some(what) = simplified::of_bracket(keyword, body) {
             self.effect(Effect::Simplified(what));
-            let moved = self.run.axis_named(name);
-            if let Some(axis) = moved.filter(|_| what == Simplification::IndependentAxis) {
+        }
+        if let Some(axis) = self.run.axis_named(name) {
+            let row = moving::of_bracket(keyword, body);
+            if row.is_some() {
                 self.effect(Effect::Position(axis));
+            }
+            if row.is_some_and(|row| row.moves == Moves::Follower) || ends_following(keyword) {
+                self.effect(Effect::Followers(vec![axis]));
             }
         }
     }
@@ -283,6 +291,10 @@ impl Gathering<'_> {
         if let Some(axes) = self.run.defined_axes(&hash.name, hash.rest.of(at.text)) {
             self.effect(Effect::Coupling(axes));
             return;
+        }
+        if is_follower_command(&hash.name) {
+            let axes = self.run.axes_in(hash.rest.of(at.text));
+            self.effect(Effect::Followers(axes));
         }
         self.effect(Effect::Hash(hash.name.clone()));
         if let Some(point) = point_after(hash, at) {
@@ -419,7 +431,7 @@ impl Gathering<'_> {
     fn g(&mut self, number: Option<i64>) {
         let plain = number.and_then(|number| u32::try_from(number).ok());
         let matters =
-            plain.is_none_or(|number| Group::of(number).is_some() || (20..=23).contains(&number));
+            plain.is_none_or(|number| Group::of(number).is_some() || matches!(number, 20..=23 | 68 | 69));
         let weighs = plain.is_some_and(|number| {
             matches!(number, 96 | 97 | 129) || simplified::of_g(number).is_some()
         });

@@ -8,6 +8,7 @@ use super::motions::Motions;
 use super::scope::{AuditedKind, Scope, Selected};
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::text::Place;
 use crate::interpreter::{
     AxisMotion, Certainty, Ended, EndedBy, Event, Executed, Outcome,
 };
@@ -58,7 +59,7 @@ pub(super) struct Observation {
     pub(super) observed: Vec<Observed>,
     /// Why it ended; `None` where nobody waited for the end.
     pub(super) by: Option<EndedBy>,
-    /// The block of the main program that ended it.
+    /// The block of the main file that ended it.
     pub(super) end: Option<u32>,
     /// What stopped it.
     pub(super) stopped: Option<WhyUnknown>,
@@ -70,6 +71,8 @@ pub(super) struct Observation {
     pub(super) asked: BTreeMap<usize, Site>,
     /// The line of its first block.
     pub(super) first_line: Option<u32>,
+    /// The main file.
+    main: Option<Arc<str>>,
     ring: [u32; LAST_BLOCKS],
     main_blocks: usize,
     doubt: Option<WhyUnknown>,
@@ -88,6 +91,7 @@ impl Observation {
             last_lines: Vec::new(),
             asked: BTreeMap::new(),
             first_line: None,
+            main: None,
             ring: [0; LAST_BLOCKS],
             main_blocks: 0,
             doubt: None,
@@ -106,7 +110,10 @@ impl Observation {
     #[inline]
     fn executed(&mut self, scope: &Scope, executed: &Executed<'_>) {
         if executed.level.is_none() {
-            self.first_line.get_or_insert(executed.line);
+            if self.first_line.is_none() {
+                self.first_line = Some(executed.line);
+                self.main = Some(Arc::clone(executed.file));
+            }
             self.ring[self.main_blocks % LAST_BLOCKS] = executed.line;
             self.main_blocks += 1;
         }
@@ -269,7 +276,8 @@ impl Observation {
 
     fn ended(&mut self, scope: &Scope, ended: &Ended<'_>) {
         self.by = Some(ended.by);
-        self.end = ended.at.map(|place| place.first_line);
+        let of_main = |place: &&Place| self.main.as_ref() == Some(&place.file);
+        self.end = ended.at.filter(of_main).map(|place| place.first_line);
         let of_subject = |subject: &AuditedKind| Selected::of(ended.compensation, *subject);
         self.left = scope.subjects().iter().map(of_subject).collect();
         let has_failed = matches!(ended.by, EndedBy::Error | EndedBy::Budget);

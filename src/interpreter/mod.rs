@@ -29,7 +29,9 @@ pub use coordinates::pace::ProgrammedFeed;
 pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
-pub use run::event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};
+pub use run::event::{
+    Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
+};
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Options, RunOutcome, StopPolicy};

@@ -73,6 +73,8 @@ pub(super) struct KindMemory {
     pub(super) first: Option<u64>,
     /// What was done to it last; one site for all kinds of a command.
     pub(super) last: Option<(Deed, Arc<Site>)>,
+    /// The last command that switched it off, and the last that switched it on.
+    pub(super) switched: [Option<Arc<Site>>; 2],
 }
 
 /// A motion of an axis in any way.
@@ -102,7 +104,13 @@ impl AxisMemory {
 
     fn note(&mut self, kinds: KindSet, deed: Deed, site: &Arc<Site>) {
         for kind in kinds.iter() {
-            self.kinds[kind as usize].last = Some((deed, Arc::clone(site)));
+            let memory = &mut self.kinds[kind as usize];
+            match deed {
+                Deed::Off => memory.switched[0] = Some(Arc::clone(site)),
+                Deed::On => memory.switched[1] = Some(Arc::clone(site)),
+                Deed::Unknown | Deed::Lost => {}
+            }
+            memory.last = Some((deed, Arc::clone(site)));
         }
     }
 }

@@ -12,9 +12,11 @@ use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::state::Last;
+use crate::interpreter::run::work::OwnEnd;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::syntax::Fault;
+use crate::syntax::ast::Item;
 use crate::text::Span;
 
 impl Interpreter {
@@ -187,8 +189,11 @@ impl Interpreter {
                 .with_help("end a subprogram with `M17` or `M29`");
                 self.work.diagnostics.push(at.diagnostic(fault));
             }
-            if at.level == 0 && at.used.is_none() && self.state.ending.is_none() {
-                self.work.end = Some(at.place(Span::new(0, at.text.len())));
+            if at.used.is_none() && self.state.ending.is_none() {
+                self.work.end = Some(OwnEnd {
+                    place: at.place(Span::new(0, at.text.len())),
+                    is_passed_into: !self.may_be_jumped_to(at),
+                });
             }
             return Some(self.program_end(by, at, finder));
         }
@@ -200,6 +205,17 @@ impl Interpreter {
             return self.repetition(step, moved, at, finder);
         }
         step
+    }
+
+    /// Whether a jump of the running program may go to the block.
+    fn may_be_jumped_to(&self, at: &At<'_>) -> bool {
+        let Some(frame) = self.state.frames.running() else {
+            return true;
+        };
+        let labels = at.block.items.iter();
+        let has_label = labels.clone().any(|item| matches!(item, Item::Label(_)));
+        let text = self.programs.index(frame.unit).source.text();
+        (has_label || at.block.number.is_some()) && names_target(text, at.text)
     }
 
     /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.
@@ -221,4 +237,24 @@ impl Interpreter {
             }
         }
     }
+}
+
+/// Whether a jump in a text may go to a block: it names the number or the label with which the block
+/// begins, or computes its target.
+fn names_target(text: &str, block: &str) -> bool {
+    let own = block.trim_start().to_ascii_uppercase();
+    let own = own.trim_start_matches(['N', '[']);
+    let end = own.find(|it: char| !(it.is_ascii_alphanumeric() || it == '_'));
+    let own = &own[..end.unwrap_or(own.len())];
+    let digits = own.trim_start_matches('0');
+    let upper = text.to_ascii_uppercase();
+    upper.split("GOTO").skip(1).any(|rest| {
+        let target = rest.trim_start().trim_start_matches(['[', 'N']).trim_start();
+        let end = target.find(|it: char| !(it.is_ascii_alphanumeric() || it == '_'));
+        let target = &target[..end.unwrap_or(target.len())];
+        target == own
+            || target.trim_start_matches('0') == digits
+            || target.is_empty()
+            || target.starts_with(['P', 'V'])
+    })
 }

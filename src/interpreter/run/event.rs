@@ -172,6 +172,18 @@ impl Executed<'_> {
     }
 }
 
+/// A place where a program ends, or may.
+#[derive(Debug, Clone)]
+pub struct ProgramEnd {
+    /// The block, `M30` or the last one of the file.
+    pub place: Place,
+    /// What only the machine knows and decides whether the program ends there; `None` for the end of
+    /// the dry run.
+    pub cause: Option<Arc<str>>,
+    /// The state that is left there.
+    pub compensation: Compensation,
+}
+
 /// The end of a program.
 #[derive(Debug, Clone, Copy)]
 pub struct Ended<'a> {
@@ -181,8 +193,12 @@ pub struct Ended<'a> {
     pub by: EndedBy,
     /// Whether it would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,
-    /// The block of the main program that ends it, `M30` for instance.
+    /// The block that ends it, `M30` for instance, where it is written in a program.
     pub at: Option<&'a Place>,
+    /// Whether no jump goes to that block, so that what is written before it comes before the end.
+    pub is_passed_into: bool,
+    /// Every end that the program may reach (R1.58): first that of the dry run.
+    pub ends: &'a [ProgramEnd],
     /// What program end changed itself.
     pub changes: &'a [Change],
     /// What is to be said about the program and belongs to no executed block.

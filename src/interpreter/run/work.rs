@@ -14,6 +14,14 @@ use crate::syntax::Fault;
 use crate::syntax::ast::Block;
 use crate::text::{Place, Span};
 
+/// The block that ends the program.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct OwnEnd {
+    pub(in crate::interpreter) place: Place,
+    /// Whether no jump goes to it.
+    pub(in crate::interpreter) is_passed_into: bool,
+}
+
 /// Buffers that are used again for each block.
 #[derive(Default)]
 #[allow(
@@ -54,8 +62,8 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) unread: Cell<bool>,
     /// Macros that the block has expanded.
     pub(in crate::interpreter) expansions: Cell<u32>,
-    /// The block of the main program that says that the program ends.
-    pub(in crate::interpreter) end: Option<Place>,
+    /// The block that says that the program ends.
+    pub(in crate::interpreter) end: Option<OwnEnd>,
     /// The budget that ended the run.
     pub(in crate::interpreter) over: Option<Diagnostic>,
     /// Whether that is a loop that never ends.

@@ -381,7 +381,10 @@ impl Gathering<'_> {
             _ => None,
         };
         match (word.address, number) {
-            (Address::Letter(b'M'), Some(2 | 30)) => self.exit(Exit::End),
+            (Address::Letter(b'M'), Some(2 | 30)) => {
+                self.exit(Exit::End);
+                self.region.ends.push(self.place);
+            }
             (Address::Letter(b'M'), Some(17 | 29)) => self.exit(Exit::Return),
             (Address::Letter(b'M'), None) => {
                 self.exit(Exit::End);

@@ -43,7 +43,12 @@ pub fn render_audit(
     )?;
     page.long_part(FINDINGS, |page| findings(page, report, &marks))?;
     page.long_part(MATRIX, |page| matrices(page, report, &marks))?;
-    page.long_part(LINES, |page| lines(page, &marks, sources))?;
+    page.long_part(LINES, |page| {
+        if marks.files.is_empty() && !report.has_unknown() {
+            page.push(&html! { p { "No program leaves or inherits anything." } })?;
+        }
+        lines(page, &marks, sources)
+    })?;
     page.close()
 }
 
@@ -305,9 +310,6 @@ fn cell_word(word: Word, content: &Markup) -> Markup {
 
 /// The lines that matter, with what stands around them.
 fn lines(page: &mut Page<'_>, marks: &Marks, sources: &mut dyn Sources) -> io::Result<()> {
-    if marks.files.is_empty() && !report.has_unknown() {
-        page.push(&html! { p { "No program leaves or inherits anything." } })?;
-    }
     for (file, (number, lines)) in &marks.files {
         page.push(&html! { h3 { (file) } "\n" })?;
         let Some(mut source) = sources.open(file) else {

@@ -8,10 +8,8 @@ use super::motions::Motions;
 use super::scope::{AuditedKind, Scope, Selected};
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::interpreter::{AxisMotion, Certainty, Ended, EndedBy, Event, Executed, Outcome};
 use crate::text::Place;
-use crate::interpreter::{
-    AxisMotion, Certainty, Ended, EndedBy, Event, Executed, Outcome,
-};
 
 /// So many blocks of the main program are remembered before its end.
 pub(super) const LAST_BLOCKS: usize = 8;

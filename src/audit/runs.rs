@@ -144,7 +144,10 @@ impl Runs {
         let names: Vec<String> = asked.keys().map(|asked| name(*asked)).collect();
         let message = match names.as_slice() {
             [] => "it depends on the state that the program finds".to_owned(),
-            names => format!("it depends on {}, which the program finds", names.join(", ")),
+            names => format!(
+                "it depends on {}, which the program finds",
+                names.join(", ")
+            ),
         };
         let site = asked.into_values().next();
         WhyUnknown {

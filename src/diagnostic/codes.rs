@@ -113,6 +113,7 @@ codes! {
     Fc406 "FC406" Info "kind named twice";
     Fc407 "FC407" Warning "the second run differs from the first";
     Fc408 "FC408" Warning "effect depends on a machine that is not described";
+    Fc409 "FC409" Info "switched while the axis moves on";
     Fc490 "FC490" Warning "unused `allow` comment";
     Fc491 "FC491" Warning "`allow` comment not understood";
     Fc501 "FC501" Error "no additive torque command in the cyclic data";

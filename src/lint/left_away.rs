@@ -91,7 +91,11 @@ impl Subject<'_> {
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!("restore it before {}: `{}`", self.place_of_end(&site.place), self.way_home()))
+            .with_help(format!(
+                "restore it before {}: `{}`",
+                self.place_of_end(&site.place),
+                self.way_home()
+            ))
     }
 
     /// What depends on a value that only the machine knows may be left away as well.
@@ -111,7 +115,11 @@ impl Subject<'_> {
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!("restore it before {}: `{}`", self.place_of_end(&site.place), self.way_home()))
+            .with_help(format!(
+                "restore it before {}: `{}`",
+                self.place_of_end(&site.place),
+                self.way_home()
+            ))
     }
 
     fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {
@@ -184,7 +192,11 @@ impl Subject<'_> {
     /// place that is right on every way (R1.58).
     fn with_ends(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         diagnostic.ends = self.ends().map(|end| end.place.clone()).collect();
-        let shown = if has_other_ends(self.ended) { usize::MAX } else { 0 };
+        let shown = if has_other_ends(self.ended) {
+            usize::MAX
+        } else {
+            0
+        };
         for end in self.ends().take(shown) {
             let text = match &end.cause {
                 Some(cause) => format!("the program ends here, depending on `{cause}`"),
@@ -219,7 +231,10 @@ fn stands_alone(block: &str) -> bool {
         return false;
     };
     let value = value.trim_start().trim_start_matches('=').trim_start();
-    let digits = value.len() - value.trim_start_matches(|it: char| it.is_ascii_digit()).len();
+    let digits = value.len()
+        - value
+            .trim_start_matches(|it: char| it.is_ascii_digit())
+            .len();
     let (number, rest) = value.split_at(digits);
     let rest = rest.trim_start();
     matches!(number.trim_start_matches('0'), "2" | "30")

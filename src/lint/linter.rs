@@ -1,6 +1,7 @@
 //! What the lints know and say.
 
 use super::history::{History, Told};
+use super::jump::Jump;
 use super::memory::Memory;
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
@@ -45,6 +46,8 @@ pub(crate) struct Linter<'m> {
     pub(super) begin: Option<Place>,
     /// The states of friction compensation that the program found, by axis.
     found: Vec<State>,
+    /// Changes of friction compensation on axes that moved right before.
+    pub(super) jumps: Vec<Jump>,
 }
 
 impl<'m> Linter<'m> {
@@ -58,6 +61,7 @@ impl<'m> Linter<'m> {
             file: file.to_owned(),
             begin: None,
             found: Vec::new(),
+            jumps: Vec::new(),
         }
     }
 
@@ -78,11 +82,12 @@ impl<'m> Linter<'m> {
         name.clone_into(&mut self.program);
     }
 
-    /// Whether every axis that a block moves has moved before, so that this is nothing new.
+    /// Whether every axis that a block moves has moved before, so that this is nothing new, and nothing
+    /// waits for the next motion.
     #[inline]
     pub(crate) fn knows(&self, executed: &Executed<'_>) -> bool {
-        let mut words = executed.moved.iter();
-        words.all(|word| self.memory.has_moved(word.axis))
+        !self.memory.has_new(executed)
+            && self.jumps.is_empty()
             && (executed.also_moved.is_empty() || self.memory.knows_all(executed.also_moved))
     }
 

@@ -129,12 +129,18 @@ fn is_of_a_kind(motion: &AxisMotion) -> bool {
 #[derive(Debug, Clone)]
 pub(super) struct Memory {
     axes: Vec<AxisMemory>,
+    /// The axes that have moved, a bit each by their positions modulo 64.
+    moved: u64,
+    /// Whether no two axes share a bit.
+    is_alone: bool,
 }
 
 impl Memory {
     pub(super) fn new(axes: usize) -> Self {
         Self {
             axes: vec![AxisMemory::default(); axes],
+            moved: 0,
+            is_alone: axes <= 64,
         }
     }
 
@@ -167,10 +173,10 @@ impl Memory {
         }
     }
 
-    /// Whether an axis has moved.
+    /// Whether an axis word of the block may be the first that moves its axis.
     #[inline]
-    pub(super) fn has_moved(&self, axis: AxisIndex) -> bool {
-        self.axes[axis.get()].moved.is_some()
+    pub(super) fn has_new(&self, executed: &Executed<'_>) -> bool {
+        executed.named & !self.moved != 0
     }
 
     /// Whether none of these motions is anything new.
@@ -197,6 +203,9 @@ impl Memory {
         };
         if counts(motion) {
             memory.moved.get_or_insert_with(site);
+            if self.is_alone {
+                self.moved |= 1 << (motion.axis.get() % 64);
+            }
         }
         let is_new = memory.touched.is_none() && is_of_a_kind(motion);
         if is_new {

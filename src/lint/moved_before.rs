@@ -59,7 +59,7 @@ pub(super) fn lint(
 /// How the axis is moved, where its own motion word does not say it.
 fn way(kind: MotionKind) -> &'static str {
     match kind {
-        MotionKind::Homing => " while it is homed",
+        MotionKind::Homing => " towards its reference point",
         MotionKind::Independent => " by itself",
         MotionKind::Coupled => " because it follows another axis",
         MotionKind::Frame => " because coordinates are rotated or transformed",

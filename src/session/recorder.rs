@@ -212,6 +212,11 @@ impl Recorder<'_> {
             };
             diagnostic.severity = severity;
             let allowed = here.contains(&diagnostic.code) && !diagnostic.code.is_controller();
+            // It is said at the motion after the command that it is about.
+            let line = match diagnostic.code {
+                Code::Fc409 => diagnostic.place.first_line,
+                _ => line,
+            };
             if is_allowed(allows, diagnostic, line) || allowed {
                 return false;
             }

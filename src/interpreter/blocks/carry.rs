@@ -68,7 +68,9 @@ impl Interpreter {
             return;
         }
         let upper = rest.to_ascii_uppercase();
-        let value = upper.find("ANGLE").map(|from| &rest[from + "ANGLE".len()..]);
+        let value = upper
+            .find("ANGLE")
+            .map(|from| &rest[from + "ANGLE".len()..]);
         let value = value.map(|text| text.trim_start_matches([' ', '\t', '=']));
         let value = value.and_then(|text| text.split([' ', '\t', ']']).next());
         let angle = value.and_then(|text| self.number_in(text, at));
@@ -100,7 +102,12 @@ impl Interpreter {
 
     /// In manual mode the operator moves axes.
     fn leave_to_operator(&mut self, kind: MotionKind, moves: Moves) {
-        let words: Vec<_> = self.work.moved.iter().map(|it| (it.axis, it.span)).collect();
+        let words: Vec<_> = self
+            .work
+            .moved
+            .iter()
+            .map(|it| (it.axis, it.span))
+            .collect();
         let axes = if words.is_empty() && moves == Moves::WordsOrAll {
             let all = self.path_axes().into_iter();
             all.map(|axis| (axis, Span::default())).collect()
@@ -156,7 +163,10 @@ impl Interpreter {
         let of_words = self.work.moved.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&AxisMotion| it.kind == MotionKind::Unknown;
         let unknown = self.work.also_moved.iter().filter(moves);
-        let movers: Vec<_> = of_words.clone().chain(unknown.map(|it| (it.axis, it.span))).collect();
+        let movers: Vec<_> = of_words
+            .clone()
+            .chain(unknown.map(|it| (it.axis, it.span)))
+            .collect();
         let words: Vec<AxisIndex> = of_words.map(|(axis, _)| axis).collect();
         let mut found: BTreeMap<AxisIndex, (Certainty, Span)> = BTreeMap::new();
         for name in &self.state.modal.transformed {
@@ -176,12 +186,14 @@ impl Interpreter {
                 known.0 = known.0.min(certainty);
             }
         }
-        let found = found.into_iter().map(|(axis, (certainty, span))| AxisMotion {
-            axis,
-            span,
-            kind: MotionKind::Frame,
-            certainty,
-        });
+        let found = found
+            .into_iter()
+            .map(|(axis, (certainty, span))| AxisMotion {
+                axis,
+                span,
+                kind: MotionKind::Frame,
+                certainty,
+            });
         self.work.also_moved.extend(found);
     }
 

@@ -26,6 +26,9 @@ impl Interpreter {
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
         let rest = hash.rest.of(at.text);
+        if !goes_on(&hash.name) {
+            self.work.rests.set(true);
+        }
         match hash.name.as_str() {
             "#VAR" => return self.declare(&hash.declarations, at),
             "#DELETE" => return self.delete(hash, at),
@@ -132,6 +135,13 @@ impl Interpreter {
             frame.restores = None;
         }
     }
+}
+
+/// Whether the axes certainly go on through a command.
+fn goes_on(name: &str) -> bool {
+    ["#VAR", "#ENDVAR", "#COMMENT", "#MSG"]
+        .iter()
+        .any(|known| name.starts_with(known))
 }
 
 /// What stands after `RC` in the bracket of `#ERROR`, `[ID=455 RC=2]` or `[ID455 RC2]`.

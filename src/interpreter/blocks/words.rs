@@ -165,7 +165,12 @@ impl Interpreter {
         let bit = 1 << (axis.get() % 64);
         self.work.again |= self.work.seen & bit;
         self.work.seen |= bit;
-        self.work.moved.push(AxisWord { axis, span, value });
+        self.work.moved.push(AxisWord {
+            axis,
+            span,
+            value,
+            from: None,
+        });
     }
 
     /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
@@ -298,6 +303,8 @@ impl Interpreter {
                 }
             }
             (b'M' | b'T' | b'D', number) => {
+                // A function may wait for its acknowledgement.
+                self.work.rests.set(true);
                 if let (b'M', Some(number)) = (letter, number) {
                     self.state.modal.pace.m(number);
                 }
@@ -361,7 +368,10 @@ impl Interpreter {
                 self.state.modal.hash("#ROTATION OFF");
                 self.pass_over("G69", span, at);
             }
-            (None, 60) => self.geometry().end = BlockEnd::ExactStop,
+            (None, 60) => {
+                self.work.rests.set(true);
+                self.geometry().end = BlockEnd::ExactStop;
+            }
             // PM/206744331
             (None, 166) => self.geometry().at_full_speed = true,
             (None, 163) if self.radius_word(span, at) => intent.radius = Some(at.in_block(span)),
@@ -381,6 +391,7 @@ impl Interpreter {
                 }
                 if let Some(row) = moving::of_g(number) {
                     self.work.word_row = Some(row);
+                    self.work.rests.set(true);
                 }
                 if number == HOMING {
                     intent.axis_words = AxisWords::Homing;
@@ -417,7 +428,7 @@ impl Interpreter {
         let coordinates = self.coordinates();
         let modal = &mut self.state.modal;
         match intent.axis_words {
-            AxisWords::Motion => modal.move_axes(&self.work.moved[..coordinates]),
+            AxisWords::Motion => modal.move_axes(&mut self.work.moved[..coordinates]),
             AxisWords::Homing | AxisWords::Measuring => {
                 for word in &self.work.moved {
                     modal.forget_position(word.axis);

@@ -377,8 +377,8 @@ impl Modal {
         self.metric().filter(|_| self.is_known(Group::Distance))
     }
 
-    /// Programmed coordinates.
-    pub(in crate::interpreter) fn move_axes(&mut self, words: &[AxisWord]) {
+    /// Programmed coordinates. The words remember where their axes stood.
+    pub(in crate::interpreter) fn move_axes(&mut self, words: &mut [AxisWord]) {
         let scale = self.scale();
         for word in words {
             let axis = word.axis.get();
@@ -387,7 +387,8 @@ impl Modal {
             } else {
                 self.positions[axis]
             };
-            self.positions[axis] = shifted(from, word.value, scale);
+            let to = shifted(from, word.value, scale);
+            word.from = std::mem::replace(&mut self.positions[axis], to);
         }
     }
 

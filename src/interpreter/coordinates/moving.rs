@@ -146,9 +146,7 @@ const fn possible(form: Form, kind: MotionKind, moves: Moves) -> Row {
 const TABLE: [Row; 46] = {
     use Form::{Bracket, Command, G};
     use MotionKind::{Coupled, Feed, Frame, Homing, Independent, Unknown};
-    use Moves::{
-        Channel, Follower, Gantry, Main, NamedOrAll, Own, Plane, Words, WordsOrAll,
-    };
+    use Moves::{Channel, Follower, Gantry, Main, NamedOrAll, Own, Plane, Words, WordsOrAll};
     [
         certain(G(33), Feed, Words),
         certain(G(63), Feed, Words),
@@ -284,10 +282,16 @@ mod tests {
     fn brackets_that_move_are_told_from_those_that_do_not() {
         // R10.7
         for (body, kind) in [
-            ("INDP_ASYN G90 G01 FEED=10 POS=5", Some(MotionKind::Independent)),
+            (
+                "INDP_ASYN G90 G01 FEED=10 POS=5",
+                Some(MotionKind::Independent),
+            ),
             ("indp_syn g91 g00 pos=5", Some(MotionKind::Independent)),
             ("INDP_SYN DRY_RUN POS=5", None),
-            ("OSC ON 1ST_POS=1 2ND_POS=2 FEED=3", Some(MotionKind::Independent)),
+            (
+                "OSC ON 1ST_POS=1 2ND_POS=2 FEED=3",
+                Some(MotionKind::Independent),
+            ),
             ("OSC OFF", None),
             ("DIST_CTRL ON", Some(MotionKind::Independent)),
             ("DIST_CTRL OFF NO_MOVE", None),
@@ -295,7 +299,10 @@ mod tests {
             ("LIFT_END", None),
             ("SYNC IN G90 POS=3", Some(MotionKind::Independent)),
             ("POLY A0=1 A1=2", Some(MotionKind::Feed)),
-            ("MC_MoveAbsolute POS=10 VEL=5", Some(MotionKind::Independent)),
+            (
+                "MC_MoveAbsolute POS=10 VEL=5",
+                Some(MotionKind::Independent),
+            ),
             ("MC_MoveVelocity Velocity=1", Some(MotionKind::Independent)),
             ("MC_Home", Some(MotionKind::Homing)),
             ("MC_GearIn Master=2", Some(MotionKind::Coupled)),

@@ -97,7 +97,9 @@ impl Interpreter {
                     axes = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
                     return self.state.couplings.doubt_followers(&axes);
                 }
-                let pairs = axes.iter().flat_map(|one| axes.iter().map(|other| (*one, *other)));
+                let pairs = axes
+                    .iter()
+                    .flat_map(|one| axes.iter().map(|other| (*one, *other)));
                 let pairs = pairs.filter(|(one, other)| one != other).collect();
                 self.state.couplings.follow(GANTRY.to_owned(), pairs);
             }
@@ -111,7 +113,9 @@ impl Interpreter {
         let words: Vec<&str> = rest.split(is_between).filter(|it| !it.is_empty()).collect();
         let after = |key: &str| {
             let named = words.windows(2).filter(move |pair| {
-                let rest = pair[0].get(..key.len()).filter(|it| it.eq_ignore_ascii_case(key));
+                let rest = pair[0]
+                    .get(..key.len())
+                    .filter(|it| it.eq_ignore_ascii_case(key));
                 rest.is_some()
             });
             let axes = named.filter_map(|pair| self.axis_or_number(pair[1]));

@@ -84,6 +84,7 @@ impl Interpreter {
                 own: frame.map_or(&NONE, |frame| &frame.own),
                 given,
                 unread: &self.work.unread,
+                waits: &self.work.rests,
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {

@@ -12,9 +12,9 @@ use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::state::Last;
-use crate::interpreter::run::work::OwnEnd;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
+use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::Fault;
 use crate::syntax::ast::Item;
 use crate::text::Span;
@@ -101,11 +101,10 @@ impl Interpreter {
             changes: &self.work.changes,
             doubted: &self.work.doubted,
             moved: if stopped { &[] } else { &self.work.moved },
-            also_moved: if stopped {
-                &[]
-            } else {
-                &self.work.also_moved
-            },
+            named: self.work.seen,
+            last_moved: &self.work.last_moved,
+            rests: self.work.rests.get() || self.work.dwells,
+            also_moved: if stopped { &[] } else { &self.work.also_moved },
             word_motion: self.work.word_row.map(|row| row.kind),
             motion: self.work.motion.as_ref(),
             asked: &self.work.asked.borrow(),
@@ -249,7 +248,10 @@ fn names_target(text: &str, block: &str) -> bool {
     let digits = own.trim_start_matches('0');
     let upper = text.to_ascii_uppercase();
     upper.split("GOTO").skip(1).any(|rest| {
-        let target = rest.trim_start().trim_start_matches(['[', 'N']).trim_start();
+        let target = rest
+            .trim_start()
+            .trim_start_matches(['[', 'N'])
+            .trim_start();
         let end = target.find(|it: char| !(it.is_ascii_alphanumeric() || it == '_'));
         let target = &target[..end.unwrap_or(target.len())];
         target == own

@@ -39,7 +39,6 @@ pub(in crate::interpreter) struct Couplings {
 /// An axis, the one that it follows, `None` for any, and whether it does so for sure.
 pub(in crate::interpreter) type Link = (AxisIndex, Option<AxisIndex>, Certainty);
 
-
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 struct Group {
     axes: Vec<AxisIndex>,
@@ -59,7 +58,10 @@ impl Couplings {
 
     /// Which axes follow which.
     pub(in crate::interpreter) fn links(&self) -> Vec<Link> {
-        let groups = self.enabled.values().filter_map(|name| self.groups.get(name));
+        let groups = self
+            .enabled
+            .values()
+            .filter_map(|name| self.groups.get(name));
         // `slave=master` (PM/207120267)
         let pairs = groups.flat_map(|group| group.axes.chunks_exact(2));
         let pairs = pairs.map(|pair| (pair[0], pair[1]));

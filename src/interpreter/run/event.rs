@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
-use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::group::Group;
+use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::motion::Motion;
 use crate::interpreter::coordinates::moving::{AxisMotion, MotionKind};
 use crate::syntax::ast::Block;
@@ -124,6 +124,12 @@ pub struct Executed<'a> {
     pub doubted: &'a [(AxisIndex, KindSet)],
     /// Its axis words, as far as they move; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
+    /// The axes that have a word in it, a bit each by their positions modulo 64.
+    pub(crate) named: u64,
+    /// The axis words of the last block that moved before it, unless the axes have come to rest since.
+    pub(crate) last_moved: &'a [AxisWord],
+    /// Whether the axes come to rest in it, or may.
+    pub(crate) rests: bool,
     /// The axes that it moves, or may, without a word of their own: by a command in their bracket,
     /// through another axis, in a rotated frame, or by what it calls or contains and is not executed
     /// here (R10.7, R2.51, R2.52).

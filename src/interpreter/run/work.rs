@@ -41,6 +41,10 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) word_row: Option<Row>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
+    /// The axis words of the last block that moved, unless the axes have come to rest since.
+    pub(in crate::interpreter) last_moved: Vec<AxisWord>,
+    /// Whether the axes come to rest in the block, or may.
+    pub(in crate::interpreter) rests: Cell<bool>,
     /// The axes that have a word, and those that may have another, a bit each.
     pub(in crate::interpreter) seen: u64,
     pub(in crate::interpreter) again: u64,
@@ -81,7 +85,13 @@ impl Work {
         self.doubted.clear();
         self.also_moved.clear();
         self.word_row = None;
-        self.moved.clear();
+        if !self.moved.is_empty() {
+            std::mem::swap(&mut self.moved, &mut self.last_moved);
+            self.moved.clear();
+        }
+        if self.rests.replace(false) || self.dwells {
+            self.last_moved.clear();
+        }
         self.seen = 0;
         self.again = 0;
         self.diagnostics.clear();

@@ -433,8 +433,9 @@ impl Gathering<'_> {
 
     fn g(&mut self, number: Option<i64>) {
         let plain = number.and_then(|number| u32::try_from(number).ok());
-        let matters =
-            plain.is_none_or(|number| Group::of(number).is_some() || matches!(number, 20..=23 | 68 | 69));
+        let matters = plain.is_none_or(|number| {
+            Group::of(number).is_some() || matches!(number, 20..=23 | 68 | 69)
+        });
         let weighs = plain.is_some_and(|number| {
             matches!(number, 96 | 97 | 129) || simplified::of_g(number).is_some()
         });

@@ -209,9 +209,11 @@ fn push_finding(out: &mut String, machine: &MachineAudit, finding: &AxisFinding,
     list("inherit it:", &only(&finding.inheritors), &|program| {
         inheritor(program, &of(program))
     });
-    list("may inherit it:", &finding.possible_inheritors, &|program| {
-        inheritor(program, &of(program))
-    });
+    list(
+        "may inherit it:",
+        &finding.possible_inheritors,
+        &|program| inheritor(program, &of(program)),
+    );
     list("not known:", &finding.unknown, &|program| {
         unknown(program, &of(program))
     });
@@ -298,10 +300,7 @@ fn push_cure(out: &mut String, machine: &MachineAudit, finding: &AxisFinding, le
             &finding.leavers,
             "before the end of each program that leaves it",
         ),
-        Cure::Inheritors => (
-            &movers,
-            "before the first motion of each that inherits it",
-        ),
+        Cure::Inheritors => (&movers, "before the first motion of each that inherits it"),
         _ => return,
     };
     let _ = writeln!(out, "  cure: one block {what}");

@@ -8,7 +8,7 @@ use super::motions::Motions;
 use super::scope::{AuditedKind, Scope, Selected};
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::{AxisMotion, Certainty, Ended, EndedBy, Event, Executed, Outcome};
+use crate::interpreter::{Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome};
 use crate::text::Place;
 
 /// So many blocks of the main program are remembered before its end.
@@ -229,7 +229,7 @@ impl Observation {
     }
 
     #[inline]
-    fn moved(&mut self, scope: &Scope, executed: &Executed<'_>, motion: &AxisMotion) {
+    fn moved(&mut self, scope: &Scope, executed: &Executed<'_>, motion: &MovedAxis) {
         let is_certain = motion.certainty == Certainty::Certain;
         for at in scope.of_axis(motion.axis) {
             let subject = scope.subjects()[at];
@@ -302,7 +302,7 @@ impl Observation {
     }
 }
 
-fn moved_at(executed: &Executed<'_>, main: Option<u32>, motion: &AxisMotion) -> Moved {
+fn moved_at(executed: &Executed<'_>, main: Option<u32>, motion: &MovedAxis) -> Moved {
     Moved {
         seq: executed.seq,
         motion: FirstMotion {

@@ -24,7 +24,7 @@ pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, M
 pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };
-pub use coordinates::moving::{AxisMotion, Certainty, MotionKind};
+pub use coordinates::moving::{Certainty, MotionKind, MovedAxis};
 pub use coordinates::pace::ProgrammedFeed;
 pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};

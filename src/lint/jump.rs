@@ -1,22 +1,10 @@
 //! FC409: friction compensation is switched while the axis moves on (R1.57).
 
 use super::linter::Linter;
-use super::memory::place;
+use super::memory::{Jump, place};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::{AxisWord, BlockEnd, Executed, Group, PositionFrame};
-use crate::text::Place;
-
-/// A command that changed friction compensation after a feed move of the axis.
-#[derive(Debug, Clone)]
-pub(super) struct Jump {
-    axis: AxisIndex,
-    /// Whether the axis moved to larger coordinates.
-    rises: bool,
-    /// The state before the command.
-    before: State,
-    place: Place,
-}
 
 impl Linter<'_> {
     /// Notes changes of an axis that moves, and says which of them are followed by a move in the same

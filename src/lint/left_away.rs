@@ -219,7 +219,7 @@ impl Subject<'_> {
     }
 }
 
-/// Whether a block is nothing but a program end (R1.59), so that another can stand before it.
+/// Whether a block is nothing but a program end, so that another can stand before it.
 fn stands_alone(block: &str) -> bool {
     let word = block.trim_start();
     let number = word.strip_prefix(['N', 'n']).map(|rest| {

@@ -1,8 +1,7 @@
 //! What the lints know and say.
 
 use super::history::{History, Told};
-use super::jump::Jump;
-use super::memory::Memory;
+use super::memory::{Jump, Memory};
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::{Executed, Outcome};

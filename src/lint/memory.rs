@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Change, Kind, KindSet, Selection, State};
-use crate::interpreter::{AxisMotion, Certainty, Executed, MotionKind, Outcome};
+use crate::interpreter::{Certainty, Executed, MotionKind, MovedAxis, Outcome};
 use crate::text::{Place, Span};
 
 /// A block that a lint may have to name later.
@@ -85,6 +85,17 @@ pub(super) struct Touch {
     pub(super) certainty: Certainty,
 }
 
+/// A command that changed friction compensation after a feed move of the axis.
+#[derive(Debug, Clone)]
+pub(super) struct Jump {
+    pub(super) axis: AxisIndex,
+    /// Whether the axis moved to larger coordinates.
+    pub(super) rises: bool,
+    /// The state before the command.
+    pub(super) before: State,
+    pub(super) place: Place,
+}
+
 /// What the program did to one axis.
 #[derive(Debug, Clone, Default)]
 pub(super) struct AxisMemory {
@@ -116,12 +127,12 @@ impl AxisMemory {
 }
 
 /// Whether a motion counts for the second run (R1.53, R10.7).
-fn counts(motion: &AxisMotion) -> bool {
+fn counts(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
 }
 
 /// Whether a form of R10.7 moves the axis, or may; not something that is not known at all.
-fn is_of_a_kind(motion: &AxisMotion) -> bool {
+fn is_of_a_kind(motion: &MovedAxis) -> bool {
     motion.certainty == Certainty::Certain || motion.kind != MotionKind::Unknown
 }
 
@@ -180,8 +191,8 @@ impl Memory {
     }
 
     /// Whether none of these motions is anything new.
-    pub(super) fn knows_all(&self, motions: &[AxisMotion]) -> bool {
-        let is_known = |motion: &AxisMotion| {
+    pub(super) fn knows_all(&self, motions: &[MovedAxis]) -> bool {
+        let is_known = |motion: &MovedAxis| {
             let memory = &self.axes[motion.axis.get()];
             (memory.touched.is_some() || !is_of_a_kind(motion))
                 && (memory.moved.is_some() || !counts(motion))
@@ -190,7 +201,7 @@ impl Memory {
     }
 
     /// A motion. Says whether it is the first of its axis.
-    pub(super) fn moved(&mut self, motion: &AxisMotion, executed: &Executed<'_>) -> bool {
+    pub(super) fn moved(&mut self, motion: &MovedAxis, executed: &Executed<'_>) -> bool {
         let memory = &mut self.axes[motion.axis.get()];
         let site = || {
             let whole = Span::new(0, executed.text.len());

@@ -4,34 +4,40 @@
 use std::collections::BTreeMap;
 
 use crate::comp::AxisIndex;
+use crate::interpreter::blocks::pace::AxisBracket;
 use crate::interpreter::coordinates::axis_words::AxisWords;
-use crate::interpreter::coordinates::moving::{self, AxisMotion, Certainty, MotionKind, Moves};
+use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis, Moves};
 use crate::interpreter::effects::couple::{ends_following, gear_of};
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::text::Span;
 
 impl Interpreter {
-    /// A command in the bracket of an axis, in upper case.
-    pub(in crate::interpreter) fn bracket_motion(
+    /// A command in the bracket of an axis.
+    pub(in crate::interpreter) fn move_by_bracket(
         &mut self,
-        axis: AxisIndex,
-        (keyword, body): (&str, &str),
-        span: Span,
+        bracket: AxisBracket<'_>,
+        at: &At<'_>,
     ) {
-        if ends_following(keyword) {
+        let Some(axis) = self.axis_named(bracket.name) else {
+            return;
+        };
+        let span = bracket.span;
+        let keyword = bracket.keyword.to_ascii_uppercase();
+        let body = span.of(at.text).to_ascii_uppercase();
+        if ends_following(&keyword) {
             self.state.couplings.unfollow(&gear_of(axis));
         }
-        let Some(row) = moving::of_bracket(keyword, body) else {
+        let Some(row) = moving::of_bracket(&keyword, &body) else {
             return;
         };
         self.see(axis);
         self.state.modal.forget_position(axis);
         if row.moves == Moves::Follower {
-            self.gear_in(axis, body);
+            self.gear_in(axis, &body);
             return;
         }
-        self.work.also_moved.push(AxisMotion {
+        self.work.also_moved.push(MovedAxis {
             axis,
             span,
             kind: row.kind,
@@ -52,7 +58,7 @@ impl Interpreter {
             named
         };
         for axis in axes {
-            self.work.also_moved.push(AxisMotion {
+            self.work.also_moved.push(MovedAxis {
                 axis,
                 span,
                 kind: row.kind,
@@ -115,7 +121,7 @@ impl Interpreter {
             words
         };
         for (axis, span) in axes {
-            self.work.also_moved.push(AxisMotion {
+            self.work.also_moved.push(MovedAxis {
                 axis,
                 span,
                 kind,
@@ -161,7 +167,7 @@ impl Interpreter {
     /// A motion word in a rotated or transformed frame moves its other axes, too.
     fn move_in_frame(&mut self) {
         let of_words = self.work.moved.iter().map(|it| (it.axis, it.span));
-        let moves = |it: &&AxisMotion| it.kind == MotionKind::Unknown;
+        let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;
         let unknown = self.work.also_moved.iter().filter(moves);
         let movers: Vec<_> = of_words
             .clone()
@@ -188,7 +194,7 @@ impl Interpreter {
         }
         let found = found
             .into_iter()
-            .map(|(axis, (certainty, span))| AxisMotion {
+            .map(|(axis, (certainty, span))| MovedAxis {
                 axis,
                 span,
                 kind: MotionKind::Frame,
@@ -208,9 +214,9 @@ impl Interpreter {
             _ => MotionKind::Coupled,
         };
         let of_words = self.work.moved.iter().filter(|_| moves);
-        let of_words = of_words.map(|word| AxisMotion::of_word(word, kind));
+        let of_words = of_words.map(|word| MovedAxis::of_word(word, kind));
         let movers = of_words.chain(self.work.also_moved.iter().copied());
-        let mut moving: BTreeMap<AxisIndex, AxisMotion> = BTreeMap::new();
+        let mut moving: BTreeMap<AxisIndex, MovedAxis> = BTreeMap::new();
         for mover in movers {
             let known = moving.entry(mover.axis).or_insert(mover);
             known.certainty = known.certainty.min(mover.certainty);
@@ -238,7 +244,7 @@ impl Interpreter {
                     _ => MotionKind::Coupled,
                 };
                 let span = leading.span;
-                let motion = AxisMotion {
+                let motion = MovedAxis {
                     axis: follower,
                     span,
                     kind,
@@ -251,7 +257,7 @@ impl Interpreter {
                 break;
             }
         }
-        let is_new = |motion: &AxisMotion| {
+        let is_new = |motion: &MovedAxis| {
             let known = own.get(&motion.axis);
             known.is_none_or(|known| known.certainty > motion.certainty)
         };

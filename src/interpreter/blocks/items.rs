@@ -146,6 +146,7 @@ impl Interpreter {
                     span: *span,
                 };
                 self.bracket(bracket, at);
+                self.move_by_bracket(bracket, at);
                 self.pass_over(&format!("{name}[{keyword}]"), *span, at);
                 Ok(())
             }

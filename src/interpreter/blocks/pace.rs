@@ -101,7 +101,6 @@ impl Interpreter {
         if let Some(what) = simplified::of_bracket(&keyword, &body) {
             self.simplify(what, Holds::On);
         }
-        self.bracket_motion(axis, (&keyword, &body), span);
     }
 
     /// The words in the bracket of the main spindle.

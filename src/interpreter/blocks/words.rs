@@ -10,7 +10,7 @@ use crate::interpreter::coordinates::chain;
 use crate::interpreter::coordinates::geometry::foreign;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
-use crate::interpreter::coordinates::moving::{self, AxisMotion, Certainty, MotionKind};
+use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis};
 use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::at::At;
@@ -209,7 +209,7 @@ impl Interpreter {
         let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring);
         let of_words = self.work.moved.iter().filter(|_| is_motion);
         let of_words = of_words.map(|word| (word.axis, word.span));
-        let counts = |motion: &&AxisMotion| {
+        let counts = |motion: &&MovedAxis| {
             motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
         };
         let others = self.work.also_moved.iter().filter(counts);

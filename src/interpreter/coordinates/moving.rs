@@ -56,7 +56,7 @@ pub enum Certainty {
 
 /// The motion of one axis in a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AxisMotion {
+pub struct MovedAxis {
     /// The axis.
     pub axis: AxisIndex,
     /// The words that move it.
@@ -67,7 +67,7 @@ pub struct AxisMotion {
     pub certainty: Certainty,
 }
 
-impl AxisMotion {
+impl MovedAxis {
     /// The motion of an axis word.
     #[inline]
     pub(in crate::interpreter) fn of_word(word: &AxisWord, kind: MotionKind) -> Self {

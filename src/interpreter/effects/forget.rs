@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::couple::is_follower_command;
 use super::descriptions::DESCRIPTIONS;
 use crate::comp::{AxisIndex, KindSet};
-use crate::interpreter::coordinates::moving::{AxisMotion, Certainty, MotionKind};
+use crate::interpreter::coordinates::moving::{Certainty, MotionKind, MovedAxis};
 use crate::interpreter::coordinates::simplified::{self, Holds};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
@@ -44,7 +44,7 @@ impl Interpreter {
     /// It is not known whether any axis moves.
     pub(in crate::interpreter) fn perhaps_move_all(&mut self) {
         let count = self.machine.axes.len();
-        let possible = |it: &&AxisMotion| it.certainty == Certainty::Possible;
+        let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
         if self.work.also_moved.iter().filter(possible).count() < count {
             for axis in (0..count).map(AxisIndex::new) {
                 self.perhaps_move(axis);
@@ -54,7 +54,7 @@ impl Interpreter {
 
     /// It is not known whether an axis moves.
     pub(in crate::interpreter) fn perhaps_move(&mut self, axis: AxisIndex) {
-        self.work.also_moved.push(AxisMotion {
+        self.work.also_moved.push(MovedAxis {
             axis,
             span: Span::default(),
             kind: MotionKind::Unknown,

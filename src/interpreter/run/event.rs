@@ -13,7 +13,7 @@ use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::motion::Motion;
-use crate::interpreter::coordinates::moving::{AxisMotion, MotionKind};
+use crate::interpreter::coordinates::moving::{MotionKind, MovedAxis};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
 use crate::text::Place;
@@ -133,7 +133,7 @@ pub struct Executed<'a> {
     /// The axes that it moves, or may, without a word of their own: by a command in their bracket,
     /// through another axis, in a rotated frame, or by what it calls or contains and is not executed
     /// here (R10.7, R2.51, R2.52).
-    pub also_moved: &'a [AxisMotion],
+    pub also_moved: &'a [MovedAxis],
     /// How its axis words move, where the G functions in force do not say it.
     pub word_motion: Option<MotionKind>,
     /// What it makes the machine do, where motions are taken.
@@ -159,10 +159,10 @@ pub struct Executed<'a> {
 impl Executed<'_> {
     /// Every axis that the block moves, or may, and how (R10.7): its words first.
     #[inline]
-    pub fn motions(&self) -> impl Iterator<Item = AxisMotion> {
+    pub fn motions(&self) -> impl Iterator<Item = MovedAxis> {
         let kind = self.word_kind();
         let words = self.moved.iter();
-        let words = words.map(move |word| AxisMotion::of_word(word, kind));
+        let words = words.map(move |word| MovedAxis::of_word(word, kind));
         words.chain(self.also_moved.iter().copied())
     }
 

@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
-use crate::interpreter::coordinates::moving::{AxisMotion, Row};
+use crate::interpreter::coordinates::moving::{MovedAxis, Row};
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::Block;
@@ -36,7 +36,7 @@ pub(in crate::interpreter) struct Work {
     /// What may or may not have been switched.
     pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
     /// The axes that it moves, or may, without a word of their own.
-    pub(in crate::interpreter) also_moved: Vec<AxisMotion>,
+    pub(in crate::interpreter) also_moved: Vec<MovedAxis>,
     /// How its axis words move, where the G functions in force do not say it.
     pub(in crate::interpreter) word_row: Option<Row>,
     /// Its axis words.

@@ -41,6 +41,8 @@ pub struct AxisFinding {
     pub leavers: Vec<usize>,
     /// The programs that move the axis in the state that they find.
     pub inheritors: Vec<usize>,
+    /// The programs that may move it in the state that they find.
+    pub possible_inheritors: Vec<usize>,
     /// The programs of both lists: the second run of each differs from its first (R1.53).
     pub both: Vec<usize>,
     /// The programs of which that is not known offline: any of them may leave it away from its start-up state.
@@ -55,9 +57,24 @@ impl AxisFinding {
         count(&self.leavers).saturating_mul(count(&self.inheritors))
     }
 
+    /// The ordered pairs of a program that leaves the axis away from the start-up state and one that
+    /// may move it so (R10.7).
+    pub fn possible_hazards(&self) -> u64 {
+        let count = |list: &[usize]| u64::try_from(list.len()).unwrap_or(u64::MAX);
+        count(&self.leavers).saturating_mul(count(&self.possible_inheritors))
+    }
+
+    /// The programs that move the axis in the state that they find, or may, in their order.
+    pub fn movers(&self) -> Vec<usize> {
+        let both = self.inheritors.iter().chain(&self.possible_inheritors);
+        let mut movers: Vec<usize> = both.copied().collect();
+        movers.sort_unstable();
+        movers
+    }
+
     /// The shorter of both lists.
     pub fn cure(&self) -> Cure {
-        match (self.leavers.len(), self.inheritors.len()) {
+        match (self.leavers.len(), self.movers().len()) {
             (0, _) | (_, 0) => Cure::None,
             (leavers, inheritors) if leavers <= inheritors => Cure::Leavers,
             _ => Cure::Inheritors,
@@ -66,7 +83,8 @@ impl AxisFinding {
 
     /// Whether programs may leave it away from its start-up state, or do, and others inherit that.
     pub fn is_worth_a_warning(&self) -> bool {
-        self.hazards() > 0 || !(self.unknown.is_empty() || self.inheritors.is_empty())
+        let movers = self.movers();
+        !movers.is_empty() && !(self.leavers.is_empty() && self.unknown.is_empty())
     }
 }
 
@@ -104,6 +122,7 @@ impl Archive {
             at,
             leavers: those(AxisAudit::leaves_away),
             inheritors: those(AxisAudit::is_inheritor),
+            possible_inheritors: those(AxisAudit::may_inherit),
             both: those(|axis| axis.leaves_away() && axis.is_inheritor()),
             unknown: those(AxisAudit::is_unknown),
         }
@@ -124,7 +143,7 @@ impl Archive {
                 MendedEnd::Leavers | MendedEnd::Smaller => Cure::Leavers,
             };
             let programs: Vec<usize> = if cure == Cure::Inheritors {
-                finding.inheritors.clone()
+                finding.movers()
             } else {
                 let unknown = finding.unknown.iter().filter(|&&program| {
                     self.programs[program].axes[finding.at].depends_on_the_machine()

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 
 use crate::diagnostic::Code;
+use crate::interpreter::MotionKind;
 
 /// A line of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
@@ -54,38 +55,14 @@ impl Serialize for ProgramEffect {
     }
 }
 
-/// How fast a motion is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum Pace {
-    /// G00.
-    Rapid,
-    /// G01, G02, G03 and what interpolates at the path feed.
-    Feed,
-    /// Not known offline.
-    Unknown,
-}
-
-impl Pace {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Rapid => "rapid",
-            Self::Feed => "feed",
-            Self::Unknown => "unknown",
-        }
-    }
-}
-
 /// The first motion of an axis in a state that the program did not set.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
 pub struct FirstMotion {
-    /// Where the motion word stands.
+    /// Where the words stand that move it.
     #[serde(flatten)]
     pub site: Site,
-    /// Rapid or feed.
-    pub motion: Pace,
+    /// How it moves.
+    pub motion: MotionKind,
     /// Whether it may not come to the motion, or may come to it in a state of its own: that is not
     /// known offline. Records name it only then.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -98,7 +75,7 @@ pub struct FirstMotion {
 pub enum Inherits {
     /// It does not: the axis does not move, or a command comes first.
     No,
-    /// The first motion word before any command of the program.
+    /// The first motion before any command of the program.
     Motion(FirstMotion),
     /// The program stopped before it came to either.
     Unknown,

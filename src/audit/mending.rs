@@ -5,7 +5,9 @@ use super::effect::{Inherits, ProgramEffect};
 use super::insertion::{Insertion, with_blocks};
 use super::numbering::Numbering;
 use super::observation::Observation;
-use super::program::{Auditor, AxisAudit, BothRuns};
+use super::program::{Auditor, AxisAudit};
+use super::runs::Runs;
+
 use crate::interpreter::{EndedBy, Interpreter, Observer};
 
 /// How a program is mended.
@@ -13,14 +15,35 @@ use crate::interpreter::{EndedBy, Interpreter, Observer};
 pub struct Mended {
     /// The blocks, in no order.
     pub insertions: Vec<Insertion>,
-    /// What no single block mends.
-    pub missed: Vec<Mending>,
+    /// What is left to the user.
+    pub missed: Vec<Missed>,
+}
+
+/// What no block mends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Missed {
+    /// What was to be mended.
+    pub mending: Mending,
+    /// Why it is left to the user.
+    pub why: WhyMissed,
+}
+
+/// Why something is left to the user.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WhyMissed {
+    /// No single block takes the program out of the hazards.
+    NotCured,
+    /// Blocks that do so change the state in which axes move (R10.8).
+    ChangesMotion,
 }
 
 impl Auditor {
     /// Finds the blocks that mend a program. Each place is tried out: the program with the block must
-    /// have lost its part in the hazard, and every motion of the axis must have kept its state when
-    /// the program starts in its start-up state.
+    /// have lost its part in the hazard, and no motion of the program or of what it calls may have
+    /// another state when the program starts in its start-up state; from another one, only the
+    /// start-up state (R10.8).
     ///
     /// # Errors
     /// Those of `run`.
@@ -48,7 +71,7 @@ impl Auditor {
 struct Trial<'a, R> {
     auditor: &'a Auditor,
     text: &'a str,
-    before: BothRuns,
+    before: Runs,
     accepted: Mended,
     run: R,
 }
@@ -58,9 +81,9 @@ impl<R> Trial<'_, R> {
     where
         R: FnMut(&str, &mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     {
-        let audits = self.before.audit(self.auditor);
+        let audits = self.auditor.axes(&self.before);
         let command = audits[mending.at].way_home();
-        let mut second_best = None;
+        let mut why = WhyMissed::NotCured;
         for lines in self.candidates(mending) {
             let attempt = self.with_blocks(&lines, &command);
             let edited = with_blocks(self.text, &attempt);
@@ -68,19 +91,16 @@ impl<R> Trial<'_, R> {
             let after = self
                 .auditor
                 .observe(&mut |interpreter, listen| run(&edited, interpreter, listen))?;
-            if !is_cured(&after.audit(self.auditor)[mending.at], mending.cure) {
+            if !is_cured(&self.auditor.axes(&after)[mending.at], mending.cure) {
                 continue;
             }
-            if self.is_harmless(&after, mending) {
+            if self.is_harmless(&after) {
                 self.accepted.insertions = attempt;
                 return Ok(());
             }
-            second_best.get_or_insert(attempt);
+            why = WhyMissed::ChangesMotion;
         }
-        match second_best {
-            Some(attempt) => self.accepted.insertions = attempt,
-            None => self.accepted.missed.push(mending),
-        }
+        self.accepted.missed.push(Missed { mending, why });
         Ok(())
     }
 
@@ -103,7 +123,7 @@ impl<R> Trial<'_, R> {
 
     /// Where the block could stand, the best place first.
     fn candidates(&self, mending: Mending) -> Vec<Vec<u32>> {
-        let BothRuns { start_up, away } = &self.before;
+        let Runs { start_up, away, .. } = &self.before;
         let mut places = match mending.cure {
             Cure::Inheritors => {
                 let moved = [start_up, away].map(|run| {
@@ -149,17 +169,18 @@ impl<R> Trial<'_, R> {
         u32::try_from(end + 1).unwrap_or(u32::MAX)
     }
 
-    /// Whether every motion of the axis keeps its state, as far as it does not inherit it.
-    fn is_harmless(&self, after: &BothRuns, mending: Mending) -> bool {
-        let same = |before: &Observation, after: &Observation| {
-            let motions = |run: &Observation| run.observed[mending.at].motions;
-            motions(before) == motions(after)
+    /// Whether every motion keeps its state from the start-up state, and from another state becomes at
+    /// most that of the start-up.
+    fn is_harmless(&self, after: &Runs) -> bool {
+        let scope = self.auditor.scope();
+        let is_kept = |at: usize| {
+            let motions = |run: &Observation| run.observed[at].motions.clone();
+            let start_up = scope.selected_at_start(scope.subjects()[at], false);
+            let (from_start_up, from_away) = (&self.before.start_up, &self.before.away);
+            motions(from_start_up) == motions(&after.start_up)
+                && motions(from_away).only_become(&motions(&after.away), start_up)
         };
-        let at_start_up = same(&self.before.start_up, &after.start_up);
-        match mending.cure {
-            Cure::Inheritors => at_start_up,
-            Cure::Leavers | Cure::None => at_start_up && same(&self.before.away, &after.away),
-        }
+        (0..scope.subjects().len()).all(is_kept)
     }
 }
 

@@ -1,134 +1,18 @@
 //! What one run of a program did to each axis.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use serde::Serialize;
-
-use super::effect::{FirstMotion, Pace, Site, WhyUnknown};
-use crate::comp::{AxisIndex, Compensation, Kind, KindSet};
+use super::effect::{FirstMotion, Site, WhyUnknown};
+use super::motions::Motions;
+use super::scope::{AuditedKind, Scope, Selected};
+use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::interpreter::{Ended, EndedBy, Event, Executed, Group, Outcome};
-use crate::machine::Machine;
+use crate::interpreter::{Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome};
+use crate::text::Place;
 
 /// So many blocks of the main program are remembered before its end.
 pub(super) const LAST_BLOCKS: usize = 8;
-
-/// A kind of compensation on an axis that is configured for it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AuditedKind {
-    /// The axis.
-    pub axis: AxisIndex,
-    /// The kind.
-    pub kind: Kind,
-}
-
-/// What is looked at on a machine: each configured kind of each axis, of which friction compensation
-/// alone counts unless others are asked for.
-#[derive(Debug, Clone)]
-pub struct Scope {
-    subjects: Vec<AuditedKind>,
-    /// For each axis, which of the subjects are its own.
-    by_axis: Vec<std::ops::Range<usize>>,
-    start_up: Compensation,
-}
-
-impl Scope {
-    /// The configured axes of a machine, and the kinds that count.
-    pub fn new(machine: &Machine, kinds: KindSet) -> Self {
-        let start_up = machine.compensation();
-        let mut subjects = Vec::new();
-        let by_axis = (0..start_up.len()).map(AxisIndex::new).map(|axis| {
-            let from = subjects.len();
-            let configured = kinds
-                .iter()
-                .filter(|kind| start_up.is_configured(axis, *kind));
-            subjects.extend(configured.map(|kind| AuditedKind { axis, kind }));
-            from..subjects.len()
-        });
-        let by_axis = by_axis.collect();
-        Self {
-            subjects,
-            by_axis,
-            start_up,
-        }
-    }
-
-    /// The kinds of axes that are looked at, in the order of the machine's axes.
-    pub fn subjects(&self) -> &[AuditedKind] {
-        &self.subjects
-    }
-
-    /// The state at the start of the control (R1.22).
-    pub fn start_up(&self) -> &Compensation {
-        &self.start_up
-    }
-
-    /// The same with every subject away from its start-up state: a state that programs may leave.
-    pub fn away(&self) -> Compensation {
-        let mut away = self.start_up.clone();
-        for (position, range) in self.by_axis.iter().enumerate() {
-            let axis = AxisIndex::new(position);
-            let mut selected = away.selected(axis);
-            for subject in &self.subjects[range.clone()] {
-                if selected.contains(subject.kind) {
-                    selected.remove(subject.kind);
-                } else {
-                    selected.insert(subject.kind);
-                }
-            }
-            let unknown = away.unknown(axis);
-            away.restore(axis, selected, unknown);
-        }
-        away
-    }
-
-    /// Whether a subject is selected at the start of the control.
-    pub(super) fn is_on_at_start_up(&self, subject: AuditedKind) -> bool {
-        self.start_up.selected(subject.axis).contains(subject.kind)
-    }
-}
-
-/// The selection of a kind of compensation on an axis (R1.23), whatever the parameterisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Selected {
-    /// It is selected.
-    On,
-    /// It is not.
-    Off,
-    /// It is not known offline.
-    Unknown,
-}
-
-impl Selected {
-    /// The word of the records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::On => "on",
-            Self::Off => "off",
-            Self::Unknown => "unknown",
-        }
-    }
-
-    fn digit(self) -> u64 {
-        match self {
-            Self::On => 1,
-            Self::Off => 2,
-            Self::Unknown => 3,
-        }
-    }
-
-    pub(super) fn of(compensation: &Compensation, subject: AuditedKind) -> Self {
-        let AuditedKind { axis, kind } = subject;
-        if compensation.unknown(axis).contains(kind) {
-            Self::Unknown
-        } else if compensation.selected(axis).contains(kind) {
-            Self::On
-        } else {
-            Self::Off
-        }
-    }
-}
 
 /// What made a selection what it is.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -139,7 +23,7 @@ pub(super) enum Deed {
     Doubt(WhyUnknown),
 }
 
-/// A motion word, and which executed block it is.
+/// A motion, and which executed block it is.
 #[derive(Debug, Clone)]
 pub(super) struct Moved {
     pub(super) seq: u64,
@@ -155,14 +39,16 @@ pub(super) struct Observed {
     pub(super) last: Option<Deed>,
     /// Whether a command of the program named it.
     pub(super) commanded: bool,
-    /// The first motion word before any command.
+    /// The first motion before any command: the first that is sure, else the first that is possible.
     pub(super) inherited: Option<Moved>,
     /// The first motion word after a command in a state that is unknown all the same.
     pub(super) doubtful: Option<Moved>,
     /// The first motion word away from its start-up state.
     pub(super) astray: Option<Moved>,
-    /// A digest of the selection at every motion word.
-    pub(super) motions: u64,
+    /// The selection at every motion.
+    pub(super) motions: Motions,
+    /// The selection after the last block that may have changed it.
+    standing: Option<Selected>,
 }
 
 /// What one run of a program did.
@@ -171,7 +57,7 @@ pub(super) struct Observation {
     pub(super) observed: Vec<Observed>,
     /// Why it ended; `None` where nobody waited for the end.
     pub(super) by: Option<EndedBy>,
-    /// The block of the main program that ended it.
+    /// The block of the main file that ended it.
     pub(super) end: Option<u32>,
     /// What stopped it.
     pub(super) stopped: Option<WhyUnknown>,
@@ -179,8 +65,12 @@ pub(super) struct Observation {
     pub(super) left: Vec<Selected>,
     /// The lines of the blocks of the main program that were executed last, the last one first.
     pub(super) last_lines: Vec<u32>,
+    /// The subjects whose states it asked for before it set them, each with the first place.
+    pub(super) asked: BTreeMap<usize, Site>,
     /// The line of its first block.
     pub(super) first_line: Option<u32>,
+    /// The main file.
+    main: Option<Arc<str>>,
     ring: [u32; LAST_BLOCKS],
     main_blocks: usize,
     doubt: Option<WhyUnknown>,
@@ -189,7 +79,7 @@ pub(super) struct Observation {
 impl Observation {
     /// Before a run.
     pub(super) fn new(scope: &Scope) -> Self {
-        let count = scope.subjects.len();
+        let count = scope.subjects().len();
         Self {
             observed: vec![Observed::default(); count],
             by: None,
@@ -197,7 +87,9 @@ impl Observation {
             stopped: None,
             left: vec![Selected::Unknown; count],
             last_lines: Vec::new(),
+            asked: BTreeMap::new(),
             first_line: None,
+            main: None,
             ring: [0; LAST_BLOCKS],
             main_blocks: 0,
             doubt: None,
@@ -207,30 +99,56 @@ impl Observation {
     /// Takes an event of the run.
     pub(super) fn event(&mut self, scope: &Scope, event: Event<'_>) {
         match event {
+            Event::Started { compensation, .. } => self.stand(scope, compensation),
             Event::Executed(executed) => self.executed(scope, &executed),
             Event::Ended(ended) => self.ended(scope, &ended),
-            _ => {}
         }
     }
 
     #[inline]
     fn executed(&mut self, scope: &Scope, executed: &Executed<'_>) {
         if executed.level.is_none() {
-            self.first_line.get_or_insert(executed.line);
+            if self.first_line.is_none() {
+                self.first_line = Some(executed.line);
+                self.main = Some(Arc::clone(executed.file));
+            }
             self.ring[self.main_blocks % LAST_BLOCKS] = executed.line;
             self.main_blocks += 1;
+        }
+        for &(axis, kind) in executed.asked {
+            self.ask(scope, executed, AuditedKind { axis, kind });
         }
         let quiet = executed.outcomes.is_empty()
             && executed.changes.is_empty()
             && executed.doubted.is_empty()
-            && executed.diagnostics.is_empty()
-            && executed.perhaps_moved.is_empty();
+            && executed.diagnostics.is_empty();
         if !quiet {
             self.deeds(scope, executed);
         }
         // The commands of a block act before its motion (R1.9).
-        for word in executed.moved {
-            self.moved(scope, executed, word.axis);
+        for motion in executed.motions() {
+            self.moved(scope, executed, &motion);
+        }
+        if !quiet {
+            self.stand(scope, executed.compensation);
+        }
+    }
+
+    /// Notes that the program reads the state of a subject (R1.35).
+    fn ask(&mut self, scope: &Scope, executed: &Executed<'_>, asked: AuditedKind) {
+        for at in scope.of_axis(asked.axis) {
+            if scope.subjects()[at] == asked && !self.observed[at].commanded {
+                self.asked.entry(at).or_insert_with(|| Site {
+                    file: Arc::clone(executed.file),
+                    line: executed.line,
+                });
+            }
+        }
+    }
+
+    fn stand(&mut self, scope: &Scope, compensation: &Compensation) {
+        for (observed, subject) in self.observed.iter_mut().zip(scope.subjects()) {
+            observed.standing = Some(Selected::of(compensation, *subject));
         }
     }
 
@@ -246,17 +164,6 @@ impl Observation {
         }
         for &(axis, kinds) in executed.doubted {
             self.doubts(scope, (axis, kinds), executed);
-        }
-        for &axis in executed.perhaps_moved {
-            for at in scope.by_axis[axis.get()].clone() {
-                let observed = &mut self.observed[at];
-                if !observed.commanded && observed.inherited.is_none() {
-                    let mut moved = moved_at(executed, self.last_main());
-                    moved.motion.perhaps = true;
-                    moved.motion.motion = Pace::Unknown;
-                    self.observed[at].inherited = Some(moved);
-                }
-            }
         }
     }
 
@@ -283,8 +190,8 @@ impl Observation {
             return;
         };
         let kinds = outcome.command.selection.kinds();
-        for at in scope.by_axis[axis.get()].clone() {
-            if kinds.contains(scope.subjects[at].kind) {
+        for at in scope.of_axis(axis) {
+            if kinds.contains(scope.subjects()[at].kind) {
                 let observed = &mut self.observed[at];
                 observed.commanded = true;
                 observed.last = Some(Deed::Command(Site {
@@ -306,8 +213,8 @@ impl Observation {
         if lost.is_empty() {
             return;
         }
-        for at in scope.by_axis[axis.get()].clone() {
-            if lost.contains(scope.subjects[at].kind) {
+        for at in scope.of_axis(axis) {
+            if lost.contains(scope.subjects()[at].kind) {
                 let reason = self.doubt.clone().unwrap_or_else(|| WhyUnknown {
                     code: None,
                     message: "what this block does is not known offline".to_owned(),
@@ -322,34 +229,38 @@ impl Observation {
     }
 
     #[inline]
-    fn moved(&mut self, scope: &Scope, executed: &Executed<'_>, axis: AxisIndex) {
-        for at in scope.by_axis[axis.get()].clone() {
-            let subject = scope.subjects[at];
+    fn moved(&mut self, scope: &Scope, executed: &Executed<'_>, motion: &MovedAxis) {
+        let is_certain = motion.certainty == Certainty::Certain;
+        for at in scope.of_axis(motion.axis) {
+            let subject = scope.subjects()[at];
             let selected = Selected::of(executed.compensation, subject);
-            let is_home = (selected == Selected::On) == scope.is_on_at_start_up(subject)
+            let is_at_start_up = (selected == Selected::On) == scope.is_on_at_start_up(subject)
                 && selected != Selected::Unknown;
             let observed = &mut self.observed[at];
-            // FNV-1a.
-            let step = observed.motions ^ selected.digit();
-            observed.motions = step.wrapping_mul(0x0100_0000_01b3);
+            if !is_certain && let Some(before) = observed.standing {
+                // It may come before what the block may switch.
+                observed.motions.note(before);
+            }
+            observed.motions.note(selected);
             let inherits = !observed.commanded;
-            let doubts = !inherits && selected == Selected::Unknown;
-            let is_known = observed.inherited.is_some() || !inherits;
+            let doubts = !inherits && selected == Selected::Unknown && is_certain;
+            let known = observed.inherited.as_ref();
+            let is_known = known.is_some_and(|it| !it.motion.perhaps || !is_certain) || !inherits;
             if is_known
                 && (observed.doubtful.is_some() || !doubts)
-                && (observed.astray.is_some() || is_home)
+                && (observed.astray.is_some() || is_at_start_up || !is_certain)
             {
                 continue;
             }
-            let moved = moved_at(executed, self.last_main());
+            let moved = moved_at(executed, self.last_main(), motion);
             let observed = &mut self.observed[at];
-            if inherits {
-                observed.inherited.get_or_insert_with(|| moved.clone());
+            if !is_known {
+                observed.inherited = Some(moved.clone());
             }
             if doubts {
                 observed.doubtful.get_or_insert_with(|| moved.clone());
             }
-            if !is_home {
+            if !is_at_start_up && is_certain {
                 observed.astray.get_or_insert(moved);
             }
         }
@@ -363,9 +274,10 @@ impl Observation {
 
     fn ended(&mut self, scope: &Scope, ended: &Ended<'_>) {
         self.by = Some(ended.by);
-        self.end = ended.at.map(|place| place.first_line);
+        let of_main = |place: &&Place| self.main.as_ref() == Some(&place.file);
+        self.end = ended.at.filter(of_main).map(|place| place.first_line);
         let of_subject = |subject: &AuditedKind| Selected::of(ended.compensation, *subject);
-        self.left = scope.subjects.iter().map(of_subject).collect();
+        self.left = scope.subjects().iter().map(of_subject).collect();
         let has_failed = matches!(ended.by, EndedBy::Error | EndedBy::Budget);
         if has_failed && self.stopped.is_none() {
             let said = ended.diagnostics.first();
@@ -390,13 +302,7 @@ impl Observation {
     }
 }
 
-fn moved_at(executed: &Executed<'_>, main: Option<u32>) -> Moved {
-    let functions = &executed.modal.functions;
-    let motion = match functions.motion {
-        _ if !executed.modal.is_known(Group::Motion) => Pace::Unknown,
-        0 => Pace::Rapid,
-        _ => Pace::Feed,
-    };
+fn moved_at(executed: &Executed<'_>, main: Option<u32>, motion: &MovedAxis) -> Moved {
     Moved {
         seq: executed.seq,
         motion: FirstMotion {
@@ -404,8 +310,8 @@ fn moved_at(executed: &Executed<'_>, main: Option<u32>) -> Moved {
                 file: Arc::clone(executed.file),
                 line: executed.line,
             },
-            motion,
-            perhaps: false,
+            motion: motion.kind,
+            perhaps: motion.certainty == Certainty::Possible,
         },
         main: if executed.level.is_none() {
             Some(executed.line)

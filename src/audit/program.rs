@@ -1,15 +1,18 @@
 //! A program as a function from the states that it finds to the states that it leaves (R10.1).
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use serde::Serialize;
 
 use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
-use super::observation::{AuditedKind, Deed, Observation, Observed, Scope, Selected};
+use super::observation::Observation;
+use super::runs::{Runs, Start};
+use super::scope::{AuditedKind, Scope};
 use crate::comp::{Compensation, Kind, KindSet};
 use crate::diagnostic::Code;
-use crate::interpreter::{EndedBy, Event, Interpreter, Observer, Options, StopPolicy};
+use crate::interpreter::{Event, Interpreter, Observer, Options, StopPolicy};
 use crate::machine::{Machine, Setting};
 
 /// Where a program ends, for a block that has to stand before the end.
@@ -59,7 +62,14 @@ impl AxisAudit {
 
     /// Whether it moves the axis in the state that it finds.
     pub fn is_inheritor(&self) -> bool {
-        self.inherits.motion().is_some()
+        let motion = self.inherits.motion();
+        motion.is_some_and(|motion| !motion.perhaps)
+    }
+
+    /// Whether it may move the axis in the state that it finds.
+    pub fn may_inherit(&self) -> bool {
+        let motion = self.inherits.motion();
+        motion.is_some_and(|motion| motion.perhaps)
     }
 
     /// Whether anything about it is not known offline.
@@ -82,7 +92,7 @@ impl AxisAudit {
     }
 }
 
-/// What a program does, found by two runs.
+/// What a program does, found by its runs.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ProgramAudit {
@@ -152,7 +162,7 @@ impl Auditor {
         let runs = self.observe(&mut run)?;
         Ok(ProgramAudit {
             file: file.to_owned(),
-            axes: runs.audit(self),
+            axes: self.axes(&runs),
             ending: runs.start_up.end.map_or(Ending::Elsewhere, Ending::At),
         })
     }
@@ -160,18 +170,30 @@ impl Auditor {
     pub(super) fn observe<E>(
         &self,
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
-    ) -> Result<BothRuns, E> {
-        Ok(BothRuns {
-            start_up: self.observe_from(self.scope.start_up().clone(), run)?,
-            away: self.observe_from(self.scope.away(), run)?,
-        })
+    ) -> Result<Runs, E> {
+        let mut runs = Runs {
+            start_up: self.observe_from(&Start::new(false), run)?,
+            away: self.observe_from(&Start::new(true), run)?,
+            between: BTreeMap::new(),
+        };
+        loop {
+            let missing = runs.missing(&self.scope);
+            if missing.is_empty() {
+                return Ok(runs);
+            }
+            for start in missing {
+                let observation = self.observe_from(&start, run)?;
+                runs.between.insert(start, observation);
+            }
+        }
     }
 
     fn observe_from<E>(
         &self,
-        from: Compensation,
+        start: &Start,
         run: &mut impl FnMut(&mut Interpreter, &mut dyn Observer) -> Result<(), E>,
     ) -> Result<Observation, E> {
+        let from = self.scope.found(|at| start.is_away(at));
         let mut interpreter = self.interpreter(from);
         let mut observation = Observation::new(&self.scope);
         run(&mut interpreter, &mut |event: Event<'_>| {
@@ -180,114 +202,31 @@ impl Auditor {
         })?;
         Ok(observation)
     }
-}
 
-/// A program that starts in its start-up state, and the same that starts away from it.
-#[derive(Debug, Clone)]
-pub(super) struct BothRuns {
-    pub(super) start_up: Observation,
-    pub(super) away: Observation,
-}
-
-impl BothRuns {
-    pub(super) fn audit(&self, auditor: &Auditor) -> Vec<AxisAudit> {
-        let subjects = auditor.scope.subjects().iter().enumerate();
+    /// What the runs say of each subject.
+    pub(super) fn axes(&self, runs: &Runs) -> Vec<AxisAudit> {
+        let subjects = self.scope.subjects().iter().enumerate();
+        let name = |at: usize| {
+            let AuditedKind { axis, kind } = self.scope.subjects()[at];
+            format!("`{}` of axis `{}`", kind, self.machine.axis(axis).name)
+        };
         let audits = subjects.map(|(at, subject)| {
-            let effect = self.effect(&auditor.scope, at);
+            let effect = runs.effect(&self.scope, at);
             let (by, reason) = match effect {
                 ProgramEffect::Keeps => (None, None),
-                ProgramEffect::Unknown => (None, Some(self.reason(at))),
-                ProgramEffect::LeavesOn | ProgramEffect::LeavesOff => (self.command(at), None),
+                ProgramEffect::Unknown => (None, Some(runs.reason(at, &name))),
+                ProgramEffect::LeavesOn | ProgramEffect::LeavesOff => (runs.command(at), None),
             };
             AxisAudit {
-                axis: auditor.name(*subject).to_owned(),
+                axis: self.name(*subject).to_owned(),
                 kind: subject.kind,
-                on_at_start_up: auditor.scope.is_on_at_start_up(*subject),
+                on_at_start_up: self.scope.is_on_at_start_up(*subject),
                 effect,
                 by,
                 reason,
-                inherits: self.inherits(at),
+                inherits: runs.inherits(at),
             }
         });
         audits.collect()
-    }
-
-    fn stopped(&self) -> Option<&Observation> {
-        let has_failed = |run: &&Observation| {
-            !matches!(
-                run.by,
-                Some(EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
-            )
-        };
-        [&self.start_up, &self.away].into_iter().find(has_failed)
-    }
-
-    fn effect(&self, scope: &Scope, at: usize) -> ProgramEffect {
-        if self.stopped().is_some() {
-            return ProgramEffect::Unknown;
-        }
-        let is_on = scope.is_on_at_start_up(scope.subjects()[at]);
-        let (on, off) = if is_on {
-            (Selected::On, Selected::Off)
-        } else {
-            (Selected::Off, Selected::On)
-        };
-        match (self.start_up.left[at], self.away.left[at]) {
-            (start_up, away) if start_up == on && away == off => ProgramEffect::Keeps,
-            (Selected::On, Selected::On) => ProgramEffect::LeavesOn,
-            (Selected::Off, Selected::Off) => ProgramEffect::LeavesOff,
-            _ => ProgramEffect::Unknown,
-        }
-    }
-
-    fn reason(&self, at: usize) -> WhyUnknown {
-        if let Some(run) = self.stopped() {
-            return run.stopped.clone().unwrap_or_else(|| WhyUnknown {
-                code: None,
-                message: "the program was stopped".to_owned(),
-                site: None,
-            });
-        }
-        let lasts = [&self.start_up, &self.away].map(|run| run.observed[at].last.as_ref());
-        let doubt = lasts.into_iter().flatten().find_map(|last| match last {
-            Deed::Doubt(reason) => Some(reason.clone()),
-            Deed::Command(_) => None,
-        });
-        doubt.unwrap_or_else(|| WhyUnknown {
-            code: None,
-            message: "it depends on the state that the program finds".to_owned(),
-            site: self.command(at),
-        })
-    }
-
-    /// The last command on a subject.
-    fn command(&self, at: usize) -> Option<Site> {
-        let lasts = [&self.start_up, &self.away].map(|run| run.observed[at].last.as_ref());
-        lasts.into_iter().flatten().find_map(|last| match last {
-            Deed::Command(site) => Some(site.clone()),
-            Deed::Doubt(_) => None,
-        })
-    }
-
-    fn inherits(&self, at: usize) -> Inherits {
-        let (start_up, away) = (&self.start_up.observed[at], &self.away.observed[at]);
-        let first = |observed: &Observed| observed.inherited.as_ref().map(|it| it.motion.clone());
-        if let Some(motion) = first(start_up).or_else(|| first(away)) {
-            return Inherits::Motion(motion);
-        }
-        // A command came first, and yet the state depends on what was found: a way that may have
-        // passed the command over.
-        let seq = |observed: &Observed| observed.doubtful.as_ref().map(|it| it.seq);
-        if let Some(moved) = away.doubtful.as_ref()
-            && seq(start_up).is_none_or(|seq| seq > moved.seq)
-        {
-            let mut motion = moved.motion.clone();
-            motion.perhaps = true;
-            return Inherits::Motion(motion);
-        }
-        match self.stopped() {
-            Some(run) if !run.observed[at].commanded => Inherits::Unknown,
-            _ => Inherits::No,
-        }
     }
 }

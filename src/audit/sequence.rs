@@ -5,8 +5,9 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 
 use super::effect::{FirstMotion, Site, WhyUnknown};
-use super::observation::{Deed, Observation, Selected};
+use super::observation::{Deed, Observation};
 use super::program::Auditor;
+use super::scope::Selected;
 use crate::comp::Kind;
 use crate::interpreter::{EndedBy, Event, Interpreter, Observer};
 

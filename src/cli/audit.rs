@@ -20,7 +20,7 @@ use super::outputs::Outputs;
 use super::painted::difference;
 use super::settings;
 use super::severities::SeverityArgs;
-use crate::audit::{Archive, MendedEnd, Selected};
+use crate::audit::{Archive, MendedEnd, Selected, WhyMissed};
 use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Severity;
 use crate::host::{
@@ -299,14 +299,20 @@ fn say_lists(auditor: &ArchiveAuditor, console: Console) -> bool {
     !errors.is_empty()
 }
 
-/// Says which programs no single block mends.
+/// Says which programs are left to the user, and why (R10.8).
 fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
     for change in changes {
         let program = &archives[change.machine].programs()[change.program];
-        for mending in &change.missed {
-            let way_home = program.axes[mending.at].way_home();
+        for missed in &change.missed {
+            let way_home = program.axes[missed.mending.at].way_home();
+            let why = match missed.why {
+                WhyMissed::ChangesMotion => {
+                    "a block that mends this would change the state in which axes move"
+                }
+                _ => "no single block mends this",
+            };
             Console::talk(&format!(
-                "{}: no single block mends this; write `{way_home}` wherever it is needed by hand",
+                "{}: {why}; write `{way_home}` wherever it is needed by hand",
                 program.file,
             ));
         }

@@ -44,6 +44,8 @@ pub struct Diagnostic {
     pub times: u64,
     /// The main programs that reach its place, where that is in a called program.
     pub reached_from: ReachedFrom,
+    /// The program ends that it is about (R1.58).
+    pub ends: Vec<Place>,
 }
 
 impl Diagnostic {
@@ -60,6 +62,7 @@ impl Diagnostic {
             labels: Vec::new(),
             times: 1,
             reached_from: ReachedFrom::default(),
+            ends: Vec::new(),
         }
     }
 
@@ -149,11 +152,18 @@ impl Diagnostic {
     }
 }
 
+/// A program end in a record.
+#[derive(Serialize)]
+struct End<'a> {
+    file: &'a str,
+    line: u32,
+}
+
 /// The keys of a diagnostic record (chapter 9.2), without those that say where it belongs.
 impl Serialize for Diagnostic {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (start, end) = (self.place.start(), self.place.end());
-        let mut object = serializer.serialize_struct("Diagnostic", 13)?;
+        let mut object = serializer.serialize_struct("Diagnostic", 14)?;
         object.serialize_field("code", &self.code)?;
         object.serialize_field("severity", &self.severity)?;
         object.serialize_field("file", &self.place.file)?;
@@ -164,6 +174,14 @@ impl Serialize for Diagnostic {
         object.serialize_field("axis", &self.axis)?;
         object.serialize_field("message", &self.message)?;
         object.serialize_field("help", &self.advice)?;
+        if !self.ends.is_empty() {
+            let ends = self.ends.iter().map(|place| {
+                let line = place.start().line;
+                let file = &*place.file;
+                End { file, line }
+            });
+            object.serialize_field("ends", &ends.collect::<Vec<_>>())?;
+        }
         if !self.fixes.is_empty() {
             object.serialize_field("fixes", &self.fixes)?;
         }

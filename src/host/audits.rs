@@ -13,7 +13,7 @@ use super::mend::{MendedFile, read_encoded};
 use super::watch::{Done, LineTracker, Reached};
 use super::workers::{in_order, processors};
 use crate::audit::{
-    Archive, Auditor, MendedEnd, Mending, ProgramAudit, Sequence, Step, insertions,
+    Archive, Auditor, MendedEnd, Mending, Missed, ProgramAudit, Sequence, Step, insertions,
 };
 use crate::comp::{Kind, KindSet};
 use crate::interpreter::{Event, Interpreter, Observer, Options};
@@ -80,8 +80,8 @@ pub struct MendedProgram {
     pub program: usize,
     /// The file with the blocks, where there are any.
     pub file: Option<MendedFile>,
-    /// What no single block mends.
-    pub missed: Vec<Mending>,
+    /// What is left to the user.
+    pub missed: Vec<Missed>,
 }
 
 impl ArchiveAuditor {
@@ -256,7 +256,7 @@ impl<'a> ProgramAuditor<'a> {
         &self,
         path: &Path,
         wanted: &[Mending],
-    ) -> Result<(Option<MendedFile>, Vec<Mending>), HostError> {
+    ) -> Result<(Option<MendedFile>, Vec<Missed>), HostError> {
         let encoded = read_encoded(path)?;
         let input = Input::File(path.to_owned());
         let name = input.name(Naming::AsGiven);

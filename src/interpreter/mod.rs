@@ -25,11 +25,14 @@ pub use coordinates::modal::{AxisPosition, Frame as PositionFrame, GFunctions, M
 pub use coordinates::motion::{
     Arc as CircularArc, BlockEnd, Centre, Form, Motion, Motions, PathFeed, Travel, Turn,
 };
+pub use coordinates::moving::{Certainty, MotionKind, MovedAxis};
 pub use coordinates::pace::ProgrammedFeed;
 pub use coordinates::simplified::{Simplification, Simplifications};
 pub use execution::snapshot::{ResumeError, Snapshot};
 pub use programs::finder::{Finder, NoFiles, NoProgram};
-pub use run::event::{Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome};
+pub use run::event::{
+    Ended, EndedBy, Event, Executed, Note, NoteKind, Notes, Observer, Outcome, ProgramEnd,
+};
 pub use run::interpreter::Interpreter;
 pub use run::limits::Limits;
 pub use run::options::{Options, RunOutcome, StopPolicy};

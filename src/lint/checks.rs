@@ -24,10 +24,13 @@ impl Linter<'_> {
         if !(executed.changes.is_empty() && executed.doubted.is_empty()) {
             self.memory.forgotten(executed);
         }
+        if !(executed.outcomes.is_empty() && self.jumps.is_empty()) {
+            self.jump(executed, said);
+        }
         // The commands of a block act before its motion (R1.9).
-        for word in executed.moved {
-            if self.memory.moved(word, executed) {
-                said.extend(moved_before::lint(self, word.axis, executed));
+        for motion in executed.motions() {
+            if self.memory.moved(&motion, executed) {
+                said.extend(moved_before::lint(self, motion.axis, executed));
             }
         }
     }

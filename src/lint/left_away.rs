@@ -5,13 +5,12 @@ use super::linter::{EndNote, LeftAway, Linter};
 use super::memory::{Deed, KindMemory, Site};
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::interpreter::Ended;
+use crate::interpreter::{Ended, EndedBy, ProgramEnd};
 use crate::syntax::is_lone_m;
 use crate::text::{Place, Span};
 
 pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<LeftAway> {
     let left = ended.compensation;
-    let before_end = ended.at.filter(|at| is_lone_m(&at.text)).map(start_of);
     let mut found = Vec::new();
     for axis in (0..left.len()).map(AxisIndex::new) {
         for kind in Kind::ALL {
@@ -26,14 +25,21 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
                 // FC902 has said it of every axis.
                 Deed::Lost => false,
             };
-            if let Some((_, site)) = did.last.as_ref().filter(|(deed, _)| is_told(*deed)) {
+            let last = did.last.as_ref().filter(|(deed, _)| is_told(*deed));
+            // It was brought back, but the program may end before that.
+            let is_on = linter.history.start_up(axis, kind) != State::Inactive;
+            let passed = did.switched[usize::from(!is_on)].as_ref();
+            let is_lost = matches!(did.last, Some((Deed::Lost, _)));
+            let passed = passed.filter(|_| end == State::Unknown && !is_lost);
+            let passed = passed.filter(|_| has_other_ends(ended));
+            if let Some(site) = passed.or(last.map(|(_, site)| site)) {
                 let subject = Subject {
                     linter,
                     axis,
                     kind,
                     end,
                     ending,
-                    before_end: before_end.as_ref(),
+                    ended,
                 };
                 let diagnostic = match moved_before(linter, axis, did) {
                     _ if end == State::Unknown => subject.may_be_left(site),
@@ -42,13 +48,18 @@ pub(super) fn lint(linter: &Linter<'_>, ended: &Ended<'_>, ending: &str) -> Vec<
                 };
                 let note = EndNote {
                     seq: site.seq,
-                    diagnostic: subject.with_way_home(diagnostic),
+                    diagnostic: subject.with_ends(diagnostic),
                 };
                 found.push(LeftAway { axis, kind, note });
             }
         }
     }
     found
+}
+
+/// Whether the program may end elsewhere than in the dry run.
+fn has_other_ends(ended: &Ended<'_>) -> bool {
+    ended.ends.iter().any(|end| end.cause.is_some())
 }
 
 /// The first motion of the axis, where it comes before the first command on the kind.
@@ -67,8 +78,7 @@ struct Subject<'a> {
     end: State,
     /// What ends the program.
     ending: &'a str,
-    /// Where a block before the program end begins.
-    before_end: Option<&'a Place>,
+    ended: &'a Ended<'a>,
 }
 
 impl Subject<'_> {
@@ -82,7 +92,11 @@ impl Subject<'_> {
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!("restore it before M30: `{}`", self.way_home()))
+            .with_help(format!(
+                "restore it before {}: `{}`",
+                self.place_of_end(&site.place),
+                self.way_home()
+            ))
     }
 
     /// What depends on a value that only the machine knows may be left away as well.
@@ -102,7 +116,11 @@ impl Subject<'_> {
         );
         Diagnostic::new(Code::Fc401, site.place.clone(), message)
             .with_axis(name)
-            .with_help(format!("restore it before M30: `{}`", self.way_home()))
+            .with_help(format!(
+                "restore it before {}: `{}`",
+                self.place_of_end(&site.place),
+                self.way_home()
+            ))
     }
 
     fn second_run_differs(&self, site: &Site, moved: &Site) -> Diagnostic {
@@ -118,7 +136,8 @@ impl Subject<'_> {
         Diagnostic::new(Code::Fc407, place.clone(), message)
             .with_axis(name)
             .with_help(format!(
-                "set it before the first motion, and restore it before M30: `{}`",
+                "set it before the first motion, and restore it before {}: `{}`",
+                self.place_of_end(place),
                 self.way_home()
             ))
             .with_label(moved.place.clone(), "the axis moves here first")
@@ -136,12 +155,65 @@ impl Subject<'_> {
         format!("{name}[COMP {way} {}]", self.kind.as_str())
     }
 
-    /// The diagnostic with the command in a block before the program end.
-    fn with_way_home(&self, diagnostic: Diagnostic) -> Diagnostic {
-        match self.before_end {
+    /// The ends at which the kind is, or may be, away from its start-up state.
+    fn ends(&self) -> impl Iterator<Item = &ProgramEnd> {
+        let start_up = self.linter.history.start_up(self.axis, self.kind);
+        let ends = self.ended.ends.iter();
+        ends.filter(move |end| end.compensation.state(self.axis, self.kind) != start_up)
+    }
+
+    /// The ends as a message names them that stands in a file.
+    fn place_of_end(&self, site: &Place) -> String {
+        let mut ends = self.ends().map(|end| {
+            let line = end.place.start().line;
+            if end.place.file == site.file {
+                format!("line {line}")
+            } else {
+                format!("{}:{line}", end.place.file)
+            }
+        });
+        let word = match self.ended.by {
+            EndedBy::M02 => "M02",
+            _ => "M30",
+        };
+        match (ends.next(), ends.next()) {
+            (Some(only), None) if self.ended.at.is_some() => format!("{word} in {only}"),
+            (Some(first), Some(second)) => {
+                let all: Vec<String> = [first, second].into_iter().chain(ends).collect();
+                format!(
+                    "each end that the program may reach, as no single block is right for all of them ({})",
+                    all.join(", ")
+                )
+            }
+            _ => word.to_owned(),
+        }
+    }
+
+    /// The diagnostic with the ends, and with the command in a block before the end, where there is one
+    /// place that is right on every way (R1.58).
+    fn with_ends(&self, mut diagnostic: Diagnostic) -> Diagnostic {
+        diagnostic.ends = self.ends().map(|end| end.place.clone()).collect();
+        let shown = if has_other_ends(self.ended) {
+            usize::MAX
+        } else {
+            0
+        };
+        for end in self.ends().take(shown) {
+            let text = match &end.cause {
+                Some(cause) => format!("the program ends here, depending on `{cause}`"),
+                None => "the program ends here otherwise".to_owned(),
+            };
+            diagnostic = diagnostic.with_label(end.place.clone(), text);
+        }
+        let only = match diagnostic.ends.as_slice() {
+            [only] => self.ended.at.filter(|at| *at == only),
+            _ => None,
+        };
+        let place = only.filter(|at| self.ended.is_passed_into && is_lone_m(&at.text));
+        match place.map(start_of) {
             Some(place) => {
                 let block = format!("{}\n", self.way_home());
-                diagnostic.with_fix(Fix::guess(place.clone(), block))
+                diagnostic.with_fix(Fix::guess(place, block))
             }
             None => diagnostic,
         }

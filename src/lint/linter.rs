@@ -1,10 +1,10 @@
 //! What the lints know and say.
 
 use super::history::{History, Told};
-use super::memory::Memory;
+use super::memory::{Jump, Memory};
 use crate::comp::{AxisIndex, Compensation, Kind, State};
 use crate::diagnostic::Diagnostic;
-use crate::interpreter::{AxisWord, Executed, Outcome};
+use crate::interpreter::{Executed, Outcome};
 use crate::machine::Machine;
 use crate::text::Place;
 
@@ -45,6 +45,8 @@ pub(crate) struct Linter<'m> {
     pub(super) begin: Option<Place>,
     /// The states of friction compensation that the program found, by axis.
     found: Vec<State>,
+    /// Changes of friction compensation on axes that moved right before.
+    pub(super) jumps: Vec<Jump>,
 }
 
 impl<'m> Linter<'m> {
@@ -58,6 +60,7 @@ impl<'m> Linter<'m> {
             file: file.to_owned(),
             begin: None,
             found: Vec::new(),
+            jumps: Vec::new(),
         }
     }
 
@@ -78,10 +81,13 @@ impl<'m> Linter<'m> {
         name.clone_into(&mut self.program);
     }
 
-    /// Whether every axis that a block moves has moved before, so that this is nothing new.
+    /// Whether every axis that a block moves has moved before, so that this is nothing new, and nothing
+    /// waits for the next motion.
     #[inline]
-    pub(crate) fn knows(&self, moved: &[AxisWord]) -> bool {
-        moved.iter().all(|word| self.memory.has_moved(word.axis))
+    pub(crate) fn knows(&self, executed: &Executed<'_>) -> bool {
+        !self.memory.has_new(executed)
+            && self.jumps.is_empty()
+            && (executed.also_moved.is_empty() || self.memory.knows_all(executed.also_moved))
     }
 
     /// What became of a note that [`end`](Self::end) gave.

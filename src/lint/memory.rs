@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Change, Kind, KindSet, Selection, State};
-use crate::interpreter::{AxisWord, Executed, Outcome};
+use crate::interpreter::{Certainty, Executed, MotionKind, MovedAxis, Outcome};
 use crate::text::{Place, Span};
 
 /// A block that a lint may have to name later.
@@ -73,6 +73,27 @@ pub(super) struct KindMemory {
     pub(super) first: Option<u64>,
     /// What was done to it last; one site for all kinds of a command.
     pub(super) last: Option<(Deed, Arc<Site>)>,
+    /// The last command that switched it off, and the last that switched it on.
+    pub(super) switched: [Option<Arc<Site>>; 2],
+}
+
+/// A motion of an axis in any way.
+#[derive(Debug, Clone)]
+pub(super) struct Touch {
+    pub(super) site: Site,
+    pub(super) kind: MotionKind,
+    pub(super) certainty: Certainty,
+}
+
+/// A command that changed friction compensation after a feed move of the axis.
+#[derive(Debug, Clone)]
+pub(super) struct Jump {
+    pub(super) axis: AxisIndex,
+    /// Whether the axis moved to larger coordinates.
+    pub(super) rises: bool,
+    /// The state before the command.
+    pub(super) before: State,
+    pub(super) place: Place,
 }
 
 /// What the program did to one axis.
@@ -81,8 +102,10 @@ pub(super) struct AxisMemory {
     kinds: [KindMemory; Kind::ALL.len()],
     /// Whether a command of the program named the axis.
     pub(super) commanded: bool,
-    /// The first block that moved the axis.
+    /// The first block that moved the axis for sure, homing apart.
     pub(super) moved: Option<Site>,
+    /// The first block that moved it in any way, or may have; what is not known at all apart.
+    pub(super) touched: Option<Touch>,
 }
 
 impl AxisMemory {
@@ -92,21 +115,43 @@ impl AxisMemory {
 
     fn note(&mut self, kinds: KindSet, deed: Deed, site: &Arc<Site>) {
         for kind in kinds.iter() {
-            self.kinds[kind as usize].last = Some((deed, Arc::clone(site)));
+            let memory = &mut self.kinds[kind as usize];
+            match deed {
+                Deed::Off => memory.switched[0] = Some(Arc::clone(site)),
+                Deed::On => memory.switched[1] = Some(Arc::clone(site)),
+                Deed::Unknown | Deed::Lost => {}
+            }
+            memory.last = Some((deed, Arc::clone(site)));
         }
     }
+}
+
+/// Whether a motion counts for the second run (R1.53, R10.7).
+fn counts(motion: &MovedAxis) -> bool {
+    motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
+}
+
+/// Whether a form of R10.7 moves the axis, or may; not something that is not known at all.
+fn is_of_a_kind(motion: &MovedAxis) -> bool {
+    motion.certainty == Certainty::Certain || motion.kind != MotionKind::Unknown
 }
 
 /// What the program did.
 #[derive(Debug, Clone)]
 pub(super) struct Memory {
     axes: Vec<AxisMemory>,
+    /// The axes that have moved, a bit each by their positions modulo 64.
+    moved: u64,
+    /// Whether no two axes share a bit.
+    is_alone: bool,
 }
 
 impl Memory {
     pub(super) fn new(axes: usize) -> Self {
         Self {
             axes: vec![AxisMemory::default(); axes],
+            moved: 0,
+            is_alone: axes <= 64,
         }
     }
 
@@ -139,19 +184,48 @@ impl Memory {
         }
     }
 
-    /// Whether an axis has moved.
+    /// Whether an axis word of the block may be the first that moves its axis.
     #[inline]
-    pub(super) fn has_moved(&self, axis: AxisIndex) -> bool {
-        self.axes[axis.get()].moved.is_some()
+    pub(super) fn has_new(&self, executed: &Executed<'_>) -> bool {
+        executed.named & !self.moved != 0
     }
 
-    /// An axis word that moves. Says whether it is the first of its axis.
-    pub(super) fn moved(&mut self, word: &AxisWord, executed: &Executed<'_>) -> bool {
-        let memory = &mut self.axes[word.axis.get()];
-        let first = memory.moved.is_none();
-        if first {
-            memory.moved = Some(Site::new(executed, word.span));
+    /// Whether none of these motions is anything new.
+    pub(super) fn knows_all(&self, motions: &[MovedAxis]) -> bool {
+        let is_known = |motion: &MovedAxis| {
+            let memory = &self.axes[motion.axis.get()];
+            (memory.touched.is_some() || !is_of_a_kind(motion))
+                && (memory.moved.is_some() || !counts(motion))
+        };
+        motions.iter().all(is_known)
+    }
+
+    /// A motion. Says whether it is the first of its axis.
+    pub(super) fn moved(&mut self, motion: &MovedAxis, executed: &Executed<'_>) -> bool {
+        let memory = &mut self.axes[motion.axis.get()];
+        let site = || {
+            let whole = Span::new(0, executed.text.len());
+            let span = if motion.span.end > motion.span.start {
+                motion.span
+            } else {
+                whole
+            };
+            Site::new(executed, span)
+        };
+        if counts(motion) {
+            memory.moved.get_or_insert_with(site);
+            if self.is_alone {
+                self.moved |= 1 << (motion.axis.get() % 64);
+            }
         }
-        first
+        let is_new = memory.touched.is_none() && is_of_a_kind(motion);
+        if is_new {
+            memory.touched = Some(Touch {
+                site: site(),
+                kind: motion.kind,
+                certainty: motion.certainty,
+            });
+        }
+        is_new
     }
 }

@@ -5,6 +5,7 @@
 
 mod checks;
 mod history;
+mod jump;
 mod left_away;
 mod linter;
 mod memory;

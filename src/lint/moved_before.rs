@@ -4,7 +4,7 @@ use super::history::Maker;
 use super::linter::Linter;
 use crate::comp::{AxisIndex, Kind, State};
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::interpreter::Executed;
+use crate::interpreter::{Certainty, Executed, MotionKind};
 
 /// A message shows a block with so many characters.
 const MAX_SHOWN: usize = 60;
@@ -22,7 +22,12 @@ pub(super) fn lint(
         return None;
     }
     let name = linter.name(axis);
+    let touched = memory.touched.as_ref()?;
     let how = match (found, state) {
+        (found, _) if touched.certainty == Certainty::Possible => match found {
+            State::Unknown => "may move in an unknown state of friction compensation".to_owned(),
+            known => format!("may move with friction compensation {}", known.as_str()),
+        },
         (State::Unknown, _) => "moves in an unknown state of friction compensation".to_owned(),
         // A region that may or may not be executed could have switched it (R2.51).
         (found, State::Unknown) => {
@@ -34,13 +39,13 @@ pub(super) fn lint(
         Some(maker) => named(maker),
         None => "a program that is not known".to_owned(),
     };
-    let place = memory.moved.as_ref()?.place.clone();
+    let place = touched.site.place.clone();
     let commands = ["ON", "OFF"].map(|way| format!("{name}[COMP {way} FRICT]"));
     let [on, off] = &commands;
     let mut diagnostic = Diagnostic::new(
         Code::Fc403,
         place,
-        format!("axis `{name}` {how}, left so by {who}"),
+        format!("axis `{name}` {how}{}, left so by {who}", way(touched.kind)),
     )
     .with_axis(name)
     .with_help(format!("set it at program start, `{on}` or `{off}`"));
@@ -49,6 +54,17 @@ pub(super) fn lint(
         diagnostic.fixes.extend(commands.iter().map(fix));
     }
     Some(diagnostic)
+}
+
+/// How the axis is moved, where its own motion word does not say it.
+fn way(kind: MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Homing => " towards its reference point",
+        MotionKind::Independent => " by itself",
+        MotionKind::Coupled => " because it follows another axis",
+        MotionKind::Frame => " because coordinates are rotated or transformed",
+        _ => "",
+    }
 }
 
 /// The text of a block as far as its first comment.

@@ -246,6 +246,17 @@ pub(super) fn append_diagnostic(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         string(out, &advice.to_string());
     });
     out.push(b']');
+    if !diagnostic.ends.is_empty() {
+        out.extend_from_slice(b",\"ends\":[");
+        separated(out, &diagnostic.ends, |out, end| {
+            out.extend_from_slice(b"{\"file\":");
+            string(out, &end.file);
+            out.extend_from_slice(b",\"line\":");
+            integer(out, end.start().line);
+            out.push(b'}');
+        });
+        out.push(b']');
+    }
     if !diagnostic.fixes.is_empty() {
         out.extend_from_slice(b",\"fixes\":[");
         separated(out, &diagnostic.fixes, append_fix);

@@ -170,7 +170,7 @@ impl Recorder<'_> {
             && executed.doubted.is_empty()
             && executed.comments == Comments::Absent
             && executed.remark.is_none()
-            && self.linter.knows(executed.moved)
+            && self.linter.knows(executed)
     }
 
     /// The configured kinds of an axis that are unknown.
@@ -187,8 +187,7 @@ impl Recorder<'_> {
     /// Remembers what is unknown where its axis moves (R2.98).
     #[cold]
     fn note_unknown_motion(&mut self, executed: &Executed<'_>) {
-        let moved = executed.moved.iter().map(|word| word.axis);
-        for axis in moved.chain(executed.perhaps_moved.iter().copied()) {
+        for axis in executed.motions().map(|motion| motion.axis) {
             let kinds = self.unknown_of(executed.compensation, axis);
             let kinds = kinds.iter().map(|kind| (axis, kind));
             self.tally.unknown.extend(kinds);
@@ -253,6 +252,11 @@ impl Recorder<'_> {
             };
             diagnostic.severity = severity;
             let allowed = here.contains(&diagnostic.code) && !diagnostic.code.is_controller();
+            // It is said at the motion after the command that it is about.
+            let line = match diagnostic.code {
+                Code::Fc409 => diagnostic.place.first_line,
+                _ => line,
+            };
             if is_allowed(allows, diagnostic, line) || allowed {
                 return false;
             }

@@ -31,6 +31,9 @@ impl Interpreter {
         intent: &mut Intent,
     ) -> Result<(), Box<Fault>> {
         let rest = hash.rest.of(at.text);
+        if !goes_on(&hash.name) {
+            self.work.rests.set(true);
+        }
         match hash.name.as_str() {
             "#VAR" => return self.declare(&hash.declarations, at),
             "#DELETE" => return self.delete(hash, at),
@@ -75,6 +78,9 @@ impl Interpreter {
             name if is_exchange(name) => self.exchange_axes(hash, at),
             name => {
                 self.state.modal.hash(name);
+                self.rotate(name, rest, at);
+                self.couple_by(name, rest);
+                self.command_motion(name, rest, hash.span);
                 self.pace_command(name, rest, at);
                 for target in &hash.written {
                     let place = self.target_place(target.place, at)?;
@@ -219,6 +225,13 @@ impl Interpreter {
             frame.restores = None;
         }
     }
+}
+
+/// Whether the axes certainly go on through a command.
+fn goes_on(name: &str) -> bool {
+    ["#VAR", "#ENDVAR", "#COMMENT", "#MSG"]
+        .iter()
+        .any(|known| name.starts_with(known))
 }
 
 /// What stands after `RC` in the bracket of `#ERROR`, `[ID=455 RC=2]` or `[ID455 RC2]`.

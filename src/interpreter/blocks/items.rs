@@ -146,6 +146,7 @@ impl Interpreter {
                     span: *span,
                 };
                 self.bracket(bracket, at);
+                self.move_by_bracket(bracket, at);
                 self.pass_over(&format!("{name}[{keyword}]"), *span, at);
                 Ok(())
             }
@@ -269,6 +270,7 @@ impl Interpreter {
         };
         let inner = at.in_macro(&code, span, &shown);
         let (said, moved) = (self.work.diagnostics.len(), self.work.moved.len());
+        let also_moved = self.work.also_moved.len();
         let (switched, noted) = (self.work.outcomes.len(), self.work.notes.borrow().len());
         let limit = self.first_refusal(&block);
         self.items(&inner, intent, limit);
@@ -279,6 +281,9 @@ impl Interpreter {
         }
         for word in &mut self.work.moved[moved..] {
             word.span = span;
+        }
+        for motion in &mut self.work.also_moved[also_moved..] {
+            motion.span = span;
         }
         for outcome in &mut self.work.outcomes[switched..] {
             outcome.command.span = span;

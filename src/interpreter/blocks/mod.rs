@@ -1,6 +1,7 @@
 //! What the words and statements of a block do.
 
 pub(super) mod call;
+pub(super) mod carry;
 pub(super) mod comp;
 pub(super) mod declare;
 pub(super) mod flow;

@@ -97,11 +97,9 @@ impl Interpreter {
             let change = self.factors_in(body, at);
             self.state.modal.pace.override_axis(axis, change);
         }
-        if let Some(what) = simplified::of_bracket(&keyword) {
+        let body = body.to_ascii_uppercase();
+        if let Some(what) = simplified::of_bracket(&keyword, &body) {
             self.simplify(what, Holds::On);
-            if what == Simplification::IndependentAxis {
-                self.state.modal.forget_position(axis);
-            }
         }
     }
 

@@ -68,8 +68,13 @@ impl Interpreter {
         for axis in plane {
             if self.work.moved[..own].iter().all(|word| word.axis != axis) {
                 self.see(axis);
-                let value = None;
-                self.work.moved.push(AxisWord { axis, span, value });
+                self.work.seen |= 1 << (axis.get() % 64);
+                self.work.moved.push(AxisWord {
+                    axis,
+                    span,
+                    value: None,
+                    from: None,
+                });
             }
         }
         let around = self.work.moved.len() - own;

@@ -10,6 +10,7 @@ use crate::interpreter::coordinates::chain;
 use crate::interpreter::coordinates::geometry::foreign;
 use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::motion::{BlockEnd, Motions};
+use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis};
 use crate::interpreter::coordinates::simplified;
 use crate::interpreter::programs::wanted::FunctionWord;
 use crate::interpreter::run::at::At;
@@ -206,7 +207,12 @@ impl Interpreter {
         let bit = 1 << (axis.get() % 64);
         self.work.again |= self.work.seen & bit;
         self.work.seen |= bit;
-        self.work.moved.push(AxisWord { axis, span, value });
+        self.work.moved.push(AxisWord {
+            axis,
+            span,
+            value,
+            from: None,
+        });
     }
 
     /// FC313: an axis has one absolute coordinate in a block; incremental ones add up (R2.82).
@@ -240,15 +246,28 @@ impl Interpreter {
         });
     }
 
-    /// P-ERR-70435: an axis moves without a compensation that it requires, except while homing
-    /// (R1.36). COMP commands of the block took effect before the motion (R1.9).
-    pub(in crate::interpreter) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
+    /// The axes that the block moves for sure, homing apart, and the words that move them (R1.36).
+    fn moved_in_automatic(&self, words: AxisWords) -> Vec<(AxisIndex, Span)> {
         let is_motion = matches!(words, AxisWords::Motion | AxisWords::Measuring);
-        if !self.any_required || !is_motion {
+        let of_words = self.work.moved.iter().filter(|_| is_motion);
+        let of_words = of_words.map(|word| (word.axis, word.span));
+        let counts = |motion: &&MovedAxis| {
+            motion.certainty == Certainty::Certain && motion.kind != MotionKind::Homing
+        };
+        let others = self.work.also_moved.iter().filter(counts);
+        of_words
+            .chain(others.map(|motion| (motion.axis, motion.span)))
+            .collect()
+    }
+
+    /// P-ERR-70435: an axis moves without a compensation that it requires. COMP commands of the
+    /// block took effect before the motion (R1.9).
+    pub(in crate::interpreter) fn check_required(&mut self, words: AxisWords, at: &At<'_>) {
+        if !self.any_required {
             return;
         }
         let machine = std::sync::Arc::clone(&self.machine);
-        for &AxisWord { axis, span, .. } in &self.work.moved {
+        for (axis, span) in self.moved_in_automatic(words) {
             let state = |kind| self.state.compensation.state(axis, kind);
             let required = machine.axis(axis).monitored();
             let missing = required
@@ -327,6 +346,8 @@ impl Interpreter {
                 }
             }
             (b'M' | b'T' | b'D', number) => {
+                // A function may wait for its acknowledgement.
+                self.work.rests.set(true);
                 if let (b'M', Some(number)) = (letter, number) {
                     self.state.modal.pace.m(number);
                 }
@@ -382,7 +403,20 @@ impl Interpreter {
             // PM/207256971, 207263627
             (None, 150) => self.state.modal.hash("#SPLINE OFF"),
             (None, 151) => self.state.modal.hash("#SPLINE ON"),
-            (None, 60) => self.geometry().end = BlockEnd::ExactStop,
+            // PM/969743115: its axis words are the centre of the rotation.
+            (None, 68) => {
+                self.state.modal.hash("#ROTATION ON");
+                intent.axis_words = AxisWords::Other;
+                self.pass_over("G68", span, at);
+            }
+            (None, 69) => {
+                self.state.modal.hash("#ROTATION OFF");
+                self.pass_over("G69", span, at);
+            }
+            (None, 60) => {
+                self.work.rests.set(true);
+                self.geometry().end = BlockEnd::ExactStop;
+            }
             // PM/206744331
             (None, 166) => self.geometry().at_full_speed = true,
             (None, 163) if self.radius_word(span, at) => intent.radius = Some(at.in_block(span)),
@@ -399,6 +433,10 @@ impl Interpreter {
             (None, _) => {
                 if self.g_program(number, span, at, intent) {
                     return Ok(());
+                }
+                if let Some(row) = moving::of_g(number) {
+                    self.work.word_row = Some(row);
+                    self.work.rests.set(true);
                 }
                 if number == HOMING {
                     intent.axis_words = AxisWords::Homing;
@@ -435,7 +473,7 @@ impl Interpreter {
         let coordinates = self.coordinates();
         let modal = &mut self.state.modal;
         match intent.axis_words {
-            AxisWords::Motion => modal.move_axes(&self.work.moved[..coordinates]),
+            AxisWords::Motion => modal.move_axes(&mut self.work.moved[..coordinates]),
             AxisWords::Homing | AxisWords::Measuring => {
                 for word in &self.work.moved {
                     modal.forget_position(word.axis);

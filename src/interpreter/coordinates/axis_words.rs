@@ -12,6 +12,8 @@ pub struct AxisWord {
     pub span: Span,
     /// The coordinate as it is programmed, where it is known.
     pub value: Option<f64>,
+    /// Where the axis stood before, where that is known.
+    pub from: Option<f64>,
 }
 
 /// What axis words of a block are.

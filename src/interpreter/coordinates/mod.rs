@@ -7,5 +7,6 @@ pub(super) mod geometry;
 pub(super) mod group;
 pub(super) mod modal;
 pub(super) mod motion;
+pub(super) mod moving;
 pub(super) mod pace;
 pub(super) mod simplified;

@@ -90,6 +90,9 @@ pub struct Modal {
     pub simplified: Simplifications,
     /// What makes of F the velocity of the path.
     pub(in crate::interpreter) pace: Pace,
+    /// Whether the rotation in force certainly turns each axis of the plane out of its direction.
+    #[serde(default)]
+    pub(in crate::interpreter) skewed: bool,
     /// Whether coordinates count from another origin than at the start of the program.
     origin_moved: bool,
     /// Absolute positions: the programmed coordinate and the offset of G92.
@@ -126,6 +129,7 @@ impl Modal {
             transformed: BTreeSet::new(),
             simplified: Simplifications::default(),
             pace: Pace::new(Some(1.0)),
+            skewed: false,
             origin_moved: false,
             positions: vec![None; axes],
             references: vec![Some(0.0); axes],
@@ -312,6 +316,7 @@ impl Modal {
 
     /// A `#` command that may or may not have been executed.
     pub(in crate::interpreter) fn forget_hash(&mut self, name: &str) {
+        self.skewed &= !name.starts_with("#ROTATION");
         let mut after = self.clone();
         after.hash(name);
         if after != *self {
@@ -372,8 +377,8 @@ impl Modal {
         self.metric().filter(|_| self.is_known(Group::Distance))
     }
 
-    /// Programmed coordinates.
-    pub(in crate::interpreter) fn move_axes(&mut self, words: &[AxisWord]) {
+    /// Programmed coordinates. The words remember where their axes stood.
+    pub(in crate::interpreter) fn move_axes(&mut self, words: &mut [AxisWord]) {
         let scale = self.scale();
         for word in words {
             let axis = word.axis.get();
@@ -382,7 +387,8 @@ impl Modal {
             } else {
                 self.positions[axis]
             };
-            self.positions[axis] = shifted(from, word.value, scale);
+            let to = shifted(from, word.value, scale);
+            word.from = std::mem::replace(&mut self.positions[axis], to);
         }
     }
 
@@ -438,6 +444,7 @@ impl Modal {
             Some(Group::CutterRadius) if number != 40 => self.transform("G41", true),
             None if (21..=23).contains(&number) => self.transform("G21", true),
             None if number == 151 => self.note_transformed("#SPLINE"),
+            None if matches!(number, 68 | 69) => self.forget_hash("#ROTATION ON"),
             None if matches!(number, 96 | 97) => self.pace.forget_spindle(),
             None if number == 129 => self.pace.forget_overrides(),
             _ => {}
@@ -458,6 +465,7 @@ impl Modal {
         }
         self.pace.doubt(&other.pace);
         self.simplified = self.simplified.union(other.simplified);
+        self.skewed &= other.skewed;
         self.origin_moved |= other.origin_moved;
         let unless_same = |mine: &mut Option<f64>, theirs: &Option<f64>| {
             if mine != theirs {

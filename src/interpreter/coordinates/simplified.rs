@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::moving;
+
 /// Something that a control does and a commanded trace does not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -243,19 +245,12 @@ pub(in crate::interpreter) fn of_command(name: &str) -> Option<(Simplification, 
     (!only_parameters).then_some((what, Holds::On))
 }
 
-/// How keywords begin after which an axis moves by itself.
-const ALONE: [&str; 7] = ["INDP_", "OSC", "DIST_CTRL", "LIFT", "SYNC", "POLY", "MC_"];
-
-/// What the command of an axis bracket simplifies, by its keyword in upper case.
-pub(in crate::interpreter) fn of_bracket(keyword: &str) -> Option<Simplification> {
-    let is = |word: &str| keyword.starts_with(word);
-    if is("DYNAMIC") {
+/// What the command of an axis bracket simplifies, by its keyword and its whole text in upper case.
+pub(in crate::interpreter) fn of_bracket(keyword: &str, body: &str) -> Option<Simplification> {
+    if keyword.starts_with("DYNAMIC") {
         return Some(Simplification::AxisDynamics);
     }
-    ALONE
-        .iter()
-        .any(|word| is(word))
-        .then_some(Simplification::IndependentAxis)
+    moving::of_bracket(keyword, body).map(|_| Simplification::IndependentAxis)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Commands that define, enable and release coupling groups (R2.47).
 
 use crate::comp::AxisIndex;
+use crate::interpreter::coordinates::moving::{self, Moves, is_between};
 use crate::interpreter::coordinates::simplified::{Holds, Simplification};
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -65,6 +66,7 @@ impl Interpreter {
     /// Any coupling may be in force, or none.
     pub(in crate::interpreter) fn doubt_couplings(&mut self) {
         let changed = self.state.couplings.doubt();
+        self.state.couplings.doubt_followers(&[]);
         if !changed.is_empty() {
             self.simplify(Simplification::Coupling, Holds::On);
         }
@@ -78,6 +80,92 @@ impl Interpreter {
     pub(in crate::interpreter) fn doubt_definitions(&mut self, axes: &[AxisIndex]) {
         let changed = self.state.couplings.doubt_definitions(axes);
         self.mark_coupled(changed);
+    }
+
+    /// Commands by which an axis follows others, beside the coupling groups (R10.7).
+    pub(in crate::interpreter) fn couple_by(&mut self, name: &str, rest: &str) {
+        let Some(row) = moving::of_command(name) else {
+            return;
+        };
+        let off = name.split(' ').any(|word| word == "OFF");
+        match row.moves {
+            Moves::Gantry if off => self.state.couplings.unfollow(GANTRY),
+            Moves::Gantry => {
+                let mut axes = self.axes_in(rest);
+                axes.dedup();
+                if axes.len() < 2 {
+                    axes = (0..self.machine.axes.len()).map(AxisIndex::new).collect();
+                    return self.state.couplings.doubt_followers(&axes);
+                }
+                let pairs = axes
+                    .iter()
+                    .flat_map(|one| axes.iter().map(|other| (*one, *other)));
+                let pairs = pairs.filter(|(one, other)| one != other).collect();
+                self.state.couplings.follow(GANTRY.to_owned(), pairs);
+            }
+            Moves::Follower => self.link_gear(rest, off),
+            _ => {}
+        }
+    }
+
+    /// `#GEAR LINK [TARGET=X AX1=Y NUM1=1 DENOM1=2]` (PM/546229387), `#CAXTRACK ON [AX=C]`.
+    fn link_gear(&mut self, rest: &str, off: bool) {
+        let words: Vec<&str> = rest.split(is_between).filter(|it| !it.is_empty()).collect();
+        let after = |key: &str| {
+            let named = words.windows(2).filter(move |pair| {
+                let rest = pair[0]
+                    .get(..key.len())
+                    .filter(|it| it.eq_ignore_ascii_case(key));
+                rest.is_some()
+            });
+            let axes = named.filter_map(|pair| self.axis_or_number(pair[1]));
+            axes.collect::<Vec<_>>()
+        };
+        let (targets, sources) = (after("TARGET"), after("AX"));
+        let target = targets.first().copied();
+        let key = target.map_or_else(|| CAXTRACK.to_owned(), gear_of);
+        match target {
+            None if off => self.state.couplings.end_following(),
+            Some(_) if off => self.state.couplings.unfollow(&key),
+            Some(target) if !sources.is_empty() => {
+                self.state.modal.forget_position(target);
+                let pairs = sources.into_iter().map(|source| (target, source)).collect();
+                self.state.couplings.follow(key, pairs);
+            }
+            Some(_) if self.state.couplings.is_following(&key) => {}
+            Some(target) => self.state.couplings.doubt_followers(&[target]),
+            None => {
+                let turned = sources.first().copied().or_else(|| self.axis_named("C"));
+                let turned: Vec<AxisIndex> = turned.into_iter().collect();
+                self.state.couplings.doubt_followers(&turned);
+            }
+        }
+    }
+
+    /// `X[MC_GearIn Master=2 …]`: the master is a logical axis number (PM/208379531). Everything is in
+    /// upper case.
+    pub(in crate::interpreter) fn gear_in(&mut self, axis: AxisIndex, body: &str) {
+        let mut words = body.split(is_between).filter(|it| !it.is_empty());
+        let master = words
+            .find(|word| *word == "MASTER")
+            .and_then(|_| words.next());
+        match master.and_then(|master| self.axis_or_number(master)) {
+            Some(master) => {
+                let pairs = vec![(axis, master)];
+                self.state.couplings.follow(gear_of(axis), pairs);
+            }
+            None => self.state.couplings.doubt_followers(&[axis]),
+        }
+    }
+
+    fn axis_or_number(&self, word: &str) -> Option<AxisIndex> {
+        let number = word.parse().ok();
+        let by_number = || {
+            let mut axes = self.machine.axes.iter();
+            let position = axes.position(|axis| number.is_some() && axis.number == number);
+            position.map(AxisIndex::new)
+        };
+        self.machine.find(word).or_else(by_number)
     }
 
     fn mark_coupled(&mut self, changed: Vec<AxisIndex>) {
@@ -128,6 +216,26 @@ impl Interpreter {
             .collect()
     }
 }
+
+/// Whether a command says which axes follow others, coupling groups apart.
+pub(in crate::interpreter) fn is_follower_command(name: &str) -> bool {
+    let row = moving::of_command(name);
+    row.is_some_and(|row| matches!(row.moves, Moves::Gantry | Moves::Follower))
+}
+
+/// Whether an axis follows no other one after the command with this keyword in its bracket.
+pub(in crate::interpreter) fn ends_following(keyword: &str) -> bool {
+    keyword.starts_with("MC_GEAROUT") || keyword.starts_with("MC_STOP")
+}
+
+/// What the gear of an axis is called.
+pub(in crate::interpreter) fn gear_of(axis: AxisIndex) -> String {
+    format!("gear {}", axis.get())
+}
+
+/// What the followers of other commands are called.
+const GANTRY: &str = "#GANTRY";
+const CAXTRACK: &str = "#CAXTRACK";
 
 fn names_in(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))

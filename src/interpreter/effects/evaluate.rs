@@ -103,6 +103,7 @@ impl Interpreter {
                 own: frame.map_or(&NONE, |frame| &frame.own),
                 given,
                 unread: &self.work.unread,
+                waits: &self.work.rests,
                 system: &|name| self.system_variable(name),
                 unknown: &|name, span| {
                     if taken {
@@ -148,10 +149,13 @@ impl Interpreter {
             self.work.flushing.replace(Some(name.to_owned()));
         }
         match own {
-            OwnVariable::Active(axis, kind) => match self.state.compensation.state(axis, kind) {
-                State::Unknown => None,
-                state => Some((state == State::Active).into()),
-            },
+            OwnVariable::Active(axis, kind) => {
+                self.work.asked.borrow_mut().push((axis, kind));
+                match self.state.compensation.state(axis, kind) {
+                    State::Unknown => None,
+                    state => Some((state == State::Active).into()),
+                }
+            }
             OwnVariable::Ready(axis, kind) => {
                 let machine = self.machine.axis(axis);
                 let ready =

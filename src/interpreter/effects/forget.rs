@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use super::couple::is_follower_command;
 use super::descriptions::DESCRIPTIONS;
 use crate::comp::{AxisIndex, KindSet};
+use crate::interpreter::coordinates::moving::{Certainty, MotionKind, MovedAxis};
 use crate::interpreter::coordinates::simplified::{self, Holds};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::Retains;
@@ -11,6 +13,7 @@ use crate::interpreter::values::memory::unescaped;
 use crate::interpreter::values::target::Place;
 use crate::interpreter::values::value::Value;
 use crate::syntax::ast::Effect as Unread;
+use crate::text::Span;
 
 impl Interpreter {
     /// What text could change that is not known here (R2.70).
@@ -46,10 +49,22 @@ impl Interpreter {
     /// It is not known whether any axis moves.
     pub(in crate::interpreter) fn perhaps_move_all(&mut self) {
         let count = self.machine.axes.len();
-        if self.work.perhaps_moved.len() < count {
-            let axes = (0..count).map(AxisIndex::new);
-            self.work.perhaps_moved.extend(axes);
+        let possible = |it: &&MovedAxis| it.certainty == Certainty::Possible;
+        if self.work.also_moved.iter().filter(possible).count() < count {
+            for axis in (0..count).map(AxisIndex::new) {
+                self.perhaps_move(axis);
+            }
         }
+    }
+
+    /// It is not known whether an axis moves.
+    pub(in crate::interpreter) fn perhaps_move(&mut self, axis: AxisIndex) {
+        self.work.also_moved.push(MovedAxis {
+            axis,
+            span: Span::default(),
+            kind: MotionKind::Unknown,
+            certainty: Certainty::Possible,
+        });
     }
 
     /// Every parameter and variable becomes unknown.
@@ -97,6 +112,7 @@ impl Interpreter {
             | "#AX LINK OFF"
             | "#DISABLE AX LINK ALL"
             | "#AX LINK OFF ALL" => self.doubt_couplings(),
+            name if is_follower_command(name) => self.state.couplings.doubt_followers(&[]),
             "#RETAIN CYCLE CHANGES" => {
                 if let Some(frame) = self.state.frames.cycle_mut() {
                     frame.retains = Retains::Perhaps;

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::items::MAX_SAID;
+use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
@@ -13,7 +14,9 @@ use crate::interpreter::run::options::StopPolicy;
 use crate::interpreter::run::state::Last;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
+use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::Fault;
+use crate::syntax::ast::Item;
 use crate::text::Span;
 
 impl Interpreter {
@@ -46,6 +49,7 @@ impl Interpreter {
             self.say_lacking(intent.axis_words, at);
         }
         self.move_around(intent.axis_words);
+        self.carry_along(intent.axis_words);
         if self.any_required && self.state.described.is_none() {
             let goes_on = !self.work.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
@@ -107,8 +111,13 @@ impl Interpreter {
             changes: &self.work.changes,
             doubted: &self.work.doubted,
             moved: if stopped { &[] } else { &self.work.moved },
-            perhaps_moved: &self.work.perhaps_moved,
+            named: self.work.seen,
+            last_moved: &self.work.last_moved,
+            rests: self.work.rests.get() || self.work.dwells,
+            also_moved: if stopped { &[] } else { &self.work.also_moved },
+            word_motion: self.work.word_row.map(|row| row.kind),
             motion: self.work.motion.as_ref(),
+            asked: &self.work.asked.borrow(),
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
             withheld: &self.work.withheld,
@@ -136,6 +145,7 @@ impl Interpreter {
     fn doubt_ways(&mut self, at: &At<'_>, finder: &mut dyn Finder) {
         if !self.pending.is_empty() {
             self.forget_called(finder);
+            self.move_followers(AxisWords::Other);
         }
         if let Some(undecided) = self.work.undecided.take() {
             self.tell_undecided(*undecided);
@@ -189,8 +199,11 @@ impl Interpreter {
                 .with_help("end a subprogram with `M17` or `M29`");
                 self.work.diagnostics.push(at.diagnostic(fault));
             }
-            if at.level == 0 && at.used.is_none() && self.state.ending.is_none() {
-                self.work.end = Some(at.place(Span::new(0, at.text.len())));
+            if at.used.is_none() && self.state.ending.is_none() {
+                self.work.end = Some(OwnEnd {
+                    place: at.place(Span::new(0, at.text.len())),
+                    is_passed_into: !self.may_be_jumped_to(at),
+                });
             }
             return Some(self.program_end(by, at, finder));
         }
@@ -202,6 +215,17 @@ impl Interpreter {
             return self.repetition(step, moved, at, finder);
         }
         step
+    }
+
+    /// Whether a jump of the running program may go to the block.
+    fn may_be_jumped_to(&self, at: &At<'_>) -> bool {
+        let Some(frame) = self.state.frames.running() else {
+            return true;
+        };
+        let labels = at.block.items.iter();
+        let has_label = labels.clone().any(|item| matches!(item, Item::Label(_)));
+        let text = self.programs.index(frame.unit).source.text();
+        (has_label || at.block.number.is_some()) && names_target(text, at.text)
     }
 
     /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.
@@ -223,4 +247,27 @@ impl Interpreter {
             }
         }
     }
+}
+
+/// Whether a jump in a text may go to a block: it names the number or the label with which the block
+/// begins, or computes its target.
+fn names_target(text: &str, block: &str) -> bool {
+    let own = block.trim_start().to_ascii_uppercase();
+    let own = own.trim_start_matches(['N', '[']);
+    let end = own.find(|it: char| !(it.is_ascii_alphanumeric() || it == '_'));
+    let own = &own[..end.unwrap_or(own.len())];
+    let digits = own.trim_start_matches('0');
+    let upper = text.to_ascii_uppercase();
+    upper.split("GOTO").skip(1).any(|rest| {
+        let target = rest
+            .trim_start()
+            .trim_start_matches(['[', 'N'])
+            .trim_start();
+        let end = target.find(|it: char| !(it.is_ascii_alphanumeric() || it == '_'));
+        let target = &target[..end.unwrap_or(target.len())];
+        target == own
+            || target.trim_start_matches('0') == digits
+            || target.is_empty()
+            || target.starts_with(['P', 'V'])
+    })
 }

@@ -3,12 +3,16 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use crate::comp::{AxisIndex, Compensation};
 use crate::diagnostic::{Code, Collected, Diagnostic};
+use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::at::{At, Shown};
-use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer};
+use crate::interpreter::run::event::{Ended, EndedBy, Event, Observer, ProgramEnd};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{RunOutcome, StopPolicy};
 use crate::interpreter::run::stopping::{ended_by, is_harmless};
+use crate::interpreter::run::ways::AxisKinds;
+use crate::interpreter::run::work::OwnEnd;
 use crate::syntax::RawBlock;
 use crate::syntax::ast::Block;
 use crate::text::{Place, Span};
@@ -80,6 +84,8 @@ impl Interpreter {
         if !beside.is_empty() {
             notes.to_mut().append(&beside);
         }
+        let at = self.work.end.take();
+        let ends = self.all_ends(at.as_ref());
         let mut changes = std::mem::take(&mut self.work.changes);
         changes.extend(self.state.compensation.program_end());
         if !changes.is_empty() {
@@ -87,12 +93,15 @@ impl Interpreter {
         }
         self.state.frames.clear();
         self.release_couplings();
+        self.state.couplings.end_following();
         // The observer wants no more, or it does not: the program has ended either way.
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,
             by,
             endless: std::mem::take(&mut self.work.endless),
-            at: self.work.end.take().as_ref(),
+            at: at.as_ref().map(|end| &end.place),
+            is_passed_into: at.as_ref().is_some_and(|end| end.is_passed_into),
+            ends: &ends,
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,
@@ -101,6 +110,59 @@ impl Interpreter {
             version: self.version,
         }));
         RunOutcome::Ended(by)
+    }
+
+    /// Every end that the program may reach, with the state that is left there.
+    fn all_ends(&mut self, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
+        let others = std::mem::take(&mut self.state.ways.ends);
+        let own = self.state.ways.own.take();
+        let last = self.state.last.as_ref().map(|last| Place {
+            file: last.file.clone(),
+            text: last.text.as_str().into(),
+            first_line: last.line,
+            span: Span::new(0, last.text.len()),
+        });
+        let place = at.map(|end| end.place.clone()).or(last);
+        let reached = place.map(|place| ProgramEnd {
+            place,
+            cause: None,
+            compensation: self.left_with(own.as_deref()),
+        });
+        let others = others.into_iter().filter_map(|end| {
+            let place = self.place_of(end.place)?;
+            let is_reached = at.is_some_and(|at| at.place == place);
+            (!is_reached).then(|| ProgramEnd {
+                place,
+                cause: Some(end.cause),
+                compensation: self.left_with(Some(&end.kinds)),
+            })
+        });
+        reached.into_iter().chain(others).collect()
+    }
+
+    /// The state after a program end with these kinds.
+    fn left_with(&self, kinds: Option<&[AxisKinds]>) -> Compensation {
+        let mut compensation = self.state.compensation.clone();
+        for (position, kinds) in kinds.unwrap_or_default().iter().enumerate() {
+            let axis = AxisIndex::new(position);
+            compensation.restore(axis, kinds.selected, kinds.unknown);
+        }
+        let _ = compensation.program_end();
+        compensation
+    }
+
+    /// The place of a block that was not executed.
+    fn place_of(&self, (unit, entry): (usize, EntryIndex)) -> Option<Place> {
+        let index = &self.programs.units().get(unit)?.index;
+        let mut block = Block::default();
+        let mut reader = index.reader(entry)?;
+        let raw = reader.next(&mut block)?;
+        Some(Place {
+            file: index.source.name().clone(),
+            text: raw.text.into(),
+            first_line: raw.line,
+            span: Span::new(0, raw.text.len()),
+        })
     }
 
     /// Blocks that no run of the program reached, for their syntax.

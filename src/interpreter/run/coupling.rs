@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use crate::comp::{AxisIndex, Coupling};
+use crate::interpreter::coordinates::moving::Certainty;
 
 /// The coupling groups of a run.
 ///
@@ -25,9 +26,18 @@ pub(in crate::interpreter) struct Couplings {
     vague: bool,
     /// Whether such groups may be in force.
     doubted: bool,
+    /// Axes that follow others by other commands, each with the one that it follows, by command.
+    #[serde(default)]
+    followers: BTreeMap<String, Vec<(AxisIndex, AxisIndex)>>,
+    /// Axes that may follow any other one.
+    #[serde(default)]
+    strays: BTreeSet<AxisIndex>,
     /// Rises with every change.
     version: u64,
 }
+
+/// An axis, the one that it follows, `None` for any, and whether it does so for sure.
+pub(in crate::interpreter) type Link = (AxisIndex, Option<AxisIndex>, Certainty);
 
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 struct Group {
@@ -37,6 +47,74 @@ struct Group {
 }
 
 impl Couplings {
+    /// Whether an axis may move because another one does.
+    #[inline]
+    pub(in crate::interpreter) fn carry(&self) -> bool {
+        self.doubted
+            || !self.enabled.is_empty()
+            || !self.followers.is_empty()
+            || !self.strays.is_empty()
+    }
+
+    /// Which axes follow which.
+    pub(in crate::interpreter) fn links(&self) -> Vec<Link> {
+        let groups = self
+            .enabled
+            .values()
+            .filter_map(|name| self.groups.get(name));
+        // `slave=master` (PM/207120267)
+        let pairs = groups.flat_map(|group| group.axes.chunks_exact(2));
+        let pairs = pairs.map(|pair| (pair[0], pair[1]));
+        let certain = pairs.chain(self.followers.values().flatten().copied());
+        let certain = certain.map(|(one, other)| (one, Some(other), Certainty::Certain));
+        let doubted = self.named.iter().filter(|_| self.doubted);
+        let strays = self.strays.iter().chain(doubted);
+        let strays = strays.map(|axis| (*axis, None, Certainty::Possible));
+        certain.chain(strays).collect()
+    }
+
+    /// Axes follow others.
+    pub(in crate::interpreter) fn follow(
+        &mut self,
+        command: String,
+        pairs: Vec<(AxisIndex, AxisIndex)>,
+    ) {
+        self.version = self.version.wrapping_add(1);
+        self.followers.insert(command, pairs);
+    }
+
+    /// Whether axes follow others by a command.
+    pub(in crate::interpreter) fn is_following(&self, command: &str) -> bool {
+        self.followers.contains_key(command)
+    }
+
+    /// They do not any more.
+    pub(in crate::interpreter) fn unfollow(&mut self, command: &str) {
+        if self.followers.remove(command).is_some() {
+            self.version = self.version.wrapping_add(1);
+        }
+    }
+
+    /// No axis follows another one but by a coupling group.
+    pub(in crate::interpreter) fn end_following(&mut self) {
+        if !(self.followers.is_empty() && self.strays.is_empty()) {
+            self.version = self.version.wrapping_add(1);
+            self.followers.clear();
+            self.strays.clear();
+        }
+    }
+
+    /// Whoever follows another one by such a command may do so, or not; so may these axes.
+    pub(in crate::interpreter) fn doubt_followers(&mut self, axes: &[AxisIndex]) {
+        let followers = std::mem::take(&mut self.followers);
+        let followers = followers.into_values().flatten().map(|(axis, _)| axis);
+        let before = self.strays.len();
+        self.strays.extend(followers.chain(axes.iter().copied()));
+        if self.strays.len() != before {
+            self.version = self.version.wrapping_add(1);
+        }
+    }
+
     /// Whether a group is in force, or may be.
     pub(in crate::interpreter) fn is_any(&self) -> bool {
         self.doubted || !self.enabled.is_empty()
@@ -136,6 +214,7 @@ impl Couplings {
             groups.collect::<Vec<_>>()
         };
         self.enabled.values().eq(other.enabled.values())
+            && (&self.followers, &self.strays) == (&other.followers, &other.strays)
             && (&self.named, self.vague, self.doubted) == (&other.named, other.vague, other.doubted)
             && groups(self) == groups(other)
     }
@@ -143,7 +222,11 @@ impl Couplings {
     /// Whether it names no other axes than so many.
     pub(in crate::interpreter) fn fits(&self, axes: usize) -> bool {
         let members = self.groups.values().flat_map(|group| &group.axes);
+        let pairs = self.followers.values().flatten();
+        let followers = pairs.flat_map(|(one, other)| [one, other]);
         members
+            .chain(followers)
+            .chain(&self.strays)
             .chain(self.holding.keys())
             .chain(&self.named)
             .all(|axis| axis.get() < axes)

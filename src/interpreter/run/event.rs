@@ -7,11 +7,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, KindSet};
+use crate::comp::{AxisIndex, Change, CompCommand, Compensation, CompensationError, Kind, KindSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::coordinates::axis_words::AxisWord;
+use crate::interpreter::coordinates::group::Group;
 use crate::interpreter::coordinates::modal::Modal;
 use crate::interpreter::coordinates::motion::Motion;
+use crate::interpreter::coordinates::moving::{MotionKind, MovedAxis};
 use crate::syntax::ast::Block;
 use crate::syntax::{Comments, Remark};
 use crate::text::Place;
@@ -120,13 +122,24 @@ pub struct Executed<'a> {
     pub changes: &'a [Change],
     /// What it leaves unknown, though no command of it names that (R2.51).
     pub doubted: &'a [(AxisIndex, KindSet)],
-    /// The axes that it moves.
+    /// Its axis words, as far as they move; [`motions`](Self::motions) has every axis that it moves.
     pub moved: &'a [AxisWord],
-    /// The axes that may be moved by what it calls or contains and is not executed here: it is not
-    /// known offline whether it is (R2.51, R2.52).
-    pub perhaps_moved: &'a [AxisIndex],
+    /// The axes that have a word in it, a bit each by their positions modulo 64.
+    pub(crate) named: u64,
+    /// The axis words of the last block that moved before it, unless the axes have come to rest since.
+    pub(crate) last_moved: &'a [AxisWord],
+    /// Whether the axes come to rest in it, or may.
+    pub(crate) rests: bool,
+    /// The axes that it moves, or may, without a word of their own: by a command in their bracket,
+    /// through another axis, in a rotated frame, or by what it calls or contains and is not executed
+    /// here (R10.7, R2.51, R2.52).
+    pub also_moved: &'a [MovedAxis],
+    /// How its axis words move, where the G functions in force do not say it.
+    pub word_motion: Option<MotionKind>,
     /// What it makes the machine do, where motions are taken.
     pub motion: Option<&'a Motion>,
+    /// The states of compensation that it reads (R1.35).
+    pub asked: &'a [(AxisIndex, Kind)],
     /// The notes on it, where they are taken.
     pub notes: &'a [Note],
     /// What is to be said about it, in no order.
@@ -146,6 +159,40 @@ pub struct Executed<'a> {
     pub version: u64,
 }
 
+impl Executed<'_> {
+    /// Every axis that the block moves, or may, and how (R10.7): its words first.
+    #[inline]
+    pub fn motions(&self) -> impl Iterator<Item = MovedAxis> {
+        let kind = self.word_kind();
+        let words = self.moved.iter();
+        let words = words.map(move |word| MovedAxis::of_word(word, kind));
+        words.chain(self.also_moved.iter().copied())
+    }
+
+    /// How its axis words move.
+    #[inline]
+    fn word_kind(&self) -> MotionKind {
+        match self.word_motion {
+            Some(kind) => kind,
+            None if !self.modal.is_known(Group::Motion) => MotionKind::Unknown,
+            None if self.modal.functions.motion == 0 => MotionKind::Rapid,
+            None => MotionKind::Feed,
+        }
+    }
+}
+
+/// A place where a program ends, or may.
+#[derive(Debug, Clone)]
+pub struct ProgramEnd {
+    /// The block, `M30` or the last one of the file.
+    pub place: Place,
+    /// What only the machine knows and decides whether the program ends there; `None` for the end of
+    /// the dry run.
+    pub cause: Option<Arc<str>>,
+    /// The state that is left there.
+    pub compensation: Compensation,
+}
+
 /// The end of a program.
 #[derive(Debug, Clone, Copy)]
 pub struct Ended<'a> {
@@ -155,8 +202,12 @@ pub struct Ended<'a> {
     pub by: EndedBy,
     /// Whether it would run until a reset ends it: its state repeats (R2.84).
     pub endless: bool,
-    /// The block of the main program that ends it, `M30` for instance.
+    /// The block that ends it, `M30` for instance, where it is written in a program.
     pub at: Option<&'a Place>,
+    /// Whether no jump goes to that block, so that what is written before it comes before the end.
+    pub is_passed_into: bool,
+    /// Every end that the program may reach (R1.58): first that of the dry run.
+    pub ends: &'a [ProgramEnd],
     /// What program end changed itself.
     pub changes: &'a [Change],
     /// What is to be said about the program and belongs to no executed block.

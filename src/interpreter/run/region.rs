@@ -35,6 +35,8 @@ pub(in crate::interpreter) enum Effect {
     Reference(AxisIndex),
     /// A `#` command.
     Hash(String),
+    /// These axes may follow others from here on, or no longer.
+    Followers(Vec<AxisIndex>),
     /// A coupling group is defined with these axes.
     Coupling(Vec<AxisIndex>),
     /// A declaration.
@@ -82,6 +84,8 @@ pub(in crate::interpreter) struct Region {
     pub(in crate::interpreter) written: HashSet<Target>,
     pub(in crate::interpreter) calls: Vec<Wanted>,
     pub(in crate::interpreter) exits: Vec<Exit>,
+    /// Its blocks that end the program, each with its unit.
+    pub(in crate::interpreter) ends: Vec<(usize, EntryIndex)>,
     /// The macros that it was looked through with.
     pub(in crate::interpreter) macro_version: u64,
 }

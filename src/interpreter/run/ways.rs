@@ -32,10 +32,30 @@ pub(in crate::interpreter) struct Ways {
     pub(in crate::interpreter) open: Vec<Way>,
     /// The ways that ended the program, as one.
     pub(in crate::interpreter) end: Option<Box<Way>>,
+    /// Where they ended it.
+    #[serde(default)]
+    pub(in crate::interpreter) ends: Vec<WayEnd>,
+    /// The state at the end of the dry run, before the other ways made it unknown.
+    #[serde(default)]
+    pub(in crate::interpreter) own: Option<Vec<AxisKinds>>,
     /// What was written since the first of them left, and after which block last.
     pub(in crate::interpreter) written: Written,
     /// The block that may have written anything.
     pub(in crate::interpreter) everything: u64,
+}
+
+/// So many program ends that the dry run does not reach are kept.
+const MAX_ENDS: usize = 64;
+
+/// A program end that the dry run does not reach.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::interpreter) struct WayEnd {
+    /// The block, and the unit that holds it.
+    pub(in crate::interpreter) place: (usize, EntryIndex),
+    /// What decides whether the program ends there.
+    pub(in crate::interpreter) cause: Arc<str>,
+    /// What may be selected there.
+    pub(in crate::interpreter) kinds: Vec<AxisKinds>,
 }
 
 /// Targets with the executed block that wrote them last.
@@ -197,6 +217,17 @@ impl Ways {
         match self.place(way.depth, way.target) {
             Ok(place) => self.open[place].take_in(way),
             Err(place) => self.open.insert(place, way),
+        }
+    }
+
+    /// A way may end the program in a block; two ways to one end are one.
+    pub(in crate::interpreter) fn note_end(&mut self, end: WayEnd) {
+        if let Some(known) = self.ends.iter_mut().find(|it| it.place == end.place) {
+            for (mine, theirs) in known.kinds.iter_mut().zip(&end.kinds) {
+                mine.unknown = mine.differing(*theirs);
+            }
+        } else if self.ends.len() < MAX_ENDS {
+            self.ends.push(end);
         }
     }
 

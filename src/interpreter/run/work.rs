@@ -4,15 +4,24 @@ use std::cell::{Cell, RefCell};
 
 use super::event::{Note, Outcome};
 use super::undecided::Undecided;
-use crate::comp::{AxisIndex, Change, KindSet};
+use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::Diagnostic;
 use crate::interpreter::coordinates::axis_words::AxisWord;
 use crate::interpreter::coordinates::geometry::Geometry;
 use crate::interpreter::coordinates::motion::Motion;
+use crate::interpreter::coordinates::moving::{MovedAxis, Row};
 use crate::interpreter::values::value::Value;
 use crate::syntax::Fault;
 use crate::syntax::ast::Block;
 use crate::text::{Place, Span};
+
+/// The block that ends the program.
+#[derive(Debug, Clone)]
+pub(in crate::interpreter) struct OwnEnd {
+    pub(in crate::interpreter) place: Place,
+    /// Whether no jump goes to it.
+    pub(in crate::interpreter) is_passed_into: bool,
+}
 
 /// Buffers that are used again for each block.
 #[derive(Default)]
@@ -27,12 +36,18 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) changes: Vec<Change>,
     /// What may or may not have been switched.
     pub(in crate::interpreter) doubted: Vec<(AxisIndex, KindSet)>,
-    /// The axes that it may or may not move.
-    pub(in crate::interpreter) perhaps_moved: Vec<AxisIndex>,
+    /// The axes that it moves, or may, without a word of their own.
+    pub(in crate::interpreter) also_moved: Vec<MovedAxis>,
+    /// How its axis words move, where the G functions in force do not say it.
+    pub(in crate::interpreter) word_row: Option<Row>,
     /// Its axis words.
     pub(in crate::interpreter) moved: Vec<AxisWord>,
     /// Words of axes that the machine does not have.
     pub(in crate::interpreter) lacking: Vec<(String, Span)>,
+    /// The axis words of the last block that moved, unless the axes have come to rest since.
+    pub(in crate::interpreter) last_moved: Vec<AxisWord>,
+    /// Whether the axes come to rest in the block, or may.
+    pub(in crate::interpreter) rests: Cell<bool>,
     /// The axes that have a word, and those that may have another, a bit each.
     pub(in crate::interpreter) seen: u64,
     pub(in crate::interpreter) again: u64,
@@ -51,6 +66,8 @@ pub(in crate::interpreter) struct Work {
     /// What the block moves, where motions are taken.
     pub(in crate::interpreter) motion: Option<Motion>,
     pub(in crate::interpreter) notes: RefCell<Vec<Note>>,
+    /// The states of compensation that its expressions read.
+    pub(in crate::interpreter) asked: RefCell<Vec<(AxisIndex, Kind)>>,
     /// Whether a text of the block had no meaning that is known here; what depends on it is not said
     /// again (R2.71).
     pub(in crate::interpreter) unread: Cell<bool>,
@@ -58,8 +75,8 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) flushing: RefCell<Option<String>>,
     /// Macros that the block has expanded.
     pub(in crate::interpreter) expansions: Cell<u32>,
-    /// The block of the main program that says that the program ends.
-    pub(in crate::interpreter) end: Option<Place>,
+    /// The block that says that the program ends.
+    pub(in crate::interpreter) end: Option<OwnEnd>,
     /// The budget that ended the run.
     pub(in crate::interpreter) over: Option<Diagnostic>,
     /// Whether that is a loop that never ends.
@@ -75,8 +92,15 @@ impl Work {
         self.outcomes.clear();
         self.changes.clear();
         self.doubted.clear();
-        self.perhaps_moved.clear();
-        self.moved.clear();
+        self.also_moved.clear();
+        self.word_row = None;
+        if !self.moved.is_empty() {
+            std::mem::swap(&mut self.moved, &mut self.last_moved);
+            self.moved.clear();
+        }
+        if self.rests.replace(false) || self.dwells {
+            self.last_moved.clear();
+        }
         self.lacking.clear();
         self.seen = 0;
         self.again = 0;
@@ -87,6 +111,7 @@ impl Work {
         self.dwells = false;
         self.motion = None;
         self.notes.get_mut().clear();
+        self.asked.get_mut().clear();
         self.unread.set(false);
         self.expansions.set(0);
         self.new_axes = false;

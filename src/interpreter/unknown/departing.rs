@@ -3,10 +3,11 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+use crate::comp::AxisIndex;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::{Exit, Region};
-use crate::interpreter::run::ways::{Aim, Departing};
+use crate::interpreter::run::ways::{Aim, AxisKinds, Departing, WayEnd};
 use crate::interpreter::values::effort::ITEM;
 use crate::text::Span;
 
@@ -22,6 +23,7 @@ impl Interpreter {
         let Some(place) = self.state.frames.program() else {
             return;
         };
+        self.note_ends(region, cause);
         for exit in &region.exits {
             let labels = self.aims(exit, place);
             for to in labels {
@@ -40,6 +42,7 @@ impl Interpreter {
 
     /// The ways that leave a called program and do not come back to its caller.
     pub(in crate::interpreter) fn note_far_exits(&mut self, region: &Region, cause: &Arc<str>) {
+        self.note_ends(region, cause);
         for exit in &region.exits {
             let to = match exit {
                 Exit::End => Aim::End,
@@ -54,6 +57,32 @@ impl Interpreter {
                 say: Some(Span::default()),
             });
         }
+    }
+
+    /// The program ends of a region, which may be reached with the state of this moment (R1.58).
+    fn note_ends(&mut self, region: &Region, cause: &Arc<str>) {
+        if region.ends.is_empty() {
+            return;
+        }
+        let kinds = self.all_kinds();
+        for &place in &region.ends {
+            self.state.ways.note_end(WayEnd {
+                place,
+                cause: cause.clone(),
+                kinds: kinds.clone(),
+            });
+        }
+    }
+
+    /// What is selected and what is unknown of each axis.
+    pub(in crate::interpreter) fn all_kinds(&self) -> Vec<AxisKinds> {
+        let compensation = &self.state.compensation;
+        let axes = (0..compensation.len()).map(AxisIndex::new);
+        let kinds = axes.map(|axis| AxisKinds {
+            selected: compensation.selected(axis),
+            unknown: compensation.unknown(axis),
+        });
+        kinds.collect()
     }
 
     /// A jump that may be taken; whether anything differs where it is.

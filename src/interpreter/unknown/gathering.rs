@@ -11,7 +11,9 @@ use std::sync::Arc;
 
 use crate::comp::{AxisIndex, Kind, KindSet};
 use crate::interpreter::coordinates::group::Group;
-use crate::interpreter::coordinates::simplified::{self, Simplification};
+use crate::interpreter::coordinates::moving::{self, Moves};
+use crate::interpreter::coordinates::simplified;
+use crate::interpreter::effects::couple::{ends_following, is_follower_command};
 use crate::interpreter::effects::machine_data::is_machine_data;
 use crate::interpreter::programs::file_names::{is_file_name, named_words};
 use crate::interpreter::programs::index::{EntryIndex, LabelName, Section};
@@ -194,24 +196,30 @@ impl Gathering<'_> {
             Item::Bracket { axis, keyword, .. } => {
                 let name = axis.of(at.text);
                 let keyword = keyword.of(at.text).to_ascii_uppercase();
-                self.bracket(name, &keyword);
+                let body = item.span().of(at.text).to_ascii_uppercase();
+                self.bracket(name, &keyword, &body);
             }
             Item::BadCommand(_) | Item::BareNumber(..) | Item::Label(_) => {}
         }
     }
 
     /// A command in the bracket of an axis or spindle.
-    fn bracket(&mut self, name: &str, keyword: &str) {
+    fn bracket(&mut self, name: &str, keyword: &str, body: &str) {
         if keyword.starts_with("OVERRIDE") {
             self.effect(Effect::Overrides);
         } else if name.starts_with('S') {
             self.effect(Effect::Spindle);
         }
-        if let Some(what) = simplified::of_bracket(keyword) {
+        if let Some(what) = simplified::of_bracket(keyword, body) {
             self.effect(Effect::Simplified(what));
-            let moved = self.run.axis_named(name);
-            if let Some(axis) = moved.filter(|_| what == Simplification::IndependentAxis) {
+        }
+        if let Some(axis) = self.run.axis_named(name) {
+            let row = moving::of_bracket(keyword, body);
+            if row.is_some() {
                 self.effect(Effect::Position(axis));
+            }
+            if row.is_some_and(|row| row.moves == Moves::Follower) || ends_following(keyword) {
+                self.effect(Effect::Followers(vec![axis]));
             }
         }
     }
@@ -290,6 +298,10 @@ impl Gathering<'_> {
                 let name = self.run.machine.axis(axis).name.clone();
                 self.effect(Effect::Compensation(name, KindSet::ALL));
             }
+        }
+        if is_follower_command(&hash.name) {
+            let axes = self.run.axes_in(hash.rest.of(at.text));
+            self.effect(Effect::Followers(axes));
         }
         self.effect(Effect::Hash(hash.name.clone()));
         match hash_command(&hash.name) {
@@ -386,7 +398,10 @@ impl Gathering<'_> {
             _ => None,
         };
         match (word.address, number) {
-            (Address::Letter(b'M'), Some(2 | 30)) => self.exit(Exit::End),
+            (Address::Letter(b'M'), Some(2 | 30)) => {
+                self.exit(Exit::End);
+                self.region.ends.push(self.place);
+            }
             (Address::Letter(b'M'), Some(17 | 29)) => self.exit(Exit::Return),
             (Address::Letter(b'M'), None) => {
                 self.exit(Exit::End);
@@ -436,8 +451,9 @@ impl Gathering<'_> {
 
     fn g(&mut self, number: Option<i64>) {
         let plain = number.and_then(|number| u32::try_from(number).ok());
-        let matters =
-            plain.is_none_or(|number| Group::of(number).is_some() || (20..=23).contains(&number));
+        let matters = plain.is_none_or(|number| {
+            Group::of(number).is_some() || matches!(number, 20..=23 | 68 | 69)
+        });
         let weighs = plain.is_some_and(|number| {
             matches!(number, 96 | 97 | 129) || simplified::of_g(number).is_some()
         });

@@ -104,7 +104,6 @@ impl Interpreter {
     /// A way that leaves now.
     fn way(&self, depth: usize, target: EntryIndex, cause: Arc<str>) -> Way {
         let count = self.state.compensation.len();
-        let axes = (0..count).map(AxisIndex::new);
         self.state.effort.charge(ITEM + count);
         Way {
             depth,
@@ -113,7 +112,7 @@ impl Interpreter {
             latest: self.state.seq,
             cause,
             standing: Standing {
-                kinds: axes.map(|axis| self.kinds(axis)).collect(),
+                kinds: self.all_kinds(),
                 modal: self.state.modal.clone(),
                 cycles: self.state.cycles.clone(),
                 couplings: self.state.couplings.version(),
@@ -192,6 +191,7 @@ impl Interpreter {
         if !self.state.ways.is_open() {
             return;
         }
+        let own = self.all_kinds();
         let mut tails = HashSet::new();
         let open = std::mem::take(&mut self.state.ways.open);
         for mut way in open {
@@ -219,7 +219,11 @@ impl Interpreter {
             self.forget_called(finder);
             self.departing.clear();
         }
-        self.state.ways = Ways::default();
+        self.state.ways = Ways {
+            ends: std::mem::take(&mut self.state.ways.ends),
+            own: Some(own),
+            ..Ways::default()
+        };
         if !self.work.changes.is_empty() {
             self.version += 1;
         }

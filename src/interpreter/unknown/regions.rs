@@ -159,7 +159,7 @@ impl Interpreter {
             Effect::Radius => modal.radius = None,
             Effect::Position(axis) => {
                 modal.forget_position(*axis);
-                self.work.perhaps_moved.push(*axis);
+                self.perhaps_move(*axis);
                 self.see(*axis);
             }
             Effect::Positions => {
@@ -181,6 +181,7 @@ impl Interpreter {
                 }
             }
             Effect::Coupling(axes) => self.doubt_definitions(axes),
+            Effect::Followers(axes) => self.state.couplings.doubt_followers(axes),
             Effect::Function(word) => self.forget_function(*word, unit, cause),
             Effect::FileName(word) => {
                 let unknown = Value::Unknown(cause.clone());

@@ -38,6 +38,8 @@ pub(in crate::interpreter) struct Scope<'a> {
     pub(in crate::interpreter) unknown: &'a dyn Fn(&str, Span),
     /// Set where a text had no meaning that is known here, which the block's faults say.
     pub(in crate::interpreter) unread: &'a Cell<bool>,
+    /// Set where a variable is read for which the control waits until the axes rest.
+    pub(in crate::interpreter) waits: &'a Cell<bool>,
 }
 
 /// Where the own parameters of a program come from, `@P1` ….
@@ -361,6 +363,9 @@ impl Evaluator<'_> {
     }
 
     fn variable(&self, name: &str, span: Span) -> Slot {
+        if name.starts_with("V.A.") || name.starts_with("V.E.") {
+            self.scope.waits.set(true);
+        }
         self.note_read(name);
         if let Some(value) = self.scope.memory.variable(name) {
             return Ok(value);

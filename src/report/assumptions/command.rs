@@ -119,6 +119,13 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[NoMachine],
     },
     Assumption {
+        rule: "R1.57",
+        sentence: "a command for FRICT does not stop the path",
+        changes: "whether the current jumps where an axis is switched while it moves on",
+        shows: "FC409",
+        when: &[Reported(Code::Fc409)],
+    },
+    Assumption {
         rule: "R1.40",
         sentence: "with manual activation a kind is off at the start of the control (from the control's \
             data)",

@@ -30,6 +30,7 @@ pub fn records(report: &AuditReport) -> Vec<Value> {
         "axes_with_hazards": report.findings().filter(|it| it.hazards() > 0).count(),
         "axes_with_unknown_programs": unknown,
         "hazards": report.hazards(),
+        "possible_hazards": report.possible_hazards(),
     }));
     if let Some(Value::Object(first)) = records.first_mut() {
         first.insert("schema".to_owned(), SCHEMA.into());
@@ -70,6 +71,8 @@ fn axes(machine: &MachineAudit, origin: Option<&str>, records: &mut Vec<Value>) 
             "both": finding.both.len(),
             "unknown": finding.unknown.len(),
             "hazards": finding.hazards(),
+            "possible_inheritors": finding.possible_inheritors.len(),
+            "possible_hazards": finding.possible_hazards(),
             "cure": finding.cure(),
         });
         if let Some(origin) = origin {

@@ -43,6 +43,17 @@ impl AuditReport {
         hazards.fold(0, u64::saturating_add)
     }
 
+    /// The possible hazards of all axes.
+    pub fn possible_hazards(&self) -> u64 {
+        let hazards = self.findings().map(AxisFinding::possible_hazards);
+        hazards.fold(0, u64::saturating_add)
+    }
+
+    /// Whether it is not known of some program what it does to some axis.
+    pub(in crate::report) fn has_unknown(&self) -> bool {
+        self.findings().any(|finding| !finding.unknown.is_empty())
+    }
+
     /// Whether something is to be mended, or cannot be told.
     pub fn has_warnings(&self) -> bool {
         self.findings().any(AxisFinding::is_worth_a_warning)
@@ -81,6 +92,8 @@ pub enum Word {
     Unknown,
     /// It moves the axis in the state that it finds.
     Inherits,
+    /// It may move the axis in the state that it finds.
+    Perhaps,
     /// It leaves the axis in its start-up state, and does not move it before that.
     StartUp,
     /// It neither switches nor moves the axis before it is set.
@@ -89,11 +102,12 @@ pub enum Word {
 
 impl Word {
     /// Every word, the most dangerous first.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Both,
         Self::Leaves,
         Self::Unknown,
         Self::Inherits,
+        Self::Perhaps,
         Self::StartUp,
         Self::Keeps,
     ];
@@ -105,6 +119,7 @@ impl Word {
             _ if axis.leaves_away() => Self::Leaves,
             _ if axis.is_unknown() => Self::Unknown,
             _ if axis.is_inheritor() => Self::Inherits,
+            _ if axis.may_inherit() => Self::Perhaps,
             ProgramEffect::Keeps => Self::Keeps,
             _ => Self::StartUp,
         }
@@ -117,6 +132,7 @@ impl Word {
             Self::Leaves => "leaves",
             Self::Unknown => "unknown",
             Self::Inherits => "inherits",
+            Self::Perhaps => "perhaps",
             Self::StartUp => "start-up",
             Self::Keeps => "keeps",
         }
@@ -131,6 +147,7 @@ impl Word {
             Self::Leaves => "leaves the axis away from its start-up state",
             Self::Unknown => "it is not known offline what the program leaves or inherits",
             Self::Inherits => "moves the axis in the state that it finds",
+            Self::Perhaps => "may move the axis in the state that it finds",
             Self::StartUp => {
                 "leaves the axis in its start-up state, and does not move it before that"
             }

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use super::subject::{AuditReport, MachineAudit, Word, axis_name, is_shown};
-use crate::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, Pace, ProgramAudit};
+use crate::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, ProgramAudit};
+use crate::interpreter::MotionKind;
 use crate::report::visible::visible_line;
 
 /// So many rows of a table are shown, and so many programs of a list.
@@ -47,14 +48,18 @@ pub fn render_text(report: &AuditReport, length: Length) -> String {
 }
 
 fn total(report: &AuditReport) -> String {
-    let programs = counted(report.programs(), "program");
+    let programs = counted(length_of(report.programs()), "program");
     let hazards = report.hazards();
     if report.findings().next().is_none() {
         return format!("{programs}; no axis is configured for friction compensation");
     }
     let what = match hazards {
-        0 if report.has_warnings() => {
-            "no certain hazard, but programs of which it is not known what they leave".to_owned()
+        0 if report.possible_hazards() > 0 => {
+            let pairs = counted(report.possible_hazards(), "possible hazard");
+            format!("no certain hazard, but {pairs}: a program that leaves an axis away from its start-up state, and one that may move it so")
+        }
+        0 if report.has_unknown() => {
+            "no certain hazard, but programs of which it is not known what they leave or inherit".to_owned()
         }
         0 => "no order of these programs moves an axis outside its start-up state because of what another left"
             .to_owned(),
@@ -67,9 +72,17 @@ fn total(report: &AuditReport) -> String {
     format!("{programs}; {what}")
 }
 
-fn counted(count: usize, noun: &str) -> String {
+fn counted(count: u64, noun: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {noun}{plural}")
+}
+
+/// A count that follows another one, where it is not zero.
+fn more(count: u64, noun: &str) -> String {
+    match count {
+        0 => String::new(),
+        count => format!(", {}", counted(count, noun)),
+    }
 }
 
 /// The rows of the table, the most dangerous first.
@@ -143,7 +156,7 @@ fn push_folded(out: &mut String, folded: &[(&str, Vec<Word>)]) {
     let counts: Vec<String> = counts
         .map(|(word, count)| format!("{count} {}", word.as_str()))
         .collect();
-    let more = counted(folded.len(), "more program");
+    let more = counted(length_of(folded.len()), "more program");
     let _ = writeln!(out, "… {more}: {}", counts.join(", "));
 }
 
@@ -152,14 +165,13 @@ fn push_finding(out: &mut String, machine: &MachineAudit, finding: &AxisFinding,
     let away = if finding.on_at_start_up { "off" } else { "on" };
     let _ = writeln!(
         out,
-        "{}: {} it {away}, {} in that state, {}",
+        "{}: {} it {away}, {} in that state, {}{}{}",
         visible_line(&name),
-        verb(finding.leavers.len(), "leaves", "leave"),
-        verb(finding.inheritors.len(), "moves", "move"),
-        match finding.hazards() {
-            1 => "1 hazard".to_owned(),
-            hazards => format!("{hazards} hazards"),
-        }
+        verb(finding.leavers.len(), finding, ("leaves", "leave")),
+        verb(finding.inheritors.len(), finding, ("moves", "move")),
+        counted(finding.hazards(), "hazard"),
+        more(finding.possible_hazards(), "possible one"),
+        more(length_of(finding.unknown.len()), "unknown program"),
     );
     let mut list = |title: &str, programs: &[usize], say: &dyn Fn(&ProgramAudit) -> String| {
         if programs.is_empty() {
@@ -197,14 +209,25 @@ fn push_finding(out: &mut String, machine: &MachineAudit, finding: &AxisFinding,
     list("inherit it:", &only(&finding.inheritors), &|program| {
         inheritor(program, &of(program))
     });
+    list(
+        "may inherit it:",
+        &finding.possible_inheritors,
+        &|program| inheritor(program, &of(program)),
+    );
     list("not known:", &finding.unknown, &|program| {
         unknown(program, &of(program))
     });
     push_cure(out, machine, finding, length);
 }
 
-fn verb(count: usize, one: &str, several: &str) -> String {
+fn length_of(list: usize) -> u64 {
+    u64::try_from(list).unwrap_or(u64::MAX)
+}
+
+fn verb(count: usize, finding: &AxisFinding, (one, several): (&str, &str)) -> String {
     match count {
+        // Any of the others may (R10.9).
+        0 if !finding.unknown.is_empty() => format!("no program is known to {several}"),
         0 => format!("no program {one}"),
         1 => format!("1 program {one}"),
         count => format!("{count} programs {several}"),
@@ -225,17 +248,26 @@ fn inheritor(program: &ProgramAudit, axis: &AxisAudit) -> String {
         return visible_line(&program.file).into_owned();
     };
     let may = if motion.perhaps { "may move" } else { "moves" };
-    let pace = match motion.motion {
-        Pace::Rapid => " in rapid",
-        Pace::Feed => " at feed",
-        Pace::Unknown => "",
-    };
+    let pace = way(motion.motion);
     let (file, line) = (visible_line(&motion.site.file), motion.site.line);
     if *motion.site.file == *program.file {
         format!("{file}:{line} ({may}{pace})")
     } else {
         let program = visible_line(&program.file);
         format!("{program} (at {file}:{line}, {may}{pace})")
+    }
+}
+
+/// How an axis moves, behind `moves` or `may move`.
+fn way(kind: MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Rapid => " in rapid",
+        MotionKind::Feed => " at feed",
+        MotionKind::Homing => " to its reference point",
+        MotionKind::Independent => " by itself",
+        MotionKind::Coupled => " with another axis",
+        MotionKind::Frame => " in a turned frame",
+        _ => "",
     }
 }
 
@@ -262,15 +294,13 @@ fn unknown(program: &ProgramAudit, axis: &AxisAudit) -> String {
 }
 
 fn push_cure(out: &mut String, machine: &MachineAudit, finding: &AxisFinding, length: Length) {
+    let movers = finding.movers();
     let (programs, what) = match finding.cure() {
         Cure::Leavers => (
             &finding.leavers,
             "before the end of each program that leaves it",
         ),
-        Cure::Inheritors => (
-            &finding.inheritors,
-            "before the first motion of each that inherits it",
-        ),
+        Cure::Inheritors => (&movers, "before the first motion of each that inherits it"),
         _ => return,
     };
     let _ = writeln!(out, "  cure: one block {what}");

@@ -43,7 +43,12 @@ pub fn render_audit(
     )?;
     page.long_part(FINDINGS, |page| findings(page, report, &marks))?;
     page.long_part(MATRIX, |page| matrices(page, report, &marks))?;
-    page.long_part(LINES, |page| lines(page, &marks, sources))?;
+    page.long_part(LINES, |page| {
+        if marks.files.is_empty() && !report.has_unknown() {
+            page.push(&html! { p { "No program leaves or inherits anything." } })?;
+        }
+        lines(page, &marks, sources)
+    })?;
     page.close()
 }
 
@@ -54,9 +59,13 @@ fn lead(report: &AuditReport) -> String {
     );
     let hazards = report.hazards();
     match hazards {
-        0 if report.has_warnings() => {
-            format!("{programs}; of some it is not known what they leave")
+        0 if report.has_unknown() => {
+            format!("{programs}; of some it is not known what they leave or inherit")
         }
+        0 if report.possible_hazards() > 0 => format!(
+            "{programs}, {}",
+            counted(report.possible_hazards(), "possible hazard")
+        ),
         0 => format!(
             "{programs}; no axis moves outside its start-up state because of what another program left"
         ),
@@ -139,9 +148,11 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
                 Column::Text("axis"),
                 Column::Number("leave it away"),
                 Column::Number("inherit it"),
+                Column::Number("may inherit it"),
                 Column::Number("both"),
                 Column::Number("not known"),
                 Column::Number("hazards"),
+                Column::Number("possible hazards"),
                 Column::Text("cure"),
             ],
         };
@@ -150,9 +161,11 @@ fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Res
             let cells = [
                 html! { (finding.leavers.len()) },
                 html! { (finding.inheritors.len()) },
+                html! { (finding.possible_inheritors.len()) },
                 html! { (finding.both.len()) },
                 html! { (finding.unknown.len()) },
                 html! { (finding.hazards()) },
+                html! { (finding.possible_hazards()) },
                 html! { (cure(finding)) },
             ];
             Row::new(&axis_name(&finding.axis, finding.kind), cells)
@@ -169,15 +182,17 @@ fn cure(finding: &AxisFinding) -> &'static str {
     match finding.cure() {
         Cure::Leavers => "a block before the end of each program that leaves it",
         Cure::Inheritors => "a block before the first motion of each program that inherits it",
+        _ if !finding.unknown.is_empty() => "not known",
         _ => "nothing to do",
     }
 }
 
 /// The blocks that end the hazards of an axis.
 fn blocks(machine: &MachineAudit, finding: &AxisFinding, marks: &Marks) -> Markup {
+    let movers = finding.movers();
     let programs = match finding.cure() {
         Cure::Leavers => &finding.leavers,
-        _ => &finding.inheritors,
+        _ => &movers,
     };
     let shown = programs.len().min(ROWS);
     html! {
@@ -275,7 +290,7 @@ fn cell(axis: &AxisAudit, marks: &Marks) -> Markup {
             let reason = axis.reason.as_ref().and_then(|reason| reason.site.as_ref());
             link(reason, word.as_str())
         }
-        Word::Inherits => link(inherits, word.as_str()),
+        Word::Inherits | Word::Perhaps => link(inherits, word.as_str()),
         Word::StartUp | Word::Keeps => html! { (word.as_str()) },
     };
     cell_word(word, &content)
@@ -286,7 +301,7 @@ fn cell_word(word: Word, content: &Markup) -> Markup {
     let class = match word {
         Word::Both | Word::Leaves => "state away",
         Word::Unknown => "state unknown",
-        Word::Inherits => "state inactive",
+        Word::Inherits | Word::Perhaps => "state inactive",
         Word::StartUp => "state active",
         Word::Keeps => "quiet",
     };
@@ -295,9 +310,6 @@ fn cell_word(word: Word, content: &Markup) -> Markup {
 
 /// The lines that matter, with what stands around them.
 fn lines(page: &mut Page<'_>, marks: &Marks, sources: &mut dyn Sources) -> io::Result<()> {
-    if marks.files.is_empty() {
-        page.push(&html! { p { "No program does anything dangerous." } })?;
-    }
     for (file, (number, lines)) in &marks.files {
         page.push(&html! { h3 { (file) } "\n" })?;
         let Some(mut source) = sources.open(file) else {

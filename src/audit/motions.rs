@@ -1,0 +1,94 @@
+//! The selection at every motion of a run, so that two runs can be compared (R10.8).
+
+use super::scope::Selected;
+
+/// So many changes are kept one by one; the rest is only told to be the same or not.
+const MOST: usize = 4096;
+
+/// The selection of one kind on one axis at every motion, in the order of the run.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct Motions {
+    stretches: Vec<(Selected, u64)>,
+    /// A digest of what is not kept.
+    rest: u64,
+}
+
+impl Motions {
+    #[inline]
+    pub(super) fn note(&mut self, selected: Selected) {
+        match self.stretches.last_mut() {
+            Some((last, count)) if *last == selected && self.rest == 0 => *count += 1,
+            _ => self.change(selected),
+        }
+    }
+
+    #[inline(never)]
+    fn change(&mut self, selected: Selected) {
+        if self.rest == 0 && self.stretches.len() < MOST {
+            self.stretches.push((selected, 1));
+            return;
+        }
+        // FNV-1a.
+        let step = self.rest ^ selected.digit();
+        self.rest = step.wrapping_mul(0x0100_0000_01b3).max(1);
+    }
+
+    /// Whether every motion of another run has the selection that it has in this one, or the wanted
+    /// one.
+    pub(super) fn only_become(&self, after: &Self, wanted: Selected) -> bool {
+        if self == after {
+            return true;
+        }
+        if self.rest != 0 || after.rest != 0 {
+            return false;
+        }
+        let (mut before, mut after) = (self.stretches.iter(), after.stretches.iter());
+        let (mut old, mut new) = (before.next().copied(), after.next().copied());
+        loop {
+            let (Some((was, left)), Some((is, more))) = (old, new) else {
+                return old.is_none() && new.is_none();
+            };
+            if was != is && is != wanted {
+                return false;
+            }
+            let common = left.min(more);
+            let rest = |of: Selected, count: u64| (count > common).then(|| (of, count - common));
+            old = rest(was, left).or_else(|| before.next().copied());
+            new = rest(is, more).or_else(|| after.next().copied());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str) -> Motions {
+        let mut motions = Motions::default();
+        for letter in text.chars() {
+            motions.note(match letter {
+                '1' => Selected::On,
+                '0' => Selected::Off,
+                _ => Selected::Unknown,
+            });
+        }
+        motions
+    }
+
+    #[test]
+    fn motions_may_only_become_what_is_wanted() {
+        // R10.8
+        for (before, after, only) in [
+            ("", "", true),
+            ("1100", "1100", true),
+            ("1100", "1111", true),
+            ("0?0", "1?1", true),
+            ("1100", "1000", false),
+            ("110", "1100", false),
+            ("11", "1?", false),
+        ] {
+            let found = of(before).only_become(&of(after), Selected::On);
+            assert_eq!(found, only, "{before} {after}");
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! What the runs of one program say together (R10.1).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::effect::{Inherits, ProgramEffect, Site, WhyUnknown};
+use super::observation::{Deed, Observation, Observed};
+use super::scope::{Scope, Selected};
+use crate::interpreter::EndedBy;
+
+/// A program asks for the states of so many axes and kinds at most; of one that asks for more it is not
+/// known what it does.
+const MOST_ASKED: usize = 3;
+
+/// Where a run starts.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Start {
+    /// Whether the subjects that are not apart start away from the start-up state.
+    pub(super) is_away: bool,
+    /// The subjects that start otherwise than the others.
+    pub(super) apart: BTreeSet<usize>,
+}
+
+impl Start {
+    pub(super) fn new(is_away: bool) -> Self {
+        Self {
+            is_away,
+            apart: BTreeSet::new(),
+        }
+    }
+
+    /// Whether a subject starts away from its start-up state.
+    pub(super) fn is_away(&self, at: usize) -> bool {
+        self.is_away != self.apart.contains(&at)
+    }
+}
+
+/// The runs of a program: from the start-up state, from the state away from it, and, where the program
+/// asks for states that it finds, from those in between (R10.10).
+#[derive(Debug, Clone)]
+pub(super) struct Runs {
+    pub(super) start_up: Observation,
+    pub(super) away: Observation,
+    pub(super) between: BTreeMap<Start, Observation>,
+}
+
+impl Runs {
+    fn all(&self) -> impl Iterator<Item = &Observation> {
+        [&self.start_up, &self.away]
+            .into_iter()
+            .chain(self.between.values())
+    }
+
+    /// The subjects whose states the program asks for before it sets them, with the first place.
+    pub(super) fn asked(&self) -> BTreeMap<usize, Site> {
+        let mut asked = BTreeMap::new();
+        for (at, site) in self.all().flat_map(|run| &run.asked) {
+            asked.entry(*at).or_insert_with(|| site.clone());
+        }
+        asked
+    }
+
+    /// The starts that are still to be tried: whatever the program asks for may be either, whatever the
+    /// others are.
+    pub(super) fn missing(&self, scope: &Scope) -> Vec<Start> {
+        let asked: Vec<usize> = self.asked().into_keys().collect();
+        if asked.len() > MOST_ASKED || scope.subjects().len() < 2 {
+            return Vec::new();
+        }
+        let mut missing = Vec::new();
+        for some in 0..1_u32 << asked.len() {
+            let apart = asked.iter().enumerate();
+            let apart = apart.filter(|(place, _)| some >> place & 1 == 1);
+            let apart: BTreeSet<usize> = apart.map(|(_, at)| *at).collect();
+            for is_away in [false, true] {
+                let start = Start {
+                    is_away,
+                    apart: apart.clone(),
+                };
+                let is_new = !apart.is_empty() && apart.len() < scope.subjects().len();
+                if is_new && !self.between.contains_key(&start) {
+                    missing.push(start);
+                }
+            }
+        }
+        missing
+    }
+
+    pub(super) fn stopped(&self) -> Option<&Observation> {
+        let has_failed = |run: &&Observation| {
+            !matches!(
+                run.by,
+                Some(EndedBy::M30 | EndedBy::M02 | EndedBy::EndOfFile)
+            )
+        };
+        self.all().find(has_failed)
+    }
+
+    pub(super) fn effect(&self, scope: &Scope, at: usize) -> ProgramEffect {
+        if self.stopped().is_some() || self.asked().len() > MOST_ASKED {
+            return ProgramEffect::Unknown;
+        }
+        let subject = scope.subjects()[at];
+        let pairs = [
+            (Start::new(false), &self.start_up),
+            (Start::new(true), &self.away),
+        ];
+        let between = self.between.iter();
+        let pairs = pairs.iter().map(|(start, run)| (start, *run));
+        let mut found = pairs.chain(between).map(|(start, run)| {
+            let found = scope.selected_at_start(subject, start.is_away(at));
+            (found, run.left[at])
+        });
+        if found.clone().all(|(found, left)| found == left) {
+            return ProgramEffect::Keeps;
+        }
+        let Some((_, first)) = found.next() else {
+            return ProgramEffect::Unknown;
+        };
+        match first {
+            _ if found.any(|(_, left)| left != first) => ProgramEffect::Unknown,
+            Selected::On => ProgramEffect::LeavesOn,
+            Selected::Off => ProgramEffect::LeavesOff,
+            Selected::Unknown => ProgramEffect::Unknown,
+        }
+    }
+
+    pub(super) fn reason(&self, at: usize, name: &dyn Fn(usize) -> String) -> WhyUnknown {
+        if let Some(run) = self.stopped() {
+            return run.stopped.clone().unwrap_or_else(|| WhyUnknown {
+                code: None,
+                message: "the program was stopped".to_owned(),
+                site: None,
+            });
+        }
+        let lasts = self.all().map(|run| run.observed[at].last.as_ref());
+        let doubt = lasts.flatten().find_map(|last| match last {
+            Deed::Doubt(reason) => Some(reason.clone()),
+            Deed::Command(_) => None,
+        });
+        if let Some(doubt) = doubt {
+            return doubt;
+        }
+        let asked = self.asked();
+        let names: Vec<String> = asked.keys().map(|asked| name(*asked)).collect();
+        let message = match names.as_slice() {
+            [] => "it depends on the state that the program finds".to_owned(),
+            names => format!(
+                "it depends on {}, which the program finds",
+                names.join(", ")
+            ),
+        };
+        let site = asked.into_values().next();
+        WhyUnknown {
+            code: None,
+            message,
+            site: site.or_else(|| self.command(at)),
+        }
+    }
+
+    /// The last command on a subject.
+    pub(super) fn command(&self, at: usize) -> Option<Site> {
+        let lasts = self.all().map(|run| run.observed[at].last.as_ref());
+        lasts.flatten().find_map(|last| match last {
+            Deed::Command(site) => Some(site.clone()),
+            Deed::Doubt(_) => None,
+        })
+    }
+
+    pub(super) fn inherits(&self, at: usize) -> Inherits {
+        let (start_up, away) = (&self.start_up.observed[at], &self.away.observed[at]);
+        let first = |observed: &Observed| observed.inherited.as_ref().map(|it| it.motion.clone());
+        let between = self.between.iter();
+        let between = between.filter(|(start, _)| start.is_away(at));
+        let between = between.map(|(_, run)| &run.observed[at]);
+        let motions = std::iter::once(away).chain(between).filter_map(first);
+        if let Some(motion) = motions.min_by_key(|motion| motion.perhaps) {
+            return Inherits::Motion(motion);
+        }
+        // A command came first, and yet the state depends on what was found: a way that may have
+        // passed the command over.
+        let seq = |observed: &Observed| observed.doubtful.as_ref().map(|it| it.seq);
+        if let Some(moved) = away.doubtful.as_ref()
+            && seq(start_up).is_none_or(|seq| seq > moved.seq)
+        {
+            let mut motion = moved.motion.clone();
+            motion.perhaps = true;
+            return Inherits::Motion(motion);
+        }
+        match self.stopped() {
+            Some(run) if !run.observed[at].commanded => Inherits::Unknown,
+            _ => Inherits::No,
+        }
+    }
+}

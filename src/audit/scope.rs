@@ -1,0 +1,139 @@
+//! What is looked at on a machine, and the states of it.
+
+use serde::Serialize;
+
+use crate::comp::{AxisIndex, Compensation, Kind, KindSet};
+use crate::machine::Machine;
+
+/// A kind of compensation on an axis that is configured for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AuditedKind {
+    /// The axis.
+    pub axis: AxisIndex,
+    /// The kind.
+    pub kind: Kind,
+}
+
+/// What is looked at on a machine: each configured kind of each axis, of which friction compensation
+/// alone counts unless others are asked for.
+#[derive(Debug, Clone)]
+pub struct Scope {
+    subjects: Vec<AuditedKind>,
+    /// For each axis, which of the subjects are its own.
+    by_axis: Vec<std::ops::Range<usize>>,
+    start_up: Compensation,
+}
+
+impl Scope {
+    /// The configured axes of a machine, and the kinds that count.
+    pub fn new(machine: &Machine, kinds: KindSet) -> Self {
+        let start_up = machine.compensation();
+        let mut subjects = Vec::new();
+        let by_axis = (0..start_up.len()).map(AxisIndex::new).map(|axis| {
+            let from = subjects.len();
+            let configured = kinds
+                .iter()
+                .filter(|kind| start_up.is_configured(axis, *kind));
+            subjects.extend(configured.map(|kind| AuditedKind { axis, kind }));
+            from..subjects.len()
+        });
+        let by_axis = by_axis.collect();
+        Self {
+            subjects,
+            by_axis,
+            start_up,
+        }
+    }
+
+    /// The kinds of axes that are looked at, in the order of the machine's axes.
+    pub fn subjects(&self) -> &[AuditedKind] {
+        &self.subjects
+    }
+
+    /// The state at the start of the control (R1.22).
+    pub fn start_up(&self) -> &Compensation {
+        &self.start_up
+    }
+
+    /// The same with some subjects away from the start-up state: a state that programs may leave.
+    pub(super) fn found(&self, is_away: impl Fn(usize) -> bool) -> Compensation {
+        let mut found = self.start_up.clone();
+        for (position, range) in self.by_axis.iter().enumerate() {
+            let axis = AxisIndex::new(position);
+            let mut selected = found.selected(axis);
+            for at in range.clone().filter(|at| is_away(*at)) {
+                let kind = self.subjects[at].kind;
+                if selected.contains(kind) {
+                    selected.remove(kind);
+                } else {
+                    selected.insert(kind);
+                }
+            }
+            let unknown = found.unknown(axis);
+            found.restore(axis, selected, unknown);
+        }
+        found
+    }
+
+    /// The places of the subjects of an axis.
+    #[inline]
+    pub(super) fn of_axis(&self, axis: AxisIndex) -> std::ops::Range<usize> {
+        self.by_axis[axis.get()].clone()
+    }
+
+    /// The selection of a subject that starts in its start-up state or away from it.
+    pub(super) fn selected_at_start(&self, subject: AuditedKind, is_away: bool) -> Selected {
+        if self.is_on_at_start_up(subject) == is_away {
+            Selected::Off
+        } else {
+            Selected::On
+        }
+    }
+
+    /// Whether a subject is selected at the start of the control.
+    pub(super) fn is_on_at_start_up(&self, subject: AuditedKind) -> bool {
+        self.start_up.selected(subject.axis).contains(subject.kind)
+    }
+}
+
+/// The selection of a kind of compensation on an axis (R1.23), whatever the parameterisation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Selected {
+    /// It is selected.
+    On,
+    /// It is not.
+    Off,
+    /// It is not known offline.
+    Unknown,
+}
+
+impl Selected {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::On => "on",
+            Self::Off => "off",
+            Self::Unknown => "unknown",
+        }
+    }
+
+    pub(super) fn digit(self) -> u64 {
+        match self {
+            Self::On => 1,
+            Self::Off => 2,
+            Self::Unknown => 3,
+        }
+    }
+
+    pub(super) fn of(compensation: &Compensation, subject: AuditedKind) -> Self {
+        let AuditedKind { axis, kind } = subject;
+        if compensation.unknown(axis).contains(kind) {
+            Self::Unknown
+        } else if compensation.selected(axis).contains(kind) {
+            Self::On
+        } else {
+            Self::Off
+        }
+    }
+}

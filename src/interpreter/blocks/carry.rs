@@ -1,0 +1,267 @@
+//! What a block moves beside its axis words (R10.7): axes with a command in their bracket, those that
+//! follow another one, those of a rotated or transformed frame.
+
+use std::collections::BTreeMap;
+
+use crate::comp::AxisIndex;
+use crate::interpreter::blocks::pace::AxisBracket;
+use crate::interpreter::coordinates::axis_words::AxisWords;
+use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, MovedAxis, Moves};
+use crate::interpreter::effects::couple::{ends_following, gear_of};
+use crate::interpreter::run::at::At;
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::text::Span;
+
+impl Interpreter {
+    /// A command in the bracket of an axis.
+    pub(in crate::interpreter) fn move_by_bracket(
+        &mut self,
+        bracket: AxisBracket<'_>,
+        at: &At<'_>,
+    ) {
+        let Some(axis) = self.axis_named(bracket.name) else {
+            return;
+        };
+        let span = bracket.span;
+        let keyword = bracket.keyword.to_ascii_uppercase();
+        let body = span.of(at.text).to_ascii_uppercase();
+        if ends_following(&keyword) {
+            self.state.couplings.unfollow(&gear_of(axis));
+        }
+        let Some(row) = moving::of_bracket(&keyword, &body) else {
+            return;
+        };
+        self.see(axis);
+        self.state.modal.forget_position(axis);
+        if row.moves == Moves::Follower {
+            self.gear_in(axis, &body);
+            return;
+        }
+        self.work.also_moved.push(MovedAxis {
+            axis,
+            span,
+            kind: row.kind,
+            certainty: row.certainty,
+        });
+    }
+
+    /// A `#` command that moves axes at once.
+    pub(in crate::interpreter) fn command_motion(&mut self, name: &str, rest: &str, span: Span) {
+        let row = moving::of_command(name);
+        let Some(row) = row.filter(|row| row.moves == Moves::NamedOrAll) else {
+            return;
+        };
+        let named = self.axes_in(rest);
+        let axes = if named.is_empty() {
+            self.path_axes()
+        } else {
+            named
+        };
+        for axis in axes {
+            self.work.also_moved.push(MovedAxis {
+                axis,
+                span,
+                kind: row.kind,
+                certainty: row.certainty,
+            });
+        }
+    }
+
+    /// `#ROTATION ON [ANGLE=30]`: whether a motion along one axis of the plane certainly moves the other
+    /// one, too.
+    pub(in crate::interpreter) fn rotate(&mut self, name: &str, rest: &str, at: &At<'_>) {
+        if !name.starts_with("#ROTATION") {
+            return;
+        }
+        let upper = rest.to_ascii_uppercase();
+        let value = upper
+            .find("ANGLE")
+            .map(|from| &rest[from + "ANGLE".len()..]);
+        let value = value.map(|text| text.trim_start_matches([' ', '\t', '=']));
+        let value = value.and_then(|text| text.split([' ', '\t', ']']).next());
+        let angle = value.and_then(|text| self.number_in(text, at));
+        self.state.modal.skewed = angle.is_some_and(|angle| angle % 90.0 != 0.0);
+    }
+
+    /// Notes what moves along with what the block moves.
+    #[inline]
+    pub(in crate::interpreter) fn carry_along(&mut self, words: AxisWords) {
+        let carries = self.state.couplings.carry()
+            || !self.state.modal.transformed.is_empty()
+            || self.work.word_row.is_some();
+        if carries && self.state.described.is_none() {
+            self.carry(words);
+        }
+    }
+
+    #[inline(never)]
+    fn carry(&mut self, words: AxisWords) {
+        let row = self.work.word_row;
+        if let Some(row) = row.filter(|row| row.certainty == Certainty::Possible) {
+            self.leave_to_operator(row.kind, row.moves);
+        }
+        if matches!(words, AxisWords::Motion | AxisWords::Measuring) {
+            self.move_in_frame();
+        }
+        self.move_followers(words);
+    }
+
+    /// In manual mode the operator moves axes.
+    fn leave_to_operator(&mut self, kind: MotionKind, moves: Moves) {
+        let words: Vec<_> = self
+            .work
+            .moved
+            .iter()
+            .map(|it| (it.axis, it.span))
+            .collect();
+        let axes = if words.is_empty() && moves == Moves::WordsOrAll {
+            let all = self.path_axes().into_iter();
+            all.map(|axis| (axis, Span::default())).collect()
+        } else {
+            words
+        };
+        for (axis, span) in axes {
+            self.work.also_moved.push(MovedAxis {
+                axis,
+                span,
+                kind,
+                certainty: Certainty::Possible,
+            });
+        }
+    }
+
+    /// Every axis that words can move.
+    fn path_axes(&self) -> Vec<AxisIndex> {
+        let axes = self.machine.axes.iter().enumerate();
+        let axes = axes.filter(|(_, axis)| !axis.is_spindle());
+        axes.map(|(position, _)| AxisIndex::new(position)).collect()
+    }
+
+    /// The axes of a frame, and whether each moves for sure with another of them.
+    fn frame(&self, name: &str) -> Option<(Vec<AxisIndex>, Certainty)> {
+        let row = moving::of_command(name)?;
+        let main = || {
+            let letters = [b'X', b'Y', b'Z'].map(|it| self.letters[usize::from(it - b'A')]);
+            letters.into_iter().flatten().collect()
+        };
+        let plane = || [self.main_axis(b'X'), self.main_axis(b'Y')];
+        Some(match row.moves {
+            Moves::Plane => match plane() {
+                [Some(first), Some(second)] if self.is_skewed() => {
+                    (vec![first, second], row.certainty)
+                }
+                [Some(first), Some(second)] => (vec![first, second], Certainty::Possible),
+                _ => (main(), Certainty::Possible),
+            },
+            Moves::Main => (main(), row.certainty),
+            Moves::Channel => (self.path_axes(), row.certainty),
+            _ => return None,
+        })
+    }
+
+    fn is_skewed(&self) -> bool {
+        let modal = &self.state.modal;
+        modal.skewed && !modal.transformed.contains("#MCS")
+    }
+
+    /// A motion word in a rotated or transformed frame moves its other axes, too.
+    fn move_in_frame(&mut self) {
+        let of_words = self.work.moved.iter().map(|it| (it.axis, it.span));
+        let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;
+        let unknown = self.work.also_moved.iter().filter(moves);
+        let movers: Vec<_> = of_words
+            .clone()
+            .chain(unknown.map(|it| (it.axis, it.span)))
+            .collect();
+        let words: Vec<AxisIndex> = of_words.map(|(axis, _)| axis).collect();
+        let mut found: BTreeMap<AxisIndex, (Certainty, Span)> = BTreeMap::new();
+        for name in &self.state.modal.transformed {
+            let Some((axes, certainty)) = self.frame(name) else {
+                continue;
+            };
+            let Some(&(mover, span)) = movers.iter().find(|(axis, _)| axes.contains(axis)) else {
+                continue;
+            };
+            let certainty = if words.contains(&mover) {
+                certainty
+            } else {
+                Certainty::Possible
+            };
+            for axis in axes.into_iter().filter(|axis| !words.contains(axis)) {
+                let known = found.entry(axis).or_insert((certainty, span));
+                known.0 = known.0.min(certainty);
+            }
+        }
+        let found = found
+            .into_iter()
+            .map(|(axis, (certainty, span))| MovedAxis {
+                axis,
+                span,
+                kind: MotionKind::Frame,
+                certainty,
+            });
+        self.work.also_moved.extend(found);
+    }
+
+    /// Axes that follow what the block moves.
+    pub(in crate::interpreter) fn move_followers(&mut self, words: AxisWords) {
+        if !self.state.couplings.carry() {
+            return;
+        }
+        let moves = !matches!(words, AxisWords::Reference | AxisWords::Other);
+        let kind = match words {
+            AxisWords::Homing => MotionKind::Homing,
+            _ => MotionKind::Coupled,
+        };
+        let of_words = self.work.moved.iter().filter(|_| moves);
+        let of_words = of_words.map(|word| MovedAxis::of_word(word, kind));
+        let movers = of_words.chain(self.work.also_moved.iter().copied());
+        let mut moving: BTreeMap<AxisIndex, MovedAxis> = BTreeMap::new();
+        for mover in movers {
+            let known = moving.entry(mover.axis).or_insert(mover);
+            known.certainty = known.certainty.min(mover.certainty);
+        }
+        let own = moving.clone();
+        let links = self.state.couplings.links();
+        // Each round settles an axis more, or is the last.
+        for _ in 0..=self.machine.axes.len() {
+            let mut grew = false;
+            for &(follower, leader, certainty) in &links {
+                let leaders = match leader {
+                    Some(leader) => moving.get(&leader),
+                    None => moving.values().min_by_key(|it| it.certainty),
+                };
+                let Some(leading) = leaders.copied() else {
+                    continue;
+                };
+                let certainty = certainty.max(leading.certainty);
+                let known = moving.get(&follower);
+                if known.is_some_and(|known| known.certainty <= certainty) {
+                    continue;
+                }
+                let kind = match leading.kind {
+                    MotionKind::Homing => MotionKind::Homing,
+                    _ => MotionKind::Coupled,
+                };
+                let span = leading.span;
+                let motion = MovedAxis {
+                    axis: follower,
+                    span,
+                    kind,
+                    certainty,
+                };
+                moving.insert(follower, motion);
+                grew = true;
+            }
+            if !grew {
+                break;
+            }
+        }
+        let is_new = |motion: &MovedAxis| {
+            let known = own.get(&motion.axis);
+            known.is_none_or(|known| known.certainty > motion.certainty)
+        };
+        let new: Vec<_> = moving.into_values().filter(is_new).collect();
+        self.work.also_moved.extend(new);
+    }
+}

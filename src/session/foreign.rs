@@ -1,6 +1,5 @@
 //! FC326: a program that is plainly one of another control (R2.97).
 
-use super::Program;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::syntax::{Foreign, foreign};
 use crate::text::{Place, Span};
@@ -8,12 +7,8 @@ use crate::text::{Place, Span};
 /// Number of messages that such a file may say: this one and 20 others.
 pub(super) const MAX_SAID: usize = 21;
 
-/// Looks at the head of a program, as far as it is at hand.
-pub(super) fn look(file: &str, program: &mut Program<'_>) -> Option<Diagnostic> {
-    let head = match program {
-        Program::Lines(lines) => lines.ahead(),
-        Program::Whole(source) => source.text(),
-    };
+/// Looks at the head of a program.
+pub(super) fn look(file: &str, head: &str) -> Option<Diagnostic> {
     let found = foreign(head)?;
     let mut lines = head.lines().zip(1..);
     let (line, number) = lines.find(|(line, _)| !line.trim().is_empty())?;

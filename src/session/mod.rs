@@ -115,6 +115,16 @@ pub enum Program<'a> {
     Whole(SourceFile),
 }
 
+impl Program<'_> {
+    /// The beginning of the text, as far as it is at hand.
+    fn head(&mut self) -> &str {
+        match self {
+            Self::Lines(lines) => lines.ahead(),
+            Self::Whole(source) => source.text(),
+        }
+    }
+}
+
 /// One controller session.
 ///
 /// ```
@@ -319,7 +329,7 @@ impl Session {
         sink: &mut dyn Sink,
     ) -> ControlFlow<(), EndedBy> {
         self.programs += 1;
-        let foreign = foreign::look(file, &mut program);
+        let foreign = foreign::look(file, program.head());
         let most = foreign.as_ref().map_or(MAX_MESSAGES, |_| foreign::MAX_SAID);
         let machine = Arc::clone(&self.machine);
         let mut recorder = Recorder {

@@ -245,11 +245,9 @@ fn no_slip_turns_a_selection_round() {
 #[test]
 fn a_program_of_another_control_is_said_to_be_one() {
     // R2.97
-    let mut text = String::from("N10 G0 X0 Y0\n");
-    for number in 0..40 {
-        text += &format!("R{number}=5\nN20 IF R{number}>3 GOTOF DONE\nG1 X{number} F100\n");
-    }
-    text += "M30\n";
+    let parts = (0..40)
+        .map(|number| format!("R{number}=5\nN20 IF R{number}>3 GOTOF DONE\nG1 X{number} F100\n"));
+    let text = format!("N10 G0 X0 Y0\n{}M30\n", parts.collect::<String>());
     let found = Bench::new().check_all().said(&text);
     let first = found.lines().next().unwrap_or_default();
     assert!(

@@ -34,9 +34,6 @@ const NO_MOTION: [u32; 23] = [
 /// Homing: the axes move, their words are no coordinates.
 const HOMING: u32 = 74;
 
-/// Number of different words of a program of which something is said once.
-const MAX_ONCE: usize = 1000;
-
 /// A word of one letter with its value, where that is known.
 #[derive(Debug, Clone, Copy)]
 struct LetterWord {
@@ -141,12 +138,6 @@ impl Interpreter {
                 .with_help(format!("the lists name {}", known.join(", ")));
             self.work.diagnostics.push(at.diagnostic(fault));
         }
-    }
-
-    /// Whether a word is met for the first time in the program, of those of which something is said once.
-    pub(in crate::interpreter) fn is_new_word(&mut self, word: &str) -> bool {
-        let words = &mut self.state.once;
-        words.len() < MAX_ONCE && words.insert(word.to_owned())
     }
 
     /// FC210: a word that is not known here may do anything (R2.70).

@@ -130,12 +130,34 @@ pub(in crate::interpreter) fn is_named_g(number: u32) -> bool {
 }
 
 /// G functions that are known by name (R2.94): those that leave coordinates alone, and mirroring, weights,
-/// splines, diameters, the operator's hand wheel (vscode-isg-cnc, descriptions of commands).
+/// splines, diameters, the operator's hand wheel (vscode-isg-cnc, descriptions of commands; examples of the manual).
 pub(in crate::interpreter) fn is_known_g(number: u32) -> bool {
     is_named_g(number)
         || is_implicit_call(number)
         || Group::of(number).is_some()
-        || matches!(number, 20..=23 | 51 | 52 | 66 | 68 | 69 | 150 | 151 | 200..=202 | 351)
+        || matches!(
+            number,
+            20..=23
+                | 43
+                | 44
+                | 51
+                | 52
+                | 66
+                | 68
+                | 69
+                | 150
+                | 151
+                | 200..=202
+                | 234
+                | 270
+                | 271
+                | 280
+                | 294
+                | 350
+                | 351
+                | 393
+                | 905
+        )
 }
 
 /// Implicit calls: G80 to G89, G800 to G839 (PM/206278923, P-CHAN-00187).

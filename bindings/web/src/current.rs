@@ -9,7 +9,8 @@ use frictcomp::current::{
 use frictcomp::diagnostic::UnknownName;
 use frictcomp::host::{Alone, Axes, Naming, run_alone};
 use frictcomp::machine::{Machine, Parameterisation};
-use frictcomp::motion::{AxisLimits, PlannerOptions, check_cycle};
+use frictcomp::motion::{AssumedLimits, PlannerOptions, check_cycle};
+use frictcomp::report::assumed_limits;
 use frictcomp::report::pictures::{AxisPlot, AxisSample, CurrentPlot};
 use frictcomp::report::svg::Frame;
 use frictcomp::session::{Motions, SessionOptions};
@@ -153,17 +154,9 @@ fn notes(
     currents: &mut ProgramCurrents<Drawing>,
 ) -> Vec<String> {
     let mut notes = Vec::new();
-    let assumed = machine.axes.iter().filter(|axis| {
-        let assumed = AxisLimits::of(axis).assumed;
-        names.contains(&axis.name) && (assumed.velocity || assumed.acceleration || assumed.jerk)
-    });
-    let assumed: Vec<&str> = assumed.map(|axis| axis.name.as_str()).collect();
-    if !assumed.is_empty() {
-        notes.push(format!(
-            "limits of velocity, acceleration or jerk are assumed for {}: no list gives them",
-            assumed.join(", ")
-        ));
-    }
+    let drawn = machine.axes.iter().filter(|axis| names.contains(&axis.name));
+    let assumed: Vec<AssumedLimits> = drawn.filter_map(AssumedLimits::of).collect();
+    notes.extend(assumed_limits(&assumed));
     let (errors, remarks) = currents.diagnostics();
     let said = errors.iter().chain(remarks);
     notes.extend(said.map(|said| format!("{} {}", said.code, said.message)));

@@ -15,7 +15,7 @@ const ROOMS: [(&str, &[&str]); 28] = [
     ("syntax", &["text", "diagnostic", "comp"]),
     ("lists", &["text", "diagnostic", "comp", "syntax"]),
     ("drive_interface", &["text", "diagnostic", "lists"]),
-    ("config", &["text", "diagnostic", "comp", "lists"]),
+    ("config", &["text", "diagnostic", "comp", "syntax", "lists"]),
     (
         "machine",
         &[

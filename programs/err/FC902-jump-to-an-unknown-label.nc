@@ -2,7 +2,8 @@
 ; wrong: the label is known to the machine only
 N10 G90
 N20 $GOTO V.E.NEXT_STEP
-N30 G01 X50 F1500
+N30 X[COMP OFF FRICT]
 [RETRACT]
 N40 G00 Z100
-N50 M30
+N50 X[COMP ON FRICT]
+N60 M30

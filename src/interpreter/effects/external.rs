@@ -16,7 +16,9 @@ impl Interpreter {
         let keeps = self.machine.programs.keeps(name);
         if !keeps.compensation {
             if let Some(undecided) = &mut self.work.undecided {
-                undecided.differing.name(format!("what `{name}` does"));
+                undecided
+                    .differing
+                    .name(format!("all that `{name}` could change"));
             }
             self.doubt_couplings();
             self.forget_compensation();

@@ -30,6 +30,8 @@ pub(in crate::interpreter) struct Differing {
     pub(in crate::interpreter) decides: bool,
     /// Its names in a message.
     pub(in crate::interpreter) named: BTreeSet<String>,
+    /// Where the control may go instead.
+    pub(in crate::interpreter) leaves: Option<&'static str>,
 }
 
 impl Differing {

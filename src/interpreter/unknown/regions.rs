@@ -240,11 +240,14 @@ impl Interpreter {
                 Ok(None) => continue,
                 Err(_) => {
                     // What it would have done is not known.
-                    if let Some(undecided) = &mut self.work.undecided {
-                        let missing = format!("what `{}` does, which is not found", call.name);
-                        undecided.differing.name(missing);
-                    }
+                    let undecided = self.work.undecided.take();
                     self.forget_all(&cause);
+                    self.work.undecided = undecided.map(|mut undecided| {
+                        let name = &call.name;
+                        let all = format!("all that `{name}` could change, which is not found");
+                        undecided.differing.name(all);
+                        undecided
+                    });
                     continue;
                 }
             };

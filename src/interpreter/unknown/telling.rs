@@ -100,7 +100,7 @@ impl Interpreter {
             keys.extend(axes.iter().map(|axis| format!("{kind} {axis}")));
         }
         // What has no name is said once, too.
-        keys.push(String::new());
+        keys.push(differing.leaves.unwrap_or_default().to_owned());
         let shown: Vec<String> = kinds
             .iter()
             .map(|(kind, axes)| of_axes(*kind, axes))
@@ -118,6 +118,12 @@ impl Interpreter {
             let message = &mut self.work.diagnostics[said].message;
             message.push_str(", including ");
             message.push_str(&named.join(", "));
+        }
+        // Of a control block, FC902 says so.
+        if let Some(leaves) = differing.leaves.filter(|_| decided_level(&cause).is_some()) {
+            let message = &mut self.work.diagnostics[said].message;
+            message.push_str("; ");
+            message.push_str(leaves);
         }
     }
 
@@ -209,13 +215,12 @@ impl Interpreter {
             return;
         }
         if let Some(undecided) = &mut self.work.undecided {
-            match to {
-                Aim::End => undecided.differing.name("whether the program ends here"),
-                Aim::Return | Aim::Far => {
-                    undecided.differing.name("whether the program is left here");
-                }
-                Aim::Block(_) => undecided.differing.name("which blocks follow"),
-            }
+            undecided.differing.decides = true;
+            undecided.differing.leaves = Some(match to {
+                Aim::End => "the program may end here",
+                Aim::Return | Aim::Far => "the program may be left here",
+                Aim::Block(_) => "other blocks may follow",
+            });
         }
     }
 

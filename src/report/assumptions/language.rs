@@ -204,11 +204,25 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[Reported(Code::Fc901)],
     },
     Assumption {
+        rule: "R2.91",
+        sentence: "`$GOTO` beside G100 to G102, G106 or G108 waits for the probe as it does beside G310",
+        changes: "what differs between both ways is `unknown` where they meet",
+        shows: "FC902",
+        when: &[Reported(Code::Fc902)],
+    },
+    Assumption {
         rule: "R2.92",
         sentence: "a list that `#MACHINE DATA` transfers again may take back what NC commands selected",
         changes: "the state of the axis is `unknown`",
         shows: "FC314",
         when: &[Reported(Code::Fc314)],
+    },
+    Assumption {
+        rule: "R2.95",
+        sentence: "an unknown value is not spoken of where nothing that matters here can differ",
+        changes: "FC901 and FC902 are left out there",
+        shows: "`check --unknowns` lists every value",
+        when: &[Reported(Code::Fc901), Reported(Code::Fc902)],
     },
     Assumption {
         rule: "R2.60",

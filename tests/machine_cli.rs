@@ -45,7 +45,7 @@ fn vendor(folder: &Path) {
             ),
             (
                 "cnc/listen/default.lis",
-                "#kopf.achs_nr 0\nlr_param.frict_comp 1\nEnde\n",
+                "#kopf.achs_nr 0\nkenngr.antr_typ 8\nlr_param.frict_comp 1\nEnde\n",
             ),
             ("cnc/listen/achsmds1.lis", "kopf.achs_nr 1\nEnde\n"),
             (

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::codes::Code;
+use super::message::Diagnostic;
 use super::severity::Severity;
 
 /// What the user's `[lint]` table says: other severities for codes of ours (R9.28).
@@ -20,6 +21,17 @@ impl Levels {
             self.levels.insert(code, level);
         }
         ours
+    }
+
+    /// Gives a diagnostic the severity that the user gave its code; any other keeps its own. Returns
+    /// whether it is said at all.
+    pub(crate) fn weigh(&self, diagnostic: &mut Diagnostic) -> bool {
+        match self.levels.get(&diagnostic.code) {
+            Some(None) => return false,
+            Some(Some(severity)) => diagnostic.severity = *severity,
+            None => {}
+        }
+        true
     }
 
     /// The severity of a code, `None` when it is off.

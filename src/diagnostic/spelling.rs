@@ -48,7 +48,11 @@ fn candidates<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<
             if !near && !begins {
                 return None;
             }
-            let distance = strsim::damerau_levenshtein(&found, &upper);
+            let distance = if look_alike(&found) == look_alike(&upper) {
+                0
+            } else {
+                strsim::damerau_levenshtein(&found, &upper)
+            };
             (distance <= allowed || begins).then_some((distance, word))
         });
     let mut smallest = usize::MAX;
@@ -65,6 +69,11 @@ fn candidates<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<
     words
 }
 
+/// A word in capitals with the digit for each letter that looks like one: `FC4O2` is meant for `FC402`.
+fn look_alike(word: &str) -> String {
+    word.replace('O', "0").replace(['I', 'L'], "1")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -74,6 +83,7 @@ mod tests {
         // R1.60
         assert_eq!(nearest("FRIKT", ["LEAD", "FRICT"]), ["FRICT"]);
         assert_eq!(nearest("X3", ["X1", "X2", "X1", "Y2"]), ["X1", "X2"]);
+        assert_eq!(nearest("FC4O2", ["FC412", "FC402"]), ["FC402"]);
         assert_eq!(nearest("X9", ["X1", "X2", "X3", "X4", "X5"]), [""; 0]);
         assert_eq!(
             did_you_mean("X9", ["X1", "X2", "X3", "X4", "X5"]),

@@ -53,7 +53,8 @@ fn small_scaling(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnos
 
 /// A table of velocities in mm/s instead of \u{b5}m/s.
 fn slow(draft: &FrictionDraft, points: &[TablePoint]) -> Option<Diagnostic> {
-    let (index, last) = (0_u32..).zip(points).last()?;
+    // A single point is a constant, whatever its velocity.
+    let (index, last) = (0_u32..).zip(points).skip(1).last()?;
     let fastest = last.input;
     if !(fastest > 0.0 && fastest < SLOW_TABLE) {
         return None;

@@ -30,22 +30,9 @@ pub struct AxisReport {
     /// P-AXIS-00522, where a list gives it.
     #[serde(skip)]
     pub selector: Option<Given<bool>>,
-    /// How far the lists that describe the axis are known.
+    /// Whether an axis list of the control describes the axis.
     #[serde(skip)]
-    pub extent: Extent,
-}
-
-/// How far the axis lists of the control that describe an axis are known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Extent {
-    /// None is.
-    #[default]
-    Nothing,
-    /// The list of the axis is, looked at by itself.
-    Part,
-    /// The list of the axis is, and the default list that the start-up list names.
-    Whole,
+    pub is_listed: bool,
 }
 
 impl AxisReport {
@@ -84,8 +71,8 @@ pub(super) struct AxisDraft {
     pub(super) dynamics: Dynamics,
     /// Whether compensation is assumed, as by [`Axis::enable`].
     pub(super) enabled: bool,
-    /// How far the axis lists of the control are known.
-    pub(super) extent: Extent,
+    /// Whether an axis list of the control describes the axis.
+    pub(super) is_listed: bool,
     /// The list of defaults for all axes.
     pub(super) shared: Option<Arc<str>>,
 }
@@ -101,7 +88,7 @@ impl AxisDraft {
             value_list: ValueList::default(),
             dynamics: Dynamics::default(),
             enabled: false,
-            extent: Extent::Nothing,
+            is_listed: false,
             shared: None,
         }
     }
@@ -109,7 +96,7 @@ impl AxisDraft {
     /// Lets another axis list override what is here.
     #[cfg(feature = "toml")]
     pub(super) fn add_list(&mut self, list: AxisValues) {
-        self.extent = Extent::Whole;
+        self.is_listed = true;
         if list.number.is_some() {
             self.number_in_list.clone_from(&list.number);
         }
@@ -213,7 +200,7 @@ impl AxisDraft {
             parameters,
             selector: values.frict_comp().cloned(),
             drive: values.drive,
-            extent: self.extent,
+            is_listed: self.is_listed,
         };
         let list = match &axis.friction {
             Parameterisation::Accepted(list) => Some(list),
@@ -227,7 +214,7 @@ impl AxisDraft {
 
     /// The kinds that the axis list leaves at their default, which is not selected (R1.41).
     fn unselected(&self) -> KindSet {
-        if self.extent == Extent::Nothing {
+        if !self.is_listed {
             return KindSet::NONE;
         }
         let selectors = self.values.selectors.iter();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::assemble::{AxisReport, Extent, on_spindle};
+use super::assemble::{AxisReport, on_spindle};
 use super::axis::Parameterisation;
 use super::configuration::Configuration;
 use super::described::{describe, has_nothing, is_no_matter};
@@ -107,7 +107,7 @@ pub fn check_list(
             report.parameters = values.parameters();
             report.selector = values.frict_comp().cloned();
             report.drive = values.drive;
-            report.extent = Extent::Part;
+            report.is_listed = true;
             let drive = check_drive(&report.listed_drive(None), &Evidence::default());
             diagnostics.extend(drive.diagnostics);
             diagnostics.extend(without_torque(&report));
@@ -213,7 +213,7 @@ fn head(values: &AxisValues) -> AxisReport {
         parameters: Vec::new(),
         drive: BTreeMap::new(),
         selector: None,
-        extent: Extent::Nothing,
+        is_listed: false,
     }
 }
 
@@ -222,13 +222,8 @@ impl Configuration {
     /// user's severities.
     fn check_drives(&mut self) {
         for report in &self.reports {
-            let mut said = without_torque(report);
-            if let Some(diagnostic) = &mut said {
-                match self.levels.severity(diagnostic.code) {
-                    Some(severity) => diagnostic.severity = severity,
-                    None => said = None,
-                }
-            }
+            let said = without_torque(report).map(|mut said| (self.levels.weigh(&mut said), said));
+            let said = said.and_then(|(is_said, said)| is_said.then_some(said));
             self.diagnostics.extend(said);
         }
     }
@@ -254,22 +249,17 @@ fn without_torque(report: &AxisReport) -> Option<Diagnostic> {
             );
             (given.place(), message)
         }
-        None if !is_given && report.extent != Extent::Nothing => {
-            let unless = match report.extent {
-                Extent::Part => ", unless the default list gives another one",
-                _ => "",
-            };
-            let message = format!(
-                "friction compensation is configured, but no list gives the drive type: the \
-                 control takes 4, simulation, and sends no additive torque{unless}"
-            );
-            (selector.place(), message)
+        None if !is_given && report.is_listed => {
+            let message = "friction compensation is configured, but no list gives the drive type: \
+                           the default is 4, simulation, which takes no additive torque";
+            (selector.place(), message.to_owned())
         }
         _ => return None,
     };
     let mut said = Diagnostic::new(Code::Fc503, place, message)
         .with_help("set `kenngr.antr_typ` to `2` for SERCOS or `8` for CANopen");
-    if report.extent == Extent::Part && !is_given {
+    // That the default holds is not sure: TwinCAT fills in what belongs to a drive (R7.5).
+    if !is_given {
         said.severity = Severity::Warning;
     }
     said.axis = (!report.axis.is_empty()).then(|| report.axis.clone());

@@ -98,13 +98,7 @@ impl Configuration {
         }
         let levels = &self.levels;
         self.diagnostics
-            .retain_mut(|diagnostic| match levels.severity(diagnostic.code) {
-                Some(severity) => {
-                    diagnostic.severity = severity;
-                    true
-                }
-                None => false,
-            });
+            .retain_mut(|diagnostic| levels.weigh(diagnostic));
     }
 }
 

@@ -19,7 +19,7 @@ mod setting;
 mod startup;
 mod value_list;
 
-pub use assemble::{AxisReport, Extent};
+pub use assemble::AxisReport;
 pub use axis::{Axis, Parameterisation};
 #[cfg(feature = "toml")]
 pub use check::check_configuration;

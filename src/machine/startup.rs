@@ -1,6 +1,6 @@
 //! From a start-up list to the axes that it describes (R3.12 to R3.14).
 
-use super::assemble::{AxisDraft, Extent};
+use super::assemble::AxisDraft;
 use super::files::folder;
 use super::loader::{FirstChannel, Loader};
 use crate::diagnostic::{Code, Diagnostic};
@@ -26,7 +26,7 @@ impl Loader<'_> {
                 let mut values = default.clone();
                 values.override_with(own);
                 let mut draft = AxisDraft::new(String::new(), values);
-                draft.extent = Extent::Whole;
+                draft.is_listed = true;
                 listed.push((asked.clone(), draft));
             }
         }

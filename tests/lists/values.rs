@@ -273,7 +273,7 @@ fn a_simulated_drive_takes_no_additive_torque() {
         assert_eq!(codes(&report.diagnostics), ["FC503 4:17"], "{drive}");
         assert_eq!(report.diagnostics[0].severity, Severity::Error);
     }
-    // By itself the list may take the type from the default list.
+    // Without a type the control takes 4, unless TwinCAT fills in another one.
     let alone = list("");
     assert_eq!(codes(&alone.diagnostics), ["FC503 3:21"]);
     assert_eq!(alone.diagnostics[0].severity, Severity::Warning);

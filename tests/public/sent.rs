@@ -348,7 +348,6 @@ sent! {
     machine::ConfigError,
     machine::Configuration,
     machine::ConfiguredPrograms,
-    machine::Extent,
     machine::FeedUnit,
     machine::GantrySlave,
     machine::HarmlessWords,

@@ -52,9 +52,9 @@ fn program<'a>(records: &'a [Value], file: &str, axis: &str) -> &'a Value {
     &program.expect("the program")["axes"][axis]
 }
 
-fn finding<'a>(records: &'a [Value], axis: &str) -> &'a Value {
+fn finding<'a>(records: &'a [Value], name: &str) -> &'a Value {
     let mut axes = records.iter().filter(|it| it["record"] == "axis");
-    axes.find(|it| it["axis"] == axis).expect("the axis")
+    axes.find(|it| it["axis"] == name).expect("the axis")
 }
 
 /// The messages of a code in a session of two programs.

@@ -84,7 +84,7 @@ impl AxisFinding {
     /// Whether programs may leave it away from its start-up state, or do, and others inherit that.
     pub fn is_worth_a_warning(&self) -> bool {
         let movers = self.movers();
-        !movers.is_empty() && !(self.leavers.is_empty() && self.unknown.is_empty())
+        !(movers.is_empty() || self.leavers.is_empty() && self.unknown.is_empty())
     }
 }
 

@@ -115,7 +115,7 @@ impl Observation {
             self.ring[self.main_blocks % LAST_BLOCKS] = executed.line;
             self.main_blocks += 1;
         }
-        for &(axis, kind) in executed.asked {
+        for &(axis, kind) in &executed.aside.asked {
             self.ask(scope, executed, AuditedKind { axis, kind });
         }
         let quiet = executed.outcomes.is_empty()

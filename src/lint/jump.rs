@@ -47,7 +47,7 @@ impl Linter<'_> {
             let Some(change) = change.filter(|it| matters(it.from, it.to)) else {
                 continue;
             };
-            let mut moved = executed.last_moved.iter();
+            let mut moved = executed.aside.last_moved.iter();
             let word = moved.find(|word| word.axis == axis);
             // In a block with motion words the position is the one after them.
             let to = executed.moved.iter().find(|word| word.axis == axis);

@@ -169,7 +169,7 @@ impl Interpreter {
         let of_words = self.work.moved.iter().map(|it| (it.axis, it.span));
         let moves = |it: &&MovedAxis| it.kind == MotionKind::Unknown;
         let unknown = self.work.also_moved.iter().filter(moves);
-        let movers: Vec<_> = of_words
+        let in_motion: Vec<_> = of_words
             .clone()
             .chain(unknown.map(|it| (it.axis, it.span)))
             .collect();
@@ -179,10 +179,11 @@ impl Interpreter {
             let Some((axes, certainty)) = self.frame(name) else {
                 continue;
             };
-            let Some(&(mover, span)) = movers.iter().find(|(axis, _)| axes.contains(axis)) else {
+            let Some(&(first, span)) = in_motion.iter().find(|(axis, _)| axes.contains(axis))
+            else {
                 continue;
             };
-            let certainty = if words.contains(&mover) {
+            let certainty = if words.contains(&first) {
                 certainty
             } else {
                 Certainty::Possible
@@ -215,11 +216,11 @@ impl Interpreter {
         };
         let of_words = self.work.moved.iter().filter(|_| moves);
         let of_words = of_words.map(|word| MovedAxis::of_word(word, kind));
-        let movers = of_words.chain(self.work.also_moved.iter().copied());
+        let in_motion = of_words.chain(self.work.also_moved.iter().copied());
         let mut moving: BTreeMap<AxisIndex, MovedAxis> = BTreeMap::new();
-        for mover in movers {
-            let known = moving.entry(mover.axis).or_insert(mover);
-            known.certainty = known.certainty.min(mover.certainty);
+        for moved in in_motion {
+            let known = moving.entry(moved.axis).or_insert(moved);
+            known.certainty = known.certainty.min(moved.certainty);
         }
         let own = moving.clone();
         let links = self.state.couplings.links();

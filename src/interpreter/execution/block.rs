@@ -81,6 +81,7 @@ impl Interpreter {
             self.version += 1;
         }
         self.remember_last(at);
+        self.work.aside.asked.append(self.work.asked.get_mut());
         let step = if is_over {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
@@ -112,12 +113,11 @@ impl Interpreter {
             doubted: &self.work.doubted,
             moved: if stopped { &[] } else { &self.work.moved },
             named: self.work.seen,
-            last_moved: &self.work.last_moved,
+            aside: &self.work.aside,
             rests: self.work.rests.get() || self.work.dwells,
             also_moved: if stopped { &[] } else { &self.work.also_moved },
             word_motion: self.work.word_row.map(|row| row.kind),
             motion: self.work.motion.as_ref(),
-            asked: &self.work.asked.borrow(),
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
             withheld: &self.work.withheld,

@@ -95,6 +95,15 @@ pub enum Notes {
     Taken,
 }
 
+/// What is seldom asked about a block.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Aside {
+    /// The axis words of the last block that moved before it, unless the axes have come to rest since.
+    pub(crate) last_moved: Vec<AxisWord>,
+    /// The states of compensation that it reads (R1.35).
+    pub(crate) asked: Vec<(AxisIndex, Kind)>,
+}
+
 /// A block that was executed.
 #[derive(Debug, Clone, Copy)]
 pub struct Executed<'a> {
@@ -126,8 +135,8 @@ pub struct Executed<'a> {
     pub moved: &'a [AxisWord],
     /// The axes that have a word in it, a bit each by their positions modulo 64.
     pub(crate) named: u64,
-    /// The axis words of the last block that moved before it, unless the axes have come to rest since.
-    pub(crate) last_moved: &'a [AxisWord],
+    /// What is seldom asked about it.
+    pub(crate) aside: &'a Aside,
     /// Whether the axes come to rest in it, or may.
     pub(crate) rests: bool,
     /// The axes that it moves, or may, without a word of their own: by a command in their bracket,
@@ -138,8 +147,6 @@ pub struct Executed<'a> {
     pub word_motion: Option<MotionKind>,
     /// What it makes the machine do, where motions are taken.
     pub motion: Option<&'a Motion>,
-    /// The states of compensation that it reads (R1.35).
-    pub asked: &'a [(AxisIndex, Kind)],
     /// The notes on it, where they are taken.
     pub notes: &'a [Note],
     /// What is to be said about it, in no order.

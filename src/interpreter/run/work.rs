@@ -2,7 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::event::{Note, Outcome};
+use super::event::{Aside, Note, Outcome};
 use super::undecided::Undecided;
 use crate::comp::{AxisIndex, Change, Kind, KindSet};
 use crate::diagnostic::Diagnostic;
@@ -44,8 +44,7 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) moved: Vec<AxisWord>,
     /// Words of axes that the machine does not have.
     pub(in crate::interpreter) lacking: Vec<(String, Span)>,
-    /// The axis words of the last block that moved, unless the axes have come to rest since.
-    pub(in crate::interpreter) last_moved: Vec<AxisWord>,
+    pub(in crate::interpreter) aside: Aside,
     /// Whether the axes come to rest in the block, or may.
     pub(in crate::interpreter) rests: Cell<bool>,
     /// The axes that have a word, and those that may have another, a bit each.
@@ -95,11 +94,11 @@ impl Work {
         self.also_moved.clear();
         self.word_row = None;
         if !self.moved.is_empty() {
-            std::mem::swap(&mut self.moved, &mut self.last_moved);
+            std::mem::swap(&mut self.moved, &mut self.aside.last_moved);
             self.moved.clear();
         }
         if self.rests.replace(false) || self.dwells {
-            self.last_moved.clear();
+            self.aside.last_moved.clear();
         }
         self.lacking.clear();
         self.seen = 0;
@@ -111,7 +110,7 @@ impl Work {
         self.dwells = false;
         self.motion = None;
         self.notes.get_mut().clear();
-        self.asked.get_mut().clear();
+        self.aside.asked.clear();
         self.unread.set(false);
         self.expansions.set(0);
         self.new_axes = false;

@@ -211,6 +211,26 @@ fn called_programs_are_taken_as_they_are_open() {
 }
 
 #[test]
+fn a_message_in_a_called_program_names_those_that_reach_it() {
+    // R17.1: it is one message, however many open programs call it.
+    let bench = Bench::new(&[("sub.nc", "X[COMP ON FRIKT]\nM17\n")]);
+    let [one, two, called] = ["one.nc", "two.nc", "sub.nc"].map(|it| uri(&bench.folder().join(it)));
+    let mut client = Client::new();
+    for program in [&one, &two] {
+        bench.write(program.rsplit('/').next().expect("a name"), "L sub.nc\nM30\n");
+        client.open(program, "L sub.nc\nM30\n");
+    }
+    let said = client.diagnostics(&called);
+    assert_eq!(said.as_array().map(Vec::len), Some(1), "{said}");
+    let related = said[0]["relatedInformation"].as_array().expect("places");
+    let reached = related.iter();
+    let reached = reached.filter(|it| it["message"] == "reached from this program");
+    let reached: Vec<&Value> = reached.map(|it| &it["location"]["uri"]).collect();
+    assert_eq!(reached, [&Value::from(one), &Value::from(two)], "{said}");
+    client.drop_all();
+}
+
+#[test]
 fn a_program_that_was_never_saved_is_called() {
     // R12.2
     let bench = Bench::new(&[]);

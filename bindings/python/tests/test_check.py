@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import polars
 import pytest
 from conftest import records
@@ -19,6 +21,16 @@ def test_messages_are_those_of_the_command(folder: str) -> None:
     assert table.height == len(messages) == len(told)
     assert table["code"].to_list() == [it["code"] for it in told]
     assert table["help"].to_list() == [it.help for it in messages]
+
+
+def test_a_message_names_the_programs_that_reach_it(tmp_path: Path) -> None:
+    for name in ["a.nc", "b.nc"]:
+        (tmp_path / name).write_text("N10 L sub.nc\nN20 M30\n")
+    (tmp_path / "sub.nc").write_text("N1 X[COMP ON FRCT]\nM17\n")
+    said = [it for it in frictcomp.check(tmp_path) if it.code == "FC202"]
+    assert len(said) == 1
+    assert [Path(it).name for it in said[0].reached_from] == ["a.nc", "b.nc"]
+    assert said[0].reached_from_count == 2
 
 
 def test_messages_are_a_sequence() -> None:

@@ -46,6 +46,10 @@ def of_messages(messages: frictcomp.Messages) -> list[dict[str, Any]]:
         if it.fixes:
             names = ["file", "line", "column", "end_line", "end_column", "text", "safety"]
             record["fixes"] = [{name: getattr(fix, name) for name in names} for fix in it.fixes]
+        if it.reached_from:
+            record["reached_from"] = it.reached_from
+        if it.reached_from_count > len(it.reached_from):
+            record["reached_from_count"] = it.reached_from_count
         told.append(record)
     return told
 

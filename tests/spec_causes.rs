@@ -275,7 +275,7 @@ fn unknown_states_are_counted_apart() {
     let bench = Bench::new(&[("p.nc", unknown)]);
     let shown = bench.stdout(&["run", "p.nc"]);
     assert!(
-        shown.contains("X in an unknown state during 2 feed moves."),
+        shown.contains("X perhaps off during 2 feed moves."),
         "{shown}"
     );
     let shown = bench.stdout(&["run", "p.nc", "--set", "V.E.A=1"]);
@@ -283,4 +283,29 @@ fn unknown_states_are_counted_apart() {
         shown.contains("X off during 2 feed moves, the longest known 10 mm."),
         "{shown}"
     );
+}
+
+#[test]
+fn motion_without_a_word_counts() {
+    // R13.12: what moves an axis by itself or through another one; homing is no feed move.
+    let bench = Bench::new(&[]);
+    for (blocks, cost) in [
+        (
+            "G0 X1\nX[MC_MoveAbsolute POS=10 VEL=5]\n",
+            Some("X off during 1 feed move."),
+        ),
+        (
+            "$IF V.E.A == 1\nG1 X5 F100\n$ENDIF\n",
+            Some("X perhaps off during 1 feed move."),
+        ),
+        ("G0 X1\nG74 X1\n", None),
+    ] {
+        let text = format!("X[COMP OFF FRICT]\n{blocks}X[COMP ON FRICT]\nM30\n");
+        bench.write("p.nc", &text);
+        let shown = bench.stdout(&["run", "p.nc"]);
+        match cost {
+            Some(cost) => assert!(shown.contains(cost), "{shown}"),
+            None => assert!(!shown.contains("feed move"), "{shown}"),
+        }
+    }
 }

@@ -15,7 +15,7 @@ pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String>
         format!("{} feed move{plural}", grouped(count))
     };
     if without == 0 {
-        return (unknown > 0).then(|| format!(" in an unknown state during {}", counted(unknown)));
+        return (unknown > 0).then(|| format!(" perhaps off during {}", counted(unknown)));
     }
     let what = match (moves.off, moves.ineffective) {
         (_, 0) => "off",
@@ -36,11 +36,7 @@ pub fn feed_moves_text(moves: &FeedMoves, axis_type: AxisType) -> Option<String>
         };
     }
     if unknown > 0 {
-        let _ = write!(
-            text,
-            ", and in an unknown state during {}",
-            counted(unknown)
-        );
+        let _ = write!(text, ", and perhaps during {} more", grouped(unknown));
     }
     Some(text)
 }
@@ -80,16 +76,13 @@ mod tests {
         assert_eq!(
             text(2, 1, 4, Some(0.1 + 0.2), 1),
             " off or without effect during 3 feed moves, the longest known 0.3 mm, \
-             and in an unknown state during 4 feed moves"
+             and perhaps during 4 more"
         );
         assert_eq!(
             text(0, 2, 0, None, 2),
             " without effect during 2 feed moves"
         );
-        assert_eq!(
-            text(0, 0, 1, None, 0),
-            " in an unknown state during 1 feed move"
-        );
+        assert_eq!(text(0, 0, 1, None, 0), " perhaps off during 1 feed move");
         let turned = FeedMoves {
             off: 1,
             longest: Some(90.0),

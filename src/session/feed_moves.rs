@@ -1,7 +1,7 @@
 //! Counts the feed moves that axes make without friction compensation (R13.12).
 
 use crate::comp::{AxisIndex, Kind, State};
-use crate::interpreter::{Executed, Group};
+use crate::interpreter::{Certainty, Executed, Group, MotionKind};
 use crate::timeline::{FeedMoves, PositionFrame};
 
 /// An axis whose friction compensation is not active.
@@ -67,30 +67,44 @@ impl FeedMoveCounter {
     }
 
     fn count(&mut self, executed: &Executed<'_>) {
-        let modal = executed.modal;
-        let motion = modal.functions.motion;
-        let is_known = modal.is_known(Group::Motion);
-        let is_rapid = is_known && motion == 0;
         for watched in &mut self.watched {
-            let position = modal.position(watched.axis);
+            let position = executed.modal.position(watched.axis);
             let now = position
                 .value
                 .filter(|_| position.frame == PositionFrame::Machine);
             let stood = std::mem::replace(&mut watched.stood, now);
-            let moves = executed.moved.iter().any(|word| word.axis == watched.axis);
-            if !moves || is_rapid {
-                continue;
-            }
             let counts = &mut self.counts[watched.axis.get()];
-            if !is_known || watched.state == State::Unknown {
-                counts.unknown += 1;
-                continue;
-            }
-            let ends = stood.zip(now).filter(|_| motion == 1);
-            let length = ends.map(|(from, to)| ((to - from).abs() * 1e6).round() / 1e6);
-            if length != Some(0.0) {
-                counts.add(watched.state, length);
+            match pace(executed, watched.axis) {
+                None => {}
+                Some(Certainty::Certain) if watched.state != State::Unknown => {
+                    let is_line = executed.modal.functions.motion == 1
+                        && executed.also_moved.is_empty()
+                        && executed.word_motion.is_none();
+                    let ends = stood.zip(now).filter(|_| is_line);
+                    let length = ends.map(|(from, to)| ((to - from).abs() * 1e6).round() / 1e6);
+                    if length != Some(0.0) {
+                        counts.add(watched.state, length);
+                    }
+                }
+                Some(_) => counts.unknown += 1,
             }
         }
     }
+}
+
+/// Whether a block moves an axis other than in rapid motion; `None` where it does not.
+fn pace(executed: &Executed<'_>, axis: AxisIndex) -> Option<Certainty> {
+    let is_path_known = executed.modal.is_known(Group::Motion);
+    let is_path_rapid = is_path_known && executed.modal.functions.motion == 0;
+    let motions = executed.motions().filter(|moved| moved.axis == axis);
+    let paces = motions.filter_map(|moved| match (moved.kind, moved.certainty) {
+        (MotionKind::Rapid | MotionKind::Homing, _) => None,
+        (MotionKind::Coupled | MotionKind::Frame, _) if is_path_rapid => None,
+        (MotionKind::Coupled | MotionKind::Frame, _) if !is_path_known => Some(Certainty::Possible),
+        (MotionKind::Feed | MotionKind::Independent, certainty)
+        | (MotionKind::Coupled | MotionKind::Frame, certainty) => Some(certainty),
+        _ => Some(Certainty::Possible),
+    });
+    // `Certain` comes first.
+    paces.min()
 }

@@ -12,7 +12,8 @@ pub struct FeedMoves {
     pub off: u64,
     /// Number of moves while it was selected without effect.
     pub ineffective: u64,
-    /// Number of moves of which it is not known whether it was active, or whether they were rapid.
+    /// Number of moves of which it is not known whether it was active, whether they are made, or
+    /// whether they are rapid.
     pub unknown: u64,
     /// The longest way of the axis without compensation, in mm or degrees, of the moves whose length
     /// is known.

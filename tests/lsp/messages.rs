@@ -217,7 +217,10 @@ fn a_message_in_a_called_program_names_those_that_reach_it() {
     let [one, two, called] = ["one.nc", "two.nc", "sub.nc"].map(|it| uri(&bench.folder().join(it)));
     let mut client = Client::new();
     for program in [&one, &two] {
-        bench.write(program.rsplit('/').next().expect("a name"), "L sub.nc\nM30\n");
+        bench.write(
+            program.rsplit('/').next().expect("a name"),
+            "L sub.nc\nM30\n",
+        );
         client.open(program, "L sub.nc\nM30\n");
     }
     let said = client.diagnostics(&called);

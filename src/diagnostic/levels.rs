@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::codes::Code;
+use super::message::Diagnostic;
 use super::severity::Severity;
 
 /// What the user's `[lint]` table says: other severities for codes of ours (R9.28).
@@ -20,6 +21,16 @@ impl Levels {
             self.levels.insert(code, level);
         }
         ours
+    }
+
+    /// Gives a message the severity of its code, unless it is raised; whether it is said.
+    pub fn weigh(&self, diagnostic: &mut Diagnostic) -> bool {
+        if diagnostic.is_raised() {
+            return true;
+        }
+        let severity = self.severity(diagnostic.code);
+        diagnostic.severity = severity.unwrap_or(diagnostic.severity);
+        severity.is_some()
     }
 
     /// The severity of a code, `None` when it is off.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::documents::{Document, Kind};
 use super::lane::Cancel;
+use super::settings::MAX_BLOCKS;
 use super::states::StateBook;
 use super::wording::editor;
 use crate::comp::State;
@@ -62,6 +63,8 @@ pub(super) struct Run {
     pub(super) ends: Vec<AxisEnd>,
     /// Why it ended.
     pub(super) ended_by: Option<EndedBy>,
+    /// How many blocks were executed.
+    pub(super) blocks: u64,
     /// That no machine is described, in words (R1.37).
     pub(super) remark: Option<String>,
 }
@@ -125,6 +128,7 @@ impl Job {
                 states: survey.states,
                 ends: survey.ends,
                 ended_by: survey.ended_by,
+                blocks: survey.blocks,
                 remark: survey.remark,
             }),
             ..Analysis::default()
@@ -170,14 +174,24 @@ impl Job {
 
 /// How programs run in an editor: as `check` runs them, for fewer blocks.
 pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions {
-    let limits = Limits::default().with_blocks(max_blocks);
     let run = Options::default()
         .with_stop(StopPolicy::CheckAll)
-        .with_limits(limits);
+        .with_limits(limits(max_blocks));
     SessionOptions::from(run)
         .with_levels(loaded.levels.clone())
         .with_settings(loaded.settings.clone())
         .with_wording(Some(editor))
+}
+
+/// The budgets of a program in an editor: who raises the number of blocks lets loops and calls go on for
+/// longer, too.
+pub(super) fn limits(max_blocks: u64) -> Limits {
+    let limits = Limits::brief().with_blocks(max_blocks);
+    limits.with_repeats(
+        limits
+            .repeats
+            .saturating_mul(max_blocks.div_ceil(MAX_BLOCKS)),
+    )
 }
 
 fn failed(error: &HostError) -> Analysis {
@@ -198,6 +212,7 @@ struct Survey {
     states: StateBook,
     ends: Vec<AxisEnd>,
     ended_by: Option<EndedBy>,
+    blocks: u64,
     remark: Option<String>,
 }
 
@@ -209,6 +224,7 @@ impl Survey {
             states: StateBook::default(),
             ends: Vec::new(),
             ended_by: None,
+            blocks: 0,
             remark: None,
         }
     }
@@ -233,6 +249,7 @@ impl Sink for Survey {
                 self.ended_by = Some(end.by);
             }
             Record::Summary(summary) => {
+                self.blocks = summary.blocks;
                 let axes = summary.axes.iter();
                 let ends = axes.map(|axis| AxisEnd {
                     axis: summary.state.name(axis.axis).to_owned(),

@@ -67,10 +67,10 @@ impl Translator<'_> {
     fn shortened(self, analysis: &Analysis) -> Option<Message> {
         let run = analysis.run.as_ref()?;
         let is_used_up = analysis.said.iter().any(|said| said.code == Code::Fc910);
-        let blocks = self.client.settings.max_blocks;
+        let blocks = run.blocks;
         (run.ended_by == Some(EndedBy::Budget) && is_used_up).then(|| {
             let text = format!(
-                "only the first {blocks} executed blocks are checked here; `frictcomp check` checks all of them"
+                "only the first {blocks} executed blocks are checked here; `frictcomp check` goes on for longer"
             );
             own(DiagnosticSeverity::Information, text)
         })

@@ -26,6 +26,7 @@ mod lower;
 mod mask;
 mod parse;
 mod raw;
+mod texts;
 mod unread;
 mod upper_case;
 

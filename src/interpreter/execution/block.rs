@@ -69,7 +69,7 @@ impl Interpreter {
             self.version += 1;
         }
         self.remember_last(at);
-        let step = if is_over {
+        let step = if is_over || self.work.too_deep {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
             Some(Step::End(ended_by(&self.work.diagnostics)))

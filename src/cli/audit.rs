@@ -1,7 +1,7 @@
 //! `frictcomp audit`: what the order of programs does.
 
 use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -85,6 +85,9 @@ pub(super) struct AuditArgs {
     #[command(flatten)]
     execution: ExecutionArgs,
 }
+
+/// How often each program runs.
+const RUNS: NonZeroU64 = NonZeroU64::new(2).expect("a program runs twice");
 
 /// Which programs are changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -192,7 +195,7 @@ impl AuditArgs {
             input.note(ledger);
         }
         machines.look_ahead(&inputs);
-        let run = self.execution.run(StopPolicy::FirstError);
+        let run = self.execution.brief(StopPolicy::FirstError, RUNS);
         let mut options = AuditOptions::new(run).with_kinds(self.kinds);
         if let Some(jobs) = self.jobs {
             options = options.with_workers(jobs);

@@ -25,7 +25,7 @@ use crate::host::{
     processors, run_alone,
 };
 use crate::report::{ListingFormat, command_line, wrap};
-use crate::session::{Causes, Findings, NoteKind, Notes, StopPolicy};
+use crate::session::{Causes, Findings, NoteKind, Notes};
 use crate::timeline::{Record, Sink};
 
 /// Print all messages of all programs; each program runs from the start of the control
@@ -160,7 +160,7 @@ impl CheckArgs {
         lines: &mut BTreeSet<Note>,
     ) -> Result<(), Failure> {
         let loaded = loaded?;
-        let mut options = self.execution.options(&loaded, StopPolicy::CheckAll);
+        let mut options = self.execution.check(&loaded);
         options.run.notes = Notes::Taken;
         let alone = Alone {
             options,
@@ -248,7 +248,7 @@ fn check_file(
     execution: &ExecutionArgs,
 ) -> Result<Found, HostError> {
     let alone = Alone {
-        options: execution.options(loaded, StopPolicy::CheckAll),
+        options: execution.check(loaded),
         naming: Naming::AsGiven,
         axes: Axes::AsTheyOccur,
     };

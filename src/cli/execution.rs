@@ -1,5 +1,7 @@
 //! What limits a dry run on the command line.
 
+use std::num::NonZeroU64;
+
 use clap::Args;
 
 use crate::host::LoadedMachine;
@@ -16,10 +18,11 @@ pub(super) struct ExecutionArgs {
     /// a block that begins with `/`
     #[arg(long, value_name = "LEVELS")]
     skip: Option<SkipLevels>,
-    /// The largest number of executed blocks
-    #[arg(long, value_name = "N", default_value_t = Limits::default().blocks)]
+    /// The largest number of executed blocks; by default 100 million, and in `check` and `audit` as many
+    /// as loops and calls repeat within about two seconds
+    #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
-    max_blocks: u64,
+    max_blocks: Option<u64>,
     /// The largest amount of work beyond the text of the blocks, caused by macros, growing strings
     /// and regions under unknown conditions
     #[arg(long, value_name = "N", default_value_t = Limits::default().work)]
@@ -45,13 +48,15 @@ pub(super) struct ExecutionArgs {
 impl ExecutionArgs {
     /// How programs run.
     pub(super) fn run(&self, stop: StopPolicy) -> Options {
+        let limits = Limits::default();
         let limits = Limits {
-            blocks: self.max_blocks,
+            blocks: self.max_blocks.unwrap_or(limits.blocks),
             work: self.max_work,
             values: self.max_values,
             calls: self.max_calls,
             nesting: self.max_nesting,
             macros: self.max_macros,
+            ..limits
         };
         Options::default()
             .with_stop(stop)
@@ -59,10 +64,29 @@ impl ExecutionArgs {
             .with_limits(limits)
     }
 
-    /// The options of a session on a machine.
+    /// The same where a program runs so many times and nobody wants to wait: unless a number of blocks
+    /// is given, loops and calls end soon (R9.91).
+    pub(super) fn brief(&self, stop: StopPolicy, times: NonZeroU64) -> Options {
+        let mut run = self.run(stop);
+        if self.max_blocks.is_none() {
+            run.limits.repeats = Limits::brief().repeats / times;
+        }
+        run
+    }
+
+    /// The options of a session that runs on a machine.
     pub(super) fn options(&self, loaded: &LoadedMachine, stop: StopPolicy) -> SessionOptions {
+        Self::session(loaded, self.run(stop))
+    }
+
+    /// The options of a session that checks a program on a machine.
+    pub(super) fn check(&self, loaded: &LoadedMachine) -> SessionOptions {
+        Self::session(loaded, self.brief(StopPolicy::CheckAll, NonZeroU64::MIN))
+    }
+
+    fn session(loaded: &LoadedMachine, run: Options) -> SessionOptions {
         SessionOptions {
-            run: self.run(stop),
+            run,
             levels: loaded.levels.clone(),
             settings: loaded.settings.clone(),
             wording: Some(command_line),

@@ -19,7 +19,7 @@ use crate::host::{
     processors, run_alone, write_mended,
 };
 use crate::report::{TextChange, render_unified};
-use crate::session::{ProposedFixes, SafeFixes, StopPolicy};
+use crate::session::{ProposedFixes, SafeFixes};
 use crate::text::shown_path;
 
 /// How often a change may call for another one.
@@ -142,7 +142,7 @@ impl Bench<'_> {
         let run = |(input, loaded): (&Input, Result<Arc<LoadedMachine>, HostError>)| {
             let loaded = loaded?;
             let alone = Alone {
-                options: execution.options(&loaded, StopPolicy::CheckAll),
+                options: execution.check(&loaded),
                 naming: Naming::AsGiven,
                 axes: Axes::AsTheyOccur,
             };

@@ -23,9 +23,12 @@ impl Levels {
         ours
     }
 
-    /// Gives a diagnostic the severity that the user gave its code; any other keeps its own. Returns
-    /// whether it is said at all.
+    /// Gives a diagnostic the severity that the user gave its code; any other, and one that is raised, keeps
+    /// its own. Returns whether it is said at all.
     pub(crate) fn weigh(&self, diagnostic: &mut Diagnostic) -> bool {
+        if diagnostic.is_raised() {
+            return true;
+        }
         match self.levels.get(&diagnostic.code) {
             Some(None) => return false,
             Some(Some(severity)) => diagnostic.severity = *severity,

@@ -66,6 +66,17 @@ impl Diagnostic {
         }
     }
 
+    /// The same with a higher severity than that of its code, which no setting lowers.
+    pub(crate) fn raised(mut self, severity: Severity) -> Self {
+        self.severity = severity;
+        self
+    }
+
+    /// Whether it is more severe than its code says, so that no setting lowers or silences it.
+    pub fn is_raised(&self) -> bool {
+        self.severity > self.code.severity()
+    }
+
     /// The same with the axis that it is about.
     pub fn with_axis(mut self, axis: impl Into<String>) -> Self {
         self.axis = Some(axis.into());

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::documents::{Document, Kind};
 use super::lane::Cancel;
+use super::settings::MAX_BLOCKS;
 use super::states::StateBook;
 use super::wording::editor;
 use crate::comp::State;
@@ -62,6 +63,8 @@ pub(super) struct Run {
     pub(super) ends: Vec<AxisEnd>,
     /// Whether more blocks would follow than are checked.
     pub(super) is_cut: bool,
+    /// The number of executed blocks.
+    pub(super) blocks: u64,
     /// That no machine is described, in words (R1.37).
     pub(super) remark: Option<String>,
 }
@@ -118,7 +121,8 @@ impl Job {
         for diagnostic in &mut said {
             diagnostic.reword(Some(editor));
         }
-        let is_cut = survey.ended_by == Some(EndedBy::Budget) && survey.blocks >= self.max_blocks;
+        let mut found = survey.findings.diagnostics();
+        let is_cut = found.any(|it| it.code == Code::Fc910 && it.is_raised());
         let found = survey.findings.diagnostics();
         // That the editor looks no further says nothing of a loop without an end.
         said.extend(
@@ -132,6 +136,7 @@ impl Job {
                 states: survey.states,
                 ends: survey.ends,
                 is_cut,
+                blocks: survey.blocks,
                 remark: survey.remark,
             }),
             ..Analysis::default()
@@ -177,14 +182,24 @@ impl Job {
 
 /// How programs run in an editor: as `check` runs them, for fewer blocks.
 pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions {
-    let limits = Limits::default().with_blocks(max_blocks);
     let run = Options::default()
         .with_stop(StopPolicy::CheckAll)
-        .with_limits(limits);
+        .with_limits(limits(max_blocks));
     SessionOptions::from(run)
         .with_levels(loaded.levels.clone())
         .with_settings(loaded.settings.clone())
         .with_wording(Some(editor))
+}
+
+/// The budgets of a program in an editor: who raises the number of blocks lets loops and calls go on for
+/// longer, too.
+pub(super) fn limits(max_blocks: u64) -> Limits {
+    let limits = Limits::brief().with_blocks(max_blocks);
+    limits.with_repeats(
+        limits
+            .repeats
+            .saturating_mul(max_blocks.div_ceil(MAX_BLOCKS)),
+    )
 }
 
 fn failed(error: &HostError) -> Analysis {
@@ -205,7 +220,7 @@ struct Survey {
     states: StateBook,
     ends: Vec<AxisEnd>,
     ended_by: Option<EndedBy>,
-    /// The executed blocks.
+    /// The number of executed blocks.
     blocks: u64,
     remark: Option<String>,
 }
@@ -241,9 +256,9 @@ impl Sink for Survey {
             Record::End(end) => {
                 self.states.end(end.state);
                 self.ended_by = Some(end.by);
-                self.blocks = end.seq;
             }
             Record::Summary(summary) => {
+                self.blocks = summary.blocks;
                 let axes = summary.axes.iter();
                 let ends = axes.map(|axis| AxisEnd {
                     axis: summary.state.name(axis.axis).to_owned(),

@@ -3,13 +3,14 @@
 use gen_lsp_types::{CodeLens, CodeLensParams, Command};
 use serde_json::json;
 
+use super::analysis::limits;
 use super::commands::SHOW_TIMELINE;
 use super::documents::{Document, Kind};
 use super::encoding::whole_line;
 use super::hints::left;
 use super::view::View;
 use crate::host::{ArchiveAuditor, AuditOptions, Disk, Input, Ledger, MachineOptions, Machines};
-use crate::session::{Limits, Options};
+use crate::session::Options;
 
 /// The lenses over a text.
 pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<CodeLens>> {
@@ -50,7 +51,7 @@ fn inherited(view: &View, document: &Document) -> Option<String> {
     let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
     let unheard = Ledger::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
-    let limits = Limits::default().with_blocks(view.client.settings.max_blocks);
+    let limits = limits(view.client.settings.max_blocks);
     let options = AuditOptions::new(Options::default().with_limits(limits));
     let inputs = vec![Input::Open(document.open_text())];
     let (auditor, _) = ArchiveAuditor::new(inputs, &mut machines, options);

@@ -72,10 +72,10 @@ impl Translator<'_> {
     /// That only the first blocks were checked (R12.7).
     fn shortened(self, analysis: &Analysis) -> Option<Message> {
         let run = analysis.run.as_ref()?;
-        let blocks = self.client.settings.max_blocks;
+        let blocks = run.blocks;
         run.is_cut.then(|| {
             let text = format!(
-                "only the first {blocks} executed blocks are checked here; `frictcomp check` checks all of them"
+                "only the first {blocks} executed blocks are checked here; `frictcomp check` goes on for longer"
             );
             own(DiagnosticSeverity::Information, text)
         })

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// Executed blocks of a program that are checked while one types.
-const MAX_BLOCKS: u64 = 500_000;
+pub(super) const MAX_BLOCKS: u64 = 500_000;
 
 /// Whether symbols, definitions, references, folding and renaming are offered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

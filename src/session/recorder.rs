@@ -247,11 +247,11 @@ impl Recorder<'_> {
             order.then(one.code.cmp(&other.code))
         });
         self.said.retain_mut(|diagnostic| {
-            let Some(severity) = levels.severity(diagnostic.code) else {
+            if !levels.weigh(diagnostic) {
                 return false;
-            };
-            diagnostic.severity = severity;
-            let allowed = here.contains(&diagnostic.code) && !diagnostic.code.is_controller();
+            }
+            let may_be = !diagnostic.code.is_controller() && !diagnostic.is_raised();
+            let allowed = here.contains(&diagnostic.code) && may_be;
             // It is said at the motion after the command that it is about.
             let line = match diagnostic.code {
                 Code::Fc409 => diagnostic.place.first_line,
@@ -352,10 +352,9 @@ impl Recorder<'_> {
         let left = self.linter.end(ended);
         let (levels, allows) = (self.levels, &mut self.allows);
         let mut judge = |note: &mut EndNote| {
-            let Some(severity) = levels.severity(note.diagnostic.code) else {
+            if !levels.weigh(&mut note.diagnostic) {
                 return false;
-            };
-            note.diagnostic.severity = severity;
+            }
             let line = note.diagnostic.place.first_line;
             !is_allowed(allows, &note.diagnostic, line)
         };
@@ -380,13 +379,7 @@ impl Recorder<'_> {
         let of_end = |code: Code| matches!(code, Code::Fc401 | Code::Fc403 | Code::Fc407);
         allows.retain(|(.., code), _| judged || !of_end(*code));
         let mut unused = unused_allows(allows);
-        unused.retain_mut(|note| match levels.severity(note.diagnostic.code) {
-            Some(severity) => {
-                note.diagnostic.severity = severity;
-                true
-            }
-            None => false,
-        });
+        unused.retain_mut(|note| levels.weigh(&mut note.diagnostic));
         notes.append(&mut unused);
         let mut unsaid = 0;
         for (code, times) in ended.unsaid {
@@ -400,14 +393,10 @@ impl Recorder<'_> {
         }
         notes.retain(|note| self.before.take_last(&note.diagnostic) == Verdict::Say);
         let mut rest = self.before.rest(unsaid, ended.seq);
-        rest.retain_mut(|note| match levels.severity(note.diagnostic.code) {
-            Some(severity) => {
-                note.diagnostic.severity = severity;
-                self.tally.count(&note.diagnostic);
-                true
-            }
-            None => false,
-        });
+        rest.retain_mut(|note| levels.weigh(&mut note.diagnostic));
+        for note in &rest {
+            self.tally.count(&note.diagnostic);
+        }
         notes.append(&mut rest);
         for note in &mut notes {
             note.diagnostic.reword(self.wording);
@@ -475,7 +464,7 @@ fn is_allowed(
     diagnostic: &Diagnostic,
     line: u32,
 ) -> bool {
-    if allows.is_empty() || diagnostic.code.is_controller() {
+    if allows.is_empty() || diagnostic.code.is_controller() || diagnostic.is_raised() {
         return false;
     }
     let key = (Arc::clone(&diagnostic.place.file), line, diagnostic.code);

@@ -1,6 +1,7 @@
 //! What the parser does not see of a line: comments, continuation signs, block numbers of continued
 //! lines and foreign characters are blanked out byte for byte.
 
+use super::texts::Texts;
 use crate::text::Span;
 
 /// What masking found in a line.
@@ -17,12 +18,13 @@ pub(super) fn mask(line: &str, code: &mut String) -> Masked {
     let from = code.len();
     let bytes = line.as_bytes();
     let trailing = line.trim_end_matches(is_blank).len();
+    let texts = Texts::new(line.as_bytes());
     let mut masked = Masked::default();
     let mut at = 0;
     while at < bytes.len() {
         match bytes[at] {
-            b'"' if text_end(bytes, at).is_some() => {
-                let end = text_end(bytes, at).unwrap_or(bytes.len());
+            b'"' => {
+                let end = texts.end(at).unwrap_or(at + 1);
                 code.push_str(&line[at..end]);
                 at = end;
             }
@@ -69,19 +71,6 @@ pub(super) fn mask_number(code: &mut String, from: usize) {
         let end = start + 1 + length;
         code.replace_range(start..end, &" ".repeat(end - start));
     }
-}
-
-/// One past the quote that closes the text at `start`. A `\"` stands for a quote inside; where that
-/// leaves the text open, it was the text's own last character.
-pub(super) fn text_end(bytes: &[u8], start: usize) -> Option<usize> {
-    let mut at = start + 1;
-    while let Some(length) = memchr::memchr(b'"', &bytes[at..]) {
-        at += length + 1;
-        if bytes[at - 2] != b'\\' || at - 2 == start {
-            return Some(at);
-        }
-    }
-    memchr::memchr(b'"', &bytes[start + 1..]).map(|length| start + length + 2)
 }
 
 /// Blank, tab, and the NUL and ETX that some editors leave (R2.1).

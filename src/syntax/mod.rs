@@ -29,6 +29,7 @@ mod parse;
 mod raw;
 mod scan;
 mod skip_levels;
+mod texts;
 mod unread;
 mod upper_case;
 

@@ -6,8 +6,9 @@ use std::ops::Range;
 
 use super::axes::{AxisUse, uses_of};
 use super::hash_words::hash_word;
-use super::mask::{comment_end, mask, text_end};
+use super::mask::{comment_end, mask};
 use super::parse::parse_block;
+use super::texts::Texts;
 
 /// Bytes that the lines of a continued block may have together to be looked at.
 const MAX_CONTINUED: usize = 64 * 1024;
@@ -16,8 +17,10 @@ const MAX_CONTINUED: usize = 64 * 1024;
 /// of a program. What a macro stands for is code, too.
 pub(crate) fn code_stretches(line: &[u8]) -> CodeStretches<'_> {
     let is_name = line.trim_ascii_start().first() == Some(&b'%');
+    let line = if is_name { &[] } else { line };
     CodeStretches {
-        line: if is_name { &[] } else { line },
+        line,
+        texts: Texts::new(line),
         at: 0,
         text: None,
     }
@@ -27,6 +30,7 @@ pub(crate) fn code_stretches(line: &[u8]) -> CodeStretches<'_> {
 #[derive(Debug, Clone)]
 pub(crate) struct CodeStretches<'a> {
     line: &'a [u8],
+    texts: Texts<'a>,
     at: usize,
     /// Where the last string ended.
     text: Option<usize>,
@@ -41,8 +45,8 @@ impl Iterator for CodeStretches<'_> {
             match byte {
                 b';' => self.at = self.line.len(),
                 b'(' => self.at = comment_end(self.line, start),
-                b'"' if text_end(self.line, start).is_some() => {
-                    let end = text_end(self.line, start).unwrap_or(self.line.len());
+                b'"' if self.texts.end(start).is_some() => {
+                    let end = self.texts.end(start).unwrap_or(self.line.len());
                     self.at = end;
                     let last = self.text.replace(end);
                     let between = last.map(|last| self.line[last..start].trim_ascii());

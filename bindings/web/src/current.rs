@@ -154,7 +154,10 @@ fn notes(
     currents: &mut ProgramCurrents<Drawing>,
 ) -> Vec<String> {
     let mut notes = Vec::new();
-    let drawn = machine.axes.iter().filter(|axis| names.contains(&axis.name));
+    let drawn = machine
+        .axes
+        .iter()
+        .filter(|axis| names.contains(&axis.name));
     let assumed: Vec<AssumedLimits> = drawn.filter_map(AssumedLimits::of).collect();
     notes.extend(assumed_limits(&assumed));
     let (errors, remarks) = currents.diagnostics();

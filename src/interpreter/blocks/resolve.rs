@@ -105,6 +105,7 @@ impl Interpreter {
             )
             .with_help(Advice::RaiseBudget(Budget::Calls));
             self.work.diagnostics.push(at.diagnostic(fault));
+            self.work.too_deep = self.options.stop != StopPolicy::KeepGoing;
             return None;
         }
         let passage = self.passage(&wanted, found, at).ok()?;

@@ -82,7 +82,7 @@ impl Interpreter {
         }
         self.remember_last(at);
         self.work.aside.asked.append(self.work.asked.get_mut());
-        let step = if is_over {
+        let step = if is_over || self.work.too_deep {
             Some(Step::End(EndedBy::Budget))
         } else if stopped {
             Some(Step::End(ended_by(&self.work.diagnostics)))

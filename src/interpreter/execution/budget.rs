@@ -1,6 +1,6 @@
 //! What a run may use up (R2.60).
 
-use crate::diagnostic::{Advice, Budget, Code, Diagnostic};
+use crate::diagnostic::{Advice, Budget, Code, Diagnostic, Severity};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::interpreter::Interpreter;
@@ -11,8 +11,12 @@ impl Interpreter {
     /// FC910 when the next block may not be executed any more.
     #[inline]
     pub(in crate::interpreter) fn over_budget(&self, at: &At<'_>) -> Option<Diagnostic> {
-        let budget = self.options.limits.blocks;
-        (self.state.blocks >= budget).then(|| too_many_blocks(budget, at))
+        let limits = &self.options.limits;
+        if self.state.blocks >= limits.blocks {
+            return Some(too_many_blocks(limits.blocks, at));
+        }
+        let is_over = self.state.effort.repeated() > limits.repeats;
+        is_over.then(|| too_many_repeats(self.state.blocks, at))
     }
 
     /// FC919 or FC918 when the block used up what it must not. What it could have changed besides is
@@ -74,17 +78,29 @@ impl Interpreter {
     }
 }
 
-/// FC910.
+/// FC910 at the budget of blocks.
 #[cold]
 fn too_many_blocks(budget: u64, at: &At<'_>) -> Diagnostic {
-    at.diagnostic(
-        Fault::new(
-            Code::Fc910,
-            Span::new(0, at.text.len()),
-            format!("more than {budget} blocks were executed; the dry run ends here"),
-        )
-        .with_help(Advice::RaiseBudget(Budget::Blocks)),
+    cut_off(
+        format!("more than {budget} blocks were executed; the dry run ends here"),
+        at,
     )
+}
+
+/// FC910 at the budget of repeated work.
+#[cold]
+fn too_many_repeats(blocks: u64, at: &At<'_>) -> Diagnostic {
+    cut_off(
+        format!("loops and calls go on after {blocks} executed blocks; the dry run ends here"),
+        at,
+    )
+}
+
+/// FC910 of a program that may end: what follows is not known, so it is an error (R9.91).
+fn cut_off(message: String, at: &At<'_>) -> Diagnostic {
+    let fault = Fault::new(Code::Fc910, Span::new(0, at.text.len()), message)
+        .with_help(Advice::RaiseBudget(Budget::Blocks));
+    at.diagnostic(fault).raised(Severity::Error)
 }
 
 /// FC918.

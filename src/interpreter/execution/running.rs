@@ -35,6 +35,7 @@ impl Interpreter {
                 self.end_of_pass();
                 continue;
             }
+            let is_repeated = self.programs.was_read(unit, next);
             let parsed = self.programs.parsed(unit, next);
             if let Some(frame) = self.state.frames.running_mut() {
                 frame.next = next + 1;
@@ -56,7 +57,11 @@ impl Interpreter {
                 return RunOutcome::Ended(EndedBy::Budget);
             }
             let depth = self.state.frames.depth();
+            let spent = self.state.effort.spent();
             let flow = self.execute(&at, finder, observer);
+            if is_repeated {
+                self.state.effort.repeat(at.text, spent);
+            }
             if let Some(frame) = self.state.frames.at_depth_mut(depth) {
                 frame.called_from = called_from;
             }

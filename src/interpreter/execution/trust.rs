@@ -51,6 +51,7 @@ impl Interpreter {
             state.blocks,
             state.effort.spent(),
             state.effort.level(),
+            state.effort.repeated(),
         ];
         let counted = counted.iter().all(|count| *count < MOST_COUNTED);
         holds(counted, "a counter that is too large")?;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use super::index::{Entry, EntryIndex, Index, LabelName, Links, Section};
-use crate::diagnostic::{Advice, Budget, Code, Collected, Diagnostic};
+use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
 use crate::syntax::{BlockReader, FastPath, Fault, LostRemarks, Stretch, is_statement};
@@ -97,6 +97,8 @@ impl Index {
             open: Vec::new(),
             jumps: Vec::new(),
             inner: Vec::new(),
+            here: None,
+            earlier: None,
         };
         builder.build()
     }
@@ -128,6 +130,11 @@ struct Builder {
     jumps: Vec<Jump>,
     /// `$BREAK` and `$CONTINUE` with the loops that they stand in, by opener.
     inner: Vec<(EntryIndex, EntryIndex)>,
+    /// The last block so far, once something was refused in it.
+    here: Option<(EntryIndex, Place)>,
+    /// The block before it in which something was refused last. What is not closed comes one block
+    /// after the other, so that no block is read again for each of its statements.
+    earlier: Option<(EntryIndex, Place)>,
 }
 
 impl Builder {
@@ -215,10 +222,29 @@ impl Builder {
     }
 
     fn refuse(&mut self, entry: EntryIndex, fault: Fault) {
-        let place = |span| self.index.place(entry, span);
+        let block = self.place_of(entry);
+        let place = |span| Place {
+            span,
+            ..block.clone()
+        };
         let at = place(fault.span);
         let diagnostic = fault.into_diagnostic(at, |span| Some(place(span)));
         self.index.refused.push(diagnostic);
+    }
+
+    /// A place in a block.
+    fn place_of(&mut self, entry: EntryIndex) -> Place {
+        let known = match entry + 1 == self.at() {
+            true => &mut self.here,
+            false => &mut self.earlier,
+        };
+        match known {
+            Some((known, place)) if *known == entry => place.clone(),
+            _ => {
+                let place = self.index.place(entry, Span::default());
+                known.insert((entry, place)).1.clone()
+            }
+        }
     }
 
     /// What is not closed, unless it is misspelt, which the block says itself.
@@ -418,13 +444,9 @@ impl Builder {
                         format!("write `[{name}]` at the start of the block to jump to")
                     }
                 };
-                let diagnostic = Diagnostic::new(
-                    Code::Fc209,
-                    self.index.place(jump.entry, jump.span),
-                    format!("jump label `{}` does not exist in this program", jump.label),
-                )
-                .with_help(help);
-                self.index.refused.push(diagnostic);
+                let message = format!("jump label `{}` does not exist in this program", jump.label);
+                let fault = Fault::new(Code::Fc209, jump.span, message).with_help(help);
+                self.refuse(jump.entry, fault);
             }
         }
     }

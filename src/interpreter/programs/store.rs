@@ -115,6 +115,12 @@ impl Programs {
         self.names.insert(name, 0);
     }
 
+    /// Whether a block was read before, in order to be executed.
+    #[inline]
+    pub(in crate::interpreter) fn was_read(&self, unit: usize, entry: EntryIndex) -> bool {
+        self.units[unit].executed[entry as usize]
+    }
+
     /// A parsed block; those that are executed again are kept.
     pub(in crate::interpreter) fn parsed(&mut self, unit: usize, entry: EntryIndex) -> Arc<Parsed> {
         let place = entry as usize;

@@ -9,6 +9,9 @@ pub struct Limits {
     /// Work beyond the text of the executed blocks: macros, strings that grow, regions under an
     /// unknown condition.
     pub work: u64,
+    /// Units of work of blocks that are executed again, in loops and by calls: each needs as many as it has
+    /// bytes, and some more. Blocks that are executed once need none, however many there are.
+    pub repeats: u64,
     /// Values that are held at a time; a text counts as one more for every 32 bytes.
     pub values: u32,
     /// Depth of subprogram calls.
@@ -19,7 +22,15 @@ pub struct Limits {
     pub macros: u32,
 }
 
+/// Repeated work that about two seconds of a processor suffice for.
+const BRIEF_REPEATS: u64 = 600_000_000;
+
 impl Limits {
+    /// The default limits, and repeated work for about two seconds of a processor (R9.91).
+    pub fn brief() -> Self {
+        Self::default().with_repeats(BRIEF_REPEATS)
+    }
+
     /// The same with another value of [`blocks`](Self::blocks).
     pub fn with_blocks(mut self, blocks: u64) -> Self {
         self.blocks = blocks;
@@ -29,6 +40,12 @@ impl Limits {
     /// The same with another value of [`work`](Self::work).
     pub fn with_work(mut self, work: u64) -> Self {
         self.work = work;
+        self
+    }
+
+    /// The same with another value of [`repeats`](Self::repeats).
+    pub fn with_repeats(mut self, repeats: u64) -> Self {
+        self.repeats = repeats;
         self
     }
 
@@ -62,6 +79,7 @@ impl Default for Limits {
         Self {
             blocks: 100_000_000,
             work: 10_000_000,
+            repeats: u64::MAX,
             values: 1_000_000,
             calls: 50,
             nesting: 50,

@@ -80,6 +80,8 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) over: Option<Diagnostic>,
     /// Whether that is a loop that never ends.
     pub(in crate::interpreter) endless: bool,
+    /// Whether calls are nested too deeply for the run to go on (R9.91).
+    pub(in crate::interpreter) too_deep: bool,
     /// Whether an axis occurred for the first time.
     pub(in crate::interpreter) new_axes: bool,
     /// Whether a value was written.
@@ -113,6 +115,7 @@ impl Work {
         self.aside.asked.clear();
         self.unread.set(false);
         self.expansions.set(0);
+        self.too_deep = false;
         self.new_axes = false;
     }
 }

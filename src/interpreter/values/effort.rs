@@ -18,12 +18,17 @@ const PER_BLOCK: u64 = 500;
 /// Units of work that a byte of an executed block brings with it.
 const PER_BYTE: u64 = 4;
 
+/// Units of repeated work that a block needs whatever it holds.
+const PER_REPEAT: u64 = 32;
+
 /// The work of a session, in units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Effort {
     spent: Cell<u64>,
     /// What the executed blocks did not bring with them.
     level: Cell<u64>,
+    /// What blocks needed that were executed again.
+    repeated: u64,
 }
 
 impl Effort {
@@ -43,6 +48,20 @@ impl Effort {
             let granted = PER_BYTE.saturating_mul(bytes).saturating_add(PER_BLOCK);
             self.level.set(level.saturating_sub(granted));
         }
+    }
+
+    /// A block was executed again; `before` is all work before it.
+    #[inline]
+    pub(in crate::interpreter) fn repeat(&mut self, text: &str, before: u64) {
+        let bytes = u64::try_from(text.len()).unwrap_or(u64::MAX);
+        let units = PER_REPEAT + bytes + self.spent.get().saturating_sub(before);
+        self.repeated = self.repeated.saturating_add(units);
+    }
+
+    /// What blocks needed that were executed again.
+    #[inline]
+    pub(in crate::interpreter) fn repeated(&self) -> u64 {
+        self.repeated
     }
 
     /// All work so far.

@@ -1,0 +1,55 @@
+//! What work takes of the processor, and how that grows.
+
+use std::time::Duration;
+
+use rustix::time::{ClockId, clock_gettime};
+
+/// How much more twice as much may take (R9.90).
+pub(crate) const TWICE: f64 = 2.2;
+
+/// What anything may take.
+const FLOOR: Duration = Duration::from_micros(200);
+
+/// How often is measured at most.
+const MOST: usize = 16;
+
+/// How many of the measurements have to stay within the bound: other work on the machine slows some down, and
+/// what is slow is so in each.
+const ENOUGH: usize = 3;
+
+/// The processor time of this thread.
+fn of_thread() -> Duration {
+    let now = clock_gettime(ClockId::ThreadCPUTime);
+    let seconds = u64::try_from(now.tv_sec).expect("a time since the start");
+    let nanoseconds = u32::try_from(now.tv_nsec).expect("part of a second");
+    Duration::new(seconds, nanoseconds)
+}
+
+fn taken(work: impl FnOnce()) -> Duration {
+    let before = of_thread();
+    work();
+    of_thread().saturating_sub(before)
+}
+
+/// By how much more than the bound work of twice the size takes, in all but a few measurements, at
+/// least; `None` where it is within the bound at once, or in enough of them.
+pub(crate) fn excess(size: usize, bound: f64, mut work: impl FnMut(usize)) -> Option<f64> {
+    let mut within = 0;
+    let mut least = f64::MAX;
+    for measured in 0..MOST {
+        let once = taken(|| work(size)).max(FLOOR);
+        let growth = taken(|| work(2 * size)).div_duration_f64(once);
+        if growth <= bound {
+            within += 1;
+        } else {
+            least = least.min(growth);
+        }
+        if within > measured || within >= ENOUGH {
+            return None;
+        }
+        if measured >= ENOUGH && least > 1.5 * bound {
+            break;
+        }
+    }
+    Some(least)
+}

@@ -1,0 +1,272 @@
+//! The search.
+
+use std::fmt::Write as _;
+use std::ops::ControlFlow;
+
+use fastrand::Rng;
+use frictcomp::machine::{Machine, NoLists, check_list};
+use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::text::SourceFile;
+use frictcomp::timeline::{Record, Sink};
+
+use crate::measure::{TWICE, excess};
+use crate::tokens;
+
+/// How a sequence of tokens is repeated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Repeated {
+    /// Within one line.
+    InLine,
+    /// Within one block that goes on over lines.
+    InBlock,
+    /// Line by line.
+    OverLines,
+    /// In a called file each.
+    OverFiles,
+    /// Line by line in a list.
+    OverListLines,
+}
+
+use Repeated::{InBlock, InLine, OverFiles, OverLines, OverListLines};
+
+/// Ways to repeat what stands in programs.
+const IN_PROGRAMS: [Repeated; 4] = [InLine, InBlock, OverLines, OverFiles];
+
+/// Bytes of half the longest line.
+const HALF_A_LINE: usize = 1_950;
+
+impl Repeated {
+    /// How much of it the long search looks at: bytes, or lines, or files.
+    fn size(self) -> usize {
+        match self {
+            InLine => HALF_A_LINE,
+            InBlock => 4_000,
+            OverLines => 200,
+            OverFiles => 100,
+            OverListLines => 400,
+        }
+    }
+
+    /// What stands between tokens, and after the last one.
+    fn between(self) -> &'static [&'static str] {
+        match self {
+            InLine | InBlock => &["", " "],
+            OverLines | OverFiles | OverListLines => &[" "],
+        }
+    }
+
+    fn run(self, sequence: &str, size: usize) {
+        match self {
+            InLine => run(&format!("{}\nM30\n", filled(sequence, size)), "", size),
+            InBlock => run(&block(sequence, size), "", size),
+            OverLines => run(
+                &format!("{}M30\n", format!("{sequence}\n").repeat(size)),
+                "",
+                size,
+            ),
+            OverFiles => {
+                let calls = (0..size).fold(String::new(), |mut calls, number| {
+                    let _ = writeln!(calls, "L f{number}.nc");
+                    calls
+                });
+                run(
+                    &format!("{calls}M30\n"),
+                    &format!("{sequence}\nM17\n"),
+                    size,
+                );
+            }
+            OverListLines => {
+                let text = format!("{sequence}\n").repeat(size);
+                let _ = check_list(SourceFile::new("a.lis", text), None, &mut NoLists);
+            }
+        }
+    }
+}
+
+/// A sequence repeated to so many bytes.
+fn filled(sequence: &str, bytes: usize) -> String {
+    sequence.repeat(bytes / sequence.len())
+}
+
+/// A block of so many bytes, on lines that are not too long.
+fn block(sequence: &str, bytes: usize) -> String {
+    let line = format!("{} \\\n", filled(sequence, 60.max(sequence.len())));
+    format!("X1 \\\n{}X1\nM30\n", line.repeat(bytes / line.len()))
+}
+
+/// Takes records and keeps nothing.
+struct Nothing;
+
+impl Sink for Nothing {
+    fn record(&mut self, _: &Record<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// Runs a program whose budgets grow with it.
+fn run(text: &str, called: &str, size: usize) {
+    let size = u64::try_from(size).expect("a small number");
+    let limits = Limits::default()
+        .with_blocks(4 * size)
+        .with_work(1_000 * size);
+    let options = Options::default()
+        .with_stop(StopPolicy::CheckAll)
+        .with_limits(limits);
+    let mut session = Session::new(Machine::enabled(["X", "Y"]), SessionOptions::from(options));
+    let mut finder =
+        |name: &str, _: &str| (!called.is_empty()).then(|| SourceFile::new(name, called));
+    let source = SourceFile::new("a.nc", text);
+    let _ = session.program("a.nc", Program::Whole(source), &mut finder, &mut Nothing);
+}
+
+/// How thoroughly is looked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Look {
+    /// At an eighth of the size only, where budgets that begin to count show, too.
+    Short,
+    /// At all of it besides.
+    Long,
+}
+
+impl Look {
+    /// Shares of the size, and how much more twice as much may take.
+    fn bounds(self) -> &'static [(usize, f64)] {
+        const LITTLE: (usize, f64) = (8, 1.5 * TWICE);
+        match self {
+            Self::Short => &[LITTLE],
+            Self::Long => &[LITTLE, (1, TWICE)],
+        }
+    }
+}
+
+/// A search, and what it has found.
+struct Search {
+    look: Look,
+    ways: &'static [Repeated],
+    found: Vec<String>,
+}
+
+impl Search {
+    fn new(look: Look, ways: &'static [Repeated]) -> Self {
+        Self {
+            look,
+            ways,
+            found: Vec::new(),
+        }
+    }
+
+    fn at(&mut self, how: Repeated, tokens: &[&str]) {
+        for between in how.between() {
+            let sequence = format!("{}{between}", tokens.join(between));
+            let bounds = self.look.bounds().iter();
+            self.found.extend(bounds.clone().find_map(|(share, bound)| {
+                let size = how.size() / share;
+                let growth = excess(size, *bound, |size| how.run(&sequence, size))?;
+                Some(format!("{how:?} {sequence:?}: {growth:.2} from {size}"))
+            }));
+        }
+    }
+
+    /// Looks at every combination of so many of the tokens.
+    fn every(mut self, length: usize, tokens: &[String]) -> Self {
+        let mut combination = vec![0; length];
+        loop {
+            if is_first_rotation(&combination) {
+                let chosen: Vec<&str> = combination.iter().map(|&at| tokens[at].as_str()).collect();
+                self.ways.iter().for_each(|&how| self.at(how, &chosen));
+            }
+            let Some(at) = combination.iter().rposition(|&at| at + 1 < tokens.len()) else {
+                return self;
+            };
+            combination[at] += 1;
+            combination[at + 1..].fill(0);
+        }
+    }
+
+    /// Looks at so many combinations of so many of the tokens, the same in each run.
+    fn some(mut self, (count, length): (usize, usize), tokens: &[String]) -> Self {
+        let mut rng = Rng::with_seed(u64::try_from(length).expect("a small number"));
+        for _ in 0..count {
+            let token = |_| tokens[rng.usize(..tokens.len())].as_str();
+            let chosen: Vec<&str> = (0..length).map(token).collect();
+            self.at(self.ways[rng.usize(..self.ways.len())], &chosen);
+        }
+        self
+    }
+
+    #[track_caller]
+    fn finds_nothing(&self) {
+        let found = &self.found;
+        assert!(found.is_empty(), "{}", found.join("\n"));
+    }
+}
+
+/// Whether of the rotations of a combination, which repeat the same, it is the one that is looked at.
+fn is_first_rotation(combination: &[usize]) -> bool {
+    let length = combination.len();
+    (1..length).all(|by| {
+        let rotated = (0..length).map(|at| combination[(at + by) % length]);
+        // One that equals its rotation repeats a shorter combination.
+        rotated.gt(combination.iter().copied())
+    })
+}
+
+#[test]
+fn each_token_repeated() {
+    // R9.90
+    Search::new(Look::Short, &IN_PROGRAMS)
+        .every(1, &tokens::of_programs())
+        .finds_nothing();
+}
+
+#[test]
+fn some_combinations_repeated() {
+    // R9.90
+    Search::new(Look::Short, &IN_PROGRAMS)
+        .some((150, 2), &tokens::of_programs())
+        .some((100, 3), &tokens::of_programs())
+        .some((50, 4), &tokens::of_programs())
+        .finds_nothing();
+}
+
+#[test]
+fn each_pair_of_lists_repeated() {
+    // R9.90
+    let tokens = tokens::of_lists();
+    let search = Search::new(Look::Short, &[OverListLines]);
+    search.every(1, &tokens).every(2, &tokens).finds_nothing();
+}
+
+#[test]
+#[ignore = "an hour: `scripts/full`"]
+fn every_combination_of_one_or_two_tokens_repeated() {
+    // R9.90
+    let tokens = tokens::of_programs();
+    let search = Search::new(Look::Long, &IN_PROGRAMS);
+    search.every(1, &tokens).every(2, &tokens).finds_nothing();
+}
+
+#[test]
+#[ignore = "an hour: `scripts/full`"]
+fn every_combination_of_three_kinds_repeated() {
+    // R9.90
+    let search = Search::new(Look::Short, &IN_PROGRAMS);
+    search.every(3, &tokens::kinds()).finds_nothing();
+}
+
+#[test]
+#[ignore = "an hour: `scripts/full`"]
+fn every_combination_of_four_kinds_in_a_line() {
+    // R9.90
+    let search = Search::new(Look::Short, &[InLine]);
+    search.every(4, &tokens::kinds()).finds_nothing();
+}
+
+#[test]
+#[ignore = "minutes: `scripts/full`"]
+fn every_combination_in_lists_repeated() {
+    // R9.90
+    let tokens = tokens::of_lists();
+    let search = Search::new(Look::Long, &[OverListLines]);
+    search.every(2, &tokens).every(3, &tokens).finds_nothing();
+}

@@ -1,14 +1,12 @@
 //! Which axes programs name, before they run (R9.74).
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 use super::input::Input;
+use super::pieces::whole_lines;
 use crate::syntax::{calls_files, has_axis_word};
-
-/// Bytes that are looked at together.
-const PIECE: usize = 256 * 1024;
 
 /// The letters that are axes where no machine is described (R2.20).
 const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
@@ -79,25 +77,7 @@ impl AxesAhead {
             self.is_open = true;
             return Ok(());
         }
-        let mut file = File::open(path)?;
-        let mut piece = vec![0; PIECE];
-        let mut kept = 0;
-        loop {
-            let count = file.read(&mut piece[kept..])?;
-            let bytes = &piece[..kept + count];
-            // A line that is cut is looked at with the next piece, unless it fills this one.
-            let whole = match memchr::memrchr2(b'\n', b'\r', bytes) {
-                Some(at) if count > 0 => at + 1,
-                _ => bytes.len(),
-            };
-            self.look(&bytes[..whole]);
-            if count == 0 {
-                return Ok(());
-            }
-            let rest = whole..kept + count;
-            kept = rest.len();
-            piece.copy_within(rest, 0);
-        }
+        whole_lines(File::open(path)?, |piece| self.look(piece))
     }
 
     fn look(&mut self, text: &[u8]) {

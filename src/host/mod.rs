@@ -38,6 +38,7 @@ mod open_text;
 mod outputs;
 mod parameter_files;
 mod paths;
+mod pieces;
 mod read;
 mod simulations;
 mod state_file;

@@ -2,9 +2,9 @@
 //! (R1.37). A look over the text is enough for a proposal.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
 
 use super::input::Input;
+use super::pieces::whole_lines;
 use crate::syntax::SwitchScan;
 
 /// The axes whose friction compensation the programs switch, sorted. What cannot be read is said
@@ -16,10 +16,10 @@ pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<Str
         match input {
             Input::File(path) if path.is_file() => {
                 if let Ok(file) = File::open(path) {
-                    let _ = look(BufReader::new(file), &mut scan);
+                    let _ = whole_lines(file, |piece| scan.feed(piece));
                 }
             }
-            Input::Open(open) => _ = look(open.text.as_bytes(), &mut scan),
+            Input::Open(open) => scan.feed(open.text.as_bytes()),
             Input::File(_) | Input::Stdin => {}
         }
         found.extend(scan.into_axes());
@@ -27,18 +27,4 @@ pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<Str
     found.sort_unstable();
     found.dedup();
     found
-}
-
-/// Lines longer than that hold no block of the control.
-const MAX_LINE: u64 = 64 * 1024;
-
-fn look(mut lines: impl BufRead, scan: &mut SwitchScan) -> io::Result<()> {
-    let mut line = Vec::new();
-    loop {
-        line.clear();
-        if io::Read::take(&mut lines, MAX_LINE).read_until(b'\n', &mut line)? == 0 {
-            return Ok(());
-        }
-        scan.feed(&line);
-    }
 }

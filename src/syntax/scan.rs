@@ -124,7 +124,7 @@ pub(crate) fn code_words(line: &str) -> impl Iterator<Item = &str> {
     code.flat_map(move |code| code.split(move |it| !is_part(it)))
 }
 
-/// Finds the axes whose friction compensation a program switches, line by line.
+/// Finds the axes whose friction compensation a program switches.
 ///
 /// Only blocks that may hold a COMP command are parsed. What a macro stands for counts.
 #[derive(Debug, Default)]
@@ -137,16 +137,22 @@ pub(crate) struct SwitchScan {
 }
 
 impl SwitchScan {
-    /// Looks at the next line, or at several lines whose ends are CR alone.
-    pub(crate) fn feed(&mut self, line: &[u8]) {
-        let is_marked = memchr::memchr2(b'#', b'\\', line).is_some();
-        if self.open.is_empty() && !is_marked && (self.is_comment || !has_comp(line)) {
+    /// Looks at the next lines, which are whole.
+    pub(crate) fn feed(&mut self, lines: &[u8]) {
+        if !self.may_tell(lines) {
             return;
         }
-        let line = line.trim_ascii_end();
-        for line in line.split(|byte| *byte == b'\r') {
-            self.take(line);
+        for line in lines.split(|byte| matches!(byte, b'\n' | b'\r')) {
+            if self.may_tell(line) {
+                self.take(line);
+            }
         }
+    }
+
+    /// Whether there may be a command in a text, or something that tells how to read it.
+    fn may_tell(&self, text: &[u8]) -> bool {
+        let is_marked = || memchr::memchr2(b'#', b'\\', text).is_some();
+        !self.open.is_empty() || (!self.is_comment && has_comp(text)) || is_marked()
     }
 
     fn take(&mut self, line: &[u8]) {
@@ -243,8 +249,7 @@ mod tests {
         // R1.37
         let axes = |text: &str| {
             let mut scan = SwitchScan::default();
-            text.split_inclusive('\n')
-                .for_each(|line| scan.feed(line.as_bytes()));
+            scan.feed(text.as_bytes());
             scan.into_axes()
         };
         assert_eq!(

@@ -345,14 +345,14 @@ fn a_program_that_is_too_long_says_how_far_it_was_checked() {
     // R12.7
     let mut client = Client::with(&json!({
         "capabilities": {},
-        "initializationOptions": { "maxBlocks": 100 },
+        "initializationOptions": { "maxBlocks": 200 },
     }));
     let said = client.open("untitled:a", &("G1 X1 F100\n".repeat(500) + "M30\n"));
     assert_eq!(codes(&said)[0], ("own".to_owned(), 0));
     assert!(
         said[0]["message"]
             .as_str()
-            .is_some_and(|it| it.starts_with("only the first 100 executed blocks"))
+            .is_some_and(|it| it.starts_with("only the first 200 executed blocks"))
     );
     assert!(!said.to_string().contains("FC910"), "{said}");
     let said = client.open(

@@ -1,6 +1,6 @@
 //! `#` commands (R2.34, R2.47).
 
-use crate::comp::{AxisIndex, Kind, KindSet};
+use crate::comp::{Kind, KindSet};
 use crate::diagnostic::Code;
 use crate::interpreter::coordinates::axis_words::AxisWords;
 use crate::interpreter::coordinates::chain;
@@ -114,16 +114,6 @@ impl Interpreter {
                 self.say_undescribed(hash, at);
             }
             _ => {}
-        }
-    }
-
-    /// The axes that a command names, or else all.
-    pub(in crate::interpreter) fn axes_or_all(&self, rest: &str) -> Vec<AxisIndex> {
-        let named = self.axes_in(rest);
-        if named.is_empty() {
-            (0..self.machine.axes.len()).map(AxisIndex::new).collect()
-        } else {
-            named
         }
     }
 

@@ -198,6 +198,16 @@ impl Interpreter {
         }
     }
 
+    /// The axes that a command names, or else all.
+    pub(in crate::interpreter) fn axes_or_all(&self, rest: &str) -> Vec<AxisIndex> {
+        let named = self.axes_in(rest);
+        if named.is_empty() {
+            (0..self.machine.axes.len()).map(AxisIndex::new).collect()
+        } else {
+            named
+        }
+    }
+
     pub(in crate::interpreter) fn axes_in(&self, text: &str) -> Vec<AxisIndex> {
         names_in(text)
             .filter_map(|word| self.machine.find(word))

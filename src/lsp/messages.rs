@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use gen_lsp_types::{
     Code as MessageCode, CodeDescription, Diagnostic as Message, DiagnosticRelatedInformation,
-    DiagnosticSeverity, DiagnosticTag, Location, Range, Uri,
+    DiagnosticSeverity, DiagnosticTag, Location, Message as MessageText, Range, Uri,
 };
 
 use super::analysis::Analysis;
@@ -18,6 +18,9 @@ use crate::text::Place;
 
 /// Who says it.
 const SOURCE: &str = "frictcomp";
+
+/// What stands before advice.
+const HELP: &str = "\nhelp: ";
 
 /// What a message says of a main program that reaches it.
 const REACHED_FROM: &str = "reached from this program";
@@ -83,7 +86,7 @@ impl Translator<'_> {
 
     /// One message, and the text that it is about.
     pub(super) fn message(self, said: &Diagnostic) -> (Uri, Message) {
-        let help = said.advice.iter().map(|advice| format!("\nhelp: {advice}"));
+        let help = said.advice.iter().map(|advice| format!("{HELP}{advice}"));
         let labels = said.labels.iter();
         let labels = labels.map(|label| self.related(&label.place, &label.text));
         let lists = said
@@ -161,8 +164,26 @@ fn own(severity: DiagnosticSeverity, text: String) -> Message {
     }
 }
 
-/// Adds the main programs of the same message of another check (R17.1).
+/// What makes two messages about a text the same (R17.3); what to do depends on the main program.
+fn cause(message: &Message) -> String {
+    let said = match &message.message {
+        MessageText::String(text) => text.split(HELP).next(),
+        MessageText::MarkupContent(_) => None,
+    };
+    format!("{:?} {:?} {said:?}", message.range, message.code)
+}
+
+/// Adds the main programs of the same message of another check (R17.1). A message of a main program
+/// says more than that of the called program alone.
 fn reach(known: &mut Message, message: &Message) {
+    let is_reached = |it: &Message| {
+        let mut related = it.related_information.iter().flatten();
+        related.any(|it| it.message == REACHED_FROM)
+    };
+    if !is_reached(known) {
+        known.clone_from(message);
+        return;
+    }
     let programs = message.related_information.iter().flatten();
     for program in programs.filter(|it| it.message == REACHED_FROM) {
         let related = known.related_information.get_or_insert_default();
@@ -209,8 +230,7 @@ impl Board {
             let others = all.filter_map(|(_, check)| check.get(&uri));
             let mut known = HashMap::new();
             for message in own.into_iter().chain(others).flatten() {
-                let key = (message.range, message.code.clone(), message.message.clone());
-                match known.entry(format!("{key:?}")) {
+                match known.entry(cause(message)) {
                     Entry::Vacant(vacant) => {
                         vacant.insert(now.len());
                         now.push(message.clone());

@@ -1,6 +1,6 @@
 //! What is read and what is written, so that no output destroys an input (R9.70).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::collections::hash_map::{Entry, HashMap};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,11 @@ use crate::text::shown_path;
 /// The files that a piece of work reads. Its copies are the same ledger: called programs are known only
 /// while others run already.
 #[derive(Debug, Clone, Default)]
-pub struct Ledger(Arc<Mutex<BTreeMap<PathBuf, &'static str>>>);
+pub struct Ledger {
+    inputs: Arc<Mutex<BTreeMap<PathBuf, &'static str>>>,
+    /// The names of called programs that were not found.
+    missed: Arc<Mutex<BTreeSet<String>>>,
+}
 
 /// What a program is noted as.
 pub(super) const PROGRAM: &str = "program";
@@ -98,8 +102,23 @@ impl Ledger {
         inputs.keys().any(|path| !path.is_file())
     }
 
+    /// Notes the name of a called program that was not found.
+    pub(super) fn misses(&self, name: &str) {
+        let mut missed = self.missed.lock().unwrap_or_else(PoisonError::into_inner);
+        if !missed.contains(name) {
+            missed.insert(name.to_owned());
+        }
+    }
+
+    /// The names of called programs that were not found.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn missed(&self) -> Vec<String> {
+        let missed = self.missed.lock().unwrap_or_else(PoisonError::into_inner);
+        missed.iter().cloned().collect()
+    }
+
     fn inputs(&self) -> MutexGuard<'_, BTreeMap<PathBuf, &'static str>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.inputs.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

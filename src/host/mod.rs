@@ -36,6 +36,8 @@ mod outputs;
 mod parameter_files;
 mod paths;
 mod read;
+#[cfg_attr(not(feature = "lsp"), allow(dead_code))]
+mod shared_map;
 mod simulations;
 mod state_file;
 mod steady;
@@ -82,6 +84,9 @@ pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs, is_program};
 pub use watch::{Done, Progress, Watch, Watcher};
 pub use workers::{in_order, processors};
+
+#[cfg(feature = "lsp")]
+pub(crate) use shared_map::SharedMap;
 
 #[cfg(feature = "cli")]
 pub(crate) use parameter_files::is_configuration;

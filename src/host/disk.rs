@@ -1,7 +1,6 @@
 //! The disk that programs, lists and configurations are read from: that of the system, with texts in
 //! place of some of its files (R12.2), or one in memory (R13.3).
 
-use std::collections::HashMap;
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,6 +11,7 @@ use super::memory_disk::MemoryDisk;
 use super::open_text::OpenText;
 use super::paths::{Entry, normal, or_here};
 use super::read::read_bytes;
+use super::shared_map::SharedMap;
 use crate::text::{LineSource, TextLines, decode};
 
 /// More bytes than a list or a configuration has.
@@ -24,14 +24,14 @@ pub struct Disk(Kind);
 #[derive(Debug, Clone)]
 enum Kind {
     /// That of the system, with texts in place of files, by their real paths.
-    System(Arc<HashMap<PathBuf, Arc<String>>>),
+    System(SharedMap<PathBuf, Arc<String>>),
     /// Texts and nothing else.
     Memory(Arc<MemoryDisk>),
 }
 
 impl Default for Disk {
     fn default() -> Self {
-        Self(Kind::System(Arc::default()))
+        Self(Kind::System(SharedMap::default()))
     }
 }
 
@@ -42,7 +42,19 @@ impl Disk {
         let system = Self::default();
         let texts = texts.into_iter();
         let texts = texts.map(|open| (system.place_of(&open.path), open.text));
-        Self(Kind::System(Arc::new(texts.collect())))
+        Self(Kind::System(texts.collect()))
+    }
+
+    /// The same with texts that are found by the [places](Self::place) of their files already.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn with_placed(texts: SharedMap<PathBuf, Arc<String>>) -> Self {
+        Self(Kind::System(texts))
+    }
+
+    /// The one path that all names of a file of the system lead to.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn place(path: &Path) -> PathBuf {
+        Self::default().place_of(path)
     }
 
     /// A disk in memory with these texts and the folders of their paths, for hosts that have no other.

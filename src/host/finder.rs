@@ -232,7 +232,8 @@ impl ProgramFinder {
 
 impl Finder for ProgramFinder {
     fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
-        let path = self.locate(name, caller)?;
+        let path = self.locate(name, caller);
+        let path = path.inspect_err(|_| self.ledger.misses(name))?;
         self.ledger.reads(PROGRAM, &path);
         let text = self.disk.read(&path).map_err(|error| unusable(&error))?;
         Ok(SourceFile::new(self.name(&path), text))

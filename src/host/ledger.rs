@@ -1,8 +1,8 @@
 //! What is read and what is written, so that no output destroys an input (R9.70), nor a program, a
 //! list or a configuration that this call does not read (R9.93).
 
-use std::collections::BTreeMap;
 use std::collections::hash_map::{Entry, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -22,6 +22,8 @@ struct Inputs {
     files: BTreeMap<Arc<Path>, &'static str>,
     /// The files in the order in which they became known.
     order: Vec<Arc<Path>>,
+    /// The names of called programs that were not found.
+    missed: BTreeSet<String>,
 }
 
 /// What a program is noted as.
@@ -167,6 +169,20 @@ impl Ledger {
     pub fn has_streams(&self) -> bool {
         let inputs = self.inputs();
         inputs.order.iter().any(|path| !path.is_file())
+    }
+
+    /// Notes the name of a called program that was not found.
+    pub(super) fn misses(&self, name: &str) {
+        let mut inputs = self.inputs();
+        if !inputs.missed.contains(name) {
+            inputs.missed.insert(name.to_owned());
+        }
+    }
+
+    /// The names of called programs that were not found.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn missed(&self) -> Vec<String> {
+        self.inputs().missed.iter().cloned().collect()
     }
 
     fn inputs(&self) -> MutexGuard<'_, Inputs> {

@@ -40,6 +40,8 @@ mod parameter_files;
 mod paths;
 mod pieces;
 mod read;
+#[cfg_attr(not(feature = "lsp"), allow(dead_code))]
+mod shared_map;
 mod simulations;
 mod state_file;
 mod steady;
@@ -86,6 +88,9 @@ pub use unread::{UnreadVariable, unread_variables};
 pub use walk::{FoundPrograms, find_programs};
 pub use watch::{Done, Progress, Watch, Watcher};
 pub use workers::{in_order, processors};
+
+#[cfg(feature = "lsp")]
+pub(crate) use shared_map::SharedMap;
 
 #[cfg(feature = "cli")]
 pub(crate) use parameter_files::is_configuration;

@@ -1,6 +1,6 @@
 //! Changes that do what a message advises, from the data that comes with it (R12.5).
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 use gen_lsp_types::{
@@ -56,13 +56,15 @@ fn touches(one: Range, other: Range) -> bool {
 
 /// What all checks say about a text, each once.
 fn messages<'a>(view: &'a View, document: &Document) -> Vec<&'a Diagnostic> {
-    let mut found: Vec<&Diagnostic> = Vec::new();
-    for said in view.analyses.values().flat_map(|analysis| &analysis.said) {
-        if Documents::path(&said.place.file) == document.path && !found.contains(&said) {
-            found.push(said);
-        }
-    }
-    found
+    let mut known = BTreeSet::new();
+    let analyses = view.analyses_of(document).into_iter();
+    let said = analyses.flat_map(|(_, analysis)| &analysis.said);
+    let here = said.filter(|said| Documents::path(&said.place.file) == document.path);
+    let mut is_new = |said: &&'a Diagnostic| {
+        let place = (said.place.first_line, said.place.span.start);
+        known.insert((place, said.code, said.message.as_str()))
+    };
+    here.filter(|said| is_new(said)).collect()
 }
 
 /// The fixes of a message, and the comment that silences it.
@@ -79,7 +81,7 @@ fn quick_fixes(
         };
         let preferred = fix.safety == Safety::Safe && std::mem::take(&mut is_preferred);
         actions.push(CodeAction {
-            title: title(view, document, fix),
+            title: title(document, fix),
             kind: Some(CodeActionKind::QuickFix),
             diagnostics: Some(vec![message.clone()]),
             is_preferred: preferred.then_some(true),
@@ -102,7 +104,7 @@ fn quick_fixes(
 }
 
 /// What a fix does, in words.
-fn title(view: &View, document: &Document, fix: &Fix) -> String {
+fn title(document: &Document, fix: &Fix) -> String {
     let old = short(fix.place.span.of(&fix.place.text));
     let new = short(&fix.text);
     let what = match (old.as_str(), new.as_str()) {
@@ -114,8 +116,6 @@ fn title(view: &View, document: &Document, fix: &Fix) -> String {
     if path == document.path {
         return what;
     }
-    let known = view.documents.iter().find(|document| document.path == path);
-    let path = known.map_or(path.as_path(), |document| document.path.as_path());
     let name = path.file_name().unwrap_or(path.as_os_str());
     format!("{what} in {}", name.to_string_lossy())
 }
@@ -150,7 +150,7 @@ fn safe_fixes(view: &View, document: &Document) -> Vec<Fix> {
     let name = shown_path(&document.path);
     let mut proposed: HashMap<&Fix, (Code, usize)> = HashMap::new();
     let mut runs = 0;
-    for analysis in view.analyses.values() {
+    for (_, analysis) in view.analyses_of(document) {
         let is_run = analysis
             .run
             .as_ref()

@@ -13,7 +13,7 @@ use crate::comp::State;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::host::{
     Alone, Axes, Disk, Grounds, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines,
-    Naming, OpenText, check_list_file, run_alone,
+    Naming, check_list_file, run_alone,
 };
 use crate::session::{Findings, Limits, Options, SessionOptions, StopPolicy};
 use crate::timeline::{EndedBy, Record, Sink};
@@ -22,8 +22,8 @@ use crate::timeline::{EndedBy, Record, Sink};
 pub(super) struct Job {
     /// The text.
     pub(super) document: Arc<Document>,
-    /// All open texts.
-    pub(super) open: Vec<OpenText>,
+    /// The disk with all open texts.
+    pub(super) disk: Disk,
     /// The executed blocks that are checked.
     pub(super) max_blocks: u64,
     /// Whether the text has changed since.
@@ -41,6 +41,8 @@ pub(super) struct Analysis {
     pub(super) failure: Option<Failure>,
     /// The files that were read for it.
     pub(super) reads: Vec<PathBuf>,
+    /// The names of programs that were called and not found.
+    pub(super) missed: Vec<String>,
     /// What happens in the program.
     pub(super) run: Option<Run>,
 }
@@ -84,15 +86,16 @@ impl Job {
     /// Checks the text; `None` where it has changed meanwhile.
     pub(super) fn run(&self) -> Option<Analysis> {
         let ledger = Ledger::default();
-        let disk = Disk::with_open(self.open.iter().cloned());
+        let disk = &self.disk;
         let mut analysis = match self.document.kind {
-            Kind::Program => self.check_program(&disk, &ledger),
-            Kind::List | Kind::Configuration => self.check_list(&disk, &ledger),
+            Kind::Program => self.check_program(disk, &ledger),
+            Kind::List | Kind::Configuration => self.check_list(disk, &ledger),
         };
         if self.cancel.is_set() {
             return None;
         }
         analysis.version = self.document.version;
+        analysis.missed = ledger.missed();
         let files = ledger.files().into_iter();
         analysis.reads = files
             .map(|path| disk.absolute(&path).unwrap_or(path))

@@ -1,6 +1,6 @@
 //! Which texts have to be checked, and when (R12.7).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use super::lane::Cancel;
@@ -24,6 +24,8 @@ pub(super) enum Outdated {
 #[derive(Debug, Default)]
 pub(super) struct Checks {
     due: BTreeMap<String, Instant>,
+    /// The same in the order in which they are due.
+    order: BTreeSet<(Instant, String)>,
     running: Option<(String, Cancel)>,
 }
 
@@ -37,19 +39,34 @@ impl Checks {
             Outdated::ByTyping => PAUSE,
             Outdated::ByOthers => 2 * PAUSE,
         };
-        self.due.insert(uri.to_owned(), now + pause);
+        self.set(uri, now + pause);
         if let Some((running, cancel)) = &self.running
             && (running == uri || why == Outdated::ByTyping)
         {
             cancel.set();
             let again = now + 2 * PAUSE;
-            self.due.entry(running.clone()).or_insert(again);
+            if !self.due.contains_key(running) {
+                let running = running.clone();
+                self.set(&running, again);
+            }
+        }
+    }
+
+    fn set(&mut self, uri: &str, at: Instant) {
+        self.take(uri);
+        self.due.insert(uri.to_owned(), at);
+        self.order.insert((at, uri.to_owned()));
+    }
+
+    fn take(&mut self, uri: &str) {
+        if let Some(at) = self.due.remove(uri) {
+            self.order.remove(&(at, uri.to_owned()));
         }
     }
 
     /// A text need not be checked any more.
     pub(super) fn forget(&mut self, uri: &str) {
-        self.due.remove(uri);
+        self.take(uri);
         if let Some((running, cancel)) = &self.running
             && running == uri
         {
@@ -60,6 +77,7 @@ impl Checks {
     /// Nothing need be checked any more.
     pub(super) fn stop(&mut self) {
         self.due.clear();
+        self.order.clear();
         if let Some((_, cancel)) = &self.running {
             cancel.set();
         }
@@ -70,9 +88,9 @@ impl Checks {
         if self.running.is_some() {
             return None;
         }
-        let first = self.due.iter().min_by_key(|(_, at)| **at);
-        let uri = first.filter(|(_, at)| **at <= now)?.0.clone();
-        self.due.remove(&uri);
+        let first = self.order.first();
+        let uri = first.filter(|(at, _)| *at <= now)?.1.clone();
+        self.take(&uri);
         Some(uri)
     }
 
@@ -81,7 +99,7 @@ impl Checks {
         if self.running.is_some() {
             return None;
         }
-        let first = self.due.values().min()?;
+        let (first, _) = self.order.first()?;
         Some(first.saturating_duration_since(now))
     }
 

@@ -84,7 +84,7 @@ fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
     let document = view
         .document(&subject.uri)
         .ok_or_else(|| Refusal::Params(format!("`{}` is not open", subject.uri.0)))?;
-    let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
+    let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
     let unheard = Ledger::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
@@ -127,7 +127,7 @@ fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
         Some(folder) if !path.is_dir() => folder.to_owned(),
         _ => path,
     };
-    let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
+    let disk = view.documents.disk();
     let unheard = Ledger::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let found = find_programs(&[folder], |folder| machines.extensions(folder));

@@ -1,6 +1,6 @@
 //! The texts that the client has open.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use gen_lsp_types::{Position, Range, TextDocumentContentChangeEvent, TextDocumen
 
 use super::encoding::Encoding;
 use super::uri::{path_of, uri_of};
-use crate::host::{CONFIG_NAME, Disk, OpenText};
+use crate::host::{CONFIG_NAME, Disk, OpenText, SharedMap};
 use crate::text::{LineIndex, Span};
 
 /// What a text is.
@@ -35,6 +35,8 @@ pub(super) struct Document {
     pub(super) version: i32,
     text: Arc<String>,
     lines: LineIndex,
+    /// The one path of its file.
+    place: PathBuf,
 }
 
 impl Document {
@@ -43,6 +45,7 @@ impl Document {
         let path = path_of(&uri.0).unwrap_or_else(|| folder.join(file_name(&uri.0)));
         Self {
             kind: kind(&path, opened.language_id.as_str()),
+            place: Disk::place(&path),
             path,
             uri,
             version: opened.version,
@@ -124,10 +127,15 @@ impl Document {
     }
 }
 
-/// The texts that the client has open, by their URIs. A copy is cheap, and stays as it is.
+/// The texts that the client has open. A copy is cheap, and stays as it is (R12.16).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Documents {
-    open: BTreeMap<String, Arc<Document>>,
+    /// The texts by their URIs.
+    open: SharedMap<String, Arc<Document>>,
+    /// The URIs of the texts of a file; there is hardly ever more than one.
+    names: SharedMap<PathBuf, BTreeSet<String>>,
+    /// What the texts hold, by the places of their files.
+    texts: SharedMap<PathBuf, Arc<String>>,
     /// The folder of texts that have no file.
     folder: PathBuf,
 }
@@ -136,16 +144,22 @@ impl Documents {
     /// No text yet.
     pub(super) fn new(folder: PathBuf) -> Self {
         Self {
-            open: BTreeMap::new(),
             folder,
+            ..Self::default()
         }
     }
 
     /// Opens a text, in place of one of the same URI.
     pub(super) fn open(&mut self, opened: TextDocumentItem) -> Arc<Document> {
         let document = Arc::new(Document::new(opened, &self.folder));
-        let key = document.uri.0.clone();
-        self.open.insert(key, Arc::clone(&document));
+        let uri = document.uri.0.clone();
+        self.close(&document.uri);
+        let mut names = self.names.remove(&document.path).unwrap_or_default();
+        names.insert(uri.clone());
+        self.names.insert(document.path.clone(), names);
+        self.texts
+            .insert(document.place.clone(), Arc::clone(&document.text));
+        self.open.insert(uri, Arc::clone(&document));
         document
     }
 
@@ -157,15 +171,29 @@ impl Documents {
         encoding: Encoding,
     ) -> Option<Arc<Document>> {
         let document = self.open.get_mut(&uri.0)?;
+        // Nobody but the document holds the text while it changes, so that it need not be copied.
+        self.texts.remove(&document.place);
         let text = Arc::make_mut(document);
         text.version = version;
         text.change(changes, encoding);
-        Some(Arc::clone(document))
+        let document = Arc::clone(document);
+        self.texts
+            .insert(document.place.clone(), Arc::clone(&document.text));
+        Some(document)
     }
 
     /// Closes a text; `None` where it is not open.
     pub(super) fn close(&mut self, uri: &Uri) -> Option<Arc<Document>> {
-        self.open.remove(&uri.0)
+        let closed = self.open.remove(&uri.0)?;
+        self.texts.remove(&closed.place);
+        let mut names = self.names.remove(&closed.path).unwrap_or_default();
+        names.remove(&uri.0);
+        if let Some(other) = names.first().and_then(|name| self.open.get(name)) {
+            self.texts
+                .insert(other.place.clone(), Arc::clone(&other.text));
+            self.names.insert(closed.path.clone(), names);
+        }
+        Some(closed)
     }
 
     /// An open text.
@@ -175,13 +203,18 @@ impl Documents {
 
     /// All open texts.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Arc<Document>> {
-        self.open.values()
+        self.open.iter().map(|(_, document)| document)
+    }
+
+    /// The disk of the system with the open texts in place of their files.
+    pub(super) fn disk(&self) -> Disk {
+        Disk::with_placed(self.texts.clone())
     }
 
     /// The URI of a file as the client writes it, where it has it open.
     pub(super) fn uri(&self, path: &Path) -> Uri {
-        match self.iter().find(|document| document.path == path) {
-            Some(document) => document.uri.clone(),
+        match self.names.get(path).and_then(BTreeSet::first) {
+            Some(name) => Uri(name.clone()),
             None => Uri(uri_of(path)),
         }
     }

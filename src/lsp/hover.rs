@@ -6,6 +6,7 @@ use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind, Position};
 
 use super::completion::about;
 use super::documents::{Document, Kind};
+use super::markdown::{code, plain};
 use super::moving::{AxisMoves, moves};
 use super::parameters::page_of;
 use super::states::{Pass, StateBook};
@@ -43,8 +44,8 @@ fn program(view: &View, document: &Document, position: Position) -> Option<Strin
             continue;
         }
         if main.uri != document.uri {
-            let caller = shown_path(&main.path);
-            let _ = writeln!(text, "\nCalled from `{caller}`:\n");
+            let caller = code(&shown_path(&main.path));
+            let _ = writeln!(text, "\nCalled from {caller}:\n");
         }
         text += &table(&run.states, &passes);
         if main.uri == document.uri {
@@ -76,13 +77,14 @@ fn command_at(line: &str, offset: usize) -> Option<CompCommand> {
 
 /// What a COMP command does, as the documents say it.
 fn meaning(command: &CompCommand) -> String {
-    let axis = &command.axis;
+    let axis = plain(&command.axis);
     let (verb, kinds) = match command.selection {
         Selection::On(kinds) => ("selects", kinds),
         Selection::Off(kinds) => ("deselects", kinds),
         _ => {
+            let whole = code(&format!("{}[COMP OFF_ALL]", command.axis));
             return format!(
-                "`{axis}[COMP OFF_ALL]` deselects every compensation of axis {axis}, until a program selects it again or the control restarts; M30 does not."
+                "{whole} deselects every compensation of axis {axis}, until a program selects it again or the control restarts; M30 does not."
             );
         }
     };
@@ -115,7 +117,7 @@ fn moving(moves: &AxisMoves) -> String {
         (1, _) if *times == 1 => "reverses".to_owned(),
         (count, _) => format!("reverses {count} times"),
     };
-    format!("{axis} moves {compensation}; {reversal}")
+    format!("{} moves {compensation}; {reversal}", plain(axis))
 }
 
 /// The states of each axis before and after a block, in all passes.
@@ -129,7 +131,7 @@ fn table(states: &StateBook, passes: &[Pass<'_>]) -> String {
             continue;
         }
         let (before, after) = (words(&before, total), words(&after, total));
-        let _ = writeln!(text, "| {axis} | {before} | {after} |");
+        let _ = writeln!(text, "| {} | {before} | {after} |", plain(axis));
     }
     if total > 1 {
         let _ = writeln!(text, "\nexecuted {total} times");

@@ -9,7 +9,7 @@ use super::documents::{Document, Kind};
 use super::encoding::whole_line;
 use super::hints::left;
 use super::view::View;
-use crate::host::{ArchiveAuditor, AuditOptions, Disk, Input, Ledger, MachineOptions, Machines};
+use crate::host::{ArchiveAuditor, AuditOptions, Input, Ledger, MachineOptions, Machines};
 use crate::session::Options;
 
 /// The lenses over a text.
@@ -48,7 +48,7 @@ pub(super) fn code_lenses(view: &View, params: &CodeLensParams) -> Option<Vec<Co
 /// The axes that a program moves in the state that it finds (R10.1); `None` where that cannot be
 /// found out.
 fn inherited(view: &View, document: &Document) -> Option<String> {
-    let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
+    let disk = view.documents.disk();
     let unheard = Ledger::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
     let limits = limits(view.client.settings.max_blocks);

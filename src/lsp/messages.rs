@@ -1,7 +1,7 @@
 //! Messages as the protocol has them (R12.2).
 
-use std::collections::hash_map::Entry;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 
 use gen_lsp_types::{
     Code as MessageCode, CodeDescription, Diagnostic as Message, DiagnosticRelatedInformation,
@@ -195,42 +195,82 @@ fn reach(known: &mut Message, message: &Message) {
 }
 
 /// What the client was told, text by text. Each check brings messages about its text and about others;
-/// a text shows those of all checks, each once.
+/// a text shows its own ones first, then those of other checks, each once.
 #[derive(Debug, Default)]
 pub(super) struct Board {
     by_check: BTreeMap<String, ByText>,
+    /// What checks of other texts say about a text, and how many of them do.
+    by_others: BTreeMap<String, BTreeMap<Key, (Message, usize)>>,
     shown: ByText,
 }
+
+/// Where a message stands, its cause, and all else that tells it from others.
+type Key = (u32, u32, String, String);
 
 impl Board {
     /// Takes the messages of the check of a text in place of the earlier ones, and returns the texts
     /// whose messages are others now.
     pub(super) fn put(&mut self, check: &str, messages: ByText) -> ByText {
-        let concerned: Vec<String> = messages.keys().cloned().collect();
-        let earlier = self.by_check.insert(check.to_owned(), messages);
-        self.changed(earlier, concerned)
+        let mut concerned = self.take(check);
+        for (uri, messages) in &messages {
+            concerned.insert(uri.clone());
+            if uri != check {
+                let said = self.by_others.entry(uri.clone()).or_default();
+                for message in messages {
+                    let known = said.entry(key(message));
+                    known.or_insert_with(|| (message.clone(), 0)).1 += 1;
+                }
+            }
+        }
+        self.by_check.insert(check.to_owned(), messages);
+        self.changed(concerned)
     }
 
     /// Takes away the messages of the check of a text that was closed, and returns the texts whose
     /// messages are others now.
     pub(super) fn remove(&mut self, check: &str) -> ByText {
-        let earlier = self.by_check.remove(check);
-        let changed = self.changed(earlier, Vec::new());
-        self.shown.retain(|_, messages| !messages.is_empty());
+        let concerned = self.take(check);
+        let changed = self.changed(concerned.clone());
+        for uri in concerned {
+            if self.shown.get(&uri).is_some_and(Vec::is_empty) {
+                self.shown.remove(&uri);
+            }
+        }
         changed
     }
 
-    fn changed(&mut self, earlier: Option<ByText>, mut concerned: Vec<String>) -> ByText {
-        concerned.extend(earlier.unwrap_or_default().into_keys());
+    /// Takes away the messages of a check: the texts that they were about.
+    fn take(&mut self, check: &str) -> BTreeSet<String> {
+        let earlier = self.by_check.remove(check).unwrap_or_default();
+        for (uri, messages) in earlier.iter().filter(|(uri, _)| *uri != check) {
+            let said = self.by_others.entry(uri.clone()).or_default();
+            for message in messages {
+                if let Entry::Occupied(mut known) = said.entry(key(message)) {
+                    known.get_mut().1 -= 1;
+                    if known.get().1 == 0 {
+                        known.remove();
+                    }
+                }
+            }
+            if said.is_empty() {
+                self.by_others.remove(uri);
+            }
+        }
+        earlier.into_keys().collect()
+    }
+
+    fn changed(&mut self, concerned: BTreeSet<String>) -> ByText {
         let mut changed = ByText::new();
         for uri in concerned {
-            let mut now: Vec<Message> = Vec::new();
             let own = self.by_check.get(&uri).and_then(|check| check.get(&uri));
-            let all = self.by_check.iter().filter(|(check, _)| **check != uri);
-            let others = all.filter_map(|(_, check)| check.get(&uri));
-            let mut known = HashMap::new();
-            for message in own.into_iter().chain(others).flatten() {
-                match known.entry(cause(message)) {
+            let own = own.into_iter().flatten();
+            let own = own.map(|message| (cause(message), message));
+            let others = self.by_others.get(&uri).into_iter().flatten();
+            let others = others.map(|((_, _, cause, _), (message, _))| (cause.clone(), message));
+            let mut now: Vec<Message> = Vec::new();
+            let mut known = BTreeMap::new();
+            for (cause, message) in own.chain(others) {
+                match known.entry(cause) {
                     Entry::Vacant(vacant) => {
                         vacant.insert(now.len());
                         now.push(message.clone());
@@ -245,4 +285,11 @@ impl Board {
         }
         changed
     }
+}
+
+fn key(message: &Message) -> Key {
+    let start = message.range.start;
+    let rest = (&message.message, &message.related_information);
+    let rest = format!("{rest:?}");
+    (start.line, start.character, cause(message), rest)
 }

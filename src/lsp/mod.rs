@@ -23,6 +23,7 @@ mod hover;
 mod lane;
 mod lens;
 mod log;
+mod markdown;
 mod messages;
 mod moving;
 mod navigation;
@@ -36,6 +37,7 @@ mod settings;
 mod states;
 mod transport;
 mod uri;
+mod users;
 mod view;
 mod wording;
 

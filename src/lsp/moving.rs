@@ -7,7 +7,7 @@ use super::analysis::options;
 use super::documents::Document;
 use super::view::View;
 use crate::comp::{Kind, State};
-use crate::host::{Alone, Axes, Disk, Input, Ledger, MachineOptions, Machines, Naming, run_alone};
+use crate::host::{Alone, Axes, Input, Ledger, MachineOptions, Machines, Naming, run_alone};
 use crate::interpreter::{CircularArc, Form, Motion, Motions, SAME_PLACE, Travel};
 use crate::text::shown_path;
 use crate::timeline::{Record, Row, Sink};
@@ -32,7 +32,7 @@ pub(super) struct AxisMoves {
 
 /// How the axes move in the block that starts on a line, from 1; the program runs once more for it.
 pub(super) fn moves(view: &View, document: &Document, line: u32) -> Vec<AxisMoves> {
-    let disk = Disk::with_open(view.documents.iter().map(|it| it.open_text()));
+    let disk = view.documents.disk();
     let input = Input::Open(document.open_text());
     let unheard = Ledger::default();
     let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);

@@ -3,9 +3,8 @@
 //! It never works itself: checks and answers are made on other threads, from copies of the texts that
 //! stay as they are.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::io;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -34,7 +33,9 @@ use super::messages::{Board, ByText, Translator};
 use super::refusal::Refusal;
 use super::requests::{Answerer, Needs, answerer};
 use super::uri::path_of;
+use super::users::Users;
 use super::view::View;
+use crate::host::SharedMap;
 
 /// How long nothing has to happen before the server looks whether something is due.
 const IDLE: Duration = Duration::from_secs(3600);
@@ -119,7 +120,8 @@ struct Server<'c> {
     connection: &'c Connection,
     client: Arc<Client>,
     documents: Documents,
-    analyses: BTreeMap<String, Arc<Analysis>>,
+    analyses: SharedMap<String, Arc<Analysis>>,
+    users: Users,
     board: Board,
     checks: Checks,
     checking: Lane<Job>,
@@ -143,7 +145,8 @@ impl<'c> Server<'c> {
             connection,
             client: Arc::new(client),
             documents: Documents::new(folder),
-            analyses: BTreeMap::new(),
+            analyses: SharedMap::default(),
+            users: Users::default(),
             board: Board::default(),
             checks: Checks::default(),
             checking: checking(sender.clone())?,
@@ -322,6 +325,7 @@ impl<'c> Server<'c> {
     fn opened(&mut self, params: DidOpenTextDocumentParams) {
         let document = self.documents.open(params.text_document);
         self.analyses.remove(&document.uri.0);
+        self.users.forget(&document.uri.0);
         self.checks.expect(&document.uri.0, Outdated::Now);
         self.expect_users(&document);
     }
@@ -349,6 +353,7 @@ impl<'c> Server<'c> {
             return self.send(log(format!("`{}` was closed, but is not open", uri.0)));
         };
         self.analyses.remove(&uri.0);
+        self.users.forget(&uri.0);
         self.checks.forget(&uri.0);
         let changed = self.board.remove(&uri.0);
         self.publish(changed);
@@ -359,13 +364,14 @@ impl<'c> Server<'c> {
     fn files_changed(&mut self, params: &DidChangeWatchedFilesParams) {
         let events = params.changes.iter();
         let changed: Vec<_> = events.filter_map(|it| path_of(&it.uri.0)).collect();
-        let is_read = |path: &PathBuf| self.analyses.values().any(|it| it.reads.contains(path));
         // A new file may be what was not found before.
-        let has_new = !changed.iter().all(is_read);
-        let concerns =
-            |it: &Analysis| has_new || changed.iter().any(|path| it.reads.contains(path));
-        let concerned = self.analyses.iter().filter(|(_, it)| concerns(it));
-        let texts: Vec<String> = concerned.map(|(uri, _)| uri.clone()).collect();
+        let has_new = !changed.iter().all(|path| self.users.are_of(path));
+        let texts: BTreeSet<String> = if has_new {
+            self.users.all().cloned().collect()
+        } else {
+            let users = changed.iter().flat_map(|path| self.users.of(path));
+            users.cloned().collect()
+        };
         for uri in texts {
             self.checks.expect(&uri, Outdated::ByOthers);
         }
@@ -428,18 +434,9 @@ impl<'c> Server<'c> {
 
     // Checks.
 
-    /// The texts whose checks read a text are checked again; all of them where no file was there to be
-    /// read.
+    /// The texts whose checks read a text, or may look for it, are checked again.
     fn expect_users(&mut self, changed: &Document) {
-        let is_there = changed.path.is_file();
-        let uses = |it: &Analysis| !is_there || it.reads.contains(&changed.path);
-        let others = self
-            .analyses
-            .iter()
-            .filter(|(uri, _)| **uri != changed.uri.0);
-        let texts = others.filter(|(_, it)| uses(it));
-        let texts: Vec<String> = texts.map(|(uri, _)| uri.clone()).collect();
-        for uri in texts {
+        for uri in self.users.concerned(changed) {
             self.checks.expect(&uri, Outdated::ByOthers);
         }
     }
@@ -450,7 +447,7 @@ impl<'c> Server<'c> {
         };
         let job = Job {
             document: Arc::clone(document),
-            open: self.documents.iter().map(|it| it.open_text()).collect(),
+            disk: self.documents.disk(),
             max_blocks: self.client.settings.max_blocks,
             cancel: self.checks.begin(uri),
         };
@@ -470,6 +467,7 @@ impl<'c> Server<'c> {
         let messages = view.messages(document, &analysis);
         let earlier = self.analyses.get(&uri.0).map(|earlier| earlier.version);
         let is_by_others = earlier == Some(analysis.version);
+        self.users.note(document, &analysis);
         self.analyses.insert(uri.0.clone(), Arc::new(*analysis));
         let changed = self.board.put(&uri.0, messages);
         self.publish(changed);

@@ -1,6 +1,5 @@
 //! What a question is answered from: the texts and what was found in them, as they are at one moment.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use gen_lsp_types::{Position, Uri};
@@ -10,6 +9,7 @@ use super::client::Client;
 use super::documents::{Document, Documents};
 use super::lane::Cancel;
 use super::messages::Translator;
+use crate::host::SharedMap;
 use crate::text::shown_path;
 
 /// What a question is answered from. A copy is cheap, and stays as it is.
@@ -20,7 +20,7 @@ pub(super) struct View {
     /// What it has open.
     pub(super) documents: Documents,
     /// What was found in the open texts, by their URIs.
-    pub(super) analyses: BTreeMap<String, Arc<Analysis>>,
+    pub(super) analyses: SharedMap<String, Arc<Analysis>>,
     /// Whether the client still wants to know.
     pub(super) cancel: Cancel,
 }
@@ -44,13 +44,25 @@ impl View {
         self.documents.get(uri).map(AsRef::as_ref)
     }
 
+    /// What was found in a text, and in others that use it, in the order of their URIs.
+    pub(super) fn analyses_of(&self, document: &Document) -> Vec<(&str, &Analysis)> {
+        let analyses = self.analyses.iter();
+        let analyses = analyses.map(|(uri, analysis)| (uri.as_str(), analysis.as_ref()));
+        let mut using: Vec<_> = analyses
+            .filter(|(uri, it)| *uri == document.uri.0 || it.reads.contains(&document.path))
+            .collect();
+        using.sort_unstable_by_key(|(uri, _)| *uri);
+        using
+    }
+
     /// The runs that came through a file, each with the name of the file there: that of the file
     /// itself first, then those of programs that call it.
     pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &Run, String)> {
         let name = shown_path(&document.path);
         let mut runs = Vec::new();
-        for (uri, analysis) in &self.analyses {
-            let (Some(run), Some(main)) = (&analysis.run, self.document(&Uri(uri.clone()))) else {
+        for (uri, analysis) in self.analyses_of(document) {
+            let (Some(run), Some(main)) = (&analysis.run, self.document(&Uri(uri.to_owned())))
+            else {
                 continue;
             };
             if main.uri == document.uri {

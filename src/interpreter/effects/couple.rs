@@ -214,16 +214,6 @@ impl Interpreter {
             .collect()
     }
 
-    /// The axes that a command names, or else all.
-    pub(in crate::interpreter) fn axes_or_all(&self, rest: &str) -> Vec<AxisIndex> {
-        let named = self.axes_in(rest);
-        if named.is_empty() {
-            (0..self.machine.axes.len()).map(AxisIndex::new).collect()
-        } else {
-            named
-        }
-    }
-
     /// The axes with the logical numbers of `[1, 8 = 2]`, the group left out.
     pub(in crate::interpreter) fn axes_by_number(&self, text: &str) -> Vec<AxisIndex> {
         let pairs = text.split_once(',').map_or("", |(_, pairs)| pairs);

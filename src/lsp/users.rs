@@ -1,0 +1,113 @@
+//! Which open texts use which files, so that a change is looked up and not looked for (R12.16).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use super::analysis::Analysis;
+use super::documents::{Document, Kind};
+
+/// The URIs of texts.
+type Uris = BTreeSet<String>;
+
+/// What the checks of the open texts have read and looked for.
+#[derive(Debug, Default)]
+pub(super) struct Users {
+    /// The texts whose checks read a file.
+    readers: BTreeMap<PathBuf, Uris>,
+    /// The texts whose checks called a program of a name, in lower case and without its extension.
+    callers: BTreeMap<String, Uris>,
+    /// What each text is in.
+    noted: BTreeMap<String, Noted>,
+}
+
+#[derive(Debug, Default)]
+struct Noted {
+    files: Vec<PathBuf>,
+    names: Vec<String>,
+}
+
+impl Users {
+    /// Notes what the check of a text read and looked for, in place of what an earlier one did.
+    pub(super) fn note(&mut self, document: &Document, analysis: &Analysis) {
+        let uri = &document.uri.0;
+        self.forget(uri);
+        let files = analysis.reads.clone();
+        let called = files.iter().filter(|path| **path != document.path);
+        let missed = analysis.missed.iter().map(|name| stem_of_call(name));
+        let names: BTreeSet<String> = called.map(|path| stem(path)).chain(missed).collect();
+        for path in &files {
+            let readers = self.readers.entry(path.clone()).or_default();
+            readers.insert(uri.clone());
+        }
+        for name in &names {
+            let callers = self.callers.entry(name.clone()).or_default();
+            callers.insert(uri.clone());
+        }
+        let names = names.into_iter().collect();
+        self.noted.insert(uri.clone(), Noted { files, names });
+    }
+
+    /// A text was closed.
+    pub(super) fn forget(&mut self, uri: &str) {
+        let Noted { files, names } = self.noted.remove(uri).unwrap_or_default();
+        for path in files {
+            remove(&mut self.readers, &path, uri);
+        }
+        for name in names {
+            remove(&mut self.callers, &name, uri);
+        }
+    }
+
+    /// Whether a check read a file.
+    pub(super) fn are_of(&self, path: &Path) -> bool {
+        self.readers.contains_key(path)
+    }
+
+    /// The texts whose checks read a file.
+    pub(super) fn of(&self, path: &Path) -> impl Iterator<Item = &String> {
+        self.readers.get(path).into_iter().flatten()
+    }
+
+    /// All texts that were checked.
+    pub(super) fn all(&self) -> impl Iterator<Item = &String> {
+        self.noted.keys()
+    }
+
+    /// The other texts whose checks would find something else where a text is opened, changed or closed:
+    /// those that read it, and where it has no file yet, those that may look for it.
+    pub(super) fn concerned(&self, document: &Document) -> Uris {
+        let mut concerned: Uris = self.of(&document.path).cloned().collect();
+        if !document.path.is_file() {
+            match document.kind {
+                Kind::Program => {
+                    let callers = self.callers.get(&stem(&document.path));
+                    concerned.extend(callers.into_iter().flatten().cloned());
+                }
+                // Any folder above a program may hold them.
+                Kind::List | Kind::Configuration => concerned.extend(self.all().cloned()),
+            }
+        }
+        concerned.remove(&document.uri.0);
+        concerned
+    }
+}
+
+fn remove<K: Ord>(index: &mut BTreeMap<K, Uris>, key: &K, uri: &str) {
+    if let Some(uris) = index.get_mut(key) {
+        uris.remove(uri);
+        if uris.is_empty() {
+            index.remove(key);
+        }
+    }
+}
+
+/// The name of a file without its extension, in lower case: the control does not tell the cases apart.
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default();
+    stem.to_string_lossy().to_lowercase()
+}
+
+/// The same of a name in a call, which may be a path of the control.
+fn stem_of_call(name: &str) -> String {
+    stem(Path::new(&name.replace('\\', "/")))
+}

@@ -237,6 +237,7 @@ sent! {
     host::Programs<'static>,
     host::Progress,
     host::Reach,
+    host::Replaces,
     host::StateFile,
     host::TraceError,
     host::UnreadVariable,

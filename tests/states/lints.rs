@@ -19,23 +19,23 @@ fn what_is_left_away_from_home_is_said_at_the_last_command() {
     FC402 3:1 this command repeats an earlier one: `FRICT` of axis `X` is already off
       1:1: the earlier one
     FC401 3:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 4: `X[COMP ON FRICT]`
     ");
     // What a program found and did not touch, or brought back to its start-up state, is none of its business.
     let left = "X[COMP OFF FRICT]\nM30";
     assert_snapshot!(said(&[left, "G90\nM30", "X[COMP OFF FRICT]\nX1\nX[COMP ON FRICT]\nM30"]), @"
     FC401 1:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 2: `X[COMP ON FRICT]`
     b.nc
     c.nc
     ");
     // Set to what it is already, and left.
     assert_snapshot!(said(&[left, "X[COMP OFF FRICT]\nX1\nM30"]), @"
     FC401 1:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 2: `X[COMP ON FRICT]`
     b.nc
     FC401 1:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 3: `X[COMP ON FRICT]`
     ");
 }
 
@@ -44,13 +44,13 @@ fn every_kind_counts_by_itself() {
     // R1.50 R1.53: CROSS of X falls off at program end and is in its start-up state there.
     assert_snapshot!(said(&["X[COMP OFF FRICT LEAD]\nX1\nX[COMP ON FRICT CROSS]\nM30"]), @"
     FC401 1:1 `LEAD` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON LEAD]`
+      help: restore it before M30 in line 4: `X[COMP ON LEAD]`
     ");
     assert_snapshot!(said(&["X[COMP OFF LEAD]\nX1\nX[COMP OFF_ALL]\nM30"]), @"
     FC401 3:1 `LEAD` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON LEAD]`
+      help: restore it before M30 in line 4: `X[COMP ON LEAD]`
     FC407 3:1 the second run differs from the first: line 2 moves axis `X` before the program sets `FRICT`, and line 3 leaves it inactive
-      help: set it before the first motion, and restore it before M30: `X[COMP ON FRICT]`
+      help: set it before the first motion, and restore it before M30 in line 4: `X[COMP ON FRICT]`
       2:1: the axis moves here first
     ");
 }
@@ -100,10 +100,10 @@ fn who_made_it_so_is_named() {
         "X1\nM30",
     ]), @"
     FC401 2:5 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 3: `X[COMP ON FRICT]`
     b.nc
     FC401 2:1 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 4: `X[COMP ON FRICT]`
     c.nc
     FC403 2:1 axis `X` moves with friction compensation inactive, left so by `X[COMP OFF FRICT NO_MOVE]` at b.nc:2 of program `SECOND`
       help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
@@ -114,7 +114,7 @@ fn who_made_it_so_is_named() {
     FC901 1:1 this control block depends on `V.E.A`, which only the machine knows; whatever it could change is unknown from here on, including `FRICT` of `X`
       help: give it with `--set V.E.A=VALUE` or in `[variables]` of frictcomp.toml
     FC401 1:1 `FRICT` of axis `X` may be left inactive after program end, which is not known offline; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 5: `X[COMP ON FRICT]`
     b.nc
     FC403 1:1 axis `X` moves in an unknown state of friction compensation, left so by `$IF V.E.A` at a.nc:1
       help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
@@ -127,13 +127,13 @@ fn motion_before_the_first_command_makes_the_second_run_differ() {
     let program = "X1\nX[COMP OFF FRICT]\nX2\nM30";
     assert_snapshot!(said(&[program, program]), @"
     FC407 2:1 the second run differs from the first: line 1 moves axis `X` before the program sets `FRICT`, and line 2 leaves it inactive
-      help: set it before the first motion, and restore it before M30: `X[COMP ON FRICT]`
+      help: set it before the first motion, and restore it before M30 in line 4: `X[COMP ON FRICT]`
       1:1: the axis moves here first
     b.nc
     FC403 1:1 axis `X` moves with friction compensation inactive, left so by `X[COMP OFF FRICT]` at a.nc:2
       help: set it at program start, `X[COMP ON FRICT]` or `X[COMP OFF FRICT]`
     FC407 2:1 the second run differs from the first: line 1 moves axis `X` before the program sets `FRICT`, and line 2 leaves it inactive
-      help: set it before the first motion, and restore it before M30: `X[COMP ON FRICT]`
+      help: set it before the first motion, and restore it before M30 in line 4: `X[COMP ON FRICT]`
       1:1: the axis moves here first
     ");
     // In one block the command comes first.
@@ -141,7 +141,7 @@ fn motion_before_the_first_command_makes_the_second_run_differ() {
     FC405 1:4 COMP and motion share a block; the command takes effect before the motion
       help: write the command in a block of its own
     FC401 1:4 `FRICT` of axis `X` is left inactive after program end; the control starts with it active
-      help: restore it before M30: `X[COMP ON FRICT]`
+      help: restore it before M30 in line 3: `X[COMP ON FRICT]`
     ");
     // At start_up in the end: no difference.
     assert_snapshot!(said(&["X1\nX[COMP OFF FRICT]\nX2\nX[COMP ON FRICT]\nM30"]), @"");

@@ -75,13 +75,28 @@ fn many(folder: &Path, count: usize) -> [Duration; 2] {
 fn one_of_many_open_programs_costs_what_one_costs() {
     // R12.16 R9.90
     let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("frictcomp.toml"), "[axes.X]\nfrict_comp = true\n").expect("written");
+    fs::write(
+        folder.path().join("frictcomp.toml"),
+        "[axes.X]\nfrict_comp = true\n",
+    )
+    .expect("written");
     let measured = (0..3).map(|_| [250, 1000].map(|count| many(folder.path(), count)));
     let growths: Vec<[f64; 2]> = measured
         .map(|[few, many]| [0, 1].map(|at| many[at].div_duration_f64(few[at])))
         .inspect(|growths| eprintln!("{growths:.2?}"))
         .collect();
-    let least = |at: usize| growths.iter().map(|growth| growth[at]).fold(f64::MAX, f64::min);
-    assert!(least(0) < 4.0 * 1.2, "four times the programs: {growths:.2?}");
-    assert!(least(1) < 1.5, "one of four times the programs: {growths:.2?}");
+    let least = |at: usize| {
+        growths
+            .iter()
+            .map(|growth| growth[at])
+            .fold(f64::MAX, f64::min)
+    };
+    assert!(
+        least(0) < 4.0 * 1.2,
+        "four times the programs: {growths:.2?}"
+    );
+    assert!(
+        least(1) < 1.5,
+        "one of four times the programs: {growths:.2?}"
+    );
 }

@@ -1,7 +1,7 @@
 //! What is read and what is written, so that no output destroys an input (R9.70).
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::collections::hash_map::{Entry, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -35,6 +35,7 @@ pub use axes::{AxisUse, axis_uses};
 pub use brackets::MAX_BRACKETS;
 pub use fault::Fault;
 pub use flow_scan::FlowScan;
+pub use grammar::bound_reading;
 pub(crate) use hash_words::hash_name;
 pub(crate) use known::{is_command, is_letter, is_statement};
 #[cfg(feature = "unstable")]

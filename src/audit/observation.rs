@@ -97,11 +97,11 @@ impl Observation {
     }
 
     /// Takes an event of the run.
-    pub(super) fn event(&mut self, scope: &Scope, event: Event<'_>) {
+    pub(super) fn event(&mut self, scope: &Scope, event: &Event<'_>) {
         match event {
             Event::Started { compensation, .. } => self.stand(scope, compensation),
-            Event::Executed(executed) => self.executed(scope, &executed),
-            Event::Ended(ended) => self.ended(scope, &ended),
+            Event::Executed(executed) => self.executed(scope, executed),
+            Event::Ended(ended) => self.ended(scope, ended),
         }
     }
 

@@ -197,7 +197,7 @@ impl Auditor {
         let mut interpreter = self.interpreter(from);
         let mut observation = Observation::new(&self.scope);
         run(&mut interpreter, &mut |event: Event<'_>| {
-            observation.event(&self.scope, event);
+            observation.event(&self.scope, &event);
             ControlFlow::Continue(())
         })?;
         Ok(observation)

@@ -86,7 +86,7 @@ impl<'a> Sequence<'a> {
         let start = self.interpreter.compensation().clone();
         let mut observation = Observation::new(scope);
         run(&mut self.interpreter, &mut |event: Event<'_>| {
-            observation.event(scope, event);
+            observation.event(scope, &event);
             ControlFlow::Continue(())
         })?;
         let mut axes = Vec::with_capacity(scope.subjects().len());

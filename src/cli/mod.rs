@@ -64,6 +64,7 @@ use failure::Failure;
 
 use crate::host::{Replaces, clean_up_when_stopped, survive_file_size_limit};
 use crate::report::{visible, visible_line};
+use crate::syntax::bound_reading;
 
 /// Dry-run ISG and TwinCAT CNC programs and show, block by block, which axes have friction
 /// compensation active.
@@ -134,6 +135,7 @@ pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(parsed) => parsed,
         Err(error) => return say_usage(&error, &hidden),
     };
+    bound_reading();
     survive_file_size_limit();
     clean_up_when_stopped(exit::FAILED);
     let forced = arguments.force.then_some(Replaces::Anything);

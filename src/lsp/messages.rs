@@ -46,7 +46,7 @@ impl Translator<'_> {
         let mut messages = ByText::new();
         let own = messages.entry(document.uri.0.clone()).or_default();
         own.extend(self.failure(analysis));
-        own.extend(self.shortened(analysis));
+        own.extend(Self::shortened(analysis));
         for said in &analysis.said {
             let (uri, message) = self.message(said);
             messages.entry(uri.0).or_default().push(message);
@@ -73,7 +73,7 @@ impl Translator<'_> {
     }
 
     /// That only the first blocks were checked (R12.7).
-    fn shortened(self, analysis: &Analysis) -> Option<Message> {
+    fn shortened(analysis: &Analysis) -> Option<Message> {
         let run = analysis.run.as_ref()?;
         let blocks = run.blocks;
         run.is_cut.then(|| {

@@ -101,8 +101,10 @@ fn pace(executed: &Executed<'_>, axis: AxisIndex) -> Option<Certainty> {
         (MotionKind::Rapid | MotionKind::Homing, _) => None,
         (MotionKind::Coupled | MotionKind::Frame, _) if is_path_rapid => None,
         (MotionKind::Coupled | MotionKind::Frame, _) if !is_path_known => Some(Certainty::Possible),
-        (MotionKind::Feed | MotionKind::Independent, certainty)
-        | (MotionKind::Coupled | MotionKind::Frame, certainty) => Some(certainty),
+        (
+            MotionKind::Feed | MotionKind::Independent | MotionKind::Coupled | MotionKind::Frame,
+            certainty,
+        ) => Some(certainty),
         _ => Some(Certainty::Possible),
     });
     // `Certain` comes first.

@@ -350,7 +350,7 @@ impl Session {
             broken: false,
             doubtful: false,
         };
-        let mut listen = |event: Event<'_>| recorder.event(event);
+        let mut listen = |event: Event<'_>| recorder.event(&event);
         let outcome = match program {
             Program::Lines(lines) => self.interpreter.stream(file, lines, finder, &mut listen),
             Program::Whole(source) => self.interpreter.program(source, finder, &mut listen),

@@ -93,9 +93,9 @@ pub(super) struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    pub(super) fn event(&mut self, event: Event<'_>) -> ControlFlow<()> {
+    pub(super) fn event(&mut self, event: &Event<'_>) -> ControlFlow<()> {
         let flow = match event {
-            Event::Started {
+            &Event::Started {
                 name,
                 compensation,
                 occurred,
@@ -118,8 +118,8 @@ impl Recorder<'_> {
                     },
                 })
             }
-            Event::Executed(executed) => self.executed(&executed),
-            Event::Ended(ended) => self.ended(&ended),
+            Event::Executed(executed) => self.executed(executed),
+            Event::Ended(ended) => self.ended(ended),
         };
         self.broken |= flow.is_break();
         flow

@@ -65,11 +65,9 @@ fn too_deep(span: Span) -> Fault {
 
 fn too_many_open_texts(span: Span) -> Fault {
     Fault::new(
-        Code::Fc207,
+        Code::Fc913,
         span,
-        format!(
-            "the block is not understood: more than {MAX_OPEN_TEXTS} strings of it end in `\\\"`"
-        ),
+        format!("more than {MAX_OPEN_TEXTS} strings of this block end in `\\\"`"),
     )
     .with_help("close each string with a `\"` that has no `\\` in front")
 }

@@ -3,9 +3,27 @@
 // The derive writes an enum whose variants have no documentation.
 #![allow(missing_docs)]
 
+use std::num::NonZeroUsize;
+
+use pest::error::{Error, ErrorVariant};
 use pest_derive::Parser;
+
+/// Steps of the parser that the block of a megabyte does not need, and that take it a second or two.
+const MAX_STEPS: NonZeroUsize = NonZeroUsize::new(200_000_000).expect("some steps");
 
 #[derive(Parser)]
 #[grammar = "../grammar.pest"]
 #[cfg_attr(test, grammar = "../tests/reference.pest")]
 pub(super) struct NcParser;
+
+/// Bounds the steps in which a block is read (R12.16), for all of the process; past it the block is not
+/// understood, FC913. No block is known that comes near the bound. It holds for every parser that the
+/// process makes with pest, so it is up to who owns the process; the command line sets it.
+pub fn bound_reading() {
+    pest::set_call_limit(Some(MAX_STEPS));
+}
+
+/// Whether the parser gave up, and did not merely find no rule that fits.
+pub(super) fn gave_up(error: &Error<Rule>) -> bool {
+    matches!(error.variant, ErrorVariant::CustomError { .. })
+}

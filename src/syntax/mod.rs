@@ -39,6 +39,7 @@ pub use brackets::MAX_BRACKETS;
 pub(crate) use dialect::{Foreign, foreign};
 pub use fault::Fault;
 pub use flow_scan::FlowScan;
+pub use grammar::bound_reading;
 pub(crate) use hash_words::hash_name;
 pub(crate) use known::{
     Touches, hash_command, is_command, is_letter, is_program_number, is_statement,

@@ -79,6 +79,23 @@ fn a_loop_shows_the_states_of_all_passes() {
 }
 
 #[test]
+fn a_file_name_is_no_markdown() {
+    // R12.16
+    let called = "X[COMP ON FRICT]\nM17\n";
+    let bench = Bench::new(&[("s.nc", called)]);
+    let s = uri(&bench.folder().join("s.nc"));
+    let caller = format!("{}%60%5Ba%5D%28b%29%60.nc", s.trim_end_matches("s.nc"));
+    let mut client = Client::new();
+    client.open(&caller, "L s.nc\nM30\n");
+    client.open(&s, called);
+    let text = hover(&mut client, &s, 0);
+    let (_, named) = text.split_once("Called from ").expect("a caller");
+    assert!(named.starts_with("`` "), "{text}");
+    assert!(named.contains("`[a](b)`.nc ``:"), "{text}");
+    client.drop_all();
+}
+
+#[test]
 fn a_called_program_shows_the_states_of_its_callers_that_are_open() {
     // R12.3
     let called = "G1 Y5 F100\nX[COMP ON FRICT]\nM17\n";

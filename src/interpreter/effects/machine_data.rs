@@ -65,7 +65,7 @@ impl Interpreter {
         };
         let lost = axes.into_iter().map(|axis| {
             let kinds = Kind::ALL.into_iter().filter(|kind| is_lost(axis, kind));
-            (axis, KindSet::from_iter(kinds))
+            (axis, kinds.collect::<KindSet>())
         });
         lost.filter(|(_, kinds)| !kinds.is_empty()).collect()
     }

@@ -20,6 +20,25 @@ use crate::syntax::ast::Item;
 use crate::text::Span;
 
 impl Interpreter {
+    /// What moves with the axis words of a block, and whether each axis may.
+    #[inline]
+    fn look_at_motion(&mut self, words: AxisWords, at: &At<'_>) {
+        if self.work.again != 0 {
+            self.refuse_repeated_axes(words, at);
+        }
+        if !self.work.lacking.is_empty() {
+            self.say_lacking(words, at);
+        }
+        self.move_around(words);
+        self.carry_along(words);
+        if self.any_required && self.state.described.is_none() {
+            let goes_on = !self.work.diagnostics.iter().any(stops);
+            if goes_on || self.options.stop != StopPolicy::FirstError {
+                self.check_required(words, at);
+            }
+        }
+    }
+
     /// Executes a block and tells the observer. `Continue` where the next block follows.
     pub(in crate::interpreter) fn execute(
         &mut self,
@@ -42,20 +61,7 @@ impl Interpreter {
         } else if !self.is_halted() {
             self.items(at, &mut intent, limit);
         }
-        if self.work.again != 0 {
-            self.refuse_repeated_axes(intent.axis_words, at);
-        }
-        if !self.work.lacking.is_empty() {
-            self.say_lacking(intent.axis_words, at);
-        }
-        self.move_around(intent.axis_words);
-        self.carry_along(intent.axis_words);
-        if self.any_required && self.state.described.is_none() {
-            let goes_on = !self.work.diagnostics.iter().any(stops);
-            if goes_on || self.options.stop != StopPolicy::FirstError {
-                self.check_required(intent.axis_words, at);
-            }
-        }
+        self.look_at_motion(intent.axis_words, at);
         self.doubt_ways(at, finder);
         let calls = if intent.calls.is_empty() {
             Vec::new()

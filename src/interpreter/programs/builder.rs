@@ -23,6 +23,16 @@ enum Kind {
 }
 
 impl Kind {
+    const ALL: [Self; 7] = [
+        Self::If,
+        Self::Switch,
+        Self::For,
+        Self::While,
+        Self::Do,
+        Self::Repeat,
+        Self::RealTime,
+    ];
+
     fn opener(self) -> &'static str {
         match self {
             Self::If => "$IF",
@@ -62,6 +72,8 @@ struct Open {
     span: Span,
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
     sign: Option<char>,
+    /// How many are open up to the innermost one of each kind, so that nobody looks through all of them.
+    innermost: [usize; Kind::ALL.len()],
 }
 
 /// A jump whose label is looked up when the section is known.
@@ -234,9 +246,10 @@ impl Builder {
 
     /// A place in a block.
     fn place_of(&mut self, entry: EntryIndex) -> Place {
-        let known = match entry + 1 == self.at() {
-            true => &mut self.here,
-            false => &mut self.earlier,
+        let known = if entry + 1 == self.at() {
+            &mut self.here
+        } else {
+            &mut self.earlier
         };
         match known {
             Some((known, place)) if *known == entry => place.clone(),
@@ -352,12 +365,15 @@ impl Builder {
         if !matches!(kind, Kind::If | Kind::Switch) {
             self.index.loops.push(at.entry);
         }
+        let mut innermost = self.open.last().map(|open| open.innermost);
+        innermost.get_or_insert_default()[kind as usize] = self.open.len() + 1;
         self.open.push(Open {
             kind,
             opener: at.entry,
             parts: vec![at.entry],
             span: at.span,
             sign: is_spelt(kind, at.word()).then(|| at.sign()),
+            innermost: innermost.unwrap_or_default(),
         });
     }
 
@@ -369,7 +385,7 @@ impl Builder {
     }
 
     fn closes(&mut self, kind: Kind, at: Statement<'_>) {
-        let Some(depth) = self.open.iter().rposition(|open| open.kind == kind) else {
+        let Some(depth) = self.innermost(|it| it == kind) else {
             self.refuse_stray(kind, at);
             return;
         };
@@ -405,9 +421,19 @@ impl Builder {
         self.index.links.insert(at.entry, links);
     }
 
+    /// The innermost open control block of certain kinds.
+    fn innermost(&self, wanted: impl Fn(Kind) -> bool) -> Option<usize> {
+        let innermost = self.open.last()?.innermost;
+        let kinds = Kind::ALL.into_iter().filter(|kind| wanted(*kind));
+        kinds
+            .map(|kind| innermost[kind as usize])
+            .max()?
+            .checked_sub(1)
+    }
+
     fn leaves(&mut self, at: Statement<'_>, left: fn(Kind) -> bool) {
-        if let Some(open) = self.open.iter().rfind(|open| left(open.kind)) {
-            self.inner.push((at.entry, open.opener));
+        if let Some(depth) = self.innermost(left) {
+            self.inner.push((at.entry, self.open[depth].opener));
         } else {
             let word = at.word().trim();
             let fault = Fault::new(

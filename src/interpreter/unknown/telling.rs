@@ -143,7 +143,7 @@ impl Interpreter {
                 let set = kinds
                     .iter()
                     .filter(|kind| state(kind) != State::Unconfigured);
-                switched.push((axis, KindSet::from_iter(set)));
+                switched.push((axis, set.collect()));
             }
         }
         switched

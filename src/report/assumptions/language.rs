@@ -221,7 +221,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
         rule: "R2.95",
         sentence: "an unknown value is not spoken of where nothing that matters here can differ",
         changes: "FC901 and FC902 are left out there",
-        shows: "`check --unknowns` lists every value",
+        shows: "FC901 and FC902 elsewhere; `check --unknowns` lists every value",
         when: &[Reported(Code::Fc901), Reported(Code::Fc902)],
     },
     Assumption {

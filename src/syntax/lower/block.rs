@@ -4,10 +4,12 @@ use pest::Parser;
 use pest::iterators::Pair;
 
 use super::lowering::{Lowering, not_understood, span_of, trimmed};
+use crate::diagnostic::Code;
 use crate::syntax::ast::{Block, CallScope, Effect, Item};
 use crate::syntax::brackets::brackets;
 use crate::syntax::expression;
-use crate::syntax::grammar::{NcParser, Rule};
+use crate::syntax::fault::Fault;
+use crate::syntax::grammar::{NcParser, Rule, gave_up};
 use crate::text::Span;
 
 /// Parses the code of a block into an empty block.
@@ -19,17 +21,22 @@ pub(in crate::syntax) fn block(code: &str, block: &mut Block) {
 pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
     let unclosed = match brackets(code) {
         Ok(unclosed) => unclosed,
-        Err(fault) => {
-            block.faults.push(fault);
-            return;
-        }
+        Err(fault) => return give_up(fault, block),
     };
-    let Ok(mut pairs) = NcParser::parse(rule, code) else {
-        // `block` matches any text; see the last alternative of `item`.
-        block
-            .faults
-            .push(not_understood(Span::new(0, code.len()), code));
-        return;
+    let mut pairs = match NcParser::parse(rule, code) {
+        Ok(pairs) => pairs,
+        Err(error) => {
+            let span = Span::new(0, code.len());
+            return give_up(
+                if gave_up(&error) {
+                    too_much_to_read(span)
+                } else {
+                    // `block` matches any text; see the last alternative of `item`.
+                    not_understood(span, code)
+                },
+                block,
+            );
+        }
     };
     let mut lowering = Lowering {
         code,
@@ -45,6 +52,20 @@ pub(in crate::syntax) fn block_as(rule: Rule, code: &str, block: &mut Block) {
         }
     }
     lowering.finish();
+}
+
+/// A block that is not read: the control may read it, so it may do anything (R2.70).
+fn give_up(fault: Fault, block: &mut Block) {
+    block
+        .items
+        .push(Item::Unread(Effect::Everything, fault.span));
+    block.faults.push(fault);
+}
+
+/// The parser took too many steps, or too much of the stack.
+fn too_much_to_read(span: Span) -> Fault {
+    let message = "the block is not understood: reading it takes more steps than frictcomp allows";
+    Fault::new(Code::Fc913, span, message).with_help("split the block into several")
 }
 
 impl Lowering<'_> {

@@ -5,6 +5,7 @@ use std::fmt::{Display, Write as _};
 use super::friction::{Field, STRUCTURE};
 use super::table::{FrictionList, TablePoint};
 use crate::comp::CncBuild;
+use crate::text::is_hidden;
 
 /// How the points of the table are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,7 +93,7 @@ pub struct ListHead<'a> {
 pub fn write_value_list(list: &FrictionList, points: Points, head: &ListHead<'_>) -> String {
     let mut out = String::new();
     for remark in head.remarks {
-        let _ = writeln!(out, "# {}", remark.replace(char::is_control, " "));
+        let _ = writeln!(out, "# {}", remark.replace(is_hidden, " "));
     }
     let mut entry = |key: &str, value: &dyn Display| {
         let _ = writeln!(out, "{key:<31} {value}");

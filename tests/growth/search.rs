@@ -162,6 +162,8 @@ impl Search {
             self.found.extend(bounds.clone().find_map(|(share, bound)| {
                 let size = how.size() / share;
                 let growth = excess(size, *bound, |size| how.run(&sequence, size))?;
+                // What a bound on depth ends at once does not grow.
+                excess(2 * size, *bound, |size| how.run(&sequence, size))?;
                 Some(format!("{how:?} {sequence:?}: {growth:.2} from {size}"))
             }));
         }

@@ -10,6 +10,7 @@ use crate::interpreter::coordinates::moving::{self, Certainty, MotionKind, Moved
 use crate::interpreter::effects::couple::{ends_following, gear_of};
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::values::effort::ITEM;
 use crate::text::Span;
 
 impl Interpreter {
@@ -222,8 +223,12 @@ impl Interpreter {
             let known = moving.entry(moved.axis).or_insert(moved);
             known.certainty = known.certainty.min(moved.certainty);
         }
+        if moving.is_empty() {
+            return;
+        }
         let own = moving.clone();
         let links = self.state.couplings.links();
+        self.state.effort.charge(ITEM * links.len());
         // Each round settles an axis more, or is the last.
         for _ in 0..=self.machine.axes.len() {
             let mut grew = false;

@@ -83,7 +83,6 @@ fn one_of_many_open_programs_costs_what_one_costs() {
     let measured = (0..3).map(|_| [250, 1000].map(|count| many(folder.path(), count)));
     let growths: Vec<[f64; 2]> = measured
         .map(|[few, many]| [0, 1].map(|at| many[at].div_duration_f64(few[at])))
-        .inspect(|growths| eprintln!("{growths:.2?}"))
         .collect();
     let least = |at: usize| {
         growths

@@ -1,9 +1,17 @@
-//! Memory that a simulation needs, asked for before it begins.
+//! Memory that work needs, asked for before it begins.
 
 use super::error::HostError;
 
 /// What a circular test needs beside the program itself, with room to spare.
 const SIMULATION: usize = 24 << 20;
+
+/// What a thread needs for its stack, with what the others need to go on.
+const THREAD: usize = 6 << 20;
+
+/// Whether there is memory for a thread more.
+pub(super) fn is_there_for_a_thread() -> bool {
+    available(THREAD).is_ok()
+}
 
 /// Asks for the memory that a simulation needs, since the system would end the process in the middle
 /// of one.

@@ -6,6 +6,8 @@ use std::ops::ControlFlow;
 use std::sync::mpsc::{self, Receiver, SyncSender};
 use std::sync::{Mutex, PoisonError};
 
+use super::memory::is_there_for_a_thread;
+
 /// Results that may wait for their turn, for each worker.
 const AHEAD: usize = 16;
 
@@ -54,6 +56,7 @@ pub fn in_order<T: Send, R: Send>(
     let (queue, work) = (&queue, &work);
     std::thread::scope(|scope| {
         let started = (0..workers.get())
+            .take_while(|_| is_there_for_a_thread())
             .map_while(|_| {
                 let worker = move || {
                     while let Some((item, result)) = next(queue) {

@@ -221,7 +221,7 @@ impl Recorder<'_> {
         self.tally.note_footing(executed.diagnostics);
         self.linter.block(executed, &mut self.said);
         self.note_allows(executed);
-        for withheld in executed.withheld {
+        for withheld in &executed.aside.withheld {
             is_allowed(&mut self.allows, withheld, executed.line);
         }
         if !self.said.is_empty() {

@@ -69,7 +69,7 @@ fn a_silenced_message_makes_nothing_comparable() {
         ),
         (
             "assumed.nc",
-            "N1 $GOTO N[V.E.A] ; frictcomp: allow FC902\nN5 X[COMP OFF FRICT]\nN6 G0 X1\nN7 X[COMP ON FRICT]\nM30\n",
+            "N1 $GOTO N[V.E.A] ; frictcomp: allow FC902\nN5 X[COMP OFF FRICT]\nN6 X[COMP ON FRICT]\nM30\n",
         ),
         ("still.nc", "G0 X1\nM30\n"),
     ]);

@@ -50,7 +50,7 @@ impl Interpreter {
         {
             self.work.diagnostics.push(said);
         } else {
-            self.work.withheld.push(said);
+            self.work.aside.withheld.push(said);
         }
     }
 }

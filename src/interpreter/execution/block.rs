@@ -126,7 +126,6 @@ impl Interpreter {
             motion: self.work.motion.as_ref(),
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
-            withheld: &self.work.withheld,
             stopped,
             compensation: &self.state.compensation,
             modal: &self.state.modal,

@@ -102,6 +102,9 @@ pub(crate) struct Aside {
     pub(crate) last_moved: Vec<AxisWord>,
     /// The states of compensation that it reads (R1.35).
     pub(crate) asked: Vec<(AxisIndex, Kind)>,
+    /// Messages about unknown values that are not said, because nothing differs or because they
+    /// were said before; a comment that allows one is in use (R2.95).
+    pub(crate) withheld: Vec<Diagnostic>,
 }
 
 /// A block that was executed.
@@ -151,9 +154,6 @@ pub struct Executed<'a> {
     pub notes: &'a [Note],
     /// What is to be said about it, in no order.
     pub diagnostics: &'a [Diagnostic],
-    /// Messages about unknown values that are not said, because nothing differs or because they
-    /// were said before; a comment that allows one is in use (R2.95).
-    pub withheld: &'a [Diagnostic],
     /// Whether an error stopped the program in this block.
     pub stopped: bool,
     /// The state after it.

@@ -51,8 +51,6 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) seen: u64,
     pub(in crate::interpreter) again: u64,
     pub(in crate::interpreter) diagnostics: Vec<Diagnostic>,
-    /// Messages about unknown values that make no difference, or were said before.
-    pub(in crate::interpreter) withheld: Vec<Diagnostic>,
     /// What of the block may or may not be executed.
     pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
     /// How many messages about the block are not said, and where the first of them belongs.
@@ -106,7 +104,7 @@ impl Work {
         self.seen = 0;
         self.again = 0;
         self.diagnostics.clear();
-        self.withheld.clear();
+        self.aside.withheld.clear();
         self.undecided = None;
         self.geometry = None;
         self.dwells = false;

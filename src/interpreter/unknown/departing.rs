@@ -91,7 +91,8 @@ impl Interpreter {
             return false;
         };
         let here = frame.next;
-        let mut differs = false;
+        // A label that there is not stops the control.
+        let mut differs = matches!(exit, Exit::AnyLabel);
         for to in self.aims(exit, frame.program()) {
             if to != Aim::Block(here) {
                 differs = differs || self.differs(to, here);

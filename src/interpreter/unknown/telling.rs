@@ -110,7 +110,7 @@ impl Interpreter {
         let is_new = self.state.told.is_new(&cause, keys, place);
         if !(differing.decides && is_new) {
             let said = self.work.diagnostics.remove(said);
-            self.work.withheld.push(said);
+            self.work.aside.withheld.push(said);
             return;
         }
         let named: Vec<String> = shown.into_iter().chain(differing.named).collect();

@@ -77,7 +77,7 @@ fn one_of_many_open_programs_costs_what_one_costs() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(
         folder.path().join("frictcomp.toml"),
-        "[axes.X]\nfrict_comp = true\n",
+        "[[axis]]\nname = \"X\"\nenable = true\n",
     )
     .expect("written");
     let measured = (0..3).map(|_| [250, 1000].map(|count| many(folder.path(), count)));

@@ -65,8 +65,10 @@ pub use text::{Runs, Text, TextOptions};
 pub use timeline_format::{TimelineFormat, TimelineOptions};
 pub use unified::{TextChange, render_unified};
 pub use view::{Blocks, View};
+#[cfg(feature = "lsp")]
+pub(crate) use visible::visible_line;
 #[cfg(feature = "cli")]
-pub(crate) use visible::{leading, visible, visible_line};
+pub(crate) use visible::{leading, visible};
 pub use wording::command_line;
 
 #[cfg(test)]

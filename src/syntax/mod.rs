@@ -27,6 +27,7 @@ mod lower;
 mod mask;
 mod parse;
 mod raw;
+#[cfg_attr(not(feature = "host"), allow(dead_code, reason = "a host looks ahead"))]
 mod scan;
 mod skip_levels;
 mod texts;
@@ -61,6 +62,7 @@ pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
 
+#[cfg(feature = "host")]
 pub(crate) use scan::{SwitchScan, calls_files, code_words, has_axis_word};
 pub use skip_levels::{NoSkipLevels, SkipLevels};
 pub(crate) use unread::not_known;

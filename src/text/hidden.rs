@@ -1,6 +1,8 @@
 //! Characters that nobody sees, or that change how their neighbours are read (R9.76).
 
+#[cfg(any(feature = "report", feature = "host"))]
 use std::borrow::Cow;
+#[cfg(any(feature = "report", feature = "host"))]
 use std::fmt::Write as _;
 
 use super::span::Span;
@@ -63,6 +65,7 @@ pub(crate) fn changed_direction(text: &str) -> Option<(Span, String)> {
 
 /// A JSON document of another writer, in which hidden characters stand only within texts, with
 /// those escaped.
+#[cfg(any(feature = "report", feature = "host"))]
 pub(crate) fn shown_json(document: &str) -> Cow<'_, str> {
     let hidden = |letter: char| letter != '\n' && is_hidden(letter);
     if !document.contains(hidden) {

@@ -9,7 +9,6 @@ mod decode;
 #[cfg(any(feature = "report", feature = "host"))]
 mod encoded;
 mod file;
-#[cfg(any(feature = "report", feature = "host"))]
 mod hidden;
 mod index;
 mod lines;
@@ -27,7 +26,6 @@ pub use encoded::{EncodedText, NotEncodable};
 pub use file::SourceFile;
 #[cfg(any(feature = "report", feature = "host"))]
 pub(crate) use hidden::shown_json;
-#[cfg(feature = "report")]
 pub(crate) use hidden::{changed_direction, is_hidden};
 pub use index::{LineIndex, Utf16Position};
 #[cfg(feature = "host")]

@@ -84,12 +84,12 @@ fn a_file_name_is_no_markdown() {
     let called = "X[COMP ON FRICT]\nM17\n";
     let bench = Bench::new(&[("s.nc", called)]);
     let s = uri(&bench.folder().join("s.nc"));
-    let caller = format!("{}%60%5Ba%5D%28b%29%60.nc", s.trim_end_matches("s.nc"));
+    let reaching = format!("{}%60%5Ba%5D%28b%29%60.nc", s.trim_end_matches("s.nc"));
     let mut client = Client::new();
-    client.open(&caller, "L s.nc\nM30\n");
+    client.open(&reaching, "L s.nc\nM30\n");
     client.open(&s, called);
     let text = hover(&mut client, &s, 0);
-    let (_, named) = text.split_once("Called from ").expect("a caller");
+    let (_, named) = text.split_once("Called from ").expect("a reaching");
     assert!(named.starts_with("`` "), "{text}");
     assert!(named.contains("`[a](b)`.nc ``:"), "{text}");
     client.drop_all();

@@ -55,6 +55,16 @@ impl Repeated {
         }
     }
 
+    /// A size at which brackets that are never closed are too many: each may look as far as the last of 64.
+    fn beyond_nesting(self, size: usize, sequence: &str) -> Option<usize> {
+        const REPEATS: usize = 140;
+        if !sequence.contains('[') || !matches!(self, InLine | InBlock) {
+            return Some(size);
+        }
+        let size = size.max(REPEATS * sequence.len());
+        (self == InBlock || size <= HALF_A_LINE).then_some(size)
+    }
+
     fn run(self, sequence: &str, size: usize) {
         match self {
             InLine => run(&format!("{}\nM30\n", filled(sequence, size)), "", size),
@@ -160,7 +170,7 @@ impl Search {
             let sequence = format!("{}{between}", tokens.join(between));
             let bounds = self.look.bounds().iter();
             self.found.extend(bounds.clone().find_map(|(share, bound)| {
-                let size = how.size() / share;
+                let size = how.beyond_nesting(how.size() / share, &sequence)?;
                 let growth = excess(size, *bound, |size| how.run(&sequence, size))?;
                 // What a bound on depth ends at once does not grow.
                 excess(2 * size, *bound, |size| how.run(&sequence, size))?;

@@ -228,6 +228,7 @@ impl Interpreter {
         }
         let own = moving.clone();
         let links = self.state.couplings.links();
+        // R2.60: groups may be many.
         self.state.effort.charge(ITEM * links.len());
         // Each round settles an axis more, or is the last.
         for _ in 0..=self.machine.axes.len() {

@@ -132,6 +132,7 @@ impl Interpreter {
             occurred: &self.state.occurred,
             version: self.version,
         }));
+        self.work.said = u64::try_from(self.work.diagnostics.len()).unwrap_or(u64::MAX);
         // They are said; what is left at program end belongs to no executed block.
         self.work.diagnostics.clear();
         self.work.changes.clear();

@@ -60,7 +60,9 @@ impl Interpreter {
             let spent = self.state.effort.spent();
             let flow = self.execute(&at, finder, observer);
             if is_repeated {
-                self.state.effort.repeat(at.text, spent);
+                self.state
+                    .effort
+                    .repeat(parsed.weight, self.work.said, spent);
             }
             if let Some(frame) = self.state.frames.at_depth_mut(depth) {
                 frame.called_from = called_from;

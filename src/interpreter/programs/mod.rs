@@ -7,3 +7,4 @@ pub(super) mod index;
 pub(super) mod store;
 pub(super) mod unit;
 pub(super) mod wanted;
+mod weight;

@@ -7,6 +7,7 @@ use super::finder::{Finder, NoProgram};
 use super::index::{EntryIndex, Index, LabelName, ProgramId, Section};
 use super::unit::{Parsed, Unit};
 use super::wanted::Wanted;
+use super::weight::weight;
 use crate::diagnostic::{Advice, Code, nearest};
 use crate::interpreter::values::effort::{Effort, ITEM};
 use crate::syntax::ast::{Block, CallScope};
@@ -143,6 +144,7 @@ impl Programs {
         }
         let remark = remark.or_else(|| unit.index.remark(entry));
         let parsed = Arc::new(Parsed {
+            weight: weight(&block, &text),
             block,
             file: Arc::clone(unit.index.source.name()),
             line: unit.index.entries[place].line,

@@ -36,6 +36,8 @@ impl Unit {
 /// A parsed block with its text and its place.
 pub(in crate::interpreter) struct Parsed {
     pub(in crate::interpreter) block: Block,
+    /// What it takes to execute it again.
+    pub(in crate::interpreter) weight: u64,
     pub(in crate::interpreter) file: Arc<str>,
     pub(in crate::interpreter) line: u32,
     pub(in crate::interpreter) text: String,

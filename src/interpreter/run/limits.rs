@@ -9,8 +9,8 @@ pub struct Limits {
     /// Work beyond the text of the executed blocks: macros, strings that grow, regions under an
     /// unknown condition.
     pub work: u64,
-    /// Units of work of blocks that are executed again, in loops and by calls: each needs as many as it has
-    /// bytes, and some more. Blocks that are executed once need none, however many there are.
+    /// Units of work of blocks that are executed again, in loops and by calls: about a nanosecond each.
+    /// Blocks that are executed once need none, however many there are.
     pub repeats: u64,
     /// Values that are held at a time; a text counts as one more for every 32 bytes.
     pub values: u32,
@@ -23,7 +23,7 @@ pub struct Limits {
 }
 
 /// Repeated work that about two seconds of a processor suffice for.
-const BRIEF_REPEATS: u64 = 600_000_000;
+const BRIEF_REPEATS: u64 = 1_500_000_000;
 
 impl Limits {
     /// The default limits, and repeated work for about two seconds of a processor (R9.91).

@@ -53,6 +53,8 @@ pub(in crate::interpreter) struct Work {
     pub(in crate::interpreter) diagnostics: Vec<Diagnostic>,
     /// What of the block may or may not be executed.
     pub(in crate::interpreter) undecided: Option<Box<Undecided>>,
+    /// How many messages about the last block there were.
+    pub(in crate::interpreter) said: u64,
     /// How many messages about the block are not said, and where the first of them belongs.
     pub(in crate::interpreter) unsaid: Option<(Span, u64)>,
     pub(in crate::interpreter) stack: Vec<Result<Value, Box<Fault>>>,

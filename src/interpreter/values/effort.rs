@@ -18,8 +18,11 @@ const PER_BLOCK: u64 = 500;
 /// Units of work that a byte of an executed block brings with it.
 const PER_BYTE: u64 = 4;
 
-/// Units of repeated work that a block needs whatever it holds.
-const PER_REPEAT: u64 = 32;
+/// Units of repeated work that a message needs, whether it is said once more or not.
+const PER_MESSAGE: u64 = 1500;
+
+/// Units of repeated work that a unit of other work needs.
+const PER_WORK: u64 = 2;
 
 /// The work of a session, in units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -52,9 +55,9 @@ impl Effort {
 
     /// A block was executed again; `before` is all work before it.
     #[inline]
-    pub(in crate::interpreter) fn repeat(&mut self, text: &str, before: u64) {
-        let bytes = u64::try_from(text.len()).unwrap_or(u64::MAX);
-        let units = PER_REPEAT + bytes + self.spent.get().saturating_sub(before);
+    pub(in crate::interpreter) fn repeat(&mut self, weight: u64, said: u64, before: u64) {
+        let work = self.spent.get().saturating_sub(before);
+        let units = weight + PER_MESSAGE.saturating_mul(said) + PER_WORK.saturating_mul(work);
         self.repeated = self.repeated.saturating_add(units);
     }
 

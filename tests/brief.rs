@@ -1,0 +1,258 @@
+//! Budgets that users can wait for (R9.91): what loops and calls repeat is charged with what it takes.
+
+use std::ops::ControlFlow;
+
+use frictcomp::diagnostic::{Code, Severity};
+use frictcomp::interpreter::EndedBy;
+use frictcomp::machine::Machine;
+use frictcomp::session::{
+    Findings, Limits, NoFiles, Options, Program, Session, SessionOptions, StopPolicy,
+};
+use frictcomp::text::SourceFile;
+
+/// What a check came to.
+struct Checked {
+    by: EndedBy,
+    blocks: u64,
+    said: Vec<(Code, Severity)>,
+}
+
+fn session(limits: Limits, stop: StopPolicy) -> Session {
+    let options = Options::default().with_stop(stop).with_limits(limits);
+    Session::new(Machine::enabled(["X", "Y"]), SessionOptions::from(options))
+}
+
+fn run_in(mut session: Session, text: &str) -> Checked {
+    let mut findings = Findings::default();
+    let source = SourceFile::new("a.nc", text);
+    let program = Program::Whole(source);
+    let flow = session.program("a.nc", program, &mut NoFiles, &mut findings);
+    let ControlFlow::Continue(by) = flow else {
+        panic!("nobody stops it");
+    };
+    let said = findings.diagnostics();
+    Checked {
+        by,
+        blocks: session.interpreter().blocks(),
+        said: said.map(|said| (said.code, said.severity)).collect(),
+    }
+}
+
+fn checked(text: &str, limits: Limits) -> Checked {
+    run_in(session(limits, StopPolicy::CheckAll), text)
+}
+
+/// A loop that counts and may end.
+const COUNTER: &str =
+    "P1=0\n$WHILE 1\nP1=P1+1\n$IF P1<0\nP2=P1\n$ENDIF\n$ENDWHILE\nX[COMP OFF FRICT]\nM30";
+
+#[test]
+fn what_is_executed_once_is_never_cut_off() {
+    // R9.91
+    let none = Limits::default().with_repeats(0);
+    let text = format!(
+        "{}$IF 1\nX1\n$ENDIF\nM30",
+        "X1 Y[COMP ON FRICT]\n".repeat(5000)
+    );
+    assert_eq!(checked(&text, none).by, EndedBy::M30);
+    assert_eq!(checked(COUNTER, none).by, EndedBy::Budget);
+}
+
+#[test]
+fn a_loop_of_three_million_blocks_is_run_to_its_end() {
+    // R9.91: a hundredth of it within a hundredth of the bound.
+    let limits = Limits::brief();
+    let limits = limits.with_repeats(limits.repeats / 100);
+    let text = "$FOR P1=1,10000,1\nG1 X1 Y2 F100\nX2 Y[COMP ON FRICT]\n$ENDFOR\nM30";
+    let ran = checked(text, limits);
+    assert_eq!((ran.by, ran.blocks), (EndedBy::M30, 30_002));
+}
+
+#[test]
+fn a_program_that_may_end_is_an_error_where_a_budget_ends_it() {
+    // R9.91 R2.84
+    for limits in [
+        Limits::default().with_blocks(5000),
+        Limits::default().with_repeats(500_000),
+    ] {
+        let ran = checked(COUNTER, limits);
+        assert_eq!(ran.by, EndedBy::Budget);
+        assert!(
+            ran.said.contains(&(Code::Fc910, Severity::Error)),
+            "{:?}",
+            ran.said
+        );
+        let endless = checked("$WHILE 1\nX1\n$ENDWHILE\nM30", limits);
+        assert!(
+            endless.said.contains(&(Code::Fc910, Severity::Warning)),
+            "{:?}",
+            endless.said
+        );
+    }
+}
+
+#[test]
+fn what_was_not_looked_at_cannot_be_silenced() {
+    // R9.91
+    let limits = Limits::default().with_repeats(500_000);
+    let text = COUNTER.replace("\n", " ; frictcomp: allow FC910\n");
+    let mut options = SessionOptions::from(Options::default().with_limits(limits));
+    options.levels.set(Code::Fc910, None);
+    let session = Session::new(Machine::enabled(["X", "Y"]), options);
+    let said = run_in(session, &text).said;
+    assert!(said.contains(&(Code::Fc910, Severity::Error)), "{said:?}");
+}
+
+#[test]
+fn the_first_call_that_is_nested_too_deeply_ends_the_run() {
+    // R9.91
+    let text = "%L B\nLL B\nLL B\nM17\n%MAIN\nLL B\nM30";
+    let ran = checked(text, Limits::brief());
+    assert_eq!(ran.by, EndedBy::Budget);
+    assert!(ran.blocks < 100, "{}", ran.blocks);
+    let deep = |ran: &Checked| {
+        ran.said
+            .iter()
+            .filter(|(code, _)| *code == Code::Fc911)
+            .count()
+    };
+    assert_eq!(deep(&ran), 1);
+    let limits = Limits::default().with_blocks(5000);
+    let on = run_in(session(limits, StopPolicy::KeepGoing), text);
+    assert_eq!(on.blocks, 5000);
+}
+
+/// Programs that go on, whatever it is that they repeat.
+#[cfg(unix)]
+mod measured {
+    use std::time::Duration;
+
+    use rustix::time::{ClockId, clock_gettime};
+
+    use super::*;
+
+    /// How much longer one takes than a plain loop with as many units, at most.
+    const DEARER: f64 = 5.0;
+
+    /// A hundredth and a fiftieth of the units that are granted where nobody waits.
+    const UNITS: u64 = 15_000_000;
+
+    fn looped(body: &str) -> String {
+        format!("$FOR P1=1,99999999,1\n{body}\n$ENDFOR\nM30")
+    }
+
+    fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
+        (0..count).map(|number| line(number) + "\n").collect()
+    }
+
+    fn programs() -> Vec<(&'static str, String)> {
+        let calls = "%L S\nX1\nM17\n%MAIN\n".to_owned();
+        let cases = lines(300, |n| format!("$CASE -{n}\nX1\n$BREAK"));
+        let branches = lines(300, |n| format!("$ELSEIF P1==-{n}\nX1"));
+        let groups = lines(150, |n| {
+            format!("#SET AX LINK [{n}, Y=X]\n#ENABLE AX LINK [{n}]")
+        });
+        vec![
+            ("a counter", COUNTER.to_owned()),
+            (
+                "loops in loops",
+                format!(
+                    "{}X1\n{}M30",
+                    lines(9, |n| format!("$FOR P{n}=1,9,1")),
+                    "$ENDFOR\n".repeat(9)
+                ),
+            ),
+            ("calls", calls + &looped("LL S")),
+            (
+                "calls that call",
+                format!(
+                    "{}%L S19\nX1\nM17\n%MAIN\nLL S0\nM30",
+                    lines(19, |n| format!("%L S{n}\nLL S{0}\nLL S{0}\nM17", n + 1))
+                ),
+            ),
+            (
+                "long expressions",
+                looped(&format!("P2=1{}", "+P1*2".repeat(600))),
+            ),
+            (
+                "long blocks",
+                looped(&format!("X1 {}", "F100 ".repeat(700))),
+            ),
+            (
+                "commands",
+                looped("X[COMP OFF FRICT]\nX1\nX[COMP ON FRICT]"),
+            ),
+            ("commands that are not known", looped("X[COMP OFF FRIKT]")),
+            (
+                "words that are not understood",
+                looped(&format!("X1{}", " ?1".repeat(900))),
+            ),
+            ("unknown values", looped("P2=P9+V.P.Z")),
+            ("macros", format!("\"A\"=\"P2=P1+1\"\n{}", looped("\"A\""))),
+            (
+                "strings",
+                format!(
+                    "P2=\"{}b\"\n{}",
+                    "a".repeat(300),
+                    looped("P4=FIND[P2,\"ab\"]")
+                ),
+            ),
+            (
+                "unknown regions",
+                looped(&format!("$IF V.E.X\n{}$ENDIF", "X1 P3=1\n".repeat(300))),
+            ),
+            ("cases", looped(&format!("$SWITCH P1\n{cases}$ENDSWITCH"))),
+            ("branches", looped(&format!("$IF P1==-1\n{branches}$ENDIF"))),
+            ("calls of nothing", looped("L foo.nc\nLL T")),
+            ("variables", looped("V.P.A=P1\nV.P.B=V.P.A*2")),
+            ("couplings", groups + &looped("X1\n#ENABLE AX LINK [V.E.X]")),
+            (
+                "exchanged axes",
+                looped(&lines(300, |n| format!("#CALL AX [X{n}, {n}, {n}]"))),
+            ),
+            ("comments", looped(&format!("X1 ({})", "c".repeat(3900)))),
+            (
+                "allow comments",
+                looped("X[COMP ON FRICT] ; frictcomp: allow FC402"),
+            ),
+            ("arcs", looped("G2 X10 Y10 I5 J5 F100")),
+        ]
+    }
+
+    /// The processor time of a check, and whether a budget ended it.
+    fn taken(text: &str, units: u64) -> (Duration, EndedBy) {
+        let now = || {
+            let now = clock_gettime(ClockId::ThreadCPUTime);
+            let seconds = u64::try_from(now.tv_sec).expect("a time since the start");
+            let nanoseconds = u32::try_from(now.tv_nsec).expect("part of a second");
+            Duration::new(seconds, nanoseconds)
+        };
+        let before = now();
+        let by = checked(text, Limits::default().with_repeats(units)).by;
+        (now().saturating_sub(before), by)
+    }
+
+    #[test]
+    fn a_unit_takes_about_the_same_whatever_is_repeated() {
+        // R9.91
+        let plain = looped("G1 X1 Y2 F100\nX2 Y3\nX3 Y4\nX1 Y2");
+        let mut dear = Vec::new();
+        for (what, text) in programs() {
+            let mut least = f64::MAX;
+            for _ in 0..6 {
+                let (plain, _) = taken(&plain, UNITS);
+                let (took, by) = taken(&text, UNITS);
+                assert_eq!(by, EndedBy::Budget, "{what}");
+                least = least.min(took.div_duration_f64(plain));
+                if least <= DEARER {
+                    break;
+                }
+            }
+            eprintln!("{what:<30} {least:.2}");
+            if least > DEARER {
+                dear.push(format!("{what}: {least:.1}"));
+            }
+        }
+        assert!(dear.is_empty(), "{dear:?}");
+    }
+}

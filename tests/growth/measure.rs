@@ -17,6 +17,9 @@ const MOST: usize = 16;
 /// what is slow is so in each.
 const ENOUGH: usize = 3;
 
+/// How far beyond the bound there is no doubt.
+const CLEARLY: f64 = 1.15;
+
 /// The processor time of this thread.
 fn of_thread() -> Duration {
     let now = clock_gettime(ClockId::ThreadCPUTime);
@@ -47,7 +50,7 @@ pub(crate) fn excess(size: usize, bound: f64, mut work: impl FnMut(usize)) -> Op
         if within > measured || within >= ENOUGH {
             return None;
         }
-        if measured >= ENOUGH && least > 1.5 * bound {
+        if measured >= ENOUGH && least > CLEARLY * bound {
             break;
         }
     }

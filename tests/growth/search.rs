@@ -129,6 +129,9 @@ fn run(text: &str, called: &str, size: usize) {
     let _ = session.program("a.nc", Program::Whole(source), &mut finder, &mut Nothing);
 }
 
+/// How many finds are enough for a look at their cause.
+const ENOUGH: usize = 8;
+
 /// How thoroughly is looked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look {
@@ -167,6 +170,9 @@ impl Search {
 
     fn at(&mut self, how: Repeated, tokens: &[&str]) {
         for between in how.between() {
+            if self.found.len() >= ENOUGH {
+                return;
+            }
             let sequence = format!("{}{between}", tokens.join(between));
             let bounds = self.look.bounds().iter();
             self.found.extend(bounds.clone().find_map(|(share, bound)| {

@@ -95,7 +95,7 @@ fn a_program_that_may_end_is_an_error_where_a_budget_ends_it() {
 fn what_was_not_looked_at_cannot_be_silenced() {
     // R9.91
     let limits = Limits::default().with_repeats(500_000);
-    let text = COUNTER.replace("\n", " ; frictcomp: allow FC910\n");
+    let text = COUNTER.replace('\n', " ; frictcomp: allow FC910\n");
     let mut options = SessionOptions::from(Options::default().with_limits(limits));
     options.levels.set(Code::Fc910, None);
     let session = Session::new(Machine::enabled(["X", "Y"]), options);
@@ -233,6 +233,7 @@ mod measured {
     }
 
     #[test]
+    #[allow(clippy::print_stdout, reason = "the table is shown with `--nocapture`")]
     fn a_unit_takes_about_the_same_whatever_is_repeated() {
         // R9.91
         let plain = looped("G1 X1 Y2 F100\nX2 Y3\nX3 Y4\nX1 Y2");
@@ -248,7 +249,7 @@ mod measured {
                     break;
                 }
             }
-            eprintln!("{what:<30} {least:.2}");
+            println!("{what:<30} {least:.2}");
             if least > DEARER {
                 dear.push(format!("{what}: {least:.1}"));
             }

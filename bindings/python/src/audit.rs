@@ -48,7 +48,7 @@ pub(crate) fn audit(
     limits: Option<&Bound<'_, PyLimits>>,
 ) -> PyResult<PyAudit> {
     let py = programs.py();
-    let options = AuditOptions::new(limits::options(limits)).with_kinds(Kinds::of(kinds)?);
+    let options = AuditOptions::new(limits::brief(limits)).with_kinds(Kinds::of(kinds)?);
     let programs = Programs::of(programs)?;
     let machine = machine_options(machine)?;
     let Audited { report, said } =

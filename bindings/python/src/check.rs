@@ -31,7 +31,7 @@ pub(crate) fn check(
     let job = Job {
         programs: Programs::of(programs)?,
         machine: machine_options(machine)?,
-        run: limits::options(limits).with_stop(StopPolicy::CheckAll),
+        run: limits::brief(limits).with_stop(StopPolicy::CheckAll),
     };
     let said = interruptible(programs.py(), move |stop| job.done(stop))?;
     Ok(PyMessages::new(said))

@@ -25,6 +25,14 @@ mod work;
 /// The module.
 #[pyo3::pymodule]
 mod _engine {
+    /// The parser of this module is shared with no other one of the process.
+    #[pymodule_init]
+    #[allow(clippy::unnecessary_wraps, reason = "PyO3 asks for a result")]
+    fn begin(_module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        frictcomp::syntax::bound_reading();
+        Ok(())
+    }
+
     #[pymodule_export]
     use super::audit::{PyAudit, audit};
     #[pymodule_export]

@@ -61,3 +61,9 @@ impl PyLimits {
 pub(crate) fn options(limits: Option<&Bound<'_, PyLimits>>) -> Options {
     limits.map_or_else(Options::default, |limits| limits.get().0)
 }
+
+/// The same where nobody wants to wait: unless limits are given, loops and calls end soon (R9.91).
+pub(crate) fn brief(limits: Option<&Bound<'_, PyLimits>>) -> Options {
+    let given = limits.map(|limits| limits.get().0);
+    given.unwrap_or_else(|| Options::default().with_limits(Limits::brief()))
+}

@@ -113,11 +113,7 @@ impl PyFix {
 
 /// The files of the main programs that reach a message.
 fn named(reached: &ReachedFrom) -> Vec<String> {
-    reached
-        .programs()
-        .iter()
-        .map(|file| file.to_string())
-        .collect()
+    reached.programs().iter().map(ToString::to_string).collect()
 }
 
 impl PyMessage {

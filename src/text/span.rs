@@ -64,8 +64,9 @@ impl Position {
     /// Where a text ends that begins here.
     pub(super) fn after(self, text: &str) -> Self {
         let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        let breaks = count(text.matches('\n').count());
-        let line = text.rfind('\n').map_or(text, |at| &text[at + 1..]);
+        // Many messages are about one long block.
+        let breaks = count(memchr::memchr_iter(b'\n', text.as_bytes()).count());
+        let line = memchr::memrchr(b'\n', text.as_bytes()).map_or(text, |at| &text[at + 1..]);
         let before = if breaks == 0 { self.column } else { 1 };
         Self {
             line: self.line.saturating_add(breaks),

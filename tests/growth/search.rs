@@ -44,7 +44,7 @@ impl Repeated {
             InBlock => 4_000,
             OverLines => 200,
             OverFiles => 100,
-            OverListLines => 400,
+            OverListLines => 3_200,
         }
     }
 

@@ -34,14 +34,18 @@ fn taken(work: impl FnOnce()) -> Duration {
     of_thread().saturating_sub(before)
 }
 
-/// By how much more than the bound work of twice the size takes, in all but a few measurements, at
+/// By how much more than the bound work of the greater size takes, in all but a few measurements, at
 /// least; `None` where it is within the bound at once, or in enough of them.
-pub(crate) fn excess(size: usize, bound: f64, mut work: impl FnMut(usize)) -> Option<f64> {
+pub(crate) fn excess(
+    [small, great]: [usize; 2],
+    bound: f64,
+    mut work: impl FnMut(usize),
+) -> Option<f64> {
     let mut within = 0;
     let mut least = f64::MAX;
     for measured in 0..MOST {
-        let once = taken(|| work(size)).max(FLOOR);
-        let growth = taken(|| work(2 * size)).div_duration_f64(once);
+        let once = taken(|| work(small)).max(FLOOR);
+        let growth = taken(|| work(great)).div_duration_f64(once);
         if growth <= bound {
             within += 1;
         } else {

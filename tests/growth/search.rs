@@ -66,6 +66,14 @@ impl Repeated {
         (self == InBlock || size <= HALF_A_LINE).then_some(size)
     }
 
+    /// Sizes of which one is eight times the other. A line is not longer than 4000 characters.
+    fn further(self, size: usize) -> [usize; 2] {
+        match self {
+            InLine => [HALF_A_LINE / 4, 2 * HALF_A_LINE],
+            InBlock | OverLines | OverFiles | OverListLines => [size, 8 * size],
+        }
+    }
+
     fn run(self, sequence: &str, size: usize) {
         match self {
             InLine => run(&format!("{}\nM30\n", filled(sequence, size)), "", size),
@@ -158,6 +166,8 @@ impl Look {
 struct Search {
     look: Look,
     ways: &'static [Repeated],
+    /// How many combinations were looked at.
+    looked: usize,
     found: Vec<String>,
 }
 
@@ -166,11 +176,13 @@ impl Search {
         Self {
             look,
             ways,
+            looked: 0,
             found: Vec::new(),
         }
     }
 
     fn at(&mut self, how: Repeated, tokens: &[&str]) {
+        self.looked += 1;
         for between in how.between() {
             if self.found.len() >= ENOUGH {
                 return;
@@ -179,9 +191,12 @@ impl Search {
             let bounds = self.look.bounds().iter();
             self.found.extend(bounds.clone().find_map(|(share, bound)| {
                 let size = how.beyond_nesting(how.size() / share, &sequence)?;
-                let growth = excess(size, *bound, |size| how.run(&sequence, size))?;
-                // What a bound on depth ends at once does not grow.
-                excess(2 * size, *bound, |size| how.run(&sequence, size))?;
+                let run = |size| how.run(&sequence, size);
+                let growth = excess([size, 2 * size], *bound, run)?;
+                // Memory that is farther away, and bounds that end something at once, make one step; what
+                // grows goes on.
+                let further = how.further(size);
+                excess(further, TWICE.powi(3), run)?;
                 Some(format!("{how:?} {sequence:?}: {growth:.2} from {size}"))
             }));
         }
@@ -189,18 +204,16 @@ impl Search {
 
     /// Looks at every combination of so many of the tokens.
     fn every(mut self, length: usize, tokens: &[String]) -> Self {
-        let mut combination = vec![0; length];
-        loop {
+        let places = u32::try_from(length).expect("a few tokens");
+        for number in 0..tokens.len().pow(places) {
+            let digit = |place| number / tokens.len().pow(place) % tokens.len();
+            let combination: Vec<usize> = (0..places).rev().map(digit).collect();
             if is_first_rotation(&combination) {
                 let chosen: Vec<&str> = combination.iter().map(|&at| tokens[at].as_str()).collect();
                 self.ways.iter().for_each(|&how| self.at(how, &chosen));
             }
-            let Some(at) = combination.iter().rposition(|&at| at + 1 < tokens.len()) else {
-                return self;
-            };
-            combination[at] += 1;
-            combination[at + 1..].fill(0);
         }
+        self
     }
 
     /// Looks at so many combinations of so many of the tokens, the same in each run.
@@ -215,7 +228,9 @@ impl Search {
     }
 
     #[track_caller]
+    #[allow(clippy::print_stdout, reason = "shown with `--nocapture`")]
     fn finds_nothing(&self) {
+        println!("{} combinations", self.looked);
         let found = &self.found;
         assert!(found.is_empty(), "{}", found.join("\n"));
     }

@@ -1,8 +1,8 @@
 //! Blocks: the fast path yields the tree of the grammar, and every span lies in its block.
 #![no_main]
 
-use frictcomp::text::{Span, TextLines};
 use frictcomp::syntax::{BlockReader, FastPath, RawBlock, ast::Block};
+use frictcomp::text::{Span, TextLines};
 use frictcomp_fuzz::{Theme, text_of};
 use libfuzzer_sys::fuzz_target;
 

@@ -1,11 +1,11 @@
 //! `frictcomp.toml`: any text is a machine on which a program runs, or is refused at a place of it.
 #![no_main]
 
+use frictcomp::comp::KindSet;
 use frictcomp::machine::Configuration;
 use frictcomp::report::{Ndjson, View};
 use frictcomp::session::{Program, Session};
 use frictcomp::text::SourceFile;
-use frictcomp::comp::KindSet;
 use frictcomp_fuzz::{Bench, Files, POLICIES};
 use libfuzzer_sys::fuzz_target;
 
@@ -25,7 +25,10 @@ fuzz_target!(|input: &str| {
         files,
         stop: POLICIES[1],
     };
-    let options = bench.options().with_settings(configuration.settings).with_levels(configuration.levels);
+    let options = bench
+        .options()
+        .with_settings(configuration.settings)
+        .with_levels(configuration.levels);
     let mut session = Session::new(configuration.machine, options);
     let view = View::default().with_kinds(KindSet::ALL);
     let mut sink = Ndjson::new(std::io::sink(), view);

@@ -2,6 +2,7 @@
 
 use frictcomp::machine::Machine;
 use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
+use frictcomp::syntax::SkipLevels;
 use frictcomp::text::TextLines;
 use frictcomp::timeline::Sink;
 
@@ -28,7 +29,18 @@ pub struct Bench<'a> {
 
 impl Bench<'_> {
     pub fn options(self) -> SessionOptions {
-        SessionOptions::from(Options::default().with_stop(self.stop).with_skip(0b10).with_limits(Limits::default().with_blocks(100).with_work(50_000).with_values(1000).with_calls(5).with_nesting(8).with_macros(4)))
+        let limits = Limits::default()
+            .with_blocks(100)
+            .with_work(50_000)
+            .with_values(1000)
+            .with_calls(5)
+            .with_nesting(8)
+            .with_macros(4);
+        let options = Options::default()
+            .with_stop(self.stop)
+            .with_skip(SkipLevels::NONE.with(1))
+            .with_limits(limits);
+        SessionOptions::from(options)
     }
 
     /// Runs the text as it stands in memory.

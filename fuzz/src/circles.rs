@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use frictcomp::circle::{Circle, CircleError, CircularTest, Comparison, Method, Job, Lap, MIN_CYCLES};
+use frictcomp::circle::{
+    Circle, CircleError, CircularTest, Comparison, Job, Lap, MIN_CYCLES, Method,
+};
 use frictcomp::current::Reading;
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::simulation::{FrictionModel, Plant, STEP_S, plant_list};

@@ -1,9 +1,9 @@
 //! An input as the files of a user, and the places in them.
 
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::text::{LineSource, Place, SourceFile, TextLines};
 use frictcomp::machine::{ListFiles, NoList};
 use frictcomp::session::{Finder, NoProgram};
+use frictcomp::text::{LineSource, Place, SourceFile, TextLines};
 
 /// The name of the file that is run or read.
 pub const MAIN: &str = "main";

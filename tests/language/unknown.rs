@@ -38,6 +38,49 @@ fn unknown_values_flow() {
 }
 
 #[test]
+fn an_array_of_unknown_size_has_unknown_elements() {
+    // R2.34, R2.50
+    let bench = Bench::new();
+    let declared = "#VAR\nV.P.A[V.E.N] = [1, 2]\nV.P.B[2][V.E.N] = [[1, 2], [3, 4]]\nV.P.C[V.E.N][2] = [[1, 2], [3, 4]]\nP100[V.E.N]\n#ENDVAR\nV.P.A[7] = 4";
+    assert_snapshot!(bench.values(declared, &[
+        "V.P.A[1]", "V.P.A[5]", "V.P.A[7]", "V.P.B[0][0]", "V.P.B[2][0]", "V.P.C[1][0]", "V.P.C[1][2]", "V.P.C[9][1]", "P100[3]",
+        "SIZEOF[V.P.A]", "SIZEOF[V.P.B]", "SIZEOF[V.P.B, 2]", "EXIST[V.P.A[1]]", "EXIST[V.P.A[5]]",
+    ]), @"
+    V.P.A[1] -> 2
+    V.P.A[5] -> unknown: V.E.N
+    V.P.A[7] -> 4
+    V.P.B[0][0] -> unknown: V.E.N
+    V.P.B[2][0] -> FC311 8:9-20
+    V.P.C[1][0] -> 3
+    V.P.C[1][2] -> FC311 8:9-20
+    V.P.C[9][1] -> unknown: V.E.N
+    P100[3] -> unknown: V.E.N
+    SIZEOF[V.P.A] -> unknown: V.E.N
+    SIZEOF[V.P.B] -> 2
+    SIZEOF[V.P.B, 2] -> unknown: V.E.N
+    EXIST[V.P.A[1]] -> 1
+    EXIST[V.P.A[5]] -> unknown: V.E.N
+    ");
+    let branch = "#VAR\nV.P.A[V.E.N]\n#ENDVAR\n$IF V.P.A[3] == 0\nX[COMP OFF FRICT]\n$ENDIF\nM30";
+    assert_snapshot!(bench.run(&[branch]), @"
+    start X:active Y:active Z:unconfigured B:ineffective
+    a.nc -
+      1 line 1 -
+      2 line 4 - X:active>unknown
+        FC901 4:1-18
+      3 line 7 -
+        FC401 4:1-18
+      end 3 M30 X:unknown Y:active Z:unconfigured B:ineffective
+    ");
+    // A size that no array has is refused where it stands.
+    for size in ["-1", "99999999999", "P9"] {
+        let refused = format!("#VAR\nV.P.A[{size}]\n#ENDVAR\nM30");
+        let said = run(&refused);
+        assert!(said.contains("FC31"), "{said}");
+    }
+}
+
+#[test]
 fn unknown_branches_are_not_executed() {
     // R2.51
     let program = "P1=1 P2=1\nX1 Y1 Z1\n$IF V.E.A > 1\nX[COMP OFF FRICT]\nP1=2\n$ELSE\nY[COMP OFF LEAD]\nG91 X5\n$ENDIF\nN10 X2\nG90 Y[COMP OFF FRICT]\nN20 P3=P1\nN30 X[COMP ON FRICT] P1=1\n$IF P1==1\nY[COMP ON FRICT]\n$ENDIF\n$IF P3==1\n$ENDIF\nM30";

@@ -48,7 +48,7 @@ mod _engine {
     #[pymodule_export]
     use super::machine::PyMachine;
     #[pymodule_export]
-    use super::messages::{PyFix, PyMessage, PyMessages};
+    use super::messages::{PyEnd, PyFix, PyMessage, PyMessages};
     #[pymodule_export]
     use super::program::PyText;
     #[pymodule_export]

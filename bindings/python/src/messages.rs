@@ -7,6 +7,7 @@ use std::sync::Arc;
 use arrow_array::builder::{ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, StringArray, UInt32Array, UInt64Array};
 use frictcomp::diagnostic::{Advice, Fix, ReachedFrom};
+use frictcomp::text::Place;
 use frictcomp::{Diagnostic, Severity};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -28,6 +29,14 @@ pub(crate) struct PyFix {
     safety: &'static str,
 }
 
+/// An end of the program that a message at its end is about.
+#[pyclass(frozen, get_all, eq, name = "End", module = "frictcomp")]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PyEnd {
+    file: String,
+    line: u32,
+}
+
 /// One message about a program or a list.
 #[pyclass(frozen, get_all, eq, name = "Message", module = "frictcomp")]
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +53,7 @@ pub(crate) struct PyMessage {
     axis: Option<String>,
     message: String,
     help: Vec<String>,
+    ends: Vec<PyEnd>,
     fixes: Vec<PyFix>,
     reached_from: Vec<String>,
     reached_from_count: usize,
@@ -111,6 +121,22 @@ impl PyFix {
     }
 }
 
+impl PyEnd {
+    fn of(end: &Place) -> Self {
+        Self {
+            file: end.file.to_string(),
+            line: end.start().line,
+        }
+    }
+}
+
+#[pymethods]
+impl PyEnd {
+    fn __repr__(&self) -> String {
+        format!("<frictcomp.End {}:{}>", self.file, self.line)
+    }
+}
+
 /// The files of the main programs that reach a message.
 fn named(reached: &ReachedFrom) -> Vec<String> {
     reached.programs().iter().map(ToString::to_string).collect()
@@ -133,6 +159,7 @@ impl PyMessage {
             axis: said.axis.clone(),
             message: said.message.clone(),
             help: said.advice.iter().map(Advice::to_string).collect(),
+            ends: said.ends.iter().map(PyEnd::of).collect(),
             fixes: said.fixes.iter().map(PyFix::of).collect(),
             reached_from: named(&said.reached_from),
             reached_from_count: said.reached_from.count(),

@@ -43,6 +43,8 @@ def of_messages(messages: frictcomp.Messages) -> list[dict[str, Any]]:
             record |= {"program": it.program, "seq": it.seq}
         names = ["code", "severity", "file", "line", "column", "end_line", "end_column", "axis"]
         record |= {name: getattr(it, name) for name in [*names, "message", "help"]}
+        if it.ends:
+            record["ends"] = [{"file": end.file, "line": end.line} for end in it.ends]
         if it.fixes:
             names = ["file", "line", "column", "end_line", "end_column", "text", "safety"]
             record["fixes"] = [{name: getattr(fix, name) for name in names} for fix in it.fixes]

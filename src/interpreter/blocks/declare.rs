@@ -49,6 +49,7 @@ impl Interpreter {
                 evaluator.dimensions(declaration.target.place, &mut stack)
             });
             self.work.stack = stack;
+            let dimensions = dimensions?;
             let name = declared_name(declaration, at);
             let mut values = Vec::with_capacity(declaration.initial.len());
             for operand in &declaration.initial {
@@ -69,24 +70,34 @@ impl Interpreter {
                 }
                 continue;
             }
-            let elements: Vec<String> = (0..values.len())
+            let elements: Vec<Option<String>> = (0..values.len())
                 .map(|at| element(&name, &dimensions, at))
                 .collect();
+            let unknown = dimensions.iter().find_map(|size| size.as_ref().err());
+            let default = unknown.cloned().unwrap_or(default);
+            let dimensions = dimensions.into_iter().map(Result::ok).collect();
             memory.declare_array(&name, dimensions, default);
             for (element, value) in elements.iter().zip(values) {
-                memory.declare(element, value);
+                if let Some(element) = element {
+                    memory.declare(element, value);
+                }
             }
         }
         Ok(())
     }
 }
 
-/// The name of the element at a place in row order.
-fn element(name: &str, dimensions: &[u32], place: usize) -> String {
+/// The name of the element at a place in row order; `None` where a dimension that is not known decides
+/// which it is. The first one does not.
+fn element(name: &str, dimensions: &[Result<u32, Value>], place: usize) -> Option<String> {
     let mut subscripts = Vec::with_capacity(dimensions.len());
     let mut rest = place;
-    for size in dimensions.iter().rev() {
-        let size = usize::try_from(*size).unwrap_or(usize::MAX).max(1);
+    for (at, size) in dimensions.iter().enumerate().rev() {
+        let size = match size {
+            Ok(size) => usize::try_from(*size).unwrap_or(usize::MAX).max(1),
+            Err(_) if at == 0 => usize::MAX,
+            Err(_) => return None,
+        };
         subscripts.push(rest % size);
         rest /= size;
     }
@@ -96,5 +107,5 @@ fn element(name: &str, dimensions: &[u32], place: usize) -> String {
         element.push_str(&subscript.to_string());
         element.push(']');
     }
-    element
+    Some(element)
 }

@@ -12,8 +12,8 @@ use super::value::Value;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ArrayShape {
-    /// How many elements each dimension has.
-    pub dimensions: Vec<u32>,
+    /// How many elements each dimension has; `None` where that is not known.
+    pub dimensions: Vec<Option<u32>>,
     /// The value of elements that were never written.
     pub default: Value,
 }

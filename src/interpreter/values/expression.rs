@@ -398,9 +398,10 @@ impl Evaluator<'_> {
             None => 1,
         };
         let place = usize::try_from(place.max(1) - 1).unwrap_or(usize::MAX);
-        match self.scope.memory.dimensions(name) {
-            Some(dimensions) => match dimensions.get(place) {
-                Some(size) => Ok(Value::Number(f64::from(*size))),
+        match self.scope.memory.array(name) {
+            Some(array) => match array.dimensions.get(place) {
+                Some(Some(size)) => Ok(Value::Number(f64::from(*size))),
+                Some(None) => Ok(array.default.clone()),
                 None => Err(wrong_type(
                     span,
                     "the array does not have that many dimensions",
@@ -466,12 +467,12 @@ impl Evaluator<'_> {
         found
     }
 
-    /// The dimensions in a declaration's subscripts.
+    /// The dimensions in a declaration's subscripts; for one that is not known the cause.
     pub(in crate::interpreter) fn dimensions(
         &self,
         place: Expression,
         stack: &mut Vec<Slot>,
-    ) -> Vec<u32> {
+    ) -> Result<Vec<Result<u32, Value>>, Box<Fault>> {
         let bottom = stack.len();
         let root = place.end.saturating_sub(1);
         self.run(
@@ -485,17 +486,17 @@ impl Evaluator<'_> {
             Some(Node::IndexedParameter { .. }) => 1,
             _ => 0,
         };
-
-        stack
-            .drain(bottom..)
-            .skip(skip)
-            .map(|slot| {
-                let number = slot.ok().and_then(|value| value.number()).and_then(rounded);
-                number
-                    .and_then(|number| u32::try_from(number).ok())
-                    .unwrap_or_default()
-            })
-            .collect()
+        let span = self.block.spans[root as usize];
+        let size = |slot: Slot| match slot? {
+            Value::Number(number) => {
+                let size = rounded(number).and_then(|size| u32::try_from(size).ok());
+                size.map(Ok)
+                    .ok_or_else(|| wrong_type(span, "an array cannot have that many elements"))
+            }
+            Value::Text(_) => Err(wrong_type(span, "a string is no dimension of an array")),
+            unknown @ Value::Unknown(_) => Ok(Err(unknown)),
+        };
+        stack.drain(bottom..).skip(skip).map(size).collect()
     }
 }
 

@@ -159,7 +159,7 @@ impl Memory {
     pub(in crate::interpreter) fn declare_array(
         &mut self,
         name: &str,
-        dimensions: Vec<u32>,
+        dimensions: Vec<Option<u32>>,
         default: Value,
     ) {
         let array = Array {
@@ -169,10 +169,11 @@ impl Memory {
         self.declared(name).declare_array(name, array);
     }
 
-    pub(in crate::interpreter) fn dimensions(&self, name: &str) -> Option<&[u32]> {
+    /// A declared array.
+    pub(in crate::interpreter) fn array(&self, name: &str) -> Option<&Array> {
         let mut levels = self.locals.iter().rev();
-        let local = levels.find_map(|level| level.dimensions(name));
-        local.or_else(|| self.variables.dimensions(name))
+        let local = levels.find_map(|level| level.array(name));
+        local.or_else(|| self.variables.array(name))
     }
 
     pub(in crate::interpreter) fn delete(&mut self, name: &str) {

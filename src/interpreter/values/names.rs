@@ -58,20 +58,21 @@ pub(in crate::interpreter) struct Variable {
 /// A declared array.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Array {
-    pub(in crate::interpreter) dimensions: Vec<u32>,
-    /// The value of elements that were never written.
+    /// `None` is a dimension that is not known.
+    pub(in crate::interpreter) dimensions: Vec<Option<u32>>,
+    /// The value of elements that were never written; unknown where a dimension is.
     pub(in crate::interpreter) default: Value,
 }
 
 impl Array {
-    /// Whether the subscripts are those of an element.
+    /// Whether the subscripts are, or may be, those of an element.
     pub(in crate::interpreter) fn has(&self, subscripts: &str) -> bool {
         let mut sizes = self.dimensions.iter();
         for part in subscripts.split(['[', ']']).filter(|part| !part.is_empty()) {
             let (Ok(at), Some(size)) = (part.parse::<u32>(), sizes.next()) else {
                 return false;
             };
-            if at >= *size {
+            if size.is_some_and(|size| at >= size) {
                 return false;
             }
         }
@@ -205,9 +206,8 @@ impl Names {
         }
     }
 
-    pub(in crate::interpreter) fn dimensions(&self, name: &str) -> Option<&[u32]> {
-        let array = self.names.get(name)?.array.as_ref()?;
-        Some(&array.dimensions)
+    pub(in crate::interpreter) fn array(&self, name: &str) -> Option<&Array> {
+        self.names.get(name)?.array.as_ref()
     }
 
     pub(in crate::interpreter) fn forget_elements(&mut self, name: &str, cause: &Arc<str>) {

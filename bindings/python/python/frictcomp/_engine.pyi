@@ -74,6 +74,18 @@ class Machine:
     ) -> Machine: ...
 
 @final
+class End:
+    """An end of the program that a message at its end is about."""
+
+    @property
+    def file(self) -> str: ...
+    @property
+    def line(self) -> int:
+        """From 1."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
 class Fix:
     """A change of the text that does what a message advises.
 
@@ -134,6 +146,9 @@ class Message:
     @property
     def help(self) -> list[str]:
         """What to do."""
+    @property
+    def ends(self) -> list[End]:
+        """The ends of the program that a message at its end is about."""
     @property
     def fixes(self) -> list[Fix]:
         """Changes of the text, each of which alone does what is advised."""

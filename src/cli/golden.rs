@@ -172,9 +172,11 @@ impl Bench<'_> {
             for failure in updated.failures {
                 failures.push(failure);
             }
-            Console::talk(&format!(
-                "left out `{folder}`: nothing of its {count} was written"
-            ));
+            Console::talk(&match updated.written.len() {
+                0 => format!("left out `{folder}`: nothing of its {count} was written"),
+                some => format!("`{folder}`: {some} of its {count} written"),
+            });
+            written += updated.written.len();
         }
         let all = self.args.counted(self.files.len());
         console.remark(&format!("{written} of {all} written{}", self.passed_over));

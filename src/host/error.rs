@@ -42,6 +42,14 @@ pub enum HostError {
     /// A file that somebody else changed while it was worked on.
     #[error("`{}` has changed since it was read; nothing was written", shown_path(.0))]
     ChangedMeanwhile(PathBuf),
+    /// Files that took their place on a disk that may lose them again.
+    #[error("{} in place, but the disk did not confirm it: {reason}", are(.files))]
+    Unsettled {
+        /// The files.
+        files: Vec<PathBuf>,
+        /// What the system says.
+        reason: io::Error,
+    },
     /// A full disk.
     #[error("the output cannot be written: {0}")]
     Output(io::Error),
@@ -226,13 +234,12 @@ impl HostError {
             },
             Self::Write { reason, .. } => match reason.kind() {
                 io::ErrorKind::NotFound => "create the folder, or name another file",
-                io::ErrorKind::PermissionDenied => {
-                    "check your permission to write there, or name another file"
-                }
                 io::ErrorKind::ResourceBusy => "close it there and try again, or name another file",
                 io::ErrorKind::IsADirectory => "name a file in it",
-                _ => return None,
+                kind => return to_write(kind).map(str::to_owned),
             },
+            Self::Output(reason) => return to_write(reason.kind()).map(str::to_owned),
+            Self::Unsettled { .. } => "check the disk before you rely on them",
             Self::FolderAsList(_) => "name the file in it",
             Self::NoFolder(_) => "name the folder of the programs",
             Self::LeadsOut(_) => "put the file itself there, or name its folder",
@@ -260,6 +267,34 @@ impl HostError {
             _ => return None,
         };
         Some(help.to_owned())
+    }
+}
+
+/// What helps where writing fails.
+fn to_write(kind: io::ErrorKind) -> Option<&'static str> {
+    Some(match kind {
+        io::ErrorKind::PermissionDenied => {
+            "check your permission to write there, or name another file"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "make room there, or name a file on another disk, then try again"
+        }
+        io::ErrorKind::FileTooLarge => {
+            "raise the limit of the shell (`ulimit -f`), or write less, then try again"
+        }
+        io::ErrorKind::ReadOnlyFilesystem => "name a file on another disk",
+        // Reasons of the tool's own say what is wrong, not what failed.
+        io::ErrorKind::Other | io::ErrorKind::InvalidInput => return None,
+        _ => "check the disk or the network drive, then try again",
+    })
+}
+
+/// Files, and the verb after them.
+fn are(files: &[PathBuf]) -> String {
+    match files {
+        [file] => format!("`{}` is", shown_path(file)),
+        [first, rest @ ..] => format!("`{}` and {} more are", shown_path(first), rest.len()),
+        [] => "all files are".to_owned(),
     }
 }
 

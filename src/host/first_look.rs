@@ -14,7 +14,7 @@ use super::input::Input;
 use super::list_files::{ListsOnDisk, read_list};
 use super::paths::normal;
 use super::read::read_text;
-use super::unfinished::{UnfinishedFile, take_away_left};
+use super::unfinished::{Placed, UnfinishedFile, take_away_left};
 use super::walk::find_programs;
 use crate::diagnostic::Code;
 use crate::lists::ListKind;
@@ -49,15 +49,19 @@ pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, Host
 /// # Errors
 /// There is such a file, or it cannot be written.
 pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
+    let mut placed = Placed::default();
     let written = UnfinishedFile::begin(target).and_then(|mut file| {
         take_away_left(&file, &mut BTreeSet::new());
         file.write_all(text.as_bytes())?;
-        file.take_free_place()
+        file.take_free_place()?;
+        placed.add(&file, target);
+        Ok(())
     });
     written.map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => HostError::AlreadyThere(target.to_owned()),
         _ => HostError::write(target, error),
-    })
+    })?;
+    placed.settle()
 }
 
 /// The start-up list below a folder, recognised by its content.

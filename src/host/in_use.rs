@@ -33,6 +33,9 @@ fn repeated<T>(
     let start = Instant::now();
     loop {
         match attempt() {
+            // A signal came in between.
+            Err(error)
+                if error.kind() == io::ErrorKind::Interrupted && start.elapsed() < patience => {}
             Err(error)
                 if error.raw_os_error().is_some_and(&may_pass) && start.elapsed() < patience =>
             {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::HostError;
 use super::read::{read_bytes, read_text};
-use super::unfinished::UnfinishedFile;
+use super::unfinished::{Placed, UnfinishedFile};
 use crate::diagnostic::{Fix, edits};
 use crate::text::{EncodedText, SourceFile, decode, shown_path};
 
@@ -106,9 +106,11 @@ pub fn write_mended<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> Resu
         file.check_place().map_err(failed)?;
         unfinished.push((path, file));
     }
+    let mut placed = Placed::default();
     for (path, mut file) in unfinished {
         file.take_place()
             .map_err(|error| HostError::write(path, error))?;
+        placed.add(&file, path);
     }
-    Ok(())
+    placed.settle()
 }

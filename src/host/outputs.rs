@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::error::HostError;
 use super::ledger::{Claim, Ledger, Replaces};
-use super::unfinished::{UnfinishedFile, take_away_left};
+use super::unfinished::{Placed, UnfinishedFile, take_away_left};
 use crate::text::shown_path;
 
 /// The files that a piece of work writes. Dropped before [`finish`](Self::finish), nothing was
@@ -132,15 +132,17 @@ impl OutputFiles {
                     .map_err(|error| HostError::write(&file.path, error))?;
             }
         }
+        let mut in_place = Placed::default();
         for file in &self.open {
             if let Place::Beside(beside) = &mut *file.place() {
                 beside
                     .take_place()
                     .map_err(|error| HostError::write(&file.path, error))?;
+                in_place.add(beside, &file.path);
                 placed(&file.path);
             }
         }
-        Ok(())
+        in_place.settle()
     }
 
     fn keep(&mut self, path: &Path, place: Place) -> OutputFile {

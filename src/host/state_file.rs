@@ -39,10 +39,19 @@ struct Schema {
 #[derive(Debug)]
 pub struct StateFile {
     path: PathBuf,
-    /// Holds the lock; the file itself stays, since removing it would let two runs lock two files.
+    /// Holds the lock.
     _lock: File,
     /// The file of the lock, where this run made it.
     made: Option<PathBuf>,
+}
+
+impl Drop for StateFile {
+    /// Leaves no lock where there is no state.
+    fn drop(&mut self) {
+        if !self.path.exists() {
+            self.take_away_lock();
+        }
+    }
 }
 
 impl StateFile {
@@ -70,16 +79,18 @@ impl StateFile {
             }
         }
         let path = path.to_owned();
-        let made = (!beside.exists()).then(|| beside.clone());
-        let lock = File::options()
-            .create(true)
-            .truncate(false)
-            .write(true)
-            .open(&beside)
-            .map_err(|error| HostError::write(&beside, error))?;
         let start = Instant::now();
         loop {
+            let made = (!beside.exists()).then(|| beside.clone());
+            let lock = File::options()
+                .create(true)
+                .truncate(false)
+                .write(true)
+                .open(&beside)
+                .map_err(|error| HostError::write(&beside, error))?;
             match lock.try_lock() {
+                // The run that had it may have taken it away.
+                Ok(()) if !is_at(&lock, &beside) && start.elapsed() < patience => {}
                 Ok(()) => {
                     return Ok(Self {
                         path,
@@ -91,7 +102,12 @@ impl StateFile {
                     std::thread::sleep(PAUSE);
                 }
                 Err(TryLockError::WouldBlock) => return Err(HostError::StateInUse(path)),
-                Err(TryLockError::Error(error)) => return Err(HostError::write(&beside, error)),
+                Err(TryLockError::Error(error)) => {
+                    if let Some(made) = made {
+                        let _ = std::fs::remove_file(made);
+                    }
+                    return Err(HostError::write(&beside, error));
+                }
             }
         }
     }
@@ -143,8 +159,7 @@ impl StateFile {
         unusable(&self.path, &error.to_string())
     }
 
-    /// Leaves nothing beside a file that was refused (R9.94). Whoever waits for the lock refuses it,
-    /// too.
+    /// Leaves no lock that this run made (R9.94). A run that waits for it makes another one.
     fn take_away_lock(&self) {
         if let Some(made) = &self.made {
             let _ = std::fs::remove_file(made);
@@ -164,6 +179,21 @@ impl StateFile {
         let content = text.strip_suffix("\n}").unwrap_or(&text);
         outputs.begin(&self.path)?.bytes(&seal(content.as_bytes()))
     }
+}
+
+/// Whether an open file is still the one at a path.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let number = |found: std::fs::Metadata| (found.dev(), found.ino());
+    let open = file.metadata().map(number);
+    open.is_ok_and(|open| std::fs::metadata(path).is_ok_and(|there| number(there) == open))
+}
+
+/// A file that is open keeps its place.
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
 }
 
 /// The text of a state file: its content without the closing brace, then the checksum of that, an

@@ -1,7 +1,7 @@
 //! Files that are replaced in one step: whether the tool is killed or the disk is full, the old or
 //! the new file is there, whole.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tempfile::{NamedTempFile, TempPath};
 
+use super::error::HostError;
 use super::in_use::{check_replaceable, device, patiently, told_of_replacing};
 use super::interrupt::Unfinished;
 use super::ledger::folder;
@@ -145,11 +146,52 @@ impl UnfinishedFile {
         });
         drop(file);
         unfinished.forget(&path);
-        persisted.map_err(told_of_replacing)?;
-        #[cfg(unix)]
-        File::open(folder(&self.target))?.sync_all()?;
+        persisted.map_err(told_of_replacing)
+    }
+}
+
+/// The files that took their place, by their folders.
+#[derive(Debug, Default)]
+pub(super) struct Placed(BTreeMap<PathBuf, Vec<PathBuf>>);
+
+impl Placed {
+    /// Notes a file, under the name that the user gave it.
+    pub(super) fn add(&mut self, file: &UnfinishedFile, path: &Path) {
+        let folder = folder(&file.target).to_owned();
+        self.0.entry(folder).or_default().push(path.to_owned());
+    }
+
+    /// Brings the new names to the disk, so that the files keep their place when the power fails.
+    ///
+    /// # Errors
+    /// The disk fails. The files are in their place all the same.
+    pub(super) fn settle(self) -> Result<(), HostError> {
+        for (folder, files) in self.0 {
+            settle(&folder).map_err(|reason| HostError::Unsettled { files, reason })?;
+        }
         Ok(())
     }
+}
+
+/// A folder that may not be read, or a file system that has nothing of the kind, is no failure.
+#[cfg(unix)]
+fn settle(folder: &Path) -> io::Result<()> {
+    let Ok(file) = File::open(folder) else {
+        return Ok(());
+    };
+    file.sync_all().or_else(|error| match error.kind() {
+        io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported => Ok(()),
+        _ => Err(error),
+    })
+}
+
+#[cfg(not(unix))]
+#[allow(
+    clippy::unnecessary_wraps,
+    reason = "elsewhere the names go to the disk with the files"
+)]
+fn settle(_: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 impl Write for UnfinishedFile {

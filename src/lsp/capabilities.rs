@@ -39,7 +39,7 @@ pub(super) fn offer(client: &Client) -> InitializeResult {
                 .into(),
             ),
             completion_provider: Some(CompletionOptions {
-                trigger_characters: Some(vec!["[".to_owned(), " ".to_owned()]),
+                trigger_characters: Some(vec![" ".to_owned()]),
                 ..CompletionOptions::default()
             }),
             document_symbol_provider: navigates.map(Into::into),

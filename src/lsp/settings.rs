@@ -32,6 +32,8 @@ pub(super) struct Settings {
     pub(super) max_blocks: u64,
     /// `pages`: the URI of the folder that holds the pages of the codes.
     pub(super) pages: Option<String>,
+    /// `languages`: further languages of the editor whose texts are programs, whatever they are called.
+    pub(super) languages: Vec<String>,
 }
 
 impl Default for Settings {
@@ -43,6 +45,7 @@ impl Default for Settings {
             isg_extension: None,
             max_blocks: MAX_BLOCKS,
             pages: None,
+            languages: Vec::new(),
         }
     }
 }
@@ -94,6 +97,12 @@ impl Settings {
         });
         read(&["pages"], "a URI", &mut |value| {
             self.pages = Some(value.as_str()?.trim_end_matches('/').to_owned());
+            Some(())
+        });
+        read(&["languages"], "a list of texts", &mut |value| {
+            let names = value.as_array()?.iter();
+            let names = names.map(|name| name.as_str().map(str::to_owned));
+            self.languages = names.collect::<Option<_>>()?;
             Some(())
         });
         wrong

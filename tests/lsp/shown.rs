@@ -335,43 +335,6 @@ fn a_list_shows_the_page_of_a_parameter() {
     client.drop_all();
 }
 
-fn offered(client: &mut Client, uri: &str, (line, character): (u32, u32)) -> Vec<String> {
-    let at = json!({ "textDocument": { "uri": uri }, "position": { "line": line, "character": character } });
-    let items = client.ask("textDocument/completion", &at);
-    items
-        .as_array()
-        .into_iter()
-        .flatten()
-        .map(|it| it["label"].as_str().expect("a label").to_owned())
-        .collect()
-}
-
-#[test]
-fn what_may_be_written_next_is_offered() {
-    // R12.6
-    let (bench, mut client, uri) = opened("N10 X[COMP ON FRICT \nN20 G1 \n(comment \nM30\n");
-    assert_eq!(
-        offered(&mut client, &uri, (0, 20)),
-        ["BACKLASH", "CROSS", "PLANE", "LEAD", "TEMP", "CROSSTALK"]
-    );
-    assert_eq!(offered(&mut client, &uri, (1, 7)), ["X", "Y", "Z"]);
-    assert_eq!(offered(&mut client, &uri, (2, 9)), [""; 0]);
-    let toml = crate::lsp_client::uri(&bench.folder().join("frictcomp.toml"));
-    client.open_as(
-        &toml,
-        "toml",
-        "[machine]\ncy\n\n[[axis]] # X\nname = \"X\"\n\n",
-    );
-    assert!(offered(&mut client, &toml, (1, 2)).contains(&"cycle_time_ms".to_owned()));
-    assert!(offered(&mut client, &toml, (5, 0)).contains(&"frict_comp".to_owned()));
-    assert_eq!(offered(&mut client, &toml, (4, 7)), [""; 0]);
-    client.open_as("file:///p/x.lis", "isg-list", "frict\n");
-    assert!(
-        offered(&mut client, "file:///p/x.lis", (0, 5)).contains(&"frict_comp.mode".to_owned())
-    );
-    client.drop_all();
-}
-
 #[test]
 fn a_lens_says_what_a_program_inherits() {
     // R12.4

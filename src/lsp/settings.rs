@@ -5,10 +5,10 @@ use serde_json::Value;
 /// Executed blocks of a program that are checked while one types.
 pub(super) const MAX_BLOCKS: u64 = 500_000;
 
-/// Whether symbols, definitions, references, folding and renaming are offered.
+/// Whether an outline, definitions, references, folding and renaming are offered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Navigation {
-    /// Where the client says that ISG's extension is absent, which offers them itself.
+    /// What ISG's extension does not offer itself; all of it where the client says that it is absent.
     #[default]
     Auto,
     /// They are.
@@ -108,8 +108,13 @@ impl Settings {
         wrong
     }
 
-    /// Whether symbols, definitions and the like are offered.
-    pub(super) fn navigates(&self) -> bool {
+    /// Whether an outline, folding and renaming are offered, which ISG's extension does not have.
+    pub(super) fn outlines(&self) -> bool {
+        self.navigation != Navigation::Off
+    }
+
+    /// Whether definitions and references are offered, which ISG's extension has (R12.12).
+    pub(super) fn finds_names(&self) -> bool {
         match self.navigation {
             Navigation::On => true,
             Navigation::Off => false,
@@ -143,7 +148,7 @@ mod tests {
             ..Settings::default()
         };
         assert_eq!(settings, expected);
-        assert!(settings.navigates());
+        assert!(settings.finds_names() && settings.outlines());
         assert!(
             settings
                 .take(&json!({ "maxBlocks": 7, "navigation": "off" }))
@@ -153,6 +158,7 @@ mod tests {
             (settings.max_blocks, settings.navigation),
             (7, Navigation::Off)
         );
+        assert!(!settings.finds_names() && !settings.outlines());
         assert!(settings.take(&json!(null)).is_empty());
         assert!(settings.take(&json!([1])).is_empty());
     }

@@ -435,30 +435,80 @@ fn names_are_found_and_changed_where_nobody_else_does_it() {
     assert_eq!(edit["changes"][&uri].as_array().map(Vec::len), Some(2));
     let edit = renamed(&mut client, (1, 1), "N25");
     assert_eq!(edit["changes"][&uri][1]["newText"], "N25");
-    for (place, new) in [
+    // R12.17: what cannot be done is an error with its reason.
+    for ((line, character), new) in [
         ((1, 1), "25"),
         ((1, 1), "HERE"),
         ((0, 8), "a b"),
         ((3, 7), "x.nc"),
         ((4, 6), "M02"),
     ] {
-        assert_eq!(renamed(&mut client, place, new), Value::Null, "{new}");
+        let params =
+            json!({ "textDocument": text, "position": at(line, character), "newName": new });
+        assert_eq!(
+            client.refused("textDocument/rename", &params),
+            INVALID_PARAMS,
+            "{new}"
+        );
     }
+    let prepare = |line: u32, character: u32| json!({ "textDocument": text, "position": at(line, character) });
+    let range = client.ask("textDocument/prepareRename", &prepare(0, 8));
+    assert_eq!((&range["start"], &range["end"]), (&at(0, 7), &at(0, 10)));
+    for (line, character) in [(3, 7), (4, 6)] {
+        let none = client.ask("textDocument/prepareRename", &prepare(line, character));
+        assert_eq!(none, Value::Null);
+    }
+    let whole = |at: usize| {
+        (
+            &symbols[at]["range"]["start"]["line"],
+            &symbols[at]["range"]["end"]["line"],
+        )
+    };
+    assert_eq!(whole(1), (&json!(5), &json!(9)), "the subprogram");
+    assert_eq!(whole(0), (&json!(1), &json!(2)), "the block of the label");
     client.drop_all();
 }
 
 #[test]
 fn beside_the_extension_of_isg_nothing_is_offered_twice() {
-    // R12.6
+    // R12.6, R12.12: it has definitions and references, but no outline, folding and renaming.
     for isg in [json!(true), json!(null)] {
         let (_bench, mut client, uri) = beside(&isg);
-        let text = json!({ "textDocument": { "uri": uri } });
-        assert_eq!(
-            client.ask("textDocument/documentSymbol", &text),
-            Value::Null
-        );
+        let text = json!({ "uri": uri });
+        let call = json!({
+            "textDocument": text,
+            "position": { "line": 0, "character": 8 },
+            "context": { "includeDeclaration": true },
+            "newName": "FINISH",
+        });
+        assert_eq!(client.ask("textDocument/definition", &call), Value::Null);
+        assert_eq!(client.ask("textDocument/references", &call), Value::Null);
+        for method in ["documentSymbol", "foldingRange", "rename"] {
+            let answer = client.ask(&format!("textDocument/{method}"), &call);
+            assert_ne!(answer, Value::Null, "{method}");
+        }
         client.drop_all();
     }
+}
+
+#[test]
+fn a_called_program_is_found_where_the_configuration_says() {
+    // R12.17
+    let configuration = "program_dirs = [\"subs\"]\n[[axis]]\nname = \"X\"\n";
+    let bench = Bench::new(&[
+        ("frictcomp.toml", configuration),
+        ("subs/other.nc", "M17\n"),
+    ]);
+    let a = uri(&bench.folder().join("a.nc"));
+    let mut client = Client::with(&json!({
+        "capabilities": {},
+        "initializationOptions": { "isgExtension": false },
+    }));
+    client.open(&a, "N10 L other.nc\nM30\n");
+    let call = json!({ "textDocument": { "uri": a }, "position": { "line": 0, "character": 8 } });
+    let found = client.ask("textDocument/definition", &call);
+    assert_eq!(found["uri"], uri(&bench.folder().join("subs/other.nc")));
+    client.drop_all();
 }
 
 #[test]

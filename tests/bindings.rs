@@ -189,3 +189,25 @@ fn the_hook_takes_every_program_that_the_command_takes() {
         assert!(endings.contains(ending), "{ending}");
     }
 }
+
+#[test]
+fn every_package_says_where_its_sources_are_and_can_be_published() {
+    // R13.10
+    for folder in ["", "bindings/c/", "bindings/python/", "bindings/web/"] {
+        let manifest = read(&format!("{folder}Cargo.toml"));
+        for key in ["repository", "homepage", "documentation"] {
+            assert!(
+                manifest.contains(&format!("\n{key} = \"https://")),
+                "{folder}{key}"
+            );
+        }
+    }
+    // A version here would be looked for in the registry, where it is not before it is published.
+    let manifest = read("Cargo.toml");
+    assert!(manifest.contains("\nfrictcomp = { path = \".\", default-features = false"));
+    let build = read("dist/build");
+    assert!(
+        build.contains("--remap-path-prefix=$home=")
+            && build.contains("names_no_folder \"$executable\"")
+    );
+}

@@ -66,6 +66,17 @@ local function test()
   expect("inlay hints", table.concat(hints, "; "), "X: active → inactive")
   expect("inlay hints", table.concat(hints, "; "), "leaves X inactive")
 
+  -- Nothing that Enter would take in place of a line break; inside the bracket a blank is enough.
+  local function offered(line, character)
+    local place = { textDocument = at.textDocument, position = { line = line, character = character } }
+    local labels = vim.tbl_map(function(it)
+      return it.label
+    end, ask("textDocument/completion", place) or {})
+    return "[" .. table.concat(labels, " ") .. "]"
+  end
+  expect("completion after a word", offered(0, 7), "[]")
+  expect("completion in the bracket", offered(1, 11), "[ON OFF OFF_ALL]")
+
   -- The first quick fix of the misspelt kind, applied as a user does.
   local range = { start = { line = 2, character = 0 }, ["end"] = { line = 2, character = 21 } }
   local actions = ask("textDocument/codeAction", {
@@ -81,6 +92,18 @@ local function test()
     end, said()))
   end)
   print("ok: the message goes")
+
+  -- The settings give the server every TOML file; it speaks about its own alone.
+  write("Cargo.toml", { "[package]", 'name = "X[COMP ON FRIKT]"', "frict = 1" })
+  vim.cmd.edit(folder .. "/Cargo.toml")
+  vim.bo.filetype = "toml"
+  wait("the server is attached", function()
+    return #vim.lsp.get_clients({ bufnr = 0, name = "frictcomp" }) == 1
+  end)
+  vim.wait(1500, function()
+    return false
+  end, 100)
+  expect("messages in Cargo.toml", #said(), "0")
 end
 
 local passed, failure = xpcall(test, debug.traceback)

@@ -34,7 +34,7 @@ fn no_panic_crosses_the_border_to_c() {
     // R13.5
     let library = read("bindings/c/src/lib.rs");
     assert!(library.contains("#[cfg(panic = \"abort\")]\ncompile_error!"));
-    assert!(read("bindings/c/build").contains("--profile binding"));
+    assert!(read("bindings/c/build").contains("profile=${PROFILE:-binding}"));
     // One file alone touches pointers.
     assert!(read("bindings/c/Cargo.toml").contains("unsafe_code = \"deny\""));
     for file in ["lib", "machine", "compensation", "failure"] {
@@ -99,4 +99,115 @@ fn the_wheel_has_the_version_of_the_command() {
         assert!(manifest.contains(&version), "{manifest}");
     }
     assert!(read("bindings/python/pyproject.toml").contains("profile = \"binding\""));
+}
+
+/// The script of a step of the action, by the name of the step.
+fn step(action: &str, name: &str) -> String {
+    let (_, step) = action.split_once(&format!("- name: {name}\n")).expect(name);
+    let (_, script) = step.split_once("run: |\n").expect("a script");
+    let lines = script
+        .lines()
+        .take_while(|line| line.starts_with("        "));
+    lines
+        .map(|line| format!("{}\n", line.trim_start_matches("        ")))
+        .collect()
+}
+
+/// Runs a script as GitHub does, with a command that prints its arguments in place of frictcomp.
+#[cfg(unix)]
+fn arguments_of(script: &str, inputs: &[(&str, &str)]) -> (Option<i32>, String) {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().expect("a folder");
+    let command = folder.path().join("frictcomp");
+    fs::write(&command, "#!/bin/sh\nprintf '<%s>' \"$@\"\n").expect("written");
+    fs::set_permissions(&command, fs::Permissions::from_mode(0o755)).expect("set");
+    let path = std::env::var("PATH").unwrap_or_default();
+    let output = std::process::Command::new("bash")
+        .args(["--noprofile", "--norc", "-eo", "pipefail", "-c", script])
+        .env("PATH", format!("{}:{path}", folder.path().display()))
+        .envs([
+            ("FAIL_ON", "warning"),
+            ("CONFIG", ""),
+            ("ENABLE", ""),
+            ("ARGS", ""),
+        ])
+        .envs(inputs.iter().copied())
+        .output()
+        .expect("bash");
+    (
+        output.status.code(),
+        String::from_utf8_lossy(&output.stdout).into_owned(),
+    )
+}
+
+#[cfg(unix)]
+#[test]
+fn the_action_takes_every_line_of_its_inputs() {
+    // R13.11
+    let action = read("action.yml");
+    let check = step(&action, "Check");
+    let (status, said) = arguments_of(&check, &[("PATHS", "one two\n  three\r\n\nfour\n")]);
+    assert_eq!(status, Some(0));
+    assert_eq!(
+        said,
+        "<check><--format><github><--fail-on><warning><--><one><two><three><four>"
+    );
+    let inputs = [
+        ("PATHS", "."),
+        ("CONFIG", "my machine.toml"),
+        ("ENABLE", "X,Y"),
+        ("ARGS", "--quiet\n--skip none"),
+    ];
+    let (_, said) = arguments_of(&check, &inputs);
+    assert!(
+        said.ends_with("<--quiet><--skip><none><--config><my machine.toml><--enable><X,Y><--><.>"),
+        "{said}"
+    );
+    // Nothing to check is no all-clear.
+    let (status, said) = arguments_of(&check, &[("PATHS", " \n ")]);
+    assert!(status != Some(0) && !said.contains("<check>"), "{said}");
+    let golden = step(&action, "Compare with what was agreed");
+    let (_, said) = arguments_of(&golden, &[("GOLDEN", "a\nb c\n")]);
+    assert_eq!(said, "<golden><--><a><b><c>");
+    // A check that fails does not hide the comparison.
+    assert!(action.contains("if: ${{ !cancelled() && steps.install.outcome == 'success' &&"));
+}
+
+#[test]
+fn the_hook_takes_every_program_that_the_command_takes() {
+    // R13.11
+    let hooks = read(".pre-commit-hooks.yaml");
+    let (_, endings) = hooks.split_once(r"(?i)\.(").expect("letters of any case");
+    let (endings, _) = endings.split_once(")$").expect("an end");
+    let endings: BTreeSet<&str> = endings.split('|').collect();
+    let kinds = read("src/host/file_kind.rs");
+    let (_, known) = kinds
+        .split_once("EXTENSIONS: [&str; 9] =")
+        .expect("the endings");
+    let (known, _) = known.split_once(';').expect("an end");
+    for ending in known.split('"').skip(1).step_by(2).chain(["ecy", "plc"]) {
+        assert!(endings.contains(ending), "{ending}");
+    }
+}
+
+#[test]
+fn every_package_says_where_its_sources_are_and_can_be_published() {
+    // R13.10
+    for folder in ["", "bindings/c/", "bindings/python/", "bindings/web/"] {
+        let manifest = read(&format!("{folder}Cargo.toml"));
+        for key in ["repository", "homepage", "documentation"] {
+            assert!(
+                manifest.contains(&format!("\n{key} = \"https://")),
+                "{folder}{key}"
+            );
+        }
+    }
+    // A version here would be looked for in the registry, where it is not before it is published.
+    let manifest = read("Cargo.toml");
+    assert!(manifest.contains("\nfrictcomp = { path = \".\", default-features = false"));
+    let build = read("dist/build");
+    assert!(
+        build.contains("--remap-path-prefix=$home=")
+            && build.contains("names_no_folder \"$executable\"")
+    );
 }

@@ -209,3 +209,13 @@ fn a_closed_pipe_is_quiet() {
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(stderr(&output), "");
 }
+
+#[test]
+fn a_file_as_the_only_argument_is_run() {
+    // R13.15
+    let program = concat!(env!("CARGO_MANIFEST_DIR"), "/programs/demo/friction.nc");
+    let (alone, run) = (frictcomp(&[program]), frictcomp(&["run", program]));
+    assert_eq!(stdout(&alone), stdout(&run));
+    assert_eq!(alone.status.code(), run.status.code());
+    assert!(refused(&["no-such-file.nc"]).contains("no-such-file.nc"));
+}

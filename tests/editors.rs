@@ -16,18 +16,29 @@ fn manifest() -> Value {
 
 #[test]
 fn the_extension_stands_beside_that_of_isg() {
-    // R12.8: a file ending or a name of ISG's would be declared twice.
+    // R12.8, R12.12: highlighting needs neither the binary nor a trusted folder.
     let manifest = manifest();
-    let languages = manifest["contributes"]["languages"]
-        .as_array()
-        .expect("languages");
-    for language in languages {
-        for key in ["extensions", "filenames", "filenamePatterns", "firstLine"] {
-            assert!(language.get(key).is_none(), "{language}");
-        }
-        let id = language["id"].as_str().expect("an id");
-        assert!(id.starts_with("frictcomp-"), "{id}");
+    let languages = &manifest["contributes"]["languages"];
+    let grammars = &manifest["contributes"]["grammars"];
+    for (at, id, endings) in [
+        (
+            0,
+            "frictcomp-nc",
+            [".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"].as_slice(),
+        ),
+        (1, "frictcomp-list", &[".lis"]),
+    ] {
+        assert_eq!(languages[at]["id"], id);
+        assert_eq!(languages[at]["extensions"], serde_json::json!(endings));
+        assert_eq!(grammars[at]["language"], id);
     }
+    let server = file("editors/vscode/src/server.ts");
+    assert!(server.contains("\"isg-cnc.vscode-isg-cnc\""));
+    let stand_in = file("editors/vscode/test/browser/session.mjs");
+    assert!(
+        stand_in.contains("publisher: \"isg-cnc\"")
+            && stand_in.contains("name: \"vscode-isg-cnc\"")
+    );
     let breakpoints = manifest["contributes"]["breakpoints"]
         .as_array()
         .expect("languages");
@@ -53,6 +64,36 @@ fn the_extension_and_the_server_have_commands_of_their_own() {
 }
 
 #[test]
+fn the_extension_is_quiet_and_can_be_published() {
+    // R12.13: nothing of a folder starts it, and each field that the Marketplace shows is there.
+    let manifest = manifest();
+    let events = manifest["activationEvents"].as_array().expect("events");
+    let names = events.iter().filter_map(Value::as_str);
+    assert!(names.clone().all(|it| !it.starts_with("workspaceContains")));
+    for key in [
+        "repository",
+        "bugs",
+        "homepage",
+        "galleryBanner",
+        "icon",
+        "license",
+    ] {
+        assert!(manifest.get(key).is_some(), "{key}");
+    }
+    assert!(manifest.get("private").is_none());
+    let steps = manifest["contributes"]["walkthroughs"][0]["steps"].as_array();
+    for step in steps.expect("a walkthrough") {
+        let page = step["media"]["markdown"].as_str().expect("a page");
+        assert!(!file(&format!("editors/vscode/{page}")).is_empty());
+    }
+    for key in ["untrustedWorkspaces", "virtualWorkspaces"] {
+        assert!(manifest["capabilities"].get(key).is_some(), "{key}");
+    }
+    let release = file(".github/workflows/release.yml");
+    assert!(release.contains("vsce publish"), "a job publishes it");
+}
+
+#[test]
 fn the_extension_has_the_version_of_the_command() {
     // R12.8
     assert_eq!(manifest()["version"], env!("CARGO_PKG_VERSION"));
@@ -67,8 +108,15 @@ fn other_editors_start_the_same_server_for_the_same_files() {
         "{neovim}"
     );
     let documents = file("docs/editors.md");
+    for ending in ["ecy", "plc"] {
+        // R12.14
+        assert!(
+            documents.contains(&format!("{ending} = \"isg-cnc\"")),
+            "{ending}"
+        );
+    }
     assert!(documents.contains("command = \"frictcomp\"\nargs = [\"lsp\"]"));
-    let endings = file("editors/vscode/src/languages.ts");
+    let endings = file("editors/vscode/package.json");
     for ending in ["nc", "cnc", "cyc", "ecy", "sub", "plc", "lis"] {
         assert!(documents.contains(&format!("\"{ending}\"")), "{ending}");
         assert!(endings.contains(&format!("\".{ending}\"")), "{ending}");

@@ -15,3 +15,5 @@ mod messages;
 mod scripts;
 #[path = "lsp/shown.rs"]
 mod shown;
+#[path = "lsp/typing.rs"]
+mod typing;

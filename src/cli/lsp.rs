@@ -23,6 +23,7 @@ pub(super) fn run(_: &LspArgs) -> Result<u8, Failure> {
         serve_stdio().map_err(|error| Failure::new(format!("the server cannot start: {error}")))?;
     Ok(match farewell {
         Farewell::Proper => exit::CLEAN,
-        Farewell::Abrupt => exit::FAILED,
+        // The protocol wants 1 where a client ends the server without having asked for its end.
+        Farewell::Abrupt => exit::FOUND,
     })
 }

@@ -43,6 +43,7 @@ mod run;
 mod settings;
 mod severities;
 mod simulated;
+mod sole_file;
 mod start;
 mod stiction;
 mod trace;
@@ -61,6 +62,7 @@ use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use code_page::{CodePage, Encoded};
 use console::{Color, Console, Written};
 use failure::Failure;
+use sole_file::Meant;
 
 use crate::host::{Replaces, clean_up_when_stopped, survive_file_size_limit};
 use crate::report::{visible, visible_line};
@@ -125,6 +127,14 @@ pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     if cfg!(windows) {
         arguments = wildcards::expanded(arguments);
     }
+    let is_command = |word: &str| description().find_subcommand(word).is_some();
+    let (arguments, report) = Meant::new(arguments, is_command).split();
+    let status = status_of(arguments);
+    Meant::finish(report, status);
+    status
+}
+
+fn status_of(arguments: Vec<OsString>) -> u8 {
     let hidden = hidden(&arguments);
     let parsed = description().try_get_matches_from(arguments);
     let parsed = parsed.and_then(|matches| {

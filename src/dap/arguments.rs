@@ -39,9 +39,17 @@ pub(super) struct Source {
     pub(super) path: String,
 }
 
-#[derive(Debug, Deserialize)]
+/// A breakpoint as a client wants it.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct SourceBreakpoint {
     pub(super) line: u32,
+    /// What must be true.
+    pub(super) condition: Option<String>,
+    /// Which of the times count.
+    pub(super) hit_condition: Option<String>,
+    /// The text that is printed in place of a stop.
+    pub(super) log_message: Option<String>,
 }
 
 /// `setExceptionBreakpoints`.

@@ -6,6 +6,7 @@
 
 mod arguments;
 mod breakpoints;
+mod conditions;
 mod paths;
 mod server;
 mod stepper;

@@ -13,7 +13,7 @@ use super::arguments::{
 };
 use super::breakpoints::{Breakpoints, STATE_CHANGES, UNKNOWN_VALUES};
 use super::paths::real;
-use super::stepper::{Halt, Position, Reach, Stepper, in_words};
+use super::stepper::{Halt, Position, Reach, Said, Stepper, in_words};
 use super::transport::{self, Incoming, Outgoing, Request};
 use super::variables::{self, Scope};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -49,6 +49,7 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
         breakpoints: Breakpoints::default(),
         stepper: None,
         stop_on_entry: true,
+        is_over: false,
     };
     while let Some(incoming) = server.client.next() {
         let request = match incoming {
@@ -61,7 +62,7 @@ pub fn serve(input: impl BufRead + Send + 'static, output: impl Write) -> io::Re
                 continue;
             }
         };
-        let is_last = matches!(request.command.as_str(), "disconnect" | "terminate");
+        let is_last = request.command == "disconnect";
         server.serve(&request)?;
         if is_last {
             break;
@@ -85,14 +86,42 @@ impl Client {
         Some(self.waiting.remove(0))
     }
 
-    /// Whether it wants a run to stop. Everything else waits until the run stops by itself.
-    fn wants_a_stop(&mut self) -> bool {
+    /// Whether it wants something that cannot wait until the run stops by itself.
+    fn interrupts(&mut self) -> bool {
         self.waiting.extend(self.receiver.try_iter());
-        let stops = ["pause", "disconnect", "terminate"];
-        self.waiting.iter().any(|incoming| match incoming {
-            Incoming::Request(request) => stops.contains(&request.command.as_str()),
-            Incoming::Garbled(_) => false,
+        self.waiting
+            .iter()
+            .any(|incoming| is_one_of(incoming, &STOPS) || is_one_of(incoming, &AT_ONCE))
+    }
+
+    /// Takes the next request that is answered while a run goes on.
+    fn take_at_once(&mut self) -> Option<Request> {
+        let at = self.waiting.iter().position(|it| is_one_of(it, &AT_ONCE))?;
+        match self.waiting.remove(at) {
+            Incoming::Request(request) => Some(request),
+            Incoming::Garbled(_) => None,
+        }
+    }
+
+    /// The first request that stops a run.
+    fn stop(&self) -> Option<&Request> {
+        self.waiting.iter().find_map(|incoming| match incoming {
+            Incoming::Request(request) if is_one_of(incoming, &STOPS) => Some(request),
+            _ => None,
         })
+    }
+}
+
+/// Requests that stop a run.
+const STOPS: [&str; 3] = ["pause", "disconnect", "terminate"];
+
+/// Requests that are answered while a run goes on.
+const AT_ONCE: [&str; 3] = ["setBreakpoints", "setExceptionBreakpoints", "threads"];
+
+fn is_one_of(incoming: &Incoming, commands: &[&str]) -> bool {
+    match incoming {
+        Incoming::Request(request) => commands.contains(&request.command.as_str()),
+        Incoming::Garbled(_) => false,
     }
 }
 
@@ -102,6 +131,8 @@ struct Server<W> {
     breakpoints: Breakpoints,
     stepper: Option<Stepper>,
     stop_on_entry: bool,
+    /// Whether the client was told that the run has ended.
+    is_over: bool,
 }
 
 impl<W: Write> Server<W> {
@@ -116,11 +147,16 @@ impl<W: Write> Server<W> {
         match request.command.as_str() {
             "launch" => self.outgoing.event("initialized", &json!({})),
             "configurationDone" => self.begin(),
-            "continue" => self.go(|_| Reach::Breakpoint),
-            "stepIn" => self.go(|_| Reach::Block),
-            "next" => self.go(Reach::Depth),
+            "continue" => self.go(Reach::Breakpoint),
+            "stepIn" => self.go(Reach::Block),
+            "next" => self.go(Reach::Depth(self.depth())),
             "stepOut" => {
-                self.go(|depth| depth.checked_sub(1).map_or(Reach::Breakpoint, Reach::Depth))
+                let above = self.depth().checked_sub(1);
+                self.go(above.map_or(Reach::Breakpoint, Reach::Depth))
+            }
+            "terminate" => {
+                self.stepper = None;
+                self.terminated()
             }
             _ => Ok(()),
         }
@@ -130,8 +166,8 @@ impl<W: Write> Server<W> {
         match request.command.as_str() {
             "initialize" => Ok(capabilities()),
             "launch" => self.launch(arguments(request)?),
-            "setBreakpoints" => self.set_breakpoints(&arguments(request)?),
-            "setExceptionBreakpoints" => Ok(self.set_filters(&arguments(request)?)),
+            "setBreakpoints" => self.set_breakpoints(arguments(request)?),
+            "setExceptionBreakpoints" => self.set_filters(&arguments(request)?),
             "threads" => Ok(json!({ "threads": [{ "id": CHANNEL, "name": "NC channel" }] })),
             "stackTrace" => self.stepper().map(stack),
             "scopes" => self
@@ -147,8 +183,7 @@ impl<W: Write> Server<W> {
             "setVariable" => self.set_variable(&arguments(request)?),
             "evaluate" => {
                 let Evaluate { expression } = arguments(request)?;
-                variables::by_name(self.stepper()?, &expression)
-                    .ok_or_else(|| format!("`{expression}` has no value here"))
+                variables::evaluate(self.stepper()?, &expression)
             }
             "continue" => self
                 .stepper()
@@ -190,31 +225,46 @@ impl<W: Write> Server<W> {
         Ok(json!({}))
     }
 
-    fn set_breakpoints(&mut self, wanted: &SetBreakpoints) -> Result<Value, String> {
+    fn set_breakpoints(&mut self, wanted: SetBreakpoints) -> Result<Value, String> {
         let file = real(&wanted.source.path);
         let text = read_text(&file).map_err(|error| error.to_string())?;
         let lines: Vec<u32> = wanted.breakpoints.iter().map(|it| it.line).collect();
-        let found = self.breakpoints.set_lines(file, &text, &lines);
-        let told = found.into_iter().zip(lines).map(|(found, line)| match found {
-            Some(line) => json!({ "verified": true, "line": line }),
-            None => json!({ "verified": false, "line": line, "message": "no block stands here or below" }),
-        });
+        let found = self.breakpoints.set_lines(file, &text, wanted.breakpoints);
+        let told = found
+            .into_iter()
+            .zip(lines)
+            .map(|(found, line)| match found {
+                Ok(line) => json!({ "verified": true, "line": line }),
+                Err(why) => json!({ "verified": false, "line": line, "message": why }),
+            });
         Ok(json!({ "breakpoints": told.collect::<Vec<_>>() }))
     }
 
-    fn set_filters(&mut self, wanted: &SetFilters) -> Value {
-        let with_condition = |id: &str| wanted.filter_options.iter().find(|it| it.filter_id == id);
-        let is_on =
-            |id: &str| wanted.filters.iter().any(|it| it == id) || with_condition(id).is_some();
-        let axes = with_condition(STATE_CHANGES).map_or("", |option| &option.condition);
-        let axes: BTreeSet<String> = axes
-            .split([' ', ',', ';'])
-            .filter(|axis| !axis.is_empty())
-            .map(str::to_ascii_uppercase)
-            .collect();
-        let changes = is_on(STATE_CHANGES).then_some(axes);
-        self.breakpoints.set_filters(changes, is_on(UNKNOWN_VALUES));
-        json!({})
+    /// Takes the filters, and says of each whether it can be used.
+    fn set_filters(&mut self, wanted: &SetFilters) -> Result<Value, String> {
+        let stepper = self.stepper()?;
+        let (mut changes, mut unknown) = (None, false);
+        let mut told = Vec::new();
+        let plain = wanted.filters.iter().map(|id| (id.as_str(), ""));
+        let options = wanted.filter_options.iter();
+        let options = options.map(|it| (it.filter_id.as_str(), it.condition.as_str()));
+        for (id, condition) in plain.chain(options) {
+            let taken = match id {
+                STATE_CHANGES => watched(stepper, condition).map(|axes| changes = Some(axes)),
+                UNKNOWN_VALUES if condition.trim().is_empty() => {
+                    unknown = true;
+                    Ok(())
+                }
+                UNKNOWN_VALUES => Err("this filter takes no condition".to_owned()),
+                _ => Err(format!("there is no filter `{id}`")),
+            };
+            told.push(match taken {
+                Ok(()) => json!({ "verified": true }),
+                Err(why) => json!({ "verified": false, "message": why }),
+            });
+        }
+        self.breakpoints.set_filters(changes, unknown);
+        Ok(json!({ "breakpoints": told }))
     }
 
     fn set_variable(&mut self, wanted: &SetVariable) -> Result<Value, String> {
@@ -235,47 +285,63 @@ impl<W: Write> Server<W> {
     /// The client has set its breakpoints: the run begins.
     fn begin(&mut self) -> io::Result<()> {
         self.tell_said()?;
-        let position = self.stepper.as_ref().map(Stepper::position);
-        match position {
-            Some(&Position::Ended(by)) => self.end(by),
-            Some(Position::Before(_)) if self.stop_on_entry => {
-                self.stopped("entry", "before the first block")
-            }
-            _ => self.go(|_| Reach::Breakpoint),
+        if !self.stop_on_entry {
+            return self.go(Reach::Breakpoint);
         }
-    }
-
-    /// Lets the run go on as far as the depth of the block says that is shown.
-    fn go(&mut self, reach: impl FnOnce(usize) -> Reach) -> io::Result<()> {
         let Some(stepper) = &mut self.stepper else {
             return Ok(());
         };
-        let client = &mut self.client;
-        let halt = stepper.go(reach(stepper.depth()), &mut self.breakpoints, &mut || {
-            client.wants_a_stop()
-        });
+        let halt = stepper.go(Reach::Block, &mut self.breakpoints, &mut || false);
         self.tell_said()?;
         match halt {
-            Halt::Arrived => self.stopped("step", ""),
-            Halt::Breakpoint => self.stopped("breakpoint", ""),
-            Halt::Interrupted => self.stopped("pause", ""),
-            Halt::Changed(what) => self.stopped("data breakpoint", &what),
-            Halt::Error(what) => self.stopped("exception", &what),
-            Halt::Unknown(names) => {
-                let names: Vec<&str> = names.iter().map(String::as_str).collect();
-                let what = format!(
-                    "the block reads {}, which only the machine knows",
-                    names.join(", ")
-                );
-                self.stopped("exception", &what)
-            }
             Halt::Ended(by) => self.end(by),
+            halt => {
+                let (_, what) = reason(&halt);
+                let first = "before the first block".to_owned();
+                self.stopped("entry", &what.filter(|it| !it.is_empty()).unwrap_or(first))
+            }
+        }
+    }
+
+    fn depth(&self) -> usize {
+        self.stepper.as_ref().map_or(0, Stepper::depth)
+    }
+
+    /// Lets the run go on. What the client asks for meanwhile and does not stop it is answered.
+    fn go(&mut self, reach: Reach) -> io::Result<()> {
+        loop {
+            let Some(stepper) = &mut self.stepper else {
+                return Ok(());
+            };
+            let client = &mut self.client;
+            let halt = stepper.go(reach, &mut self.breakpoints, &mut || client.interrupts());
+            self.tell_said()?;
+            if let Halt::Ended(by) = halt {
+                return self.end(by);
+            }
+            if halt != Halt::Interrupted {
+                let (reason, what) = reason(&halt);
+                return self.stopped(reason, &what.unwrap_or_default());
+            }
+            while let Some(request) = self.client.take_at_once() {
+                let answer = self.answer(&request);
+                self.outgoing.respond(&request, answer)?;
+            }
+            match self.client.stop().map(|request| request.command.as_str()) {
+                None => {}
+                Some("pause") => return self.stopped("pause", ""),
+                // The run is not seen again.
+                Some(_) => return Ok(()),
+            }
         }
     }
 
     fn stopped(&mut self, reason: &str, text: &str) -> io::Result<()> {
         if let Some(Position::Ended(by)) = self.stepper.as_ref().map(Stepper::position) {
             return self.end(*by);
+        }
+        if let Some(stepper) = &mut self.stepper {
+            stepper.show();
         }
         let mut body = json!({ "reason": reason, "threadId": CHANNEL, "allThreadsStopped": true });
         if !text.is_empty() {
@@ -296,16 +362,35 @@ impl<W: Write> Server<W> {
             "console",
             &format!("the program ends by {by} and leaves {left}"),
         )?;
-        self.outgoing.event("terminated", &json!({}))?;
+        self.terminated()?;
         self.outgoing.event(
             "exited",
             &json!({ "exitCode": i32::from(matches!(by, EndedBy::Error | EndedBy::Budget)) }),
         )
     }
 
+    /// Tells the client, once, that the run is over.
+    fn terminated(&mut self) -> io::Result<()> {
+        if std::mem::replace(&mut self.is_over, true) {
+            return Ok(());
+        }
+        self.outgoing.event("terminated", &json!({}))
+    }
+
     fn tell_said(&mut self) -> io::Result<()> {
         let said = self.stepper.as_mut().map(Stepper::take_said);
-        said.into_iter().flatten().try_for_each(|it| self.tell(&it))
+        said.into_iter().flatten().try_for_each(|it| match it {
+            Said::Message(message) => self.tell(&message),
+            Said::Log { file, line, text } => {
+                let body = json!({
+                    "category": "console",
+                    "output": format!("{text}\n"),
+                    "source": source(&file),
+                    "line": line,
+                });
+                self.outgoing.event("output", &body)
+            }
+        })
     }
 
     fn tell(&mut self, said: &Diagnostic) -> io::Result<()> {
@@ -329,8 +414,43 @@ impl<W: Write> Server<W> {
     }
 }
 
+/// The reason of a stop in the words of the protocol, and what there is to say.
+fn reason(halt: &Halt) -> (&'static str, Option<String>) {
+    match halt {
+        Halt::Arrived | Halt::Ended(_) => ("step", None),
+        Halt::Interrupted => ("pause", None),
+        Halt::Breakpoint(what) => ("breakpoint", Some(what.clone())),
+        Halt::Changed(what) => ("data breakpoint", Some(what.clone())),
+        Halt::Error(what) => ("exception", Some(what.clone())),
+        Halt::Unknown(names) => {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            let names = names.join(", ");
+            let what = format!("the block reads {names}, which only the machine knows");
+            ("exception", Some(what))
+        }
+    }
+}
+
+/// The axes that a condition names.
+///
+/// # Errors
+/// One of them is no axis; in words.
+fn watched(stepper: &Stepper, condition: &str) -> Result<BTreeSet<String>, String> {
+    let names = condition.split([' ', ',', ';']).filter(|it| !it.is_empty());
+    let axes: BTreeSet<String> = names.map(str::to_ascii_uppercase).collect();
+    match axes.iter().find(|axis| !stepper.has_axis(axis)) {
+        Some(other) => Err(format!(
+            "neither the machine nor the program has an axis `{other}`"
+        )),
+        None => Ok(axes),
+    }
+}
+
 fn capabilities() -> Value {
     json!({
+        "supportsConditionalBreakpoints": true,
+        "supportsHitConditionalBreakpoints": true,
+        "supportsLogPoints": true,
         "supportsConfigurationDoneRequest": true,
         "supportsSetVariable": true,
         "supportsEvaluateForHovers": true,

@@ -20,6 +20,7 @@ use crate::interpreter::{
     Ended, EndedBy, Event, Executed, Interpreter, NoteKind, Notes, Observer, Options,
 };
 use crate::machine::{Machine, Setting};
+use crate::syntax::axis_uses;
 use crate::text::SourceFile;
 
 /// Blocks that are executed between two copies, and between two looks whether the client wants
@@ -60,8 +61,8 @@ pub(super) enum Reach {
 pub(super) enum Halt {
     /// It has come as far as it was to go.
     Arrived,
-    /// A breakpoint stands on the line.
-    Breakpoint,
+    /// A breakpoint stands on the line; what is to be said about it.
+    Breakpoint(String),
     /// States changed in the block before; what changed.
     Changed(String),
     /// The next block reads values that only the machine knows.
@@ -90,10 +91,29 @@ impl Trail {
     }
 }
 
+/// Text that a run has for its user.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Said {
+    /// A message about the program.
+    Message(Diagnostic),
+    /// The text of a log point.
+    Log {
+        file: Arc<str>,
+        line: u32,
+        text: String,
+    },
+}
+
 /// Where a stride ends before its last block.
 enum Stop {
     /// Before the block of the moment.
     Before(Halt),
+    /// Before it, where the breakpoints on its line want that; otherwise for another reason.
+    AtBreakpoint {
+        file: Arc<str>,
+        line: u32,
+        otherwise: Option<Halt>,
+    },
     /// After it.
     After(Halt),
 }
@@ -105,25 +125,36 @@ struct Stride<'a> {
     asked: &'a BTreeSet<String>,
     machine: &'a Machine,
     trail: &'a mut Trail,
-    said: Vec<Diagnostic>,
+    said: Vec<Said>,
     blocks: u64,
-    /// Whether the next block is the one that was shown: the run stands before it already.
+    /// Whether the next block is one that the run need not stop before.
     first: bool,
     stop: Option<Stop>,
 }
 
 impl Stride<'_> {
     /// Why the run should have stopped before a block.
-    fn before(&mut self, block: &Executed<'_>) -> Option<Halt> {
+    fn before(&mut self, block: &Executed<'_>) -> Option<Stop> {
+        let halt = self.halt_before(block);
+        let is_error = matches!(halt, Some(Halt::Error(_)));
+        if is_error || !self.breakpoints.is_on(block) {
+            return halt.map(Stop::Before);
+        }
+        Some(Stop::AtBreakpoint {
+            file: Arc::clone(block.file),
+            line: block.line,
+            otherwise: halt,
+        })
+    }
+
+    /// The same without the breakpoints on its line.
+    fn halt_before(&mut self, block: &Executed<'_>) -> Option<Halt> {
         if block.stopped {
             let error = block
                 .diagnostics
                 .iter()
                 .find(|said| said.severity == Severity::Error);
             return Some(Halt::Error(error.map(in_words).unwrap_or_default()));
-        }
-        if self.breakpoints.is_on(block) {
-            return Some(Halt::Breakpoint);
         }
         if self.breakpoints.stops_at_unknown() {
             let mut unknown = unknown_names(block);
@@ -176,17 +207,17 @@ impl Observer for Stride<'_> {
             Event::Started { .. } => {}
             Event::Ended(ended) => {
                 self.trail.ended = Some(ended.by);
-                self.said.extend_from_slice(ended.diagnostics);
+                self.said.extend(messages(ended.diagnostics));
             }
             Event::Executed(block) => {
                 self.blocks += 1;
                 if !std::mem::take(&mut self.first)
-                    && let Some(halt) = self.before(&block)
+                    && let Some(stop) = self.before(&block)
                 {
-                    self.stop = Some(Stop::Before(halt));
+                    self.stop = Some(stop);
                     return ControlFlow::Break(());
                 }
-                self.said.extend_from_slice(block.diagnostics);
+                self.said.extend(messages(block.diagnostics));
                 self.trail.pass(&block);
                 self.stop = self.changes(&block).map(Stop::After);
                 if self.stop.is_some() || self.blocks == STRIDE {
@@ -201,9 +232,15 @@ impl Observer for Stride<'_> {
 /// The run of a program.
 pub(super) struct Stepper {
     machine: Arc<Machine>,
+    /// The axes that the program names.
+    used: BTreeSet<String>,
     finder: ProgramFinder,
     /// Stands before the block that is shown.
     here: Interpreter,
+    /// The same in the program that this block belongs to.
+    settled: Interpreter,
+    /// Whether the client was told that the run stands before that block.
+    is_shown: bool,
     trail: Trail,
     position: Position,
     /// What the block that is shown reads and only the machine knows.
@@ -211,7 +248,7 @@ pub(super) struct Stepper {
     /// The values that the run has stopped at already.
     asked: BTreeSet<String>,
     /// What was said by blocks that were executed since the client was told.
-    said: Vec<Diagnostic>,
+    said: Vec<Said>,
 }
 
 impl Stepper {
@@ -229,7 +266,9 @@ impl Stepper {
             disk,
             ..
         } = &*loaded;
-        let source = SourceFile::new(input.name(Naming::AsGiven), read_text(program)?);
+        let text = read_text(program)?;
+        let used = axis_uses(&text).into_keys().collect();
+        let source = SourceFile::new(input.name(Naming::AsGiven), text);
         let machine = Arc::new(machine.clone());
         let options = Options::default().with_notes(Notes::Taken);
         let mut here = Interpreter::new(Arc::clone(&machine), machine.compensation(), options);
@@ -242,14 +281,17 @@ impl Stepper {
         let _ = here.program(source, &mut finder, &mut |event: Event<'_>| {
             if let Event::Ended(ended) = event {
                 trail.ended = Some(ended.by);
-                said.extend_from_slice(ended.diagnostics);
+                said.extend(messages(ended.diagnostics));
             }
             ControlFlow::Break(())
         });
         let mut stepper = Self {
             machine,
+            used,
             finder,
+            settled: here.clone(),
             here,
+            is_shown: false,
             trail,
             position: Position::Before(Vec::new()),
             wanted: BTreeSet::new(),
@@ -275,7 +317,17 @@ impl Stepper {
 
     /// The interpreter before the block that is shown.
     pub(super) fn interpreter(&self) -> &Interpreter {
-        &self.here
+        &self.settled
+    }
+
+    /// Whether the machine or the program has an axis of this name.
+    pub(super) fn has_axis(&self, name: &str) -> bool {
+        self.machine.find(name).is_some() || self.used.contains(name)
+    }
+
+    /// The client is told that the run stands before the block: it goes on without stopping there again.
+    pub(super) fn show(&mut self) {
+        self.is_shown = true;
     }
 
     /// The names of the values that the block reads which is shown, and only the machine knows.
@@ -290,7 +342,7 @@ impl Stepper {
     }
 
     /// Takes what was said since the last call.
-    pub(super) fn take_said(&mut self) -> Vec<Diagnostic> {
+    pub(super) fn take_said(&mut self) -> Vec<Said> {
         std::mem::take(&mut self.said)
     }
 
@@ -301,7 +353,7 @@ impl Stepper {
         breakpoints: &mut Breakpoints,
         interrupted: &mut dyn FnMut() -> bool,
     ) -> Halt {
-        let mut first = true;
+        let mut first = std::mem::take(&mut self.is_shown);
         let halt = loop {
             if let Some(by) = self.trail.ended {
                 break Halt::Ended(by);
@@ -332,6 +384,25 @@ impl Stepper {
                     self.trail = trail;
                     self.return_to(anchor, blocks - 1);
                     break halt;
+                }
+                Some(Stop::AtBreakpoint {
+                    file,
+                    line,
+                    otherwise,
+                }) => {
+                    self.trail = trail;
+                    self.return_to(anchor, blocks - 1);
+                    let met = breakpoints.meet((&file, line), &self.here);
+                    self.said
+                        .extend(met.logged.into_iter().map(|text| Said::Log {
+                            file: Arc::clone(&file),
+                            line,
+                            text,
+                        }));
+                    if let Some(halt) = met.stop.map(Halt::Breakpoint).or(otherwise) {
+                        break halt;
+                    }
+                    first = true;
                 }
                 Some(Stop::After(halt)) => break halt,
                 None => {}
@@ -369,6 +440,7 @@ impl Stepper {
 
     /// Finds the block that comes next by executing it in a copy of the run.
     fn look_ahead(&mut self) {
+        self.settled = self.here.settled();
         self.wanted.clear();
         if let Some(by) = self.trail.ended {
             self.position = Position::Ended(by);
@@ -404,7 +476,7 @@ impl Stepper {
         let _ = self.here.go_on(&mut self.finder, &mut |event: Event<'_>| {
             if let Event::Ended(ended) = event {
                 trail.ended = Some(ended.by);
-                said.extend_from_slice(ended.diagnostics);
+                said.extend(messages(ended.diagnostics));
             }
             ControlFlow::Continue(())
         });
@@ -432,6 +504,10 @@ pub(super) fn unknown_names(block: &Executed<'_>) -> BTreeSet<String> {
     let notes = block.notes.iter();
     let unknown = notes.filter(|note| note.kind == NoteKind::Unknown);
     unknown.map(|note| note.name.clone()).collect()
+}
+
+fn messages(said: &[Diagnostic]) -> impl Iterator<Item = Said> {
+    said.iter().cloned().map(Said::Message)
 }
 
 /// A message in one line: `P-ERR-70495: ...`.

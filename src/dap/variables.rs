@@ -61,20 +61,20 @@ pub(super) fn variables(stepper: &Stepper, handle: i64) -> Vec<Json> {
     }
 }
 
-/// A value by its name: an axis, a parameter, a variable.
-pub(super) fn by_name(stepper: &Stepper, name: &str) -> Option<Json> {
+/// The value of an expression of the language, or what is known of an axis by its name.
+///
+/// # Errors
+/// It has no value here; the reason in words.
+pub(super) fn evaluate(stepper: &Stepper, expression: &str) -> Result<Json, String> {
     let here = stepper.interpreter();
-    let wanted = name.trim().to_ascii_uppercase();
+    let wanted = expression.trim().to_ascii_uppercase();
     if let Some(axis) = axes(here).find(|&axis| name_of(here, axis) == wanted) {
         let mut found = axis_line(here, axis);
         found["result"] = found["value"].take();
-        return Some(found);
+        return Ok(found);
     }
-    let (_, value) = here
-        .values()
-        .into_iter()
-        .find(|(name, _)| *name == wanted)?;
-    Some(json!({ "result": in_words(&value), "variablesReference": 0 }))
+    let value = here.evaluate(expression)?;
+    Ok(json!({ "result": in_words(&value), "variablesReference": 0 }))
 }
 
 /// The states of all axes in one line: `X inactive, Y active`.
@@ -179,7 +179,8 @@ fn modal(here: &Interpreter) -> Vec<Json> {
     .into()
 }
 
-fn in_words(value: &Value) -> String {
+/// A value as it is shown.
+pub(super) fn in_words(value: &Value) -> String {
     match value {
         Value::Number(number) => number.to_string(),
         Value::Text(text) => format!("\"{text}\""),

@@ -90,6 +90,7 @@ impl Job {
         let mut analysis = match self.document.kind {
             Kind::Program => self.check_program(disk, &ledger),
             Kind::List | Kind::Configuration => self.check_list(disk, &ledger),
+            Kind::Other => Analysis::default(),
         };
         if self.cancel.is_set() {
             return None;
@@ -151,7 +152,7 @@ impl Job {
         ledger.reads("list", path);
         let build = match self.document.kind {
             Kind::List => self.build(disk),
-            Kind::Program | Kind::Configuration => None,
+            Kind::Program | Kind::Configuration | Kind::Other => None,
         };
         let mut report = match check_list_file(path, build, disk) {
             Ok(report) => report,

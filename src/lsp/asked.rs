@@ -44,7 +44,8 @@ pub(super) fn settings(outgoing: &mut Outgoing<Asked>) -> Request {
 
 /// Asks to be told of lists, configurations and programs that change.
 pub(super) fn news_of_files(outgoing: &mut Outgoing<Asked>) -> Request {
-    let programs = "**/*.{nc,NC,cnc,CNC,cyc,CYC,ecy,ECY,sub,SUB,plc,PLC,lis,LIS}".to_owned();
+    let endings = "nc,NC,cnc,CNC,mpf,MPF,spf,SPF,cyc,CYC,ecy,ECY,sub,SUB,iso,ISO,ngc,NGC,tap,TAP,plc,PLC,lis,LIS";
+    let programs = format!("**/*.{{{endings}}}");
     let patterns = [programs, format!("**/{CONFIG_NAME}")];
     let watchers = patterns.map(|pattern| FileSystemWatcher {
         glob_pattern: pattern.into(),

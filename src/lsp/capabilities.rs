@@ -2,8 +2,8 @@
 
 use gen_lsp_types::{
     CodeActionKind, CodeActionOptions, CodeLensOptions, CompletionOptions, ExecuteCommandOptions,
-    InitializeResult, SaveOptions, ServerCapabilities, ServerInfo, TextDocumentContent,
-    TextDocumentContentOptions, TextDocumentSyncKind, TextDocumentSyncOptions,
+    InitializeResult, RenameOptions, RenameProvider, SaveOptions, ServerCapabilities, ServerInfo,
+    TextDocumentContent, TextDocumentContentOptions, TextDocumentSyncKind, TextDocumentSyncOptions,
     WorkspaceFoldersServerCapabilities, WorkspaceOptions,
 };
 
@@ -13,7 +13,8 @@ use super::pages::SCHEME;
 
 /// The answer to `initialize`.
 pub(super) fn offer(client: &Client) -> InitializeResult {
-    let navigates = client.settings.navigates().then_some(true);
+    let outlines = client.settings.outlines().then_some(true);
+    let finds_names = client.settings.finds_names().then_some(true);
     InitializeResult {
         capabilities: ServerCapabilities {
             position_encoding: Some(client.encoding.kind()),
@@ -39,14 +40,14 @@ pub(super) fn offer(client: &Client) -> InitializeResult {
                 .into(),
             ),
             completion_provider: Some(CompletionOptions {
-                trigger_characters: Some(vec!["[".to_owned(), " ".to_owned()]),
+                trigger_characters: Some(vec![" ".to_owned()]),
                 ..CompletionOptions::default()
             }),
-            document_symbol_provider: navigates.map(Into::into),
-            definition_provider: navigates.map(Into::into),
-            references_provider: navigates.map(Into::into),
-            folding_range_provider: navigates.map(Into::into),
-            rename_provider: navigates.map(Into::into),
+            document_symbol_provider: outlines.map(Into::into),
+            definition_provider: finds_names.map(Into::into),
+            references_provider: finds_names.map(Into::into),
+            folding_range_provider: outlines.map(Into::into),
+            rename_provider: outlines.map(|_| renames(client)),
             execute_command_provider: Some(ExecuteCommandOptions {
                 commands: COMMANDS.map(str::to_owned).to_vec(),
                 ..ExecuteCommandOptions::default()
@@ -65,5 +66,18 @@ pub(super) fn offer(client: &Client) -> InitializeResult {
             name: "frictcomp".to_owned(),
             version: Some(env!("CARGO_PKG_VERSION").to_owned()),
         }),
+    }
+}
+
+/// How names are changed; a client that can is told first whether there is one.
+fn renames(client: &Client) -> RenameProvider {
+    if client.prepares_renames() {
+        let options = RenameOptions {
+            prepare_provider: Some(true),
+            ..RenameOptions::default()
+        };
+        options.into()
+    } else {
+        true.into()
     }
 }

@@ -60,6 +60,13 @@ impl Client {
         lenses.and_then(|it| it.refresh_support) == Some(true)
     }
 
+    /// Whether it asks what can be renamed before it asks for a new name.
+    pub(super) fn prepares_renames(&self) -> bool {
+        let document = self.capabilities.text_document.as_ref();
+        let rename = document.and_then(|it| it.rename.as_ref());
+        rename.and_then(|it| it.prepare_support) == Some(true)
+    }
+
     /// Whether changes of files name the version that they are for.
     pub(super) fn edits_versions(&self) -> bool {
         let workspace = self.capabilities.workspace.as_ref();

@@ -8,7 +8,7 @@ use gen_lsp_types::{Position, Range, TextDocumentContentChangeEvent, TextDocumen
 
 use super::encoding::Encoding;
 use super::uri::{path_of, uri_of};
-use crate::host::{CONFIG_NAME, Disk, OpenText, SharedMap};
+use crate::host::{CONFIG_NAME, Disk, OpenText, SharedMap, is_program};
 use crate::text::{LineIndex, Span};
 
 /// What a text is.
@@ -20,6 +20,8 @@ pub(super) enum Kind {
     List,
     /// A `frictcomp.toml`.
     Configuration,
+    /// Anything else: nothing is said about it (R12.14).
+    Other,
 }
 
 /// A text that the client has open.
@@ -40,11 +42,11 @@ pub(super) struct Document {
 }
 
 impl Document {
-    fn new(opened: TextDocumentItem, folder: &Path) -> Self {
+    fn new(opened: TextDocumentItem, folder: &Path, languages: &[String]) -> Self {
         let uri = opened.uri;
         let path = path_of(&uri.0).unwrap_or_else(|| folder.join(file_name(&uri.0)));
         Self {
-            kind: kind(&path, opened.language_id.as_str()),
+            kind: kind(&path, opened.language_id.as_str(), languages),
             place: Disk::place(&path),
             path,
             uri,
@@ -149,9 +151,9 @@ impl Documents {
         }
     }
 
-    /// Opens a text, in place of one of the same URI.
-    pub(super) fn open(&mut self, opened: TextDocumentItem) -> Arc<Document> {
-        let document = Arc::new(Document::new(opened, &self.folder));
+    /// Opens a text, in place of one of the same URI; texts of these languages are programs, too.
+    pub(super) fn open(&mut self, opened: TextDocumentItem, languages: &[String]) -> Arc<Document> {
+        let document = Arc::new(Document::new(opened, &self.folder, languages));
         let uri = document.uri.0.clone();
         self.close(&document.uri);
         let mut names = self.names.remove(&document.path).unwrap_or_default();
@@ -234,15 +236,43 @@ fn file_name(uri: &str) -> String {
     name.chars().filter(|letter| usable(*letter)).collect()
 }
 
-fn kind(path: &Path, language: &str) -> Kind {
-    let extension = path.extension().unwrap_or_default();
+/// Languages of programs in editors: of ISG's extension and of the one that comes with the sources.
+const PROGRAM_LANGUAGES: [&str; 2] = ["isg-cnc", "frictcomp-nc"];
+
+/// Languages of lists in editors.
+const LIST_LANGUAGES: [&str; 2] = ["isg-list", "frictcomp-list"];
+
+/// Endings that ISG's extension gives to programs and `check` does not look for in folders.
+const FURTHER_ENDINGS: [&str; 2] = ["ecy", "plc"];
+
+/// What a text is by its name or its language (R12.14).
+fn kind(path: &Path, language: &str, further: &[String]) -> Kind {
+    let has_ending = |endings: &[&str]| {
+        let extension = path.extension().unwrap_or_default();
+        endings.iter().any(|it| extension.eq_ignore_ascii_case(it))
+    };
     if path.file_name().is_some_and(|name| name == CONFIG_NAME) {
         Kind::Configuration
-    } else if extension.eq_ignore_ascii_case("lis") || language == "isg-list" {
+    } else if has_ending(&["lis"]) || LIST_LANGUAGES.contains(&language) {
         Kind::List
-    } else {
+    } else if is_program(path, None)
+        || has_ending(&FURTHER_ENDINGS)
+        || PROGRAM_LANGUAGES.contains(&language)
+        || further.iter().any(|it| it == language)
+    {
         Kind::Program
+    } else {
+        Kind::Other
     }
+}
+
+/// Whether texts of this URI are those of a user: files, and texts that were never saved. Versions that
+/// an editor takes from git, for instance, would tell every message twice (R12.12).
+pub(super) fn is_of_a_user(uri: &Uri) -> bool {
+    let scheme = uri.0.split(':').next().unwrap_or_default();
+    ["file", "untitled"]
+        .iter()
+        .any(|it| scheme.eq_ignore_ascii_case(it))
 }
 
 #[cfg(test)]
@@ -261,13 +291,25 @@ mod tests {
             version: 1,
             text: text.to_owned(),
         };
-        Document::new(item, Path::new("/project"))
+        Document::new(item, Path::new("/project"), &["gcode".to_owned()])
     }
 
     #[test]
     fn texts_are_known_by_their_names() {
-        // R12.2
+        // R12.2, R12.14
         for (uri, language, path, kind) in [
+            ("file:///p/A.MPF", "plaintext", "/p/A.MPF", Kind::Program),
+            ("file:///p/a.ecy", "", "/p/a.ecy", Kind::Program),
+            ("file:///p/a.plc", "", "/p/a.plc", Kind::Program),
+            ("file:///p/part", "gcode", "/p/part", Kind::Program),
+            ("file:///p/Cargo.toml", "toml", "/p/Cargo.toml", Kind::Other),
+            (
+                "file:///p/notes.txt",
+                "plaintext",
+                "/p/notes.txt",
+                Kind::Other,
+            ),
+            ("file:///p/part", "plaintext", "/p/part", Kind::Other),
             ("file:///p/a.nc", "isg-cnc", "/p/a.nc", Kind::Program),
             ("file:///p/A.LIS", "plaintext", "/p/A.LIS", Kind::List),
             ("file:///p/axis", "isg-list", "/p/axis", Kind::List),
@@ -290,6 +332,20 @@ mod tests {
                 (Path::new(path), kind)
             );
         }
+    }
+
+    #[test]
+    fn versions_that_an_editor_holds_are_no_texts_of_a_user() {
+        // R12.12
+        let of_a_user = ["file:///p/a.nc", "untitled:Untitled-1", "FILE:///p/a.nc"];
+        assert!(of_a_user.iter().all(|uri| is_of_a_user(&(*uri).into())));
+        let others = [
+            "git:/p/a.nc?%7B%7D",
+            "vscode-vfs://github/a.nc",
+            "output:x",
+            "",
+        ];
+        assert!(!others.iter().any(|uri| is_of_a_user(&(*uri).into())));
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
     let text = match document.kind {
         Kind::Program => program(view, document, at.position),
         Kind::List => page_of(document.line(at.position.line)).map(|page| page.text),
-        Kind::Configuration => None,
+        Kind::Configuration | Kind::Other => None,
     };
     Some(Hover {
         contents: MarkupContent {

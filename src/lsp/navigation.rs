@@ -1,5 +1,7 @@
 //! Symbols, definitions, references, folding and renaming, where nobody else offers them (R12.6).
 
+use std::path::{Path, PathBuf};
+
 use gen_lsp_types::{
     DefinitionParams, DocumentSymbol, DocumentSymbolParams, FoldingRange, FoldingRangeParams,
     Location, Position, Range, ReferenceParams, RenameParams, SymbolKind, TextDocumentIdentifier,
@@ -9,25 +11,32 @@ use gen_lsp_types::{
 use super::actions::as_edit;
 use super::documents::{Document, Kind};
 use super::outline::{Mention, Name, Outline, Role, definitions};
+use super::refusal::Refusal;
+use super::settings::Settings;
 use super::uri::uri_of;
 use super::view::View;
 
-/// An open program with its outline, where navigation is wanted.
-fn outlined<'a>(view: &'a View, text: &TextDocumentIdentifier) -> Option<(&'a Document, Outline)> {
+/// An open program with its outline, where this kind of navigation is wanted.
+fn outlined<'a>(
+    view: &'a View,
+    text: &TextDocumentIdentifier,
+    is_wanted: fn(&Settings) -> bool,
+) -> Option<(&'a Document, Outline)> {
     let document = view.document(&text.uri)?;
-    let is_wanted = document.kind == Kind::Program && view.client.settings.navigates();
+    let is_wanted = document.kind == Kind::Program && is_wanted(&view.client.settings);
     is_wanted.then(|| (document, Outline::of(document.text())))
 }
 
-/// The outline with the name at a place.
+/// The outline with the mention of a name at a place.
 fn at<'a>(
     view: &'a View,
     place: &TextDocumentPositionParams,
-) -> Option<(&'a Document, Outline, Name)> {
-    let (document, outline) = outlined(view, &place.text_document)?;
+    is_wanted: fn(&Settings) -> bool,
+) -> Option<(&'a Document, Outline, Mention)> {
+    let (document, outline) = outlined(view, &place.text_document, is_wanted)?;
     let offset = document.offset(place.position, view.client.encoding);
-    let name = outline.at(offset)?.name.clone();
-    Some((document, outline, name))
+    let mention = outline.at(offset)?.clone();
+    Some((document, outline, mention))
 }
 
 fn range(view: &View, document: &Document, mention: &Mention) -> Range {
@@ -44,7 +53,7 @@ fn location(view: &View, document: &Document, mention: &Mention) -> Location {
 /// The subprograms and labels of a program.
 #[allow(deprecated, reason = "the type has a field that is left empty")]
 pub(super) fn symbols(view: &View, params: &DocumentSymbolParams) -> Option<Vec<DocumentSymbol>> {
-    let (document, outline) = outlined(view, &params.text_document)?;
+    let (document, outline) = outlined(view, &params.text_document, Settings::outlines)?;
     let defined = outline
         .mentions
         .iter()
@@ -55,43 +64,89 @@ pub(super) fn symbols(view: &View, params: &DocumentSymbolParams) -> Option<Vec<
             Name::Label(_, name) => (name, SymbolKind::Constant),
             Name::File(_) => return None,
         };
-        let range = range(view, document, mention);
+        let selection_range = range(view, document, mention);
         Some(DocumentSymbol {
             name: name.clone(),
             detail: None,
             kind,
             tags: None,
             deprecated: None,
-            range,
-            selection_range: range,
+            range: whole(document, &outline, mention).unwrap_or(selection_range),
+            selection_range,
             children: None,
         })
     });
     Some(symbols.collect())
 }
 
-/// Where a name comes from: a subprogram, a label, or the file beside this one.
+/// The lines of what a name is given to: a subprogram up to the next one, a label with its block.
+fn whole(document: &Document, outline: &Outline, mention: &Mention) -> Option<Range> {
+    let line_of = |mention: &Mention| {
+        let before = document.text().get(..mention.span.start as usize)?;
+        u32::try_from(before.matches('\n').count()).ok()
+    };
+    let first = line_of(mention)?;
+    let end = match &mention.name {
+        Name::Program(_) => {
+            let programs = outline
+                .mentions
+                .iter()
+                .filter(|it| it.role == Role::Definition && matches!(it.name, Name::Program(_)));
+            let next = programs.filter(|it| it.span.start > mention.span.start);
+            next.min_by_key(|it| it.span.start)
+                .map_or(Some(document.line_count()), line_of)?
+        }
+        _ => first.saturating_add(1),
+    };
+    let place = |line| Position { line, character: 0 };
+    Some(Range {
+        start: place(first),
+        end: place(end),
+    })
+}
+
+/// Where a name comes from: a subprogram, a label, or the file that a call finds.
 pub(super) fn definition(view: &View, params: &DefinitionParams) -> Option<Location> {
-    let (document, outline, name) = at(view, &params.text_document_position_params)?;
-    if let Name::File(name) = &name {
-        let path = document.path.parent()?.join(name.replace('\\', "/"));
+    let place = &params.text_document_position_params;
+    let (document, outline, found) = at(view, place, Settings::finds_names)?;
+    if let Name::File(name) = &found.name {
+        let path = called(view, document, name)?;
         let start = Position {
             line: 0,
             character: 0,
         };
-        return path.is_file().then(|| Location {
+        return Some(Location {
             uri: uri_of(&path).into(),
             range: Range { start, end: start },
         });
     }
-    let mention = definitions(&outline).get(&name).copied()?;
+    let mention = definitions(&outline).get(&found.name).copied()?;
     Some(location(view, document, mention))
+}
+
+/// The file of a called program: beside the caller, otherwise the one that the check of the caller
+/// read, wherever the configuration says that programs are.
+fn called(view: &View, document: &Document, name: &str) -> Option<PathBuf> {
+    let name = name.replace('\\', "/");
+    let beside = document.path.parent()?.join(&name);
+    if beside.is_file() {
+        return Some(beside);
+    }
+    let wanted = Path::new(&name).file_name()?;
+    let analysis = view.analysis(&document.uri)?;
+    let mut read = analysis.reads.iter();
+    let is_it = |path: &&PathBuf| {
+        path.file_name()
+            .is_some_and(|it| it.eq_ignore_ascii_case(wanted))
+    };
+    read.find(is_it).cloned()
 }
 
 /// Where a name is used.
 pub(super) fn references(view: &View, params: &ReferenceParams) -> Option<Vec<Location>> {
-    let (document, outline, name) = at(view, &params.text_document_position_params)?;
-    let all = outline.all(&name);
+    let place = &params.text_document_position_params;
+    let (document, outline, found) = at(view, place, Settings::finds_names)?;
+    let all = outline.all(&found.name);
     let is_wanted = |it: &&Mention| it.role == Role::Use || params.context.include_declaration;
     let found = all.filter(is_wanted);
     Some(found.map(|it| location(view, document, it)).collect())
@@ -99,7 +154,7 @@ pub(super) fn references(view: &View, params: &ReferenceParams) -> Option<Vec<Lo
 
 /// The lines that can be folded.
 pub(super) fn folding(view: &View, params: &FoldingRangeParams) -> Option<Vec<FoldingRange>> {
-    let (_, outline) = outlined(view, &params.text_document)?;
+    let (_, outline) = outlined(view, &params.text_document, Settings::outlines)?;
     let folds = outline.folds.iter().map(|fold| FoldingRange {
         start_line: fold.first,
         end_line: fold.last,
@@ -108,11 +163,24 @@ pub(super) fn folding(view: &View, params: &FoldingRangeParams) -> Option<Vec<Fo
     Some(folds.collect())
 }
 
-/// Gives a label or a local subprogram another name, wherever it stands. `None` if neither stands at
-/// the place, or if the new name cannot be one.
-pub(super) fn rename(view: &View, params: &RenameParams) -> Option<WorkspaceEdit> {
-    let (document, outline, name) = at(view, &params.text_document_position_params)?;
-    let new = &params.new_name;
+/// The name at a place, where it can be changed.
+pub(super) fn prepare_rename(view: &View, place: &TextDocumentPositionParams) -> Option<Range> {
+    let (document, _, mention) = at(view, place, Settings::outlines)?;
+    let is_file = matches!(mention.name, Name::File(_));
+    (!is_file).then(|| range(view, document, &mention))
+}
+
+/// Gives a label or a local subprogram another name, wherever it stands.
+///
+/// # Errors
+/// Neither stands at the place, or the new name cannot be one.
+pub(super) fn rename(view: &View, params: &RenameParams) -> Result<WorkspaceEdit, Refusal> {
+    let refused = |why: String| Err(Refusal::Params(why));
+    let place = &params.text_document_position_params;
+    let Some((document, outline, found)) = at(view, place, Settings::outlines) else {
+        return refused("no label and no local subprogram stands here".to_owned());
+    };
+    let (name, new) = (&found.name, &params.new_name);
     let is_word = |text: &str| {
         let mut letters = text.chars();
         letters
@@ -125,25 +193,35 @@ pub(super) fn rename(view: &View, params: &RenameParams) -> Option<WorkspaceEdit
             !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())
         })
     };
-    let is_taken = || {
-        outline.mentions.iter().any(|it| match (&it.name, &name) {
-            (Name::Program(one), Name::Program(_)) => one == new,
-            (Name::Label(section, one), Name::Label(here, _)) => section == here && one == new,
-            _ => false,
-        })
-    };
-    let fits = match &name {
-        Name::Program(_) => is_word(new),
-        Name::Label(_, old) => is_word(new) && is_number(new) == is_number(old),
-        Name::File(_) => false,
-    };
-    if !fits || is_taken() {
-        return None;
+    let is_taken = outline.mentions.iter().any(|it| match (&it.name, name) {
+        (Name::Program(one), Name::Program(_)) => one == new,
+        (Name::Label(section, one), Name::Label(here, _)) => section == here && one == new,
+        _ => false,
+    });
+    match name {
+        Name::File(name) => {
+            return refused(format!("`{name}` is a file, which keeps its name"));
+        }
+        Name::Label(_, old) if is_number(old) && !is_number(new) => {
+            return refused(format!("`{new}` is no block number; `N100` is one"));
+        }
+        Name::Label(_, old) if is_number(new) && !is_number(old) => {
+            return refused(format!(
+                "`{new}` is a block number, not the name of a label"
+            ));
+        }
+        Name::Program(_) | Name::Label(..) if !is_word(new) => {
+            return refused(format!(
+                "`{new}` is no name: letters, digits and `_` make one, and no digit begins it"
+            ));
+        }
+        _ if is_taken => return refused(format!("the name `{new}` is taken already")),
+        _ => {}
     }
-    let edits = outline.all(&name).map(|mention| TextEdit {
+    let edits = outline.all(name).map(|mention| TextEdit {
         range: range(view, document, mention),
         new_text: new.clone(),
     });
     let text = TextDocumentIdentifier::new(document.uri.clone());
-    Some(as_edit(view, vec![(text, edits.collect())]))
+    Ok(as_edit(view, vec![(text, edits.collect())]))
 }

@@ -86,7 +86,39 @@ pub(super) fn pages() -> Vec<Page> {
 /// The page of the parameter that a line of a list gives.
 pub(super) fn page_of(line: &str) -> Option<Page> {
     let key = line.split([' ', '\t', '(']).find(|word| !word.is_empty())?;
-    // An index is no part of the name.
+    let plain = without_index(key);
+    pages().into_iter().find(|page| page.key == plain)
+}
+
+/// The parameters that may be meant by the beginning of a line of a list. A point of the curve has the
+/// index that is typed, otherwise the first one that the list does not have.
+pub(super) fn pages_for(typed: &str, list: &str) -> Vec<Page> {
+    let index = match index_of(typed) {
+        Some(index) => index.to_owned(),
+        None => {
+            let used = list.lines().filter_map(|line| {
+                let key = line.split_whitespace().next()?;
+                index_of(key.strip_suffix(".out")?)?.parse().ok()
+            });
+            let next: u64 = used.max().map_or(0, |last: u64| last.saturating_add(1));
+            next.to_string()
+        }
+    };
+    let pages = pages().into_iter().map(|page| Page {
+        key: page.key.replace("[i]", &format!("[{index}]")),
+        ..page
+    });
+    pages.collect()
+}
+
+/// What stands in the first bracket of a key.
+fn index_of(key: &str) -> Option<&str> {
+    let (_, rest) = key.split_once('[')?;
+    Some(rest.split(']').next().unwrap_or(rest).trim())
+}
+
+/// A key with `[i]` in place of each index, which is no part of the name.
+fn without_index(key: &str) -> String {
     let mut plain = String::new();
     let mut is_index = false;
     for letter in key.chars() {
@@ -100,7 +132,7 @@ pub(super) fn page_of(line: &str) -> Option<Page> {
             _ => {}
         }
     }
-    pages().into_iter().find(|page| page.key == plain)
+    plain
 }
 
 /// The keys of a table of `frictcomp.toml`, each with an example; the tables themselves above the
@@ -132,6 +164,29 @@ mod tests {
         assert!(page.text.starts_with("**P-AXIS-00522**"));
         assert_eq!(page_of("kopf.achs_nr 1"), None);
         assert_eq!(page_of(""), None);
+    }
+
+    #[test]
+    fn a_point_of_the_curve_has_its_index() {
+        // R12.17
+        let list =
+            "frict_comp.table[0].in 0\nfrict_comp.table[0].out 0\nfrict_comp.table[1].in 5\n";
+        let keys = |typed: &str| {
+            let pages = pages_for(typed, list).into_iter();
+            let keys: Vec<String> = pages.map(|page| page.key).collect();
+            keys.into_iter()
+                .filter(|key| key.starts_with(typed))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            keys("frict_comp.tab"),
+            [
+                "frict_comp.table_entries",
+                "frict_comp.table[1].in",
+                "frict_comp.table[1].out"
+            ]
+        );
+        assert_eq!(keys("frict_comp.table[7].o"), ["frict_comp.table[7].out"]);
     }
 
     #[test]

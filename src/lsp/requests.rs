@@ -3,7 +3,8 @@
 use gen_lsp_types::{
     CodeActionRequest, CodeLensRequest, CompletionRequest, DefinitionRequest,
     DocumentSymbolRequest, ExecuteCommandRequest, FoldingRangeRequest, HoverRequest,
-    InlayHintRequest, ReferencesRequest, RenameRequest, Request, TextDocumentContentRequest,
+    InlayHintRequest, PrepareRenameRequest, ReferencesRequest, RenameRequest, Request,
+    TextDocumentContentRequest,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -41,7 +42,7 @@ pub(super) fn answerer(method: &str) -> Option<(Needs, Answerer)> {
     Some((known.needs, known.answerer))
 }
 
-static KNOWN: [Known; 14] = [
+static KNOWN: [Known; 15] = [
     known::<HoverRequest>(Needs::Check, |view, params| {
         answer(view, params, hover::hover)
     }),
@@ -66,7 +67,7 @@ static KNOWN: [Known; 14] = [
     known::<DocumentSymbolRequest>(Needs::Texts, |view, params| {
         answer(view, params, navigation::symbols)
     }),
-    known::<DefinitionRequest>(Needs::Texts, |view, params| {
+    known::<DefinitionRequest>(Needs::Check, |view, params| {
         answer(view, params, navigation::definition)
     }),
     known::<ReferencesRequest>(Needs::Texts, |view, params| {
@@ -76,7 +77,11 @@ static KNOWN: [Known; 14] = [
         answer(view, params, navigation::folding)
     }),
     known::<RenameRequest>(Needs::Texts, |view, params| {
-        answer(view, params, navigation::rename)
+        let edit = navigation::rename(view, &serde_json::from_value(params)?)?;
+        Ok(serde_json::to_value(edit)?)
+    }),
+    known::<PrepareRenameRequest>(Needs::Texts, |view, params| {
+        answer(view, params, navigation::prepare_rename)
     }),
     known::<TextDocumentContentRequest>(Needs::Texts, |_, params| {
         let content = pages::content(&serde_json::from_value(params)?);

@@ -26,7 +26,7 @@ use super::asked::{self, Asked};
 use super::capabilities::offer;
 use super::checks::{Checks, Outdated};
 use super::client::{Client, project};
-use super::documents::{Document, Documents};
+use super::documents::{Document, Documents, Kind, is_of_a_user};
 use super::lane::{Cancel, Lane};
 use super::log::log;
 use super::messages::{Board, ByText, Translator};
@@ -323,10 +323,14 @@ impl<'c> Server<'c> {
     }
 
     fn opened(&mut self, params: DidOpenTextDocumentParams) {
-        let document = self.documents.open(params.text_document);
+        if !is_of_a_user(&params.text_document.uri) {
+            return;
+        }
+        let languages = &self.client.settings.languages;
+        let document = self.documents.open(params.text_document, languages);
         self.analyses.remove(&document.uri.0);
         self.users.forget(&document.uri.0);
-        self.checks.expect(&document.uri.0, Outdated::Now);
+        self.expect_check(&document, Outdated::Now);
         self.expect_users(&document);
     }
 
@@ -340,9 +344,10 @@ impl<'c> Server<'c> {
             .change((&uri, text.version), changes, encoding)
         {
             Some(document) => {
-                self.checks.expect(&uri.0, Outdated::ByTyping);
+                self.expect_check(&document, Outdated::ByTyping);
                 self.expect_users(&document);
             }
+            None if !is_of_a_user(&uri) => {}
             None => self.send(log(format!("`{}` was changed, but is not open", uri.0))),
         }
     }
@@ -350,7 +355,10 @@ impl<'c> Server<'c> {
     fn closed(&mut self, params: DidCloseTextDocumentParams) {
         let uri = params.text_document.uri;
         let Some(document) = self.documents.close(&uri) else {
-            return self.send(log(format!("`{}` was closed, but is not open", uri.0)));
+            if is_of_a_user(&uri) {
+                self.send(log(format!("`{}` was closed, but is not open", uri.0)));
+            }
+            return;
         };
         self.analyses.remove(&uri.0);
         self.users.forget(&uri.0);
@@ -394,8 +402,9 @@ impl<'c> Server<'c> {
             self.send(log(wrong));
         }
         if self.client.settings != before {
-            for document in self.documents.iter() {
-                self.checks.expect(&document.uri.0, Outdated::ByOthers);
+            let documents = self.documents.clone();
+            for document in documents.iter() {
+                self.expect_check(document, Outdated::ByOthers);
             }
         }
     }
@@ -433,6 +442,13 @@ impl<'c> Server<'c> {
     }
 
     // Checks.
+
+    /// A text is checked again, where it is one of those that are.
+    fn expect_check(&mut self, document: &Document, why: Outdated) {
+        if document.kind != Kind::Other {
+            self.checks.expect(&document.uri.0, why);
+        }
+    }
 
     /// The texts whose checks read a text, or may look for it, are checked again.
     fn expect_users(&mut self, changed: &Document) {

@@ -5,10 +5,10 @@ use serde_json::Value;
 /// Executed blocks of a program that are checked while one types.
 pub(super) const MAX_BLOCKS: u64 = 500_000;
 
-/// Whether symbols, definitions, references, folding and renaming are offered.
+/// Whether an outline, definitions, references, folding and renaming are offered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Navigation {
-    /// Where the client says that ISG's extension is absent, which offers them itself.
+    /// What ISG's extension does not offer itself; all of it where the client says that it is absent.
     #[default]
     Auto,
     /// They are.
@@ -32,6 +32,8 @@ pub(super) struct Settings {
     pub(super) max_blocks: u64,
     /// `pages`: the URI of the folder that holds the pages of the codes.
     pub(super) pages: Option<String>,
+    /// `languages`: further languages of the editor whose texts are programs, whatever they are called.
+    pub(super) languages: Vec<String>,
 }
 
 impl Default for Settings {
@@ -43,6 +45,7 @@ impl Default for Settings {
             isg_extension: None,
             max_blocks: MAX_BLOCKS,
             pages: None,
+            languages: Vec::new(),
         }
     }
 }
@@ -96,11 +99,22 @@ impl Settings {
             self.pages = Some(value.as_str()?.trim_end_matches('/').to_owned());
             Some(())
         });
+        read(&["languages"], "a list of texts", &mut |value| {
+            let names = value.as_array()?.iter();
+            let names = names.map(|name| name.as_str().map(str::to_owned));
+            self.languages = names.collect::<Option<_>>()?;
+            Some(())
+        });
         wrong
     }
 
-    /// Whether symbols, definitions and the like are offered.
-    pub(super) fn navigates(&self) -> bool {
+    /// Whether an outline, folding and renaming are offered, which ISG's extension does not have.
+    pub(super) fn outlines(&self) -> bool {
+        self.navigation != Navigation::Off
+    }
+
+    /// Whether definitions and references are offered, which ISG's extension has (R12.12).
+    pub(super) fn finds_names(&self) -> bool {
         match self.navigation {
             Navigation::On => true,
             Navigation::Off => false,
@@ -134,7 +148,7 @@ mod tests {
             ..Settings::default()
         };
         assert_eq!(settings, expected);
-        assert!(settings.navigates());
+        assert!(settings.finds_names() && settings.outlines());
         assert!(
             settings
                 .take(&json!({ "maxBlocks": 7, "navigation": "off" }))
@@ -144,6 +158,7 @@ mod tests {
             (settings.max_blocks, settings.navigation),
             (7, Navigation::Off)
         );
+        assert!(!settings.finds_names() && !settings.outlines());
         assert!(settings.take(&json!(null)).is_empty());
         assert!(settings.take(&json!([1])).is_empty());
     }

@@ -79,7 +79,7 @@ impl Users {
         let mut concerned: Uris = self.of(&document.path).cloned().collect();
         if !document.path.is_file() {
             match document.kind {
-                Kind::Program => {
+                Kind::Program | Kind::Other => {
                     let callers = self.callers.get(&stem(&document.path));
                     concerned.extend(callers.into_iter().flatten().cloned());
                 }

@@ -1,5 +1,7 @@
 //! From the first request to the last, with clients of all manners.
 
+use std::io::Write as _;
+
 use lsp_server::{Request, RequestId};
 use serde_json::{Value, json};
 
@@ -226,4 +228,19 @@ fn settings_come_first_or_later() {
     client.send(lsp_server::Response::new_err(asked.id, -1, "no".to_owned()));
     client.told("window/logMessage");
     client.leave();
+}
+
+#[test]
+fn a_server_that_is_ended_without_having_been_asked_says_so_by_its_status() {
+    // R12.17
+    let bench = crate::folder::Bench::new(&[]);
+    let mut command = bench.command(&["lsp"]);
+    let mut server = command
+        .stdin(std::process::Stdio::piped())
+        .spawn()
+        .expect("the tool starts");
+    let body = r#"{"jsonrpc":"2.0","method":"exit"}"#;
+    let mut input = server.stdin.take().expect("an input");
+    write!(input, "Content-Length: {}\r\n\r\n{body}", body.len()).expect("written");
+    assert_eq!(server.wait().expect("an end").code(), Some(1));
 }

@@ -335,43 +335,6 @@ fn a_list_shows_the_page_of_a_parameter() {
     client.drop_all();
 }
 
-fn offered(client: &mut Client, uri: &str, (line, character): (u32, u32)) -> Vec<String> {
-    let at = json!({ "textDocument": { "uri": uri }, "position": { "line": line, "character": character } });
-    let items = client.ask("textDocument/completion", &at);
-    items
-        .as_array()
-        .into_iter()
-        .flatten()
-        .map(|it| it["label"].as_str().expect("a label").to_owned())
-        .collect()
-}
-
-#[test]
-fn what_may_be_written_next_is_offered() {
-    // R12.6
-    let (bench, mut client, uri) = opened("N10 X[COMP ON FRICT \nN20 G1 \n(comment \nM30\n");
-    assert_eq!(
-        offered(&mut client, &uri, (0, 20)),
-        ["BACKLASH", "CROSS", "PLANE", "LEAD", "TEMP", "CROSSTALK"]
-    );
-    assert_eq!(offered(&mut client, &uri, (1, 7)), ["X", "Y", "Z"]);
-    assert_eq!(offered(&mut client, &uri, (2, 9)), [""; 0]);
-    let toml = crate::lsp_client::uri(&bench.folder().join("frictcomp.toml"));
-    client.open_as(
-        &toml,
-        "toml",
-        "[machine]\ncy\n\n[[axis]] # X\nname = \"X\"\n\n",
-    );
-    assert!(offered(&mut client, &toml, (1, 2)).contains(&"cycle_time_ms".to_owned()));
-    assert!(offered(&mut client, &toml, (5, 0)).contains(&"frict_comp".to_owned()));
-    assert_eq!(offered(&mut client, &toml, (4, 7)), [""; 0]);
-    client.open_as("file:///p/x.lis", "isg-list", "frict\n");
-    assert!(
-        offered(&mut client, "file:///p/x.lis", (0, 5)).contains(&"frict_comp.mode".to_owned())
-    );
-    client.drop_all();
-}
-
 #[test]
 fn a_lens_says_what_a_program_inherits() {
     // R12.4
@@ -472,30 +435,80 @@ fn names_are_found_and_changed_where_nobody_else_does_it() {
     assert_eq!(edit["changes"][&uri].as_array().map(Vec::len), Some(2));
     let edit = renamed(&mut client, (1, 1), "N25");
     assert_eq!(edit["changes"][&uri][1]["newText"], "N25");
-    for (place, new) in [
+    // R12.17: what cannot be done is an error with its reason.
+    for ((line, character), new) in [
         ((1, 1), "25"),
         ((1, 1), "HERE"),
         ((0, 8), "a b"),
         ((3, 7), "x.nc"),
         ((4, 6), "M02"),
     ] {
-        assert_eq!(renamed(&mut client, place, new), Value::Null, "{new}");
+        let params =
+            json!({ "textDocument": text, "position": at(line, character), "newName": new });
+        assert_eq!(
+            client.refused("textDocument/rename", &params),
+            INVALID_PARAMS,
+            "{new}"
+        );
     }
+    let prepare = |line: u32, character: u32| json!({ "textDocument": text, "position": at(line, character) });
+    let range = client.ask("textDocument/prepareRename", &prepare(0, 8));
+    assert_eq!((&range["start"], &range["end"]), (&at(0, 7), &at(0, 10)));
+    for (line, character) in [(3, 7), (4, 6)] {
+        let none = client.ask("textDocument/prepareRename", &prepare(line, character));
+        assert_eq!(none, Value::Null);
+    }
+    let whole = |at: usize| {
+        (
+            &symbols[at]["range"]["start"]["line"],
+            &symbols[at]["range"]["end"]["line"],
+        )
+    };
+    assert_eq!(whole(1), (&json!(5), &json!(9)), "the subprogram");
+    assert_eq!(whole(0), (&json!(1), &json!(2)), "the block of the label");
     client.drop_all();
 }
 
 #[test]
 fn beside_the_extension_of_isg_nothing_is_offered_twice() {
-    // R12.6
+    // R12.6, R12.12: it has definitions and references, but no outline, folding and renaming.
     for isg in [json!(true), json!(null)] {
         let (_bench, mut client, uri) = beside(&isg);
-        let text = json!({ "textDocument": { "uri": uri } });
-        assert_eq!(
-            client.ask("textDocument/documentSymbol", &text),
-            Value::Null
-        );
+        let text = json!({ "uri": uri });
+        let call = json!({
+            "textDocument": text,
+            "position": { "line": 0, "character": 8 },
+            "context": { "includeDeclaration": true },
+            "newName": "FINISH",
+        });
+        assert_eq!(client.ask("textDocument/definition", &call), Value::Null);
+        assert_eq!(client.ask("textDocument/references", &call), Value::Null);
+        for method in ["documentSymbol", "foldingRange", "rename"] {
+            let answer = client.ask(&format!("textDocument/{method}"), &call);
+            assert_ne!(answer, Value::Null, "{method}");
+        }
         client.drop_all();
     }
+}
+
+#[test]
+fn a_called_program_is_found_where_the_configuration_says() {
+    // R12.17
+    let configuration = "program_dirs = [\"subs\"]\n[[axis]]\nname = \"X\"\n";
+    let bench = Bench::new(&[
+        ("frictcomp.toml", configuration),
+        ("subs/other.nc", "M17\n"),
+    ]);
+    let a = uri(&bench.folder().join("a.nc"));
+    let mut client = Client::with(&json!({
+        "capabilities": {},
+        "initializationOptions": { "isgExtension": false },
+    }));
+    client.open(&a, "N10 L other.nc\nM30\n");
+    let call = json!({ "textDocument": { "uri": a }, "position": { "line": 0, "character": 8 } });
+    let found = client.ask("textDocument/definition", &call);
+    assert_eq!(found["uri"], uri(&bench.folder().join("subs/other.nc")));
+    client.drop_all();
 }
 
 #[test]

@@ -2,13 +2,21 @@
  *
  * A handle is used by one thread at a time; different handles may be used by different threads. Texts
  * that are handed over are UTF-8 and end with NUL. No function throws, ends the process or keeps a pointer
- * that it was handed. Made from the functions of bindings/c: do not edit. */
+ * that it was handed. What was made from a machine does not need it any more.
+ *
+ * Made from the functions of bindings/c: do not edit. */
 
 #ifndef FRICTCOMP_H
 #define FRICTCOMP_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+/* The version of this header; `frictcomp_version` is that of the library. */
+#define FRICTCOMP_VERSION_MAJOR 0
+#define FRICTCOMP_VERSION_MINOR 1
+#define FRICTCOMP_VERSION_PATCH 0
+#define FRICTCOMP_VERSION "0.1.0"
 
 // Whether a call did what it was asked for.
 typedef enum {

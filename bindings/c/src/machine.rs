@@ -8,6 +8,7 @@ use frictcomp::comp::AxisIndex;
 use frictcomp::diagnostic::{Diagnostic, Severity};
 use frictcomp::host::{ConfigurationChoice, Ledger, LoadedMachine, MachineOptions, Machines};
 use frictcomp::machine::Machine;
+use frictcomp::parse_comp;
 
 use crate::failure::{Failure, c_text};
 
@@ -64,6 +65,11 @@ impl FrictcompMachine {
 
     /// Assumes friction compensation on an axis.
     pub(crate) fn enable(&mut self, name: &str) -> Result<(), Failure> {
+        let is_known = self.machine.find(name).is_some();
+        let command = parse_comp(&format!("{name}[COMP ON FRICT]"));
+        if !is_known && !command.is_ok_and(|command| command.axis == name) {
+            return Err(Failure::bad(format!("`{name}` is no name of an axis")));
+        }
         if !self.machine.enable(name) {
             return Err(Failure::bad(format!("the machine has no axis `{name}`")));
         }
@@ -109,4 +115,23 @@ pub(crate) fn line(said: &Diagnostic) -> String {
     };
     let (file, start) = (&said.place.file, said.place.start());
     format!("{file}:{start}: {severity}[{}] {}", said.code, said.message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_that_is_no_name_makes_no_axis() {
+        // R13.14
+        let mut machine = FrictcompMachine::unconfigured();
+        let before = machine.names().len();
+        for name in ["", " ", "x y", "X[", "7", "X;", "X Y", "P1", "X\n", "G"] {
+            assert!(machine.enable(name).is_err(), "{name}");
+        }
+        assert_eq!(machine.names().len(), before);
+        for name in ["X", "X2", "Z_AXIS"] {
+            assert!(machine.enable(name).is_ok(), "{name}");
+        }
+    }
 }

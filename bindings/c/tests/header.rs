@@ -22,3 +22,33 @@ fn the_header_is_that_of_the_functions() {
         "the header is not that of the functions: `UPDATE_HEADER=1 cargo test -p frictcomp-c`"
     );
 }
+
+#[test]
+fn the_header_has_the_version_of_the_library() {
+    // R13.14
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let header = fs::read_to_string(root.join("include/frictcomp.h")).expect("the header");
+    for (name, value) in [
+        (
+            "FRICTCOMP_VERSION_MAJOR",
+            env!("CARGO_PKG_VERSION_MAJOR").to_owned(),
+        ),
+        (
+            "FRICTCOMP_VERSION_MINOR",
+            env!("CARGO_PKG_VERSION_MINOR").to_owned(),
+        ),
+        (
+            "FRICTCOMP_VERSION_PATCH",
+            env!("CARGO_PKG_VERSION_PATCH").to_owned(),
+        ),
+        (
+            "FRICTCOMP_VERSION",
+            format!("\"{}\"", env!("CARGO_PKG_VERSION")),
+        ),
+    ] {
+        assert!(
+            header.contains(&format!("#define {name} {value}\n")),
+            "{name}"
+        );
+    }
+}

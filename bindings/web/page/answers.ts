@@ -5,7 +5,20 @@ export type Severity = "error" | "warning" | "info";
 export type FileKind = "program" | "list" | "startup" | "configuration" | "other";
 export type View = "all" | "notable";
 
+/** A change to a text that does what a message advises; columns count letters from 1. */
+export interface Fix {
+  file: string;
+  line: number;
+  column: number;
+  end_line: number;
+  end_column: number;
+  text: string;
+  safety: string;
+}
+
 export interface Diagnostic {
+  /** Left out where there is none. */
+  fixes?: Fix[];
   code: string;
   severity: Severity;
   message: string;

@@ -1,15 +1,25 @@
 // Every message with what to do about it.
 
-import type { Diagnostic, Message, Overview } from "./answers";
+import type { Diagnostic, Fix, Message, Overview } from "./answers";
 import { grouped, h } from "./dom";
 
-/** The messages of a run; `jump` hears the block of the one that is asked for. */
-export function messages(overview: Overview, jump: (message: Message) => void): HTMLElement {
+export interface Wanted {
+  /** The block of a message is to be shown. */
+  jump(message: Message): void;
+  /** A fix is to be applied. */
+  fix(fix: Fix): void;
+}
+
+/** The messages of a run, with what can be done about each. */
+export function messages(overview: Overview, wanted: Wanted): HTMLElement {
   if (overview.messages.length === 0) {
     return h("p", { class: "quiet" }, "There is no message about this program.");
   }
   const items = overview.messages.map((message) =>
-    h("li", { class: message.severity }, told(message, () => { jump(message); })));
+    h("li", { class: message.severity },
+      told(message, () => { wanted.jump(message); }),
+      ...(message.fixes ?? []).map((fix) => h("p", { class: "fix" },
+        h("button", { class: "apply", onclick: () => { wanted.fix(fix); } }, `Apply: ${inWords(fix)}`)))));
   return h("ul", { class: "messages" }, ...items);
 }
 
@@ -24,4 +34,15 @@ export function told(said: Diagnostic, jump?: () => void): HTMLElement {
     jump ? h("button", { class: "place", onclick: jump }, place) : h("span", { class: "place" }, place),
     helps.length > 0 && h("ul", { class: "help" }, ...helps),
   );
+}
+
+/** What a fix does, in a line. */
+export function inWords(fix: Fix): string {
+  const isInsertion = fix.line === fix.end_line && fix.column === fix.end_column;
+  const text = fix.text.trim();
+  const place = `line ${grouped(fix.line)}`;
+  if (text === "") {
+    return `remove a part of ${place}`;
+  }
+  return isInsertion ? `insert ${text} at ${place}` : `${text} in ${place}`;
 }

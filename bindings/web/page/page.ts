@@ -1,11 +1,12 @@
 // The page: what was dropped, which program is shown, and what the user asks about it.
 
-import type { Audit, FileKind, Overview, Settings } from "./answers";
+import type { Audit, FileKind, Fix, Overview, Settings } from "./answers";
 import { audit } from "./audit";
 import { bars } from "./bars";
 import { DEMO } from "./demo";
 import { counted, fill, grouped, h, part } from "./dom";
 import { Editor, LONGEST } from "./editor";
+import { Edits, fixed, sought } from "./edits";
 import { Refused } from "./engine";
 import { type Intake, dropped, picked } from "./intake";
 import { left } from "./left";
@@ -27,8 +28,10 @@ const FEW = 3;
 const NARROW = 960;
 
 const decoder = new TextDecoder();
-const encoder = new TextEncoder();
 
+const edits = new Edits();
+/** The line that was found last in the program that is shown. */
+let foundLine = 0;
 const settings: Settings = { enable: [], keepGoing: false };
 let program: string | null = null;
 let overview: Overview | null = null;
@@ -111,6 +114,7 @@ async function take(work: Promise<Intake> | Intake): Promise<void> {
   const intake = await work;
   for (const { path, file, named } of intake.incoming) {
     session.put(path, { content: new Uint8Array(await file.arrayBuffer()), named });
+    edits.arrived(path);
   }
   await arrived(intake.incoming.map(({ path }) => path));
   part("left-out").textContent = intake.leftOut === 0
@@ -193,6 +197,10 @@ async function open(path: string): Promise<void> {
   program = path;
   part("no-program").hidden = true;
   part("program").hidden = false;
+  mark();
+  if (isOther) {
+    foundLine = 0;
+  }
   if (isOther && !part("editor").hidden) {
     await fillEditor();
   }
@@ -252,9 +260,12 @@ async function result(found: Overview): Promise<void> {
   }));
   part("tab-messages").textContent = `Messages (${grouped(found.messages.length)})`;
   part("tab-audit").textContent = `Audit (${grouped(programsOf(kinds).length)})`;
-  fill(part("panel-messages"), messages(found, (message) => {
-    tabs.show("timeline");
-    void attempt(timeline.jump(message.after));
+  fill(part("panel-messages"), messages(found, {
+    jump: (message) => {
+      tabs.show("timeline");
+      void attempt(timeline.jump(message.after));
+    },
+    fix: (fix) => { void attempt(apply(fix)); },
   }), passedOver(found));
   files();
   machine(found);
@@ -346,24 +357,79 @@ async function circle(): Promise<void> {
 }
 
 async function fillEditor(): Promise<void> {
-  const file = program === null ? undefined : session.files.get(program);
-  if (!file) {
+  const path = program;
+  const file = path === null ? undefined : session.files.get(path);
+  if (path === null || !file) {
     return;
   }
   const isLong = file.content.length > LONGEST;
   part("too-long").hidden = !isLong;
   part("editor").classList.toggle("long", isLong);
   if (!isLong) {
-    editor.show(decoder.decode(await session.ask({ ask: "text", path: program })));
+    editor.show(await textOf(path));
   }
 }
 
 async function edit(text: string): Promise<void> {
-  const file = program === null ? undefined : session.files.get(program);
-  if (program !== null && file) {
-    session.put(program, { content: encoder.encode(text), named: file.named });
-    part("edited").hidden = false;
+  if (program !== null) {
+    change(program, text);
     await rerun();
+  }
+}
+
+function change(path: string, text: string): void {
+  const file = session.files.get(path);
+  if (file) {
+    session.put(path, { content: edits.change(path, file.content, text), named: file.named });
+    mark();
+  }
+}
+
+/** Says of the program that is shown whether it is another one here than in its file. */
+function mark(): void {
+  const isEdited = edits.isEdited(program);
+  part("edited").hidden = !isEdited;
+  part("save-program").hidden = !isEdited;
+}
+
+/** The text of a file as the engine reads it. */
+async function textOf(path: string): Promise<string> {
+  const text = decoder.decode(await session.ask({ ask: "text", path }));
+  return text.replace(/\r\n/g, "\n");
+}
+
+/** Applies a fix to the file that it is for, and runs the program again. */
+async function apply(fix: Fix): Promise<void> {
+  const paths = [...session.files.keys()];
+  const path = paths.find((one) => one === fix.file) ?? paths.find((one) => one.endsWith(`/${fix.file}`));
+  if (path === undefined) {
+    throw new Error(`${fix.file} was not dropped.`);
+  }
+  change(path, fixed(await textOf(path), fix));
+  if (path === program && !part("editor").hidden) {
+    await fillEditor();
+  }
+  await rerun();
+}
+
+/** Goes to the line with this number, or to the next one with these words. */
+async function search(): Promise<void> {
+  if (program === null) {
+    return;
+  }
+  const words = (part("search") as HTMLInputElement).value;
+  const line = sought(await textOf(program), words, foundLine);
+  const place = line === null ? null : await session.json<number | null>({ ask: "blockOfLine", line });
+  part("found").textContent = line === null ? "not in this program"
+    : `line ${grouped(line)}${place === null ? ", which is not executed" : ""}`;
+  if (line !== null) {
+    foundLine = line;
+    if (place !== null) {
+      await timeline.jump(place);
+    }
+    if (!part("editor").hidden) {
+      editor.go(line);
+    }
   }
 }
 
@@ -408,14 +474,18 @@ function listen(): void {
     void attempt(take({ incoming, leftOut: 0 }));
   });
   on("clear", "click", () => {
+    if (edits.isUnsaved && !window.confirm("Programs that were changed here are not saved. Remove them?")) {
+      return;
+    }
     void attempt(session.clear().then(() => {
+      edits.forgetAll();
       program = null;
       overview = null;
       timeline.forget();
       part("editor").hidden = true;
       part("edit").setAttribute("aria-pressed", "false");
       part("split").classList.remove("editing");
-      part("edited").hidden = true;
+      mark();
       tabs.show("timeline");
       return arrived([]);
     }));
@@ -457,6 +527,22 @@ function listen(): void {
   });
   on("save-report", "click", () => {
     void save({ ask: "report", program, settings }, ".report.html", "text/html");
+  });
+  on("save-program", "click", () => {
+    const file = program === null ? undefined : session.files.get(program);
+    if (program !== null && file) {
+      download(besides(program, ""), Uint8Array.from(file.content), "application/octet-stream");
+      edits.saved(program);
+    }
+  });
+  on("search-form", "submit", (event) => {
+    event.preventDefault();
+    void attempt(search());
+  });
+  window.addEventListener("beforeunload", (event) => {
+    if (edits.isUnsaved) {
+      event.preventDefault();
+    }
   });
   on("save-records", "click", () => {
     void save({ ask: "records", program, settings }, ".ndjson", "application/x-ndjson");

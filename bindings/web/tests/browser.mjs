@@ -156,6 +156,38 @@ const tests = {
     await close(page);
   },
 
+  async "what is changed is marked, found, saved and not lost unasked"() {
+    // R13.12
+    const page = await open();
+    await page.getByRole("button", { name: "Show an example" }).click();
+    await rows(page).first().waitFor();
+    const leaves = () => page.evaluate(() =>
+      window.dispatchEvent(new Event("beforeunload", { cancelable: true })));
+    assert.equal(await leaves(), true, "nothing is lost yet");
+    await page.getByRole("tab", { name: /Messages/ }).click();
+    await page.getByRole("button", { name: /Apply: insert \w\[COMP ON FRICT\]/ }).first().click();
+    await page.getByText("edited here, the file is as it was").waitFor();
+    assert.equal(await leaves(), false, "the browser asks");
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Download changed program" }).click(),
+    ]);
+    assert.equal(download.suggestedFilename(), "friction.nc");
+    const saved = readFileSync(await download.path(), "utf8");
+    const original = readFileSync(join(root, "programs/demo/friction.nc"), "utf8");
+    assert.equal(saved.replace(/[XY]\[COMP ON FRICT\]\r?\n(?=N55)/, ""), original);
+    assert.equal(await leaves(), true, "it is saved");
+    await page.getByRole("tab", { name: "Timeline" }).click();
+    await page.getByRole("searchbox", { name: "find" }).fill("x22");
+    await page.getByRole("searchbox", { name: "find" }).press("Enter");
+    await page.locator("#found").getByText(/^line \d+$/).waitFor();
+    await page.locator(".timeline tr.selected").getByText("N35").waitFor();
+    await dropTexts(page, { "other.nc": "N10 X1\nM30\n" });
+    await page.getByRole("heading", { name: "other.nc" }).waitFor();
+    assert.equal(await page.getByText("edited here").isVisible(), false, "the mark is of one file");
+    await close(page);
+  },
+
   async "what was not dropped is named"() {
     const page = await open();
     await dropTexts(page, { "main.nc": "N10 L SUB.nc\nN20 X[COMP OFF FRICT]\nM30\n" });

@@ -3,8 +3,8 @@ import * as vscode from "vscode";
 
 const TYPE = "frictcomp";
 
-/** Registers the debugger; `binary` gives the program frictcomp, or says what to do where it is missing. */
-export function registerDebugger(binary: () => string | undefined): vscode.Disposable[] {
+/** Registers the debugger; `program` gives the program frictcomp, or says what to do where it is missing. */
+export function registerDebugger(program: () => Promise<string | undefined>): vscode.Disposable[] {
   return [
     vscode.debug.registerDebugConfigurationProvider(TYPE, {
       // F5 without a launch configuration: the program in the editor, from its first block.
@@ -20,8 +20,8 @@ export function registerDebugger(binary: () => string | undefined): vscode.Dispo
             },
     }),
     vscode.debug.registerDebugAdapterDescriptorFactory(TYPE, {
-      createDebugAdapterDescriptor: () => {
-        const file = binary();
+      createDebugAdapterDescriptor: async () => {
+        const file = await program();
         return file === undefined ? undefined : new vscode.DebugAdapterExecutable(file, ["dap"]);
       },
     }),

@@ -4,63 +4,84 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 import { findBinary, type Found } from "./binary";
 import { registerDebugger } from "./debug";
-import { ownLanguage, PROGRAM_LANGUAGES } from "./languages";
+import { foreignLanguage, isServed, programLanguages } from "./languages";
+import { furtherLanguages, isProgram } from "./programs";
 import { Reports } from "./reports";
 import { Server } from "./server";
 import { StatusBar } from "./statusBar";
+import { usable } from "./version";
 import { TimelineView } from "./view/provider";
 
-export async function activate(context: vscode.ExtensionContext): Promise<void> {
+export function activate(context: vscode.ExtensionContext): void {
   const reports = new Reports();
   const server = new Server(context.extensionUri, (title, html) => {
     reports.show(title, html);
   });
   const status = new StatusBar((uri, position) => server.states(uri, position));
   const view = new TimelineView(context.extensionUri, (uri) => server.timeline(uri));
-  const start = async (): Promise<void> => {
-    const found = find(context);
-    if (found.kind === "missing") {
-      await server.stop();
-      await explainMissing(context);
-      return;
+  const wanted = context.extension.packageJSON as { version: string };
+  const trouble = new Trouble();
+  const program = async (): Promise<string | undefined> => {
+    const found = await usable(find(context), wanted.version);
+    if (found.kind === "usable") {
+      return found.file;
     }
-    await server.start(found.file);
+    trouble.tell(found.why);
+    return undefined;
+  };
+  let isStarted = false;
+  const start = async (): Promise<void> => {
+    isStarted = true;
+    publishLanguages();
+    const file = await program();
+    try {
+      await (file === undefined ? server.stop() : server.start(file));
+    } catch (error) {
+      trouble.tell(`The program frictcomp does not start as a language server: ${String(error)}`);
+    }
     status.refresh();
     view.refresh();
   };
-  const binary = (): string | undefined => {
-    const found = find(context);
-    if (found.kind === "found") {
-      return found.file;
+  // Nothing happens before there is something to check.
+  const meet = (document: vscode.TextDocument): void => {
+    if (!isStarted && isServed(document, furtherLanguages())) {
+      void start();
+    } else {
+      void askForeign(context, document);
     }
-    void explainMissing(context);
-    return undefined;
   };
+  publishLanguages();
+  vscode.workspace.textDocuments.forEach(meet);
   context.subscriptions.push(
     reports,
     server,
     status,
     view,
-    ...ownLanguages(),
-    ...registerDebugger(binary),
-    ...commands({ server, reports, binary, start }),
+    ...registerDebugger(program),
+    ...commands({ server, reports, program, start }),
+    vscode.workspace.onDidOpenTextDocument(meet),
     vscode.workspace.onDidChangeConfiguration((change) => {
       if (change.affectsConfiguration("frictcomp")) {
-        void start();
+        trouble.forget();
+        publishLanguages();
+        if (isStarted) {
+          void start();
+        } else {
+          vscode.workspace.textDocuments.forEach(meet);
+        }
       }
     }),
   );
-  await start();
 }
 
 interface Parts {
   server: Server;
   reports: Reports;
-  binary: () => string | undefined;
+  program: () => Promise<string | undefined>;
   start: () => Promise<void>;
 }
 
-function commands({ server, reports, binary, start }: Parts): vscode.Disposable[] {
+function commands({ server, reports, program, start }: Parts): vscode.Disposable[] {
   return [
     vscode.commands.registerCommand("frictcomp.runProgram", async () => {
       const document = activeProgram();
@@ -70,14 +91,14 @@ function commands({ server, reports, binary, start }: Parts): vscode.Disposable[
     }),
     vscode.commands.registerCommand("frictcomp.auditFolder", async (chosen?: vscode.Uri) => {
       const folder = chosen ?? (await chooseFolder());
-      const file = binary();
+      const file = folder && (await program());
       if (folder && file !== undefined) {
         await reports.showRun("Audit", file, ["audit", folder.fsPath], folder.fsPath);
       }
     }),
     vscode.commands.registerCommand("frictcomp.contourOfProgram", async () => {
       const document = activeProgram();
-      const file = binary();
+      const file = document && (await program());
       // The command line reads the file: what is not saved would not be in the picture.
       if (document && file !== undefined && (await document.save())) {
         const { fsPath } = document.uri;
@@ -85,19 +106,20 @@ function commands({ server, reports, binary, start }: Parts): vscode.Disposable[
       }
     }),
     vscode.commands.registerCommand("frictcomp.simulateCircle", async () => {
-      const file = binary();
+      const file = await program();
       const circle = file === undefined ? undefined : await askCircle();
       if (file !== undefined && circle) {
         await reports.showRun("Circular test", file, ["circle", ...circle], workspaceFolder()?.fsPath);
       }
     }),
     vscode.commands.registerCommand("frictcomp.restart", start),
+    vscode.commands.registerCommand("frictcomp.choosePath", choosePath),
   ];
 }
 
 function activeProgram(): vscode.TextDocument | undefined {
   const document = vscode.window.activeTextEditor?.document;
-  if (document && PROGRAM_LANGUAGES.includes(document.languageId)) {
+  if (document && isProgram(document)) {
     return document;
   }
   void vscode.window.showInformationMessage("Open an NC program first.");
@@ -158,42 +180,64 @@ function canRun(file: string): boolean {
   }
 }
 
-async function explainMissing(context: vscode.ExtensionContext): Promise<void> {
-  const choose = "Choose the Program…";
-  const install = "How to Install It";
-  const answer = await vscode.window.showErrorMessage(
-    "The program frictcomp was not found in the setting `frictcomp.path`, beside this extension or on PATH.",
-    choose,
-    install,
-  );
-  if (answer === install) {
-    const readme = vscode.Uri.joinPath(context.extensionUri, "README.md");
-    await vscode.commands.executeCommand("markdown.showPreview", readme);
-  } else if (answer === choose) {
-    const [file] = (await vscode.window.showOpenDialog({ title: "The program frictcomp" })) ?? [];
-    if (file) {
-      // The change of the setting starts the server.
-      await vscode.workspace
-        .getConfiguration("frictcomp")
-        .update("path", file.fsPath, vscode.ConfigurationTarget.Global);
+/** The one message about a program that cannot be used; it is not told again until something changes. */
+class Trouble {
+  private isTold = false;
+
+  tell(why: string): void {
+    if (this.isTold) {
+      return;
+    }
+    this.isTold = true;
+    void this.show(why);
+  }
+
+  forget(): void {
+    this.isTold = false;
+  }
+
+  private async show(why: string): Promise<void> {
+    const help = "Set Up frictcomp";
+    if ((await vscode.window.showErrorMessage(why, help)) === help) {
+      await vscode.commands.executeCommand("workbench.action.openWalkthrough", "frictcomp.frictcomp#start");
     }
   }
 }
 
-/** Gives programs and lists that have no language one of ours, where ISG's extension is absent. */
-function ownLanguages(): vscode.Disposable[] {
-  const give = async (document: vscode.TextDocument): Promise<void> => {
-    const language = ownLanguage(document, await vscode.languages.getLanguages());
-    if (language !== undefined) {
-      await vscode.languages.setTextDocumentLanguage(document, language);
-    }
-  };
-  for (const document of vscode.workspace.textDocuments) {
-    void give(document);
+async function choosePath(): Promise<void> {
+  const [file] = (await vscode.window.showOpenDialog({ title: "The program frictcomp" })) ?? [];
+  if (file) {
+    // The change of the setting starts the server.
+    await vscode.workspace
+      .getConfiguration("frictcomp")
+      .update("path", file.fsPath, vscode.ConfigurationTarget.Global);
   }
-  return [
-    vscode.workspace.onDidOpenTextDocument((document) => {
-      void give(document);
-    }),
-  ];
+}
+
+/** Tells the menus which languages are those of programs. */
+function publishLanguages(): void {
+  const languages = programLanguages(furtherLanguages());
+  void vscode.commands.executeCommand("setContext", "frictcomp.programLanguages", languages);
+}
+
+/** Asks once for each language of another extension whether its programs are to be checked. */
+async function askForeign(context: vscode.ExtensionContext, document: vscode.TextDocument): Promise<void> {
+  const further = furtherLanguages();
+  const language = foreignLanguage(document, further);
+  const key = `asked.${language ?? ""}`;
+  if (language === undefined || context.globalState.get<boolean>(key)) {
+    return;
+  }
+  await context.globalState.update(key, true);
+  const check = "Check Them";
+  const answer = await vscode.window.showInformationMessage(
+    `Programs such as ${path.basename(document.fileName)} have the language "${language}" here, which frictcomp does not check. Are they programs of an ISG or TwinCAT control?`,
+    check,
+    "No",
+  );
+  if (answer === check) {
+    await vscode.workspace
+      .getConfiguration("frictcomp")
+      .update("languages", [...further, language], vscode.ConfigurationTarget.Global);
+  }
 }

@@ -1,38 +1,48 @@
 /**
- * The languages of programs and lists. ISG's extension declares `isg-cnc` and `isg-list`; where it is
- * installed, its languages are used and nothing of our own is set.
+ * The languages of programs and lists. ISG's extension declares `isg-cnc` and `isg-list`, and its
+ * declaration comes after ours; where it is absent, ours hold.
  */
 import * as path from "node:path";
 
-export const PROGRAM_LANGUAGES = ["isg-cnc", "frictcomp-nc"];
-export const LIST_LANGUAGES = ["isg-list", "frictcomp-list"];
-
+const PROGRAM_LANGUAGES = ["isg-cnc", "frictcomp-nc"];
+const LIST_LANGUAGES = ["isg-list", "frictcomp-list"];
 const PROGRAM_ENDINGS = [".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"];
-const LIST_ENDINGS = [".lis"];
+const CONFIGURATION = "frictcomp.toml";
+/** Texts of a user: files, and what was never saved. Versions from git would tell every problem twice. */
+const SCHEMES = ["file", "untitled"];
+
+export interface Named {
+  uri: { scheme: string };
+  fileName: string;
+  languageId: string;
+}
+
+/** The languages of programs; `further` are those that the user names. */
+export function programLanguages(further: readonly string[]): string[] {
+  return [...new Set([...PROGRAM_LANGUAGES, ...further])];
+}
 
 /** What the language server is told of: programs, lists and the configuration. */
-export const SELECTOR = [
-  ...[...PROGRAM_LANGUAGES, ...LIST_LANGUAGES].map((language) => ({ language })),
-  { pattern: "**/frictcomp.toml" },
-];
+export function selector(further: readonly string[]): { scheme: string; language?: string; pattern?: string }[] {
+  const languages = [...programLanguages(further), ...LIST_LANGUAGES];
+  return [
+    ...SCHEMES.flatMap((scheme) => languages.map((language) => ({ scheme, language }))),
+    { scheme: "file", pattern: `**/${CONFIGURATION}` },
+  ];
+}
 
-/**
- * Our own language for a document to which no other extension gave one; `undefined` where it has a
- * language already, or where ISG's languages are declared.
- */
-export function ownLanguage(
-  document: { fileName: string; languageId: string },
-  declared: readonly string[],
-): string | undefined {
-  if (document.languageId !== "plaintext") {
-    return undefined;
-  }
-  const ending = path.extname(document.fileName).toLowerCase();
-  if (PROGRAM_ENDINGS.includes(ending) && !declared.includes("isg-cnc")) {
-    return "frictcomp-nc";
-  }
-  if (LIST_ENDINGS.includes(ending) && !declared.includes("isg-list")) {
-    return "frictcomp-list";
-  }
-  return undefined;
+/** Whether the language server is told of a document. */
+export function isServed(document: Named, further: readonly string[]): boolean {
+  return (
+    SCHEMES.includes(document.uri.scheme) &&
+    ([...programLanguages(further), ...LIST_LANGUAGES].includes(document.languageId) ||
+      path.basename(document.fileName) === CONFIGURATION)
+  );
+}
+
+/** The language of a program that another extension claims by its ending, and that nobody checks then. */
+export function foreignLanguage(document: Named, further: readonly string[]): string | undefined {
+  const isProgram = PROGRAM_ENDINGS.includes(path.extname(document.fileName).toLowerCase());
+  const isFile = document.uri.scheme === "file";
+  return isFile && isProgram && !isServed(document, further) ? document.languageId : undefined;
 }

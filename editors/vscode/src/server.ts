@@ -1,11 +1,18 @@
 /** The language server: started from the binary, restarted when its settings change. */
 import * as vscode from "vscode";
-import { LanguageClient, TransportKind, type LanguageClientOptions } from "vscode-languageclient/node";
-import { SELECTOR } from "./languages";
+import {
+  CloseAction,
+  ErrorAction,
+  LanguageClient,
+  TransportKind,
+  type LanguageClientOptions,
+} from "vscode-languageclient/node";
+import { selector } from "./languages";
+import { furtherLanguages } from "./programs";
 import type { Report, States, Timeline } from "./protocol";
 
-/** The identifier of ISG's extension, beside which navigation is left to it. */
-const ISG_EXTENSION = "isg-stuttgart.vscode-isg-cnc";
+/** The identifier of ISG's extension, to which definitions and references are left. */
+const ISG_EXTENSION = "isg-cnc.vscode-isg-cnc";
 
 /** Shows a report that the server made of an open text. */
 export type ShowReport = (title: string, html: string) => void;
@@ -24,7 +31,13 @@ export class Server implements vscode.Disposable {
   async start(binary: string): Promise<void> {
     await this.stop();
     const options: LanguageClientOptions = {
-      documentSelector: SELECTOR,
+      documentSelector: selector(furtherLanguages()),
+      // A server that ends is said once, by what comes to its end, and is not started over and over.
+      errorHandler: {
+        error: () => ({ action: ErrorAction.Shutdown, handled: true }),
+        closed: () => ({ action: CloseAction.DoNotRestart, message: "frictcomp has ended; `frictcomp: Restart the Language Server` starts it again." }),
+      },
+      initializationFailedHandler: () => false,
       initializationOptions: { frictcomp: this.settings() },
       synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/{*.lis,frictcomp.toml}") },
       middleware: {
@@ -74,6 +87,7 @@ export class Server implements vscode.Disposable {
       codeLens: { enable: settings.get<boolean>("codeLens.enable") },
       navigation: settings.get<string>("navigation"),
       maxBlocks: settings.get<number>("maxBlocks"),
+      languages: furtherLanguages(),
       isgExtension: vscode.extensions.getExtension(ISG_EXTENSION) !== undefined,
       pages: vscode.Uri.joinPath(this.extension, ...PAGES).toString(),
     };

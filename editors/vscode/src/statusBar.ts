@@ -1,6 +1,6 @@
 /** The states at the cursor, in the status bar. */
 import * as vscode from "vscode";
-import { PROGRAM_LANGUAGES } from "./languages";
+import { isProgram } from "./programs";
 import type { States } from "./protocol";
 import { statusText, statusTooltip } from "./statusText";
 
@@ -49,7 +49,7 @@ export class StatusBar implements vscode.Disposable {
   private async show(): Promise<void> {
     const asked = ++this.asked;
     const editor = vscode.window.activeTextEditor;
-    if (!editor || !PROGRAM_LANGUAGES.includes(editor.document.languageId)) {
+    if (!editor || !isProgram(editor.document)) {
       this.item.hide();
       return;
     }

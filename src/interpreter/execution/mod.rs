@@ -1,5 +1,6 @@
 //! Blocks one after another: the beginning, the way and the end of a program.
 
+pub(super) mod asking;
 pub(super) mod block;
 pub(super) mod budget;
 pub(super) mod calling;

@@ -1,7 +1,7 @@
 /** The side view with the compensation of each axis over the lines of the program in the editor. */
 import * as vscode from "vscode";
 import type { Timeline } from "../protocol";
-import { PROGRAM_LANGUAGES } from "../languages";
+import { isProgram } from "../programs";
 import type { FromPage, ToPage } from "./messages";
 
 /** How long the view waits after the last change before it asks again, in ms. */
@@ -58,7 +58,7 @@ export class TimelineView implements vscode.WebviewViewProvider, vscode.Disposab
   /** Asks for the timeline of the program in the active editor, and shows it. */
   refresh(): void {
     const editor = vscode.window.activeTextEditor;
-    if (editor && PROGRAM_LANGUAGES.includes(editor.document.languageId)) {
+    if (editor && isProgram(editor.document)) {
       this.program = editor;
     } else if (this.program && !vscode.window.visibleTextEditors.includes(this.program)) {
       this.program = undefined;

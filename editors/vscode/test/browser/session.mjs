@@ -52,12 +52,12 @@ function prepare() {
 
 /** An extension that declares what ISG's does, and nothing else. */
 function standIn() {
-  const folder = path.join(extensions, "isg-stuttgart.vscode-isg-cnc-0.0.1");
+  const folder = path.join(extensions, "isg-cnc.vscode-isg-cnc-0.4.3");
   fs.mkdirSync(folder);
   write(path.join(folder, "package.json"), {
     name: "vscode-isg-cnc",
-    publisher: "isg-stuttgart",
-    version: "0.0.1",
+    publisher: "isg-cnc",
+    version: "0.4.3",
     engines: { vscode: "^1.91.0" },
     contributes: {
       languages: [

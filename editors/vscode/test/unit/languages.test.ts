@@ -1,22 +1,57 @@
 import { expect, test } from "vitest";
-import { ownLanguage } from "../../src/languages";
+import manifest from "../../package.json";
+import { foreignLanguage, isServed, selector } from "../../src/languages";
 
-const plain = (fileName: string): { fileName: string; languageId: string } => ({ fileName, languageId: "plaintext" });
+const file = (fileName: string, languageId: string, scheme = "file"): Parameters<typeof isServed>[0] => ({
+  uri: { scheme },
+  fileName,
+  languageId,
+});
 
-test("without ISG's extension, programs and lists get a language by their ending", () => {
-  for (const name of ["a.nc", "A.NC", "x.cnc", "l.cyc", "l.ecy", "u.sub", "p.plc"]) {
-    expect(ownLanguage(plain(`/parts/${name}`), ["plaintext"])).toBe("frictcomp-nc");
+test("programs, lists and the configuration are served, and nothing else", () => {
+  // R12.12, R12.13
+  for (const served of [
+    file("/parts/a.nc", "isg-cnc"),
+    file("/parts/a.nc", "frictcomp-nc"),
+    file("/lists/x.lis", "isg-list"),
+    file("/parts/frictcomp.toml", "toml"),
+    file("Untitled-1", "isg-cnc", "untitled"),
+  ]) {
+    expect(isServed(served, [])).toBe(true);
   }
-  expect(ownLanguage(plain("C:\\lists\\hochlauf.lis"), [])).toBe("frictcomp-list");
-  expect(ownLanguage(plain("/parts/readme.txt"), [])).toBeUndefined();
+  for (const other of [
+    file("/parts/Cargo.toml", "toml"),
+    file("/parts/a.nc", "gcode"),
+    file("/parts/a.nc", "isg-cnc", "git"),
+    file("/parts/a.nc", "isg-cnc", "vscode-vfs"),
+  ]) {
+    expect(isServed(other, [])).toBe(false);
+  }
+  expect(isServed(file("/parts/a.nc", "gcode"), ["gcode"])).toBe(true);
+  expect(selector(["gcode"])).toContainEqual({ scheme: "untitled", language: "gcode" });
+  expect(selector([]).every(({ scheme }) => ["file", "untitled"].includes(scheme))).toBe(true);
 });
 
-test("beside ISG's extension nothing is set", () => {
-  const declared = ["plaintext", "isg-cnc", "isg-list"];
-  expect(ownLanguage(plain("/parts/a.nc"), declared)).toBeUndefined();
-  expect(ownLanguage(plain("/parts/a.lis"), declared)).toBeUndefined();
+test("a program that another extension claims is asked about", () => {
+  // R12.12
+  expect(foreignLanguage(file("/parts/A.NC", "gcode"), [])).toBe("gcode");
+  expect(foreignLanguage(file("/parts/A.NC", "gcode"), ["gcode"])).toBeUndefined();
+  expect(foreignLanguage(file("/parts/a.nc", "isg-cnc"), [])).toBeUndefined();
+  expect(foreignLanguage(file("/parts/a.gcode", "gcode"), [])).toBeUndefined();
+  expect(foreignLanguage(file("/parts/a.nc", "gcode", "git"), [])).toBeUndefined();
 });
 
-test("a language that somebody chose stays", () => {
-  expect(ownLanguage({ fileName: "/parts/a.nc", languageId: "gcode" }, [])).toBeUndefined();
+test("languages and their endings are declared before anything runs", () => {
+  // R12.12
+  const [programs, lists] = manifest.contributes.languages;
+  expect(programs?.extensions).toEqual([".nc", ".cnc", ".cyc", ".ecy", ".sub", ".plc"]);
+  expect(lists?.extensions).toEqual([".lis"]);
+});
+
+test("what a blank offers is not taken for Enter", () => {
+  // R12.11
+  const defaults = manifest.contributes.configurationDefaults;
+  for (const language of ["[isg-cnc]", "[frictcomp-nc]"] as const) {
+    expect(defaults[language]["editor.suggest.selectionMode"]).toBe("whenQuickSuggestion");
+  }
 });

@@ -1,0 +1,136 @@
+//! A program as the only argument: typed as `frictcomp part.nc`, or dropped on the command (R13.15).
+
+use std::ffi::OsString;
+use std::io::{self, BufRead as _};
+use std::path::{Path, PathBuf};
+
+use super::exit;
+
+/// Arguments as they are meant.
+pub(super) struct Meant {
+    pub(super) arguments: Vec<OsString>,
+    /// The report that is opened after the run.
+    report: Option<PathBuf>,
+}
+
+/// How the command was started.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// By a shell or another program.
+    Typed,
+    /// By a file that was dropped on it: its console closes with it.
+    Dropped,
+}
+
+impl Meant {
+    /// The arguments with `run` before a file that stands alone; `is_command` knows the commands.
+    pub(super) fn new(arguments: Vec<OsString>, is_command: impl Fn(&str) -> bool) -> Self {
+        Self::of(arguments, is_command, start())
+    }
+
+    fn of(mut arguments: Vec<OsString>, is_command: impl Fn(&str) -> bool, start: Start) -> Self {
+        let alone = match arguments.as_slice() {
+            [_, only] => Some(only),
+            _ => None,
+        };
+        let is_file = alone
+            .is_some_and(|only| !is_command(&only.to_string_lossy()) && Path::new(only).is_file());
+        if !is_file {
+            return Self {
+                arguments,
+                report: None,
+            };
+        }
+        arguments.insert(1, "run".into());
+        let report = (start == Start::Dropped).then(new_report).flatten();
+        if let Some(report) = &report {
+            arguments.push("--html".into());
+            arguments.push(report.into());
+        }
+        Self { arguments, report }
+    }
+
+    /// Opens the report of a run that made one. What went wrong stays to be read until Enter.
+    pub(super) fn finish(report: Option<PathBuf>, status: u8) {
+        let Some(report) = report else { return };
+        if status == exit::FAILED || !open(&report) {
+            let _ = io::stdin().lock().read_line(&mut String::new());
+        }
+    }
+
+    /// The arguments, and the report that [`finish`](Self::finish) opens.
+    pub(super) fn split(self) -> (Vec<OsString>, Option<PathBuf>) {
+        (self.arguments, self.report)
+    }
+}
+
+/// A new file among the temporary ones, which the browser reads when the command has ended.
+fn new_report() -> Option<PathBuf> {
+    let file = tempfile::Builder::new()
+        .prefix("frictcomp-")
+        .suffix(".html")
+        .tempfile()
+        .ok()?;
+    file.into_temp_path().keep().ok()
+}
+
+/// Opens a file with the program that the system has for it.
+fn open(file: &Path) -> bool {
+    let mut command = std::process::Command::new("explorer.exe");
+    command.arg(file).spawn().is_ok()
+}
+
+#[cfg(windows)]
+fn start() -> Start {
+    use win32console::console::WinConsole;
+    // A shell would be in the list, too.
+    match WinConsole::get_process_list() {
+        Ok(processes) if processes.len() == 1 => Start::Dropped,
+        _ => Start::Typed,
+    }
+}
+
+#[cfg(not(windows))]
+fn start() -> Start {
+    Start::Typed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn meant(words: &[&str], start: Start) -> Vec<String> {
+        let arguments = words.iter().map(OsString::from).collect();
+        let meant = Meant::of(arguments, |word| word == "check", start);
+        let words = meant.arguments.iter();
+        words
+            .map(|word| word.to_string_lossy().into_owned())
+            .collect()
+    }
+
+    #[test]
+    fn a_file_alone_is_a_program_to_run() {
+        // R13.15
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("part.nc");
+        std::fs::write(&file, "M30\n").expect("written");
+        let file = file.to_string_lossy();
+        assert_eq!(
+            meant(&["frictcomp", &file], Start::Typed),
+            ["frictcomp", "run", &file]
+        );
+        let dropped = meant(&["frictcomp", &file], Start::Dropped);
+        assert_eq!(dropped[..4], ["frictcomp", "run", &file, "--html"]);
+        assert!(dropped[4].ends_with(".html"));
+        std::fs::remove_file(&dropped[4]).expect("it is there");
+        for other in [
+            &["frictcomp"][..],
+            &["frictcomp", "check"],
+            &["frictcomp", "no such file"],
+            &["frictcomp", &file, &file],
+            &["frictcomp", "--help"],
+        ] {
+            assert_eq!(meant(other, Start::Dropped), other);
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! What a host may ask where a run stands between two blocks.
+
+use std::sync::Arc;
+
+use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::interpreter::Interpreter;
+use crate::interpreter::run::step::Step;
+use crate::interpreter::values::value::Value;
+use crate::syntax::ast::Block;
+use crate::syntax::{Comments, RawBlock, Stretch, parse_expression};
+
+impl Interpreter {
+    /// Returns a copy that stands in the program whose block comes next. A run that was stopped after a
+    /// call stands in the caller still, where the parameters of the called program are not seen.
+    #[must_use]
+    pub fn settled(&self) -> Self {
+        let mut copy = self.clone();
+        match copy.state.parked.take() {
+            Some(step @ (Step::Call(_) | Step::Return | Step::ReturnTo(_))) => {
+                // A return of the main program ends it; then nothing comes next.
+                let _ = copy.follow(step);
+            }
+            other => copy.state.parked = other,
+        }
+        copy
+    }
+
+    /// Computes an expression with the values that the next block would read.
+    ///
+    /// # Errors
+    /// The text is no expression, or it has no value here: the reason in words.
+    pub fn evaluate(&self, text: &str) -> Result<Value, String> {
+        let text = text.trim();
+        let mut block = Block::default();
+        let operand = parse_expression(text, &mut block)
+            .ok_or_else(|| format!("`{text}` is no expression"))?;
+        let mut copy = self.settled();
+        let (file, shown) = (Arc::from(""), Shown::default());
+        let raw = RawBlock {
+            stretch: Stretch::Block,
+            text,
+            line: 1,
+            offset: 0,
+            comments: Comments::Absent,
+            plain: false,
+            remark: None,
+        };
+        let at = At::of_raw(&file, &raw, &block, &shown);
+        copy.value(operand, &at).map_err(|fault| fault.message)
+    }
+}

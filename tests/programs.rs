@@ -15,7 +15,7 @@ use frictcomp::diagnostic::Code;
 const MAX_BLOCKS: &str = "5000";
 
 /// Codes that neither a program nor a list can raise, with the reason.
-const ELSEWHERE: [(&str, &str); 19] = [
+const ELSEWHERE: [(&str, &str); 26] = [
     ("FC504", "said by `drive`; tests/lists/drive.rs has it"),
     ("FC506", "said by `tune`; tests/circle_cli.rs has it"),
     ("FC511", "said by `identify`; tests/identify.rs has it"),
@@ -27,6 +27,34 @@ const ELSEWHERE: [(&str, &str); 19] = [
     ("FC517", "said by `identify`; tests/identify.rs has it"),
     ("FC518", "said by `identify`; tests/identify.rs has it"),
     ("FC519", "said by `identify`; tests/recordings.rs has it"),
+    (
+        "FC520",
+        "said by `identify`; tests/identify_faults.rs has it",
+    ),
+    (
+        "FC521",
+        "said by `identify`; tests/identify_faults.rs has it",
+    ),
+    (
+        "FC522",
+        "said by `identify`; tests/identify_faults.rs has it",
+    ),
+    (
+        "FC523",
+        "said by `identify`; tests/identify_faults.rs has it",
+    ),
+    (
+        "FC524",
+        "said by `identify`; tests/identify_faults.rs has it",
+    ),
+    (
+        "FC525",
+        "said by `identify`; tests/identify_faults.rs has it",
+    ),
+    (
+        "FC526",
+        "said by `identify`; tests/identify_faults.rs has it",
+    ),
     ("FC903", "said by `current`; tests/spec_motion.rs has it"),
     ("FC904", "said by `current`; tests/spec_motion.rs has it"),
     (

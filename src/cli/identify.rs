@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use super::channels::AxisChannels;
 use super::console::Console;
@@ -12,9 +12,11 @@ use super::failure::Failure;
 use super::outputs::{Outputs, write_text};
 use super::result::Format;
 use crate::comp::CncBuild;
+use crate::current::Switched;
 use crate::host::{Ledger, OutputFile, read_axis};
 use crate::identify::{
-    AxisRecording, IdentifyError, IdentifyOptions, Track, Wanted, identify, identify_circles,
+    AxisRecording, IdentifyError, IdentifyOptions, Measured, TorqueKind, TraceFinding, Track,
+    Wanted, identify, identify_measured_circles,
 };
 use crate::report::fitted;
 use crate::report::html::render_identification;
@@ -57,6 +59,13 @@ pub(super) struct IdentifyArgs {
         allow_negative_numbers = true
     )]
     feed: f64,
+    /// Which torque was recorded: `actual`, as the drive measures it, `command` or `loop`, the output of
+    /// the speed controller; by default what the name of the channel tells
+    #[arg(long, value_name = "KIND")]
+    torque_kind: Option<TorqueKind>,
+    /// Whether friction compensation was on while recording; by default what a channel `comp` tells
+    #[arg(long, value_name = "STATE")]
+    compensation: Option<Compensation>,
     /// The format of the result
     #[arg(long, default_value = "text")]
     format: Format,
@@ -116,7 +125,12 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
             .with_help("give one trace of constant speeds, or `--circles` for several circles"));
     };
     let recording = read(trace)?;
-    let identified = identify(&recording.track, &options)?;
+    let options = IdentifyOptions {
+        measured: args.measured(recording.measured),
+        ..options
+    };
+    let identified = identify(&recording.track, &options)
+        .map_err(|error| refusal(error, &recording.findings))?;
     let report = IdentifyReport {
         name: shown_path(trace),
         axis: args.channels.axis.clone(),
@@ -128,6 +142,7 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
             axis: report.axis.as_deref(),
             from: &report.name,
             unit: report.unit(),
+            faults: &report.faults(),
         };
         let found = report.identified.list();
         write_text(&mut list, &render_identified(&found, made, args.cnc_build))?;
@@ -147,6 +162,35 @@ pub(super) fn run(args: &IdentifyArgs, console: Console) -> Result<u8, Failure> 
     Ok(exit::CLEAN)
 }
 
+/// On or off.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Compensation {
+    On,
+    Off,
+}
+
+impl IdentifyArgs {
+    /// What is known of the torque, with what the user says about it.
+    fn measured(&self, recorded: Measured) -> Measured {
+        let said = self.compensation.map(|state| match state {
+            Compensation::On => Switched::On,
+            Compensation::Off => Switched::Off,
+        });
+        Measured {
+            kind: self.torque_kind.or(recorded.kind),
+            compensation: said.or(recorded.compensation),
+            ..recorded
+        }
+    }
+}
+
+/// Why nothing was identified, with what the channels themselves tell.
+fn refusal(error: IdentifyError, findings: &[TraceFinding]) -> Failure {
+    findings.iter().fold(error.into(), |failure: Failure, it| {
+        failure.with_help(format!("{}: {}", it.code, it.message))
+    })
+}
+
 /// What recorded circles tell, and their value list.
 fn circles(
     args: &IdentifyArgs,
@@ -154,10 +198,13 @@ fn circles(
     list: Option<OutputFile>,
 ) -> Result<OnCirclesReport, Failure> {
     let tracks: Vec<Track> = recordings.iter().map(|it| it.track.clone()).collect();
+    let measured = recordings.iter().map(|it| args.measured(it.measured));
+    // What is known least of any recording.
+    let measured = measured.reduce(Measured::common).unwrap_or_default();
     let report = OnCirclesReport {
         names: args.traces.iter().map(|path| shown_path(path)).collect(),
         axis: args.channels.axis.clone(),
-        found: identify_circles(&tracks)?,
+        found: identify_measured_circles(&tracks, &measured)?,
         recordings,
     };
     if let Some(mut list) = list {
@@ -165,6 +212,7 @@ fn circles(
             axis: report.axis.as_deref(),
             from: &report.names.join(", "),
             unit: report.unit(),
+            faults: &report.faults(),
         };
         let found = report.found.list();
         write_text(&mut list, &render_identified(&found, made, args.cnc_build))?;

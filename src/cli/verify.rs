@@ -14,17 +14,18 @@ use super::outputs::Outputs;
 use super::result::{Format, ResultArgs};
 use crate::current::Reading;
 use crate::host::{Ledger, read_axis};
-use crate::identify::{Predictor, verify};
+use crate::identify::{Predictor, verify_followed};
 use crate::report::fitted;
 use crate::report::verify::{VerifyReport, render_json, render_text};
 use crate::text::shown_path;
+use crate::trace::ChannelSelection;
 
 /// Compare a recorded torque with what a value list predicts
 ///
 /// The prediction is the additive current that the control computes from the list. Says at which
-/// speeds the list is too low or too high, whether its sign is inverted, and by how many cycles it is
-/// late at reversals. The channels are named as for `identify`. Record without compensation, or
-/// record the torque that the drive measures.
+/// speeds the list is too low or too high, whether its sign is inverted, and, where the following error
+/// was recorded, whether it acted and whether it comes early or late at reversals. The channels are
+/// named as for `identify`. Record without compensation, or record the torque that the drive measures.
 #[derive(Debug, Args)]
 pub(super) struct VerifyArgs {
     /// The recorded trace
@@ -34,6 +35,13 @@ pub(super) struct VerifyArgs {
     value_list: PathBuf,
     #[command(flatten)]
     channels: AxisChannels,
+    /// The channel of the actual positions, beside that of the commanded ones: only the following error
+    /// tells whether the list is early or late
+    #[arg(long, value_name = "CHANNEL")]
+    actual_position: Option<String>,
+    /// The channel of the following error, commanded less actual position
+    #[arg(long, value_name = "CHANNEL", conflicts_with = "actual_position")]
+    following_error: Option<String>,
     #[command(flatten)]
     cycle: CycleArgs,
     /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
@@ -57,13 +65,18 @@ pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
     let list = value_list(&args.value_list, &ledger)?;
     outputs.check()?;
     let cycle_s = args.cycle.seconds()?;
-    let recording = read_axis(&args.trace, &args.channels.selection(), cycle_s)?;
+    let selection = ChannelSelection {
+        actual_position: args.actual_position.clone(),
+        following_error: args.following_error.clone(),
+        ..args.channels.selection()
+    };
+    let recording = read_axis(&args.trace, &selection, cycle_s)?;
     let predictor = Predictor {
         list: &list,
         reading: args.reading,
         cycle_s,
     };
-    let verified = verify(&recording.track, &predictor)?;
+    let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)?;
     let report = VerifyReport {
         trace: shown_path(&args.trace),
         list: shown_path(&args.value_list),

@@ -143,6 +143,13 @@ codes! {
     Fc517 "FC517" Warning "friction of another form";
     Fc518 "FC518" Info "speed in one direction only";
     Fc519 "FC519" Warning "unit of a channel is assumed";
+    Fc520 "FC520" Warning "torque is clipped";
+    Fc521 "FC521" Warning "compensation was on while recording";
+    Fc522 "FC522" Warning "inverted sign";
+    Fc523 "FC523" Warning "absolute values";
+    Fc524 "FC524" Warning "improbable unit";
+    Fc525 "FC525" Warning "rows are missing";
+    Fc526 "FC526" Warning "tight spot";
     Fc901 "FC901" Warning "condition not known offline";
     Fc902 "FC902" Warning "jump or call not known offline";
     Fc903 "FC903" Warning "motion not known offline";

@@ -312,7 +312,7 @@ fn read_points(
                     ChannelQuantity::Position,
                     channels,
                 )?),
-                None => wanted.selection.position_of(axis, channels),
+                None => wanted.selection.position_of(axis, channels)?,
             };
             *pick = found.map(|pick| millimetres(pick, wanted));
         }

@@ -1,7 +1,10 @@
 //! Friction from recorded circles: no constant speeds, but every speed in both directions (R6.19).
 
 use super::curve::solve_linear;
+use super::doubts;
+use super::finding::TraceFinding;
 use super::identified::IdentifyError;
+use super::measured::Measured;
 use super::statistics::{count, moving_average, samples_in};
 use super::track::{Samples, Track, TrackError};
 use crate::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
@@ -17,6 +20,8 @@ pub struct OnCircles {
     pub offset: f64,
     /// Speeds in mm/s that had too few samples and are left out.
     pub left_out: Vec<f64>,
+    /// What is wrong with the recordings.
+    pub findings: Vec<TraceFinding>,
 }
 
 impl OnCircles {
@@ -55,12 +60,25 @@ const SETTLING_S: f64 = 0.05;
 /// A point with fewer samples is left out.
 const FEWEST: f64 = 200.0;
 
-/// Torque is the friction of the direction at points of the speed, linear in between, an inertia
-/// times the acceleration, and an offset: their least squares over all circles.
+/// The same as [`identify_measured_circles`] of the actual torque in drive units.
 ///
 /// # Errors
 /// The recordings cannot be used.
 pub fn identify_circles(tracks: &[Track]) -> Result<OnCircles, IdentifyError> {
+    identify_measured_circles(tracks, &Measured::default())
+}
+
+/// Torque is the friction of the direction at points of the speed, linear in between, an inertia
+/// times the acceleration, and an offset: their least squares over all circles.
+///
+/// # Errors
+/// The recordings cannot be used, or are not what they seem.
+pub fn identify_measured_circles(
+    tracks: &[Track],
+    measured: &Measured,
+) -> Result<OnCircles, IdentifyError> {
+    let compensation = doubts::check_compensation(measured)?;
+    let mut findings: Vec<TraceFinding> = compensation.into_iter().collect();
     let mut rows = Rows::default();
     let mut fastest = 0.0_f64;
     let mut circles = Vec::new();
@@ -68,6 +86,8 @@ pub fn identify_circles(tracks: &[Track]) -> Result<OnCircles, IdentifyError> {
         let samples = Samples::new(track)?;
         let smooth = moving_average(&samples.velocities, samples_in(0.005, samples.step_s));
         fastest = smooth.iter().fold(fastest, |most, v| most.max(v.abs()));
+        doubts::check_directions(&samples, &[])?;
+        findings.extend(doubts::missing_rows(&samples.times_s, samples.step_s));
         circles.push((samples, smooth));
     }
     if fastest < 2.0 * SLOWEST {
@@ -77,9 +97,15 @@ pub fn identify_circles(tracks: &[Track]) -> Result<OnCircles, IdentifyError> {
     for (samples, smooth) in &circles {
         rows.add(samples, smooth);
     }
-    rows.solve().ok_or(IdentifyError::Track(TrackError::Short {
+    let mut found = rows.solve().ok_or(IdentifyError::Track(TrackError::Short {
         samples: rows.used,
-    }))
+    }))?;
+    for (samples, _) in &circles {
+        findings.extend(doubts::check_points(&found.points, samples, measured)?);
+        findings.dedup();
+    }
+    found.findings = findings;
+    Ok(found)
 }
 
 /// Speeds of points with equal factors between them.
@@ -181,6 +207,7 @@ impl Rows {
             inertia: value(nodes).unwrap_or(0.0),
             offset: value(nodes + 1).unwrap_or(0.0),
             left_out: left_out.map(|(_, speed)| *speed).collect(),
+            findings: Vec::new(),
         })
     }
 }

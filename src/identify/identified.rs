@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::curve::{Fit, FrictionCurve};
 use super::finding::TraceFinding;
+use super::measured::Measured;
 use super::pair::{Drift, Pair};
 use super::ripple::Ripple;
 use super::segment::Segment;
@@ -21,15 +22,18 @@ pub struct IdentifyOptions {
     pub accuracy: f64,
     /// The speed in mm/s or °/s at which the machine works.
     pub working_speed: f64,
+    /// What is known of the torque.
+    pub measured: Measured,
 }
 
 impl Default for IdentifyOptions {
-    /// Eight points, 2 %, 1 m/min.
+    /// Eight points, 2 %, 1 m/min, the actual torque of the drive.
     fn default() -> Self {
         Self {
             wanted: Wanted::Points(8),
             accuracy: 0.02,
             working_speed: 1000.0 / 60.0,
+            measured: Measured::default(),
         }
     }
 }
@@ -44,6 +48,9 @@ pub enum IdentifyError {
     /// No part of the recording has a constant speed.
     #[error("no part of the recording has a constant speed of at least 0.1 mm/s for 0.3 s")]
     NoSegments,
+    /// The recording is not what it seems.
+    #[error("{}: {}", .0.code, .0.message)]
+    Refused(TraceFinding),
     /// Only one direction was recorded.
     #[error("only one direction was recorded, so friction cannot be told from weight")]
     OneDirection,
@@ -59,8 +66,9 @@ pub enum IdentifyError {
 
 impl IdentifyError {
     /// What to do about it.
-    pub fn help(&self) -> &'static str {
+    pub fn help(&self) -> &str {
         match self {
+            Self::Refused(finding) => &finding.help,
             Self::Track(error) => error.help(),
             Self::NoSegments => {
                 "move the axis at constant speeds, each for a second or more; of circles the \
@@ -97,7 +105,7 @@ pub struct Identified {
     pub drift: Option<Drift>,
     /// Positions in mm or degrees, and what the torque there differs from the mean of its segment.
     pub residuals: Vec<[f64; 2]>,
-    /// What there is to say.
+    /// What there is to say; what makes the recording wrong comes first.
     pub findings: Vec<TraceFinding>,
 }
 

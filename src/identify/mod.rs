@@ -5,9 +5,12 @@
 //! Speeds are in mm/s or °/s, torque and friction in drive units.
 
 mod circles;
+mod clipped;
 mod curve;
+mod doubts;
 mod finding;
 mod identified;
+mod measured;
 mod pair;
 mod recorded;
 mod ripple;
@@ -15,19 +18,24 @@ mod segment;
 mod speeds;
 mod statistics;
 mod support;
+mod tight;
+mod timing;
 mod track;
+mod unit_doubts;
 mod verify;
 mod warnings;
 
-pub use circles::{OnCircles, identify_circles};
+pub use circles::{OnCircles, identify_circles, identify_measured_circles};
 pub use curve::{Fit, FrictionCurve};
 pub use finding::TraceFinding;
 pub use identified::{Identified, IdentifyError, IdentifyOptions};
+pub use measured::{Measured, TorqueKind};
 pub use pair::{Drift, Pair, Visit};
 pub use recorded::{AxisChannels, AxisRecording};
 pub use ripple::Ripple;
 pub use segment::Segment;
 pub use speeds::identify;
 pub use support::Wanted;
+pub use timing::Timing;
 pub use track::{Track, TrackError};
-pub use verify::{Predictor, Reversal, ScaleRange, Verified, verify};
+pub use verify::{Predictor, Reversal, ScaleRange, Verified, verify, verify_followed};

@@ -62,7 +62,7 @@ pub(super) struct Paired {
 impl Paired {
     /// The pairs of a recording of so many seconds, with their offset and their drift.
     pub(super) fn of(samples: &Samples, segments: &[Segment], duration_s: f64) -> Self {
-        let groups = by_speed(segments);
+        let groups = speeds_of(segments);
         let step = resolution(&samples.torques);
         let measure = Measure { samples, step };
         let mut pairs: Vec<Pair> = groups
@@ -111,7 +111,7 @@ impl Pair {
 }
 
 /// Segments with one speed, slowest first.
-fn by_speed(segments: &[Segment]) -> Vec<Vec<usize>> {
+pub(super) fn speeds_of(segments: &[Segment]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..segments.len()).collect();
     let speed = |index: usize| segments[index].velocity.abs();
     order.sort_by(|&one, &other| speed(one).total_cmp(&speed(other)));

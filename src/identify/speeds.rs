@@ -1,6 +1,8 @@
 //! The way from a recording at constant speeds to the points of a value list.
 
 use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
+use super::doubts;
+use super::finding::TraceFinding;
 use super::identified::{Identified, IdentifyError, IdentifyOptions};
 use super::pair::{Pair, Paired};
 use super::ripple::{residuals, wave};
@@ -17,10 +19,13 @@ use crate::lists::TablePoint;
 /// The recording cannot be used for that.
 pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, IdentifyError> {
     let mut samples = Samples::new(track)?;
-    let segments = segments(&samples);
+    let mut segments = segments(&samples);
     if segments.is_empty() {
         return Err(IdentifyError::NoSegments);
     }
+    let compensation = doubts::check_compensation(&options.measured)?;
+    doubts::check_directions(&samples, &segments)?;
+    let clipped = doubts::drop_clipped(&samples, &mut segments)?;
     let directions = |sign: f64| segments.iter().any(|it| it.velocity * sign > 0.0);
     if !(directions(1.0) && directions(-1.0)) {
         return Err(IdentifyError::OneDirection);
@@ -40,7 +45,15 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
     if pairs.iter().all(|pair| pair.offset.is_none()) {
         return Err(IdentifyError::OneDirection);
     }
+    let suspect = doubts::check_pairs(&pairs, &samples, &options.measured)?;
     check_friction(&pairs)?;
+    let rows = doubts::missing_rows(&samples.times_s, samples.step_s);
+    let tight = doubts::tight(&samples, &segments, &pairs);
+    let mut findings: Vec<TraceFinding> = [compensation, clipped, rows, tight]
+        .into_iter()
+        .flatten()
+        .collect();
+    findings.extend(suspect);
     let fit = fit(&pairs);
     let curve = match fit {
         Some(fit) if fit.chi_square <= WORST_CHI_SQUARE => FrictionCurve::Fit(fit),
@@ -66,14 +79,15 @@ pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, 
         ripple: wave.map(|wave| wave.ripple()),
         drift,
         residuals,
-        findings: Vec::new(),
+        findings,
         segments,
         pairs,
         offset,
         fit,
         curve,
     };
-    identified.findings = warnings::findings(&identified, options);
+    let lacks = warnings::findings(&identified, options);
+    identified.findings.extend(lacks);
     Ok(identified)
 }
 

@@ -3,6 +3,7 @@
 use super::curve::solve_linear;
 use super::identified::IdentifyError;
 use super::statistics::{count, moving_average, noise_of, samples_in};
+use super::timing::{Followed, Timing};
 use super::track::{Samples, Track};
 use crate::current::{
     AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
@@ -20,9 +21,8 @@ pub struct Verified {
     pub offset: f64,
     /// Torque of an acceleration of 1 mm/s², in drive units.
     pub inertia: f64,
-    /// By how many samples the recorded torque comes after the predicted one; `None` where no reversal
-    /// shows it.
-    pub lag: Option<i32>,
+    /// What the following error tells of the timing of the list.
+    pub timing: Timing,
     /// The time between two samples.
     pub step_s: f64,
     /// The CNC cycle, in which the control computes the additive current.
@@ -67,9 +67,6 @@ const AVERAGED_S: f64 = 0.01;
 /// Samples around reversals say nothing of the scale, so many s after them.
 const AFTER_S: f64 = 0.05;
 
-/// The lag is looked for within so many samples.
-const MOST_LAG: i32 = 30;
-
 /// A range with fewer samples has no scale.
 const FEWEST: f64 = 100.0;
 
@@ -84,12 +81,25 @@ pub struct Predictor<'a> {
     pub cycle_s: Option<f64>,
 }
 
-/// Compares a recording with the additive current that a control computes from a value list
-/// (chapter 4 of the rules).
+/// The same as [`verify_followed`] without a following error: the timing of the list stays open.
 ///
 /// # Errors
 /// The recording cannot be used, or the axis moves in one direction only.
 pub fn verify(track: &Track, predictor: &Predictor<'_>) -> Result<Verified, IdentifyError> {
+    verify_followed(track, &[], predictor)
+}
+
+/// Compares a recording with the additive current that a control computes from a value list
+/// (chapter 4 of the rules). Following errors are commanded less actual positions in 0.1 µm or
+/// 0.0001°, one for each sample of the track, or none.
+///
+/// # Errors
+/// The recording cannot be used, or the axis moves in one direction only.
+pub fn verify_followed(
+    track: &Track,
+    following_errors: &[f64],
+    predictor: &Predictor<'_>,
+) -> Result<Verified, IdentifyError> {
     let samples = Samples::new(track)?;
     let motion = Motion::of(&samples, predictor);
     let directions = |sign: f64| motion.signs.iter().any(|it| it * sign > 0.0);
@@ -124,14 +134,33 @@ pub fn verify(track: &Track, predictor: &Predictor<'_>) -> Result<Verified, Iden
         .copied()
         .filter(|&at| motion.turns_at_once(at))
         .collect();
+    let errors: Vec<f64> = following_errors
+        .iter()
+        .map(|it| it / POSITION_UNITS_PER_MM)
+        .collect();
+    let cycle_s = predictor.cycle_s.unwrap_or(samples.step_s);
+    let followed = Followed {
+        samples: &samples,
+        errors: &errors,
+        predicted: &motion.predicted,
+        accelerations: &motion.accelerations,
+        turns: &at_once,
+        signs: &motion.signs,
+        cycle: cycle_s / samples.step_s,
+    };
+    let is_followed = errors.len() == samples.torques.len();
     Ok(Verified {
         scale,
         ranges: ranges.collect(),
         offset: whole.offset,
         inertia: whole.inertia,
-        lag: motion.lag(&rest, &at_once),
+        timing: if is_followed {
+            followed.timing()
+        } else {
+            Timing::Open
+        },
         step_s: samples.step_s,
-        cycle_s: predictor.cycle_s.unwrap_or(samples.step_s),
+        cycle_s,
         residual: (squares / count(used.len())).sqrt(),
         reversals: turns
             .iter()
@@ -269,29 +298,6 @@ impl Motion {
         before.is_some_and(|index| self.velocities[index] * self.velocities[at] < 0.0)
     }
 
-    /// By how many samples what was recorded comes after what is predicted, at the changes of direction.
-    fn lag(&self, rest: &[f64], turns: &[usize]) -> Option<i32> {
-        const AROUND: i32 = 60;
-        let apart = |lag: i32| -> f64 {
-            let at_turn = |&turn: &usize| -> f64 {
-                let turn = i32::try_from(turn).unwrap_or(i32::MAX);
-                let square = |offset: i32| {
-                    let at = turn.checked_add(offset)?;
-                    let then = usize::try_from(at.checked_sub(lag)?).ok()?;
-                    let recorded = rest.get(usize::try_from(at).ok()?)?;
-                    Some((recorded - self.predicted.get(then)?).powi(2))
-                };
-                (-AROUND..AROUND).filter_map(square).sum()
-            };
-            turns.iter().map(at_turn).sum()
-        };
-        let lags = (-MOST_LAG..=MOST_LAG).map(|lag| (lag, apart(lag)));
-        let best = lags
-            .min_by(|one, other| one.1.total_cmp(&other.1))
-            .map(|it| it.0);
-        best.filter(|lag| !turns.is_empty() && lag.abs() < MOST_LAG)
-    }
-
     fn reversal(&self, samples: &Samples, rest: &[f64], at: usize) -> Option<Reversal> {
         let width = samples_in(0.02, samples.step_s);
         let mean = |values: &[f64]| values.iter().sum::<f64>() / count(values.len());
@@ -390,15 +396,8 @@ impl Verified {
                 range.to
             ));
         }
-        let cycles = self
-            .lag
-            .map(|lag| (f64::from(lag) * self.step_s / self.cycle_s).round());
-        if let Some(cycles) = cycles.filter(|cycles| cycles.abs() > 1.0) {
-            let word = if cycles > 0.0 { "early" } else { "late" };
-            said.push(format!(
-                "the list is {} cycles {word} at reversals",
-                cycles.abs()
-            ));
+        if let Some(word) = self.timing.early_or_late() {
+            said.push(format!("the list comes {word} at reversals"));
         }
         said
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::diagnostic::Rounded;
+use crate::diagnostic::{Rounded, Severity};
 use crate::identify::{AxisRecording, Fit, FrictionCurve, Identified, TraceFinding};
 
 /// A recording and what was identified in it.
@@ -30,6 +30,16 @@ impl IdentifyReport {
             .findings
             .iter()
             .chain(&self.identified.findings)
+    }
+
+    /// What is wrong with the recording, each a line for the written list (R6.21).
+    pub fn faults(&self) -> Vec<String> {
+        let faults = self
+            .findings()
+            .filter(|it| it.severity == Severity::Warning);
+        faults
+            .map(|it| format!("{}: {}", it.code, it.message))
+            .collect()
     }
 
     /// The unit of torque and friction.
@@ -58,6 +68,13 @@ pub fn render_text(report: &IdentifyReport) -> String {
         axis.unwrap_or_default(),
         found.segments.len()
     );
+    if report.findings().next().is_some() {
+        // What is wrong comes before the list (R6.21).
+        let mut said = String::new();
+        write_findings(report.findings(), &mut said);
+        out.push_str(said.trim_start());
+        out.push('\n');
+    }
     push_pairs(&mut out, found);
     let _ = writeln!(
         out,
@@ -84,7 +101,6 @@ pub fn render_text(report: &IdentifyReport) -> String {
     for remark in &report.recording.remarks {
         let _ = writeln!(out, "\nnote: {}", visible_line(remark));
     }
-    write_findings(report.findings(), &mut out);
     out
 }
 

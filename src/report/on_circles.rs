@@ -8,7 +8,7 @@ use super::findings::write_findings;
 use super::identify::PointRecord;
 use super::strings::to_pretty;
 use super::visible::visible_line;
-use crate::diagnostic::Rounded;
+use crate::diagnostic::{Rounded, Severity};
 use crate::identify::{AxisRecording, OnCircles, TraceFinding};
 
 /// Recorded circles and the friction that was found on them.
@@ -34,10 +34,20 @@ impl OnCirclesReport {
         units.into_iter().next().unwrap_or("drive units")
     }
 
-    /// The findings about the channels, those of several files once.
+    /// What is wrong with the recordings, each a line for the written list (R6.21).
+    pub fn faults(&self) -> Vec<String> {
+        let findings = self.findings().into_iter();
+        let faults = findings.filter(|it| it.severity == Severity::Warning);
+        faults
+            .map(|it| format!("{}: {}", it.code, it.message))
+            .collect()
+    }
+
+    /// The findings about the channels, those of several files once, then those about the friction.
     fn findings(&self) -> Vec<&TraceFinding> {
         let mut findings: Vec<&TraceFinding> = Vec::new();
-        for finding in self.recordings.iter().flat_map(|it| &it.findings) {
+        let of_files = self.recordings.iter().flat_map(|it| &it.findings);
+        for finding in of_files.chain(&self.found.findings) {
             if !findings.contains(&finding) {
                 findings.push(finding);
             }

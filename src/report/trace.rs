@@ -95,10 +95,16 @@ fn push_channel(out: &mut String, summary: &ChannelSummary<'_>) {
     if summary.missing > 0 {
         odd.push(format!("{} samples are no numbers", summary.missing));
     }
-    if channel.is_drawn_scaled {
-        odd.push(
-            "drawn by Scope with a factor or an offset, which is not in the samples".to_owned(),
-        );
+    if let Some(drawn) = &channel.drawn {
+        odd.push(format!(
+            "drawn by Scope with the factor {} and the offset {}",
+            drawn.factor, drawn.offset
+        ));
+    }
+    if let Some([factor, offset]) = channel.unit_scale {
+        odd.push(format!(
+            "the unit is scaled by Scope, with the factor {factor} and the offset {offset}"
+        ));
     }
     for odd in odd {
         let _ = writeln!(out, "{:>8} {odd}", "");

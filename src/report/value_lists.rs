@@ -57,6 +57,8 @@ pub struct IdentifiedFrom<'a> {
     pub from: &'a str,
     /// The unit of torque and friction.
     pub unit: &'a str,
+    /// What is wrong with the recordings, each a line.
+    pub faults: &'a [String],
 }
 
 /// An identified value list, written for a build.
@@ -75,7 +77,9 @@ pub fn render_identified(
     );
     let unit = format!("Outputs are in {}", visible_line(made.unit));
     let points = Points::of_build(build);
+    let faults: Vec<_> = made.faults.iter().map(|it| visible_line(it)).collect();
     let mut remarks = vec![from.as_str(), unit.as_str()];
+    remarks.extend(faults.iter().map(|it| it.as_ref()));
     if points == Points::Real {
         remarks.push(FRACTIONS);
     }

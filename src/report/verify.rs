@@ -8,7 +8,7 @@ use super::findings::write_findings;
 use super::strings::to_pretty;
 use super::visible::visible_line;
 use crate::diagnostic::Rounded;
-use crate::identify::{AxisRecording, TraceFinding, Verified};
+use crate::identify::{AxisRecording, Timing, TraceFinding, Verified};
 
 /// A recording and how a value list fits it.
 #[derive(Debug, Clone)]
@@ -35,11 +35,12 @@ pub fn render_text(report: &VerifyReport) -> String {
     );
     let verdict = verified.verdict();
     if verdict.is_empty() {
-        out.push_str("the list fits the recording\n");
+        out.push_str("the list fits the recorded torque\n");
     }
     for line in verdict {
         let _ = writeln!(out, "{line}");
     }
+    let _ = writeln!(out, "{}", verified.timing.sentence());
     let _ = writeln!(
         out,
         "\n{:>12} {:>12} {:>20}",
@@ -54,10 +55,9 @@ pub fn render_text(report: &VerifyReport) -> String {
             Rounded(range.scale, 3)
         );
     }
-    let lag = verified.lag.map_or("-".to_owned(), |lag| lag.to_string());
     let _ = writeln!(
         out,
-        "\nall speeds {}, offset {}, inertia {} per mm/s², lag {lag} samples, residual {:.3}",
+        "\nall speeds {}, offset {}, inertia {} per mm/s², residual {:.3}",
         Rounded(verified.scale, 3),
         Rounded(verified.offset, 3),
         Rounded(verified.inertia, 6),
@@ -99,7 +99,7 @@ struct Document<'a> {
     ranges: Vec<RangeRecord>,
     offset: f64,
     inertia: f64,
-    lag: Option<i32>,
+    timing: Timing,
     step_s: f64,
     residual: f64,
     reversals: Vec<ReversalRecord>,
@@ -142,7 +142,7 @@ pub fn render_json(report: &VerifyReport) -> String {
         ranges: ranges.collect(),
         offset: verified.offset,
         inertia: verified.inertia,
-        lag: verified.lag,
+        timing: verified.timing,
         step_s: verified.step_s,
         residual: verified.residual,
         reversals: reversals.collect(),

@@ -28,8 +28,94 @@ pub struct Channel {
     pub object: Option<CncObject>,
     /// The time between two samples that the file announces.
     pub sample_time_s: Option<f64>,
-    /// Scope draws the channel with a factor or an offset, which its values do not contain.
+    /// Scope draws the channel with a factor or an offset.
     pub is_drawn_scaled: bool,
+    /// The factor and the offset, with what tells whether the samples contain them.
+    pub drawn: Option<Drawn>,
+    /// `Unit ScaleFactor` and `Unit Offset` of Scope, where they are not 1 and 0.
+    pub unit_scale: Option<[f64; 2]>,
+}
+
+/// Factor and offset with which Scope draws a channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drawn {
+    /// `ScaleFactor`.
+    pub factor: f64,
+    /// `Offset`.
+    pub offset: f64,
+    /// Whether the variable is of a type without decimals.
+    pub is_whole: bool,
+    /// The least and the greatest drawn value, where the header has them.
+    pub range: Option<[f64; 2]>,
+}
+
+/// Whether samples contain the factor and the offset of the drawing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Contains {
+    /// They are in the samples.
+    Scale,
+    /// The samples are those of the variable.
+    Raw,
+    /// Nothing in the file tells.
+    Open,
+}
+
+/// Fewer different values tell nothing.
+const TELLING: usize = 8;
+
+#[allow(clippy::cast_possible_truncation)] // what a variable of the control holds
+fn as_whole(value: f64) -> i64 {
+    value as i64
+}
+
+impl Drawn {
+    /// What the samples contain, as far as the range in the header or the type of the variable tells
+    /// (R6.23).
+    pub fn contained_in(&self, samples: &[f64]) -> Contains {
+        let finite = || samples.iter().copied().filter(|it| it.is_finite());
+        let [least, most] = finite().fold([f64::MAX, f64::MIN], |[least, most], it| {
+            [least.min(it), most.max(it)]
+        });
+        if least > most {
+            return Contains::Open;
+        }
+        if let Some([low, high]) = self.range {
+            let scaled = [least, most].map(|it| it * self.factor + self.offset);
+            let scaled = [scaled[0].min(scaled[1]), scaled[0].max(scaled[1])];
+            let near = |found: [f64; 2]| {
+                let tolerance = 1e-6 * (high.abs() + low.abs());
+                (found[0] - low).abs() <= tolerance && (found[1] - high).abs() <= tolerance
+            };
+            match (near([least, most]), near(scaled)) {
+                (true, false) => return Contains::Scale,
+                (false, true) => return Contains::Raw,
+                _ => {}
+            }
+        }
+        if !self.is_whole {
+            return Contains::Open;
+        }
+        if finite().any(|it| it.fract() != 0.0) {
+            return Contains::Scale;
+        }
+        // Both are whole: few values may lie on the coarser grid by chance, many do not.
+        let mut values: Vec<i64> = finite().map(as_whole).collect();
+        values.sort_unstable();
+        values.dedup();
+        let step = self.factor.abs();
+        if values.len() < TELLING || (step - 1.0).abs() < 1e-9 {
+            return Contains::Open;
+        }
+        let is_multiple = |it: f64| {
+            let rest = ((it - self.offset) / self.factor).fract().abs();
+            rest.min(1.0 - rest) < 1e-6
+        };
+        if step > 1.0 && finite().all(is_multiple) {
+            return Contains::Scale;
+        }
+        Contains::Raw
+    }
 }
 
 /// An object of the CNC as ADS addresses it.

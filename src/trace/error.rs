@@ -11,6 +11,9 @@ pub enum TraceProblem {
     /// A file of bytes, not of text.
     #[error("it is no text, but binary")]
     Binary,
+    /// A file that gzip compressed.
+    #[error("it is compressed with gzip")]
+    Gzip,
     /// A text without a row of numbers.
     #[error("it holds no row of numbers")]
     NoRows,
@@ -116,6 +119,7 @@ impl TraceProblem {
                 "export the recording as CSV: in TwinCAT Scope `Export`, or with \
                  `TC3ScopeExportTool.exe svd=FILE.svdx target=FILE.csv silent`"
             }
+            Self::Gzip => "unpack it first, with `gunzip` or any archiver",
             Self::NoRows => {
                 "a trace is a CSV file with a header, an export of TwinCAT Scope or the XML of a SINUMERIK trace"
             }
@@ -158,6 +162,20 @@ pub enum SelectError {
         wanted: String,
         /// Those that fit.
         found: Vec<String>,
+    },
+    /// A unit that Scope scales, so that the samples are in another one.
+    #[error(
+        "`{channel}` has the unit scale {factor} and the unit offset {offset}, so its samples are not in `{unit}`"
+    )]
+    UnitScaled {
+        /// The channel.
+        channel: String,
+        /// The unit in the header.
+        unit: String,
+        /// `Unit ScaleFactor`, as a text.
+        factor: String,
+        /// `Unit Offset`, as a text.
+        offset: String,
     },
     /// Channels that are needed and not named.
     #[error("the trace has {lacks}, only {}", listed(.found))]
@@ -213,6 +231,10 @@ impl SelectError {
                  or give the axis"
                     .to_owned(),
             ),
+            Self::UnitScaled { channel, .. } => Some(format!(
+                "export it with the unit scale 1 and the unit offset 0, or name the unit of its samples, \
+                 as in `{channel}=mm/s`"
+            )),
             Self::Lacks { help, .. } => Some(help.clone()),
         }
     }

@@ -41,6 +41,9 @@ enum Form {
 /// So many bytes tell what a file is.
 const ENOUGH: usize = 1024;
 
+/// The first bytes of a file that gzip compressed.
+const GZIP: &[u8] = b"\x1f\x8b";
+
 impl<'a> TraceReader<'a> {
     /// A reader that asks once which channels are kept, and takes so many rows.
     pub fn new(
@@ -92,6 +95,9 @@ impl<'a> TraceReader<'a> {
     /// Tells by the first bytes what the file is.
     fn begin(&mut self) -> Result<(), TraceProblem> {
         let first = std::mem::take(&mut self.first);
+        if first.starts_with(GZIP) {
+            return Err(TraceProblem::Gzip);
+        }
         let mark = self.letters.begin(&first);
         let text = self.letters.narrow(&first[mark..]).into_owned();
         if text.iter().take(ENOUGH).any(|&byte| byte == 0) {

@@ -5,13 +5,13 @@
 //! group begins.
 
 use super::cell::{Separator, is_data, text};
-use super::channel::{Channel, CncObject, parse_address};
+use super::channel::{Channel, CncObject, Drawn, parse_address};
 use super::columns::{Column, Columns, Group, Line, TimeScale};
 use super::error::TraceProblem;
 use super::recording::Layout;
 
 /// The attributes of channels. What begins another one stands before it.
-const ATTRIBUTES: [&str; 19] = [
+const ATTRIBUTES: [&str; 21] = [
     "Name",
     "SymbolComment",
     "SymbolName",
@@ -31,7 +31,12 @@ const ATTRIBUTES: [&str; 19] = [
     "Unit ScaleFactor",
     "Unit Offset",
     "Unit",
+    "Min",
+    "Max",
 ];
+
+/// Attributes that an export does not begin with: a table may have columns of these names.
+const NEVER_FIRST: [&str; 2] = ["Min", "Max"];
 
 /// The rows about the file, above those about channels.
 const OF_FILE: [&str; 3] = ["File", "Starttime of export", "Endtime of export"];
@@ -70,7 +75,7 @@ pub(super) fn separator_of(above: &[Line]) -> Option<Separator> {
     let first = above
         .iter()
         .find(|line| !line.bytes.trim_ascii().is_empty())?;
-    key_of(&first.bytes)?;
+    key_of(&first.bytes).filter(|(key, _)| !NEVER_FIRST.contains(key))?;
     above.iter().find_map(|line| {
         let (key, separator) = key_of(&line.bytes)?;
         let after = line.bytes.get(key.len()..).unwrap_or_default();
@@ -252,6 +257,9 @@ fn channel(cell: &dyn Fn(&str) -> Option<String>, at: usize) -> Channel {
     let address = |key: &str| cell(key).as_deref().and_then(parse_address);
     let number = |key: &str| cell(key).and_then(|text| text.replace(',', ".").parse::<f64>().ok());
     let is_other = |key: &str, plain: f64| number(key).is_some_and(|it| (it - plain).abs() > 0.0);
+    let or = |key: &str, plain: f64| number(key).unwrap_or(plain);
+    let is_drawn_scaled = is_other("ScaleFactor", 1.0) || is_other("Offset", 0.0);
+    let is_unit_scaled = is_other("Unit ScaleFactor", 1.0) || is_other("Unit Offset", 0.0);
     let name = cell("Name").or_else(|| (!symbol.is_empty()).then(|| symbol.clone()));
     Channel {
         name: name.unwrap_or_else(|| format!("column {}", at + 1)),
@@ -264,9 +272,28 @@ fn channel(cell: &dyn Fn(&str) -> Option<String>, at: usize) -> Channel {
             .or_else(|| number("SampleTime"))
             .filter(|&ms| ms > 0.0 && ms.is_finite())
             .map(|ms| ms / 1000.0),
-        is_drawn_scaled: is_other("ScaleFactor", 1.0) || is_other("Offset", 0.0),
+        is_drawn_scaled,
+        drawn: is_drawn_scaled.then(|| Drawn {
+            factor: or("ScaleFactor", 1.0),
+            offset: or("Offset", 0.0),
+            is_whole: cell("Data-Type").is_some_and(|it| is_whole(&it)),
+            range: number("Min")
+                .zip(number("Max"))
+                .map(|(min, max)| [min, max]),
+        }),
+        unit_scale: is_unit_scaled.then(|| [or("Unit ScaleFactor", 1.0), or("Unit Offset", 0.0)]),
         symbol,
     }
+}
+
+/// Whether a type of a variable has no decimals.
+fn is_whole(data_type: &str) -> bool {
+    let name = data_type.trim().to_uppercase();
+    let bare = name.trim_end_matches(|it: char| it.is_ascii_digit());
+    [
+        "INT", "SINT", "USINT", "UINT", "DINT", "UDINT", "LINT", "ULINT", "BYTE", "WORD", "DWORD",
+    ]
+    .contains(&bare)
 }
 
 /// A row of attributes.

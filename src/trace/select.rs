@@ -19,6 +19,10 @@ pub struct ChannelSelection {
     pub velocity: Option<String>,
     /// The channel of the torque or the current.
     pub torque: Option<String>,
+    /// The channel of the actual positions, beside that of the commanded ones.
+    pub actual_position: Option<String>,
+    /// The channel of the following error, commanded less actual position.
+    pub following_error: Option<String>,
     /// Units of channels that the file does not name, or not rightly.
     pub units: Vec<(String, Unit)>,
 }
@@ -100,7 +104,9 @@ impl ChannelSelection {
             })?),
             None => Self::taken(quantity, channels),
         };
-        Ok(found.map(|channel| self.pick(channel, quantity, channels)))
+        found
+            .map(|channel| self.pick(channel, quantity, channels))
+            .transpose()
     }
 
     /// The same for a channel that must be there.
@@ -137,19 +143,28 @@ impl ChannelSelection {
         quantity: ChannelQuantity,
         channels: &[Channel],
     ) -> Result<Pick, SelectError> {
-        Ok(self.pick(self.named(wanted, channels)?, quantity, channels))
+        self.pick(self.named(wanted, channels)?, quantity, channels)
     }
 
     /// The channel of the positions of an axis by the name of the axis alone, with its unit where
     /// that is one of positions.
-    pub fn position_of(&self, axis: &str, channels: &[Channel]) -> Option<Pick> {
+    ///
+    /// # Errors
+    /// Scope scales the unit.
+    pub fn position_of(
+        &self,
+        axis: &str,
+        channels: &[Channel],
+    ) -> Result<Option<Pick>, SelectError> {
         let found = channels.iter().position(|channel| {
             let (name, unit) = split_unit(&channel.name);
             let unit = channel.unit.as_deref().or(unit).map(Unit::parse);
             let fits = unit.is_none_or(|unit| unit.is_some_and(|it| it.quantity == Position));
             name.eq_ignore_ascii_case(axis) && fits
         });
-        found.map(|channel| self.pick(ChannelIndex(channel), Position, channels))
+        found
+            .map(|channel| self.pick(ChannelIndex(channel), Position, channels))
+            .transpose()
     }
 
     /// The channel that has the short name of a quantity.
@@ -234,7 +249,12 @@ impl ChannelSelection {
             })
     }
 
-    fn pick(&self, channel: ChannelIndex, quantity: ChannelQuantity, channels: &[Channel]) -> Pick {
+    fn pick(
+        &self,
+        channel: ChannelIndex,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Pick, SelectError> {
         let mut of_user = None;
         for (name, unit) in &self.units {
             let role = quantity.as_str().eq_ignore_ascii_case(name);
@@ -252,12 +272,23 @@ impl ChannelSelection {
             .as_deref()
             .or_else(|| split_unit(&described.name).1)
             .and_then(Unit::parse);
+        if let Some([factor, offset]) = described.unit_scale
+            && of_user.is_none_or(|unit| unit.quantity != quantity)
+            && quantity != ChannelQuantity::Time
+        {
+            return Err(SelectError::UnitScaled {
+                channel: described.name.clone(),
+                unit: described.unit.clone().unwrap_or_default(),
+                factor: factor.to_string(),
+                offset: offset.to_string(),
+            });
+        }
         let unit = of_user.or(of_file).filter(|unit| unit.quantity == quantity);
-        Pick {
+        Ok(Pick {
             channel,
             unit: unit.unwrap_or(Unit::own(quantity)),
             is_unit_assumed: unit.is_none(),
-        }
+        })
     }
 }
 

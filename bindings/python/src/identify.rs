@@ -27,6 +27,7 @@ pub(crate) struct PyIdentified {
     axis: Option<String>,
     from: String,
     unit: String,
+    faults: Vec<String>,
 }
 
 /// The recordings of an axis.
@@ -64,7 +65,7 @@ pub(crate) fn identify(
         position,
         velocity,
         torque,
-        units: Vec::new(),
+        ..ChannelSelection::default()
     };
     for (channel, unit) in units.unwrap_or_default() {
         let known = Unit::parse(&unit).ok_or_else(|| {
@@ -116,16 +117,19 @@ impl Recorded {
                 .with_help("give one trace of constant speeds, or `circles=True` for circles"));
         };
         let recording = read_axis(trace, &self.selection, self.cycle_s)?;
+        let mut options = *options;
+        options.measured = recording.measured;
         let report = IdentifyReport {
             name: shown_path(trace),
             axis: self.selection.axis.clone(),
-            identified: find(&recording.track, options).map_err(Failure::of_identification)?,
+            identified: find(&recording.track, &options).map_err(Failure::of_identification)?,
             recording,
         };
         Ok(PyIdentified {
             record: render_json(&report),
             list: report.identified.list(),
             unit: report.unit().to_owned(),
+            faults: report.faults(),
             axis: report.axis,
             from: report.name,
         })
@@ -150,6 +154,7 @@ impl Recorded {
             record: on_circles::render_json(&report),
             list: report.found.list(),
             unit: report.unit().to_owned(),
+            faults: report.faults(),
             from: report.names.join(", "),
             axis: report.axis,
         })
@@ -201,6 +206,7 @@ impl PyIdentified {
             axis: self.axis.as_deref(),
             from: &self.from,
             unit: &self.unit,
+            faults: &self.faults,
         };
         Ok(render_identified(
             &self.list,

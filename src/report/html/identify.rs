@@ -30,8 +30,23 @@ const CHANNELS: Part = Part::new("channels", "Channels");
 pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io::Result<()> {
     let chart = friction_curve(report);
     let lead = format!("Identified from {}, in {}.", report.name, report.unit());
-    let parts = [CURVE, SPEEDS, FINDINGS, POSITION, SEGMENTS, REPORT];
+    let parts = [FINDINGS, CURVE, SPEEDS, POSITION, SEGMENTS, REPORT];
     let mut page = Page::open(out, &chart.title, &lead, &parts)?;
+    let findings: Vec<_> = report.findings().collect();
+    page.part(
+        FINDINGS,
+        &html! {
+            @if findings.is_empty() {
+                p { "Nothing is odd in this recording." }
+            } @else {
+                ul {
+                    @for finding in &findings {
+                        li { strong { (finding.code.as_str()) } ": " (finding.message) ". " (finding.help) "." }
+                    }
+                }
+            }
+        },
+    )?;
     page.part(CURVE, &figure(chart.render(Frame::Inside("curve"))))?;
     let found = &report.identified;
     let table = Table {
@@ -58,21 +73,6 @@ pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io
         Row::new(&format!("{:.3}", pair.speed), cells.to_vec())
     });
     page.part(SPEEDS, &table.render(rows))?;
-    let findings: Vec<_> = report.findings().collect();
-    page.part(
-        FINDINGS,
-        &html! {
-            @if findings.is_empty() {
-                p { "Nothing is odd in this recording." }
-            } @else {
-                ul {
-                    @for finding in &findings {
-                        li { strong { (finding.code.as_str()) } ": " (finding.message) ". " (finding.help) "." }
-                    }
-                }
-            }
-        },
-    )?;
     let positions = residuals_over_position(report).render(Frame::Inside("position"));
     page.part(POSITION, &figure(positions))?;
     let segments = segments_on_trace(report).render(Frame::Inside("segments"));

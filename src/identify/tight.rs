@@ -1,0 +1,98 @@
+//! Places where the axis moves harder than elsewhere, in both directions (R6.21).
+
+use std::collections::BTreeMap;
+
+use super::segment::Segment;
+use super::statistics::{count, median, samples_in};
+use super::track::Samples;
+
+/// Parts of the travel.
+const PARTS: f64 = 20.0;
+
+/// Residuals are averaged over so many s.
+const BLOCK_S: f64 = 0.01;
+
+/// A place needs so many blocks in each direction.
+const FEWEST: f64 = 8.0;
+
+/// So many standard errors are no accident.
+const SIGNIFICANT: f64 = 5.0;
+
+/// This part of the friction is worth a word.
+const PART: f64 = 0.05;
+
+/// A place that the axis passes harder.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TightSpot {
+    /// Its ends in mm or degrees.
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// How much harder at least, in drive units.
+    pub(super) more: f64,
+}
+
+/// Residuals of a place in one direction.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    count: f64,
+    sum: f64,
+    squares: f64,
+}
+
+impl Sums {
+    fn add(&mut self, value: f64) {
+        self.count += 1.0;
+        self.sum += value;
+        self.squares += value * value;
+    }
+
+    /// The mean where it is significant.
+    fn significant(&self) -> Option<f64> {
+        let mean = self.sum / self.count;
+        let spread = (self.squares / self.count - mean * mean).max(0.0);
+        // Neighbouring blocks may be alike: four of them count as one.
+        let error = (4.0 * spread / self.count).sqrt();
+        (self.count >= FEWEST && mean > SIGNIFICANT * error).then_some(mean)
+    }
+}
+
+/// The tightest place of the travel, against a friction of `level` with its sign.
+pub(super) fn tight_spot(samples: &Samples, segments: &[Segment], level: f64) -> Option<TightSpot> {
+    let places = segments
+        .iter()
+        .flat_map(|it| [it.samples.start, it.samples.end - 1])
+        .map(|at| samples.positions[at]);
+    let [low, high] = places.fold([f64::MAX, f64::MIN], |[low, high], at| {
+        [low.min(at), high.max(at)]
+    });
+    let width = (high - low) / PARTS;
+    if width.is_nan() || width <= 0.0 {
+        return None;
+    }
+    let mut parts: BTreeMap<u8, [Sums; 2]> = BTreeMap::new();
+    let block = samples_in(BLOCK_S, samples.step_s);
+    for segment in segments {
+        let torques = &samples.torques[segment.samples.clone()];
+        let usual = median(torques)?;
+        let direction = usize::from(segment.velocity < 0.0);
+        let positions = samples.positions[segment.samples.clone()].chunks(block);
+        for (places, torques) in positions.zip(torques.chunks(block)) {
+            let mean = torques.iter().sum::<f64>() / count(torques.len());
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 0 to 20
+            let part = ((places[0] - low) / width).clamp(0.0, PARTS - 1.0) as u8;
+            parts.entry(part).or_default()[direction]
+                .add((mean - usual) * (segment.velocity * level).signum());
+        }
+    }
+    let spot = |(part, [forth, back]): (u8, [Sums; 2])| {
+        let more = forth.significant()?.min(back.significant()?);
+        let from = low + f64::from(part) * width;
+        (more > PART * level.abs()).then_some(TightSpot {
+            from,
+            to: from + width,
+            more,
+        })
+    };
+    let spots = parts.into_iter().filter_map(spot);
+    spots.max_by(|one, other| one.more.total_cmp(&other.more))
+}

@@ -8,6 +8,7 @@ use super::documents::{Document, Kind as TextKind};
 use super::parameters::{Page, keys_of, pages};
 use super::view::View;
 use crate::comp::Kind;
+use crate::syntax::{PieceKind, code_of, kind_at};
 
 /// What may stand at a place.
 pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<CompletionItem>> {
@@ -16,6 +17,8 @@ pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<C
     let line = document.line(at.position.line);
     let before = &line[..view.client.encoding.offset(line, at.position.character)];
     Some(match document.kind {
+        // Nothing is offered in comments and strings.
+        TextKind::Program if kind_at(line, before.len()) != PieceKind::Code => Vec::new(),
         TextKind::Program => match comp_words(before) {
             Some(words) => words,
             None => axes(view, document, before),
@@ -25,24 +28,11 @@ pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<C
     })
 }
 
-/// The code before the cursor; `None` inside a comment.
-fn code(before: &str) -> Option<&str> {
-    let mut depth = 0_u32;
-    for letter in before.chars() {
-        match letter {
-            ';' if depth == 0 => return None,
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-    }
-    (depth == 0).then_some(before)
-}
-
 /// The words that may stand in an open COMP bracket; `None` where none is open.
 fn comp_words(before: &str) -> Option<Vec<CompletionItem>> {
-    let open = code(before)?.rfind('[')?;
-    let inside = &before[open + 1..];
+    let code = code_of(before);
+    let open = code.rfind('[')?;
+    let inside = &code[open + 1..];
     if inside.contains(']') {
         return None;
     }
@@ -104,12 +94,12 @@ fn keyword(word: &str, about: &str) -> CompletionItem {
 /// The axes of the machine, where a word of a block may begin.
 fn axes(view: &View, document: &Document, before: &str) -> Vec<CompletionItem> {
     let run = view.analysis(&document.uri).and_then(|it| it.run.as_ref());
-    let (Some(run), Some(code)) = (run, code(before)) else {
+    let Some(run) = run else {
         return Vec::new();
     };
     let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-    let typed = code.trim_end_matches(is_name);
-    let is_block = !code.trim_start().starts_with(['$', '#', '%']);
+    let typed = before.trim_end_matches(is_name);
+    let is_block = !before.trim_start().starts_with(['$', '#', '%']);
     if !is_block || typed.ends_with(['.', '@', '[', '=']) {
         return Vec::new();
     }
@@ -167,6 +157,17 @@ mod tests {
     }
 
     #[test]
+    fn comments_before_a_bracket_do_not_count() {
+        // R12.6
+        let is_code = |line: &str, at: usize| kind_at(line, at) == PieceKind::Code;
+        assert!(is_code("V.P.A=\"(\" X[", 12) && words("V.P.A=\"(\" X[").is_some());
+        assert!(is_code("X1 (;) Y[", 9) && words("X1 (;) Y[").is_some());
+        assert!(words("X[COMP (all [of] them) ON ").is_some());
+        assert!(!is_code("#MSG [\"X[COMP ON\"]", 10));
+        assert!(!is_code("(X[COMP ", 8) && !is_code("; X[COMP ", 9) && !is_code("(a (b) X[", 9));
+    }
+
+    #[test]
     fn a_bracket_offers_what_may_follow() {
         // R12.6
         let all = |before: &str| words(before).map(|it| it.join(" "));
@@ -183,8 +184,7 @@ mod tests {
             "X[COMP ON FRICT] ",
             "N10 G1 X",
             "P1 = V.P.A[1 ",
-            "(X[COMP ",
-            "; X[COMP ",
+            "(X[COMP) ",
             "",
         ] {
             assert_eq!(words(none), None, "{none}");

@@ -158,13 +158,13 @@ fn comments() {
 #[test]
 fn a_call_may_go_on_in_the_next_line() {
     // R2.7, R2.74
-    let bench = Bench::new().file("a.nc", "N1 X[COMP OFF FRICT]\nM17");
+    let bench = Bench::new().file("b.nc", "N1 X[COMP OFF FRICT]\nM17");
     for call in [
         "LL \\\nOFF",
         "LL \\ ; a comment\n N20 OFF",
-        "L \\\n a.nc",
-        "L \\\n\"a.nc\"",
-        "L \\\nSEQUENCE [NAME=a.nc N1 N1]",
+        "L \\\n b.nc",
+        "L \\\n\"b.nc\"",
+        "L \\\nSEQUENCE [NAME=b.nc N1 N1]",
     ] {
         let said = bench.run(&[&format!(
             "%MAIN\n{call}\nM30\n%L OFF\nN1 X[COMP OFF FRICT]\nM17"

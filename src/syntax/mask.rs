@@ -1,7 +1,7 @@
 //! What the parser does not see of a line: comments, continuation signs, block numbers of continued
 //! lines and foreign characters are blanked out byte for byte.
 
-use super::pieces::{PieceKind, pieces};
+use super::pieces::{PieceKind, is_blank, pieces};
 use crate::text::Span;
 
 /// What masking found in a line.
@@ -61,11 +61,6 @@ pub(super) fn mask_number(code: &mut String, from: usize) {
         let end = start + 1 + length;
         code.replace_range(start..end, &" ".repeat(end - start));
     }
-}
-
-/// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
-pub(super) fn is_blank(c: char) -> bool {
-    c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
 }
 
 fn blank(code: &mut String, length: usize) {

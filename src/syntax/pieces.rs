@@ -3,7 +3,6 @@
 
 use std::ops::Range;
 
-use super::mask::is_blank;
 use super::texts::Texts;
 
 /// What a piece of a line is.
@@ -100,6 +99,11 @@ pub(crate) fn code_stretches(line: &str) -> impl Iterator<Item = &str> {
 pub(crate) fn code_words(line: &str) -> impl Iterator<Item = &str> {
     let is_part = |it: char| it.is_ascii_alphanumeric() || "_.@".contains(it);
     code_stretches(line).flat_map(move |code| code.split(move |it| !is_part(it)))
+}
+
+/// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
+pub(super) fn is_blank(c: char) -> bool {
+    c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
 }
 
 /// A control character that editors leave at the end of a file; within a block it is none of the

@@ -160,9 +160,10 @@ mod tests {
 
     #[test]
     fn a_place_is_code_unless_it_lies_inside_something_else() {
+        use PieceKind::{Code, Comment, Text};
+
         let text = "X1 (Y) \"Z\" ;";
         let kinds = [1, 4, 6, 8, 10, 12].map(|at| kind_at(text, at));
-        use PieceKind::{Code, Comment, Text};
         assert_eq!(kinds, [Code, Comment, Code, Text, Code, Comment]);
         assert_eq!(kind_at("X1 (Y", 5), Comment);
     }

@@ -231,6 +231,16 @@ fn a_comment_allows_a_message_where_it_is_said() {
             "FC404",
             "; frictcomp: allow FC404\nN1 X[COMP \\\n on \\\n FRICT]\nM30",
         ),
+        (
+            "N1 X[COMP \\ ; more\n on \\ (still)\n FRICT]\nM30",
+            "FC404",
+            "; frictcomp: allow FC404\nN1 X[COMP \\ ; more\n on \\ (still)\n FRICT]\nM30",
+        ),
+        (
+            "X[COMP on FRICT] ; C:\\\nM30",
+            "FC404",
+            "X[COMP on FRICT] ; C:\\ ; frictcomp: allow FC404\nM30",
+        ),
     ] {
         assert_eq!(of(text, code).as_deref(), Some(expected), "{text}");
     }

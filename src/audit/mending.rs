@@ -160,7 +160,9 @@ impl<R> Trial<'_, R> {
         let last = usize::try_from(last).unwrap_or_default();
         // Another program may follow in the same file.
         let after = lines.iter().enumerate().skip(last);
-        let section = after.clone().find(|(_, line)| line.starts_with('%'));
+        let section = after
+            .clone()
+            .find(|(_, line)| line.trim_start().starts_with('%'));
         let end = section.map_or(lines.len(), |(at, _)| at);
         let written = lines[..end]
             .iter()

@@ -1,12 +1,11 @@
 //! Which axes programs name, before they run (R9.74).
 
+use std::collections::BTreeSet;
 use std::fs::File;
-use std::io;
-use std::path::Path;
 
 use super::input::Input;
 use super::pieces::whole_lines;
-use crate::syntax::{calls_files, has_axis_word};
+use crate::syntax::{NamedAxes, Scan};
 
 /// The letters that are axes where no machine is described (R2.20).
 const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
@@ -15,9 +14,7 @@ const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
 /// look only says which to expect.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct AxesAhead {
-    found: Vec<&'static str>,
-    /// Names that were asked for, and whether they are there.
-    asked: Vec<(String, bool)>,
+    found: BTreeSet<String>,
     /// Names that programs of other runs may have.
     elsewhere: Vec<String>,
     /// Whether there may be more: in what is called, or comes through a pipe.
@@ -30,29 +27,33 @@ impl AxesAhead {
         inputs: impl IntoIterator<Item = &'a Input>,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Self {
-        let asked = names.into_iter().map(|name| (name.to_owned(), false));
-        let mut ahead = Self {
-            asked: asked.collect(),
-            ..Self::default()
-        };
+        let names = LETTERS.into_iter().chain(names).collect::<BTreeSet<_>>();
+        let mut ahead = Self::default();
+        let mut found = NamedAxes::new(names);
         for input in inputs {
+            let mut scan = Scan::new(found);
             match input {
-                Input::File(path) => {
+                Input::File(path) if path.is_file() => {
+                    let file = File::open(path);
+                    let looked = file.and_then(|file| whole_lines(file, |it| scan.feed(it)));
                     // What cannot be read is said when it is run.
-                    if ahead.read(path).is_err() {
-                        ahead.is_open = true;
-                    }
+                    ahead.is_open |= looked.is_err();
                 }
-                Input::Open(open) => ahead.look(open.text.as_bytes()),
-                Input::Stdin => ahead.is_open = true,
+                Input::Open(open) => scan.feed(open.text.as_bytes()),
+                Input::File(_) | Input::Stdin => ahead.is_open = true,
             }
+            found = scan.question;
         }
+        ahead.is_open |= found.calls_files();
+        ahead.found = found.into_names();
         ahead
     }
 
     /// The usual axes that occur, in the order of the machine.
     pub(crate) fn names(&self) -> impl Iterator<Item = &'static str> {
-        LETTERS.into_iter().filter(|name| self.found.contains(name))
+        LETTERS
+            .into_iter()
+            .filter(|name| self.found.contains(*name))
     }
 
     /// Other runs name the usual axes, and those of an earlier one.
@@ -63,33 +64,9 @@ impl AxesAhead {
 
     /// Whether an axis may occur.
     pub(crate) fn may_hold(&self, name: &str) -> bool {
-        let asked = self
-            .asked
-            .iter()
-            .any(|(known, found)| known == name && *found);
         let unseen = self.is_open && may_be_axis(name);
         let elsewhere = self.elsewhere.iter().any(|known| known == name);
-        unseen || asked || elsewhere || self.found.contains(&name)
-    }
-
-    fn read(&mut self, path: &Path) -> io::Result<()> {
-        if !path.is_file() {
-            self.is_open = true;
-            return Ok(());
-        }
-        whole_lines(File::open(path)?, |piece| self.look(piece))
-    }
-
-    fn look(&mut self, text: &[u8]) {
-        for name in LETTERS {
-            if !self.found.contains(&name) && has_axis_word(text, name.as_bytes()) {
-                self.found.push(name);
-            }
-        }
-        for (name, found) in &mut self.asked {
-            *found = *found || has_axis_word(text, name.as_bytes());
-        }
-        self.is_open = self.is_open || calls_files(text);
+        unseen || elsewhere || self.found.contains(name)
     }
 }
 
@@ -103,8 +80,9 @@ mod tests {
     use super::*;
 
     fn ahead(text: &str) -> (Vec<&'static str>, bool) {
-        let mut ahead = AxesAhead::default();
-        ahead.look(text.as_bytes());
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), text).unwrap();
+        let ahead = AxesAhead::of([&Input::File(file.path().to_owned())], []);
         (ahead.names().collect(), !ahead.is_open)
     }
 

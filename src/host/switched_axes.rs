@@ -5,14 +5,14 @@ use std::fs::File;
 
 use super::input::Input;
 use super::pieces::whole_lines;
-use crate::syntax::SwitchScan;
+use crate::syntax::{Scan, SwitchedAxes};
 
 /// The axes whose friction compensation the programs switch, sorted. What cannot be read is said
 /// when it is run; of what comes through a pipe nothing is known yet.
 pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<String> {
     let mut found = Vec::new();
     for input in inputs {
-        let mut scan = SwitchScan::default();
+        let mut scan = Scan::new(SwitchedAxes::default());
         match input {
             Input::File(path) if path.is_file() => {
                 if let Ok(file) = File::open(path) {
@@ -22,7 +22,7 @@ pub fn switched_axes<'a>(inputs: impl IntoIterator<Item = &'a Input>) -> Vec<Str
             Input::Open(open) => scan.feed(open.text.as_bytes()),
             Input::File(_) | Input::Stdin => {}
         }
-        found.extend(scan.into_axes());
+        found.extend(scan.question.0);
     }
     found.sort_unstable();
     found.dedup();

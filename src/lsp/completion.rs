@@ -13,6 +13,7 @@ use super::documents::{Document, Kind as TextKind};
 use super::parameters::{Page, keys_of, pages_for};
 use super::view::View;
 use crate::comp::Kind;
+use crate::syntax::{PieceKind, code_of, kind_at};
 
 /// What may stand at a place.
 pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<CompletionItem>> {
@@ -21,6 +22,8 @@ pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<C
     let line = document.line(at.position.line);
     let before = &line[..view.client.encoding.offset(line, at.position.character)];
     let offer = match document.kind {
+        // Nothing is offered in comments and strings.
+        TextKind::Program if kind_at(line, before.len()) != PieceKind::Code => None,
         TextKind::Program => comp_words(before).or_else(|| axes(view, document, before)),
         TextKind::List => list_keys(document, before),
         TextKind::Configuration => toml_keys(document, at.position.line, before),
@@ -69,20 +72,6 @@ impl Offer<'_> {
     }
 }
 
-/// The code before the cursor; `None` inside a comment.
-fn code(before: &str) -> Option<&str> {
-    let mut depth = 0_u32;
-    for letter in before.chars() {
-        match letter {
-            ';' if depth == 0 => return None,
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-    }
-    (depth == 0).then_some(before)
-}
-
 /// Splits off the letters of the word before the cursor.
 fn split_word(before: &str) -> (&str, &str) {
     let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
@@ -91,7 +80,7 @@ fn split_word(before: &str) -> (&str, &str) {
 
 /// The words that may stand in an open COMP bracket; `None` where none is open.
 fn comp_words(before: &str) -> Option<Offer<'_>> {
-    let open = code(before)?.rfind('[')?;
+    let open = code_of(before).rfind('[')?;
     let inside = &before[open + 1..];
     if inside.contains(']') {
         return None;
@@ -159,7 +148,7 @@ fn keyword(word: &str, about: &str) -> CompletionItem {
 /// A word with a digit is an address with its value: `X1` moves X, even beside an axis X10.
 fn axes<'t>(view: &View, document: &Document, before: &'t str) -> Option<Offer<'t>> {
     let run = view.analysis(&document.uri)?.run.as_ref()?;
-    let (above, typed) = split_word(code(before)?);
+    let (above, typed) = split_word(before);
     let begins_a_word = above.is_empty() || above.ends_with([' ', '\t']);
     let is_plain = !above.contains(['$', '#', '%', '"']) && !calls(above);
     let in_expression = above
@@ -249,6 +238,17 @@ mod tests {
     }
 
     #[test]
+    fn comments_before_a_bracket_do_not_count() {
+        // R12.6
+        let is_code = |line: &str, at: usize| kind_at(line, at) == PieceKind::Code;
+        assert!(is_code("V.P.A=\"(\" X[", 12) && words("V.P.A=\"(\" X[").is_some());
+        assert!(is_code("X1 (;) Y[", 9) && words("X1 (;) Y[").is_some());
+        assert!(words("X[COMP (all [of] them) ON ").is_some());
+        assert!(!is_code("#MSG [\"X[COMP ON\"]", 10));
+        assert!(!is_code("(X[COMP ", 8) && !is_code("; X[COMP ", 9) && !is_code("(a (b) X[", 9));
+    }
+
+    #[test]
     fn a_bracket_offers_what_may_follow() {
         // R12.6, R12.11
         for (before, offered) in [
@@ -277,8 +277,7 @@ mod tests {
             "P1 = V.P.A[C",
             "P1 = V.P.A[1 ",
             "P1 = [C",
-            "(X[COMP ",
-            "; X[COMP ",
+            "(X[COMP) ",
             "",
         ] {
             assert_eq!(words(none), None, "{none}");

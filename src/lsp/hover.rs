@@ -12,7 +12,8 @@ use super::parameters::page_of;
 use super::states::{Pass, StateBook};
 use super::view::View;
 use crate::comp::{CompCommand, Selection, State};
-use crate::syntax::parse_comp;
+use crate::syntax::ast::Item;
+use crate::syntax::parse_block;
 use crate::text::shown_path;
 
 /// What is said about the place under the pointer.
@@ -64,15 +65,18 @@ fn program(view: &View, document: &Document, position: Position) -> Option<Strin
 
 /// The COMP command around an offset of a line.
 fn command_at(line: &str, offset: usize) -> Option<CompCommand> {
-    let brackets = line.match_indices('[').filter_map(|(open, _)| {
-        let close = open + line[open..].find(']')? + 1;
-        let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-        let name = line[..open].trim_end().trim_end_matches(is_name).len();
-        Some((name, close))
+    let commands = parse_block(line)
+        .items
+        .into_iter()
+        .filter_map(|item| match item {
+            Item::Comp(command) => Some(command),
+            _ => None,
+        });
+    let mut around = commands.filter(|command| {
+        let place = command.span.range();
+        (place.start..=place.end).contains(&offset)
     });
-    let mut around = brackets.filter(|(start, end)| (*start..=*end).contains(&offset));
-    let (start, end) = around.next()?;
-    parse_comp(line[start..end].trim_start()).ok()
+    around.next()
 }
 
 /// What a COMP command does, as the documents say it.

@@ -1,9 +1,15 @@
 //! The names of a program: its subprograms and jump labels, where they stand and where they are used
-//! (R12.6). A look over the text is enough for it.
+//! (R12.6).
 
 use std::collections::BTreeMap;
 
-use crate::text::{LineSource, Span, TextLines};
+use crate::syntax::ast::Block;
+use crate::syntax::{
+    BlockReader, ControlBlock, FastPath, Named, Part, RawBlock, Stretch, control_part, names_in,
+};
+use crate::text::{LineIndex, Span, TextLines};
+
+pub(super) use crate::syntax::Role;
 
 /// What has a name.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -14,15 +20,6 @@ pub(super) enum Name {
     Label(usize, String),
     /// `L file.nc`.
     File(String),
-}
-
-/// Where a name stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
-    /// What has the name is here.
-    Definition,
-    /// It is called, or jumped to.
-    Use,
 }
 
 /// A name in the text.
@@ -54,45 +51,59 @@ pub(super) struct Outline {
     pub(super) folds: Vec<Fold>,
 }
 
-/// Statements that open a control block, and those that close it.
-const BLOCKS: [(&str, &str); 6] = [
-    ("$IF", "$ENDIF"),
-    ("$WHILE", "$ENDWHILE"),
-    ("$FOR", "$ENDFOR"),
-    ("$DO", "$ENDDO"),
-    ("$REPEAT", "$UNTIL"),
-    ("$SWITCH", "$ENDSWITCH"),
-];
-
 impl Outline {
     /// The outline of a text.
     pub(super) fn of(text: &str) -> Self {
+        let lines = LineIndex::new(text);
         let mut outline = Self::default();
-        let mut lines = TextLines::starting_at(text, 0);
+        let mut reader = BlockReader::new(TextLines::new(text), lines.first(), FastPath::On);
+        let mut block = Block::default();
         let (mut section, mut begin) = (0, None);
-        let mut open: Vec<(&str, u32)> = Vec::new();
-        let mut last = 0;
-        for number in 0_u32.. {
-            if !lines.advance() {
-                break;
+        let mut open: Vec<(ControlBlock, u32)> = Vec::new();
+        while let Some(raw) = reader.next(&mut block) {
+            let number = raw.line - lines.first();
+            let span_of = |span: Span| {
+                let place = |at: u32| place_in(&raw, at, |line| lines.line_span(text, line));
+                Span::new(place(span.start), place(span.end))
+            };
+            match raw.stretch {
+                Stretch::Program { name, .. } => {
+                    outline.fold(begin.replace(number), number);
+                    section += usize::from(number > 0);
+                    let (role, shown) = (Role::Definition, name.of(raw.text).to_owned());
+                    let (name, span) = (Name::Program(shown), span_of(name));
+                    if span.start < span.end {
+                        outline.mentions.push(Mention { name, role, span });
+                    }
+                }
+                Stretch::Block => {
+                    for found in names_in(&block, raw.text) {
+                        let name = match found.named {
+                            Named::Program => Name::Program(found.name),
+                            Named::Label => Name::Label(section, found.name),
+                            Named::File => Name::File(found.name),
+                        };
+                        let (role, span) = (found.role, span_of(found.span));
+                        outline.mentions.push(Mention { name, role, span });
+                    }
+                }
             }
-            let line = lines.line();
-            let code = without_comments(line.text);
-            if code.trim_start().starts_with('%') {
-                outline.fold(begin.replace(number), number);
-                section += usize::from(number > 0);
+            for item in &block.items {
+                match control_part(&block, item) {
+                    Some((kind, Part::Opener)) => open.push((kind, number)),
+                    Some((kind, Part::Closer)) => {
+                        if let Some(at) = open.iter().rposition(|(opened, _)| *opened == kind) {
+                            outline.fold(Some(open[at].1), number);
+                            open.truncate(at);
+                        }
+                    }
+                    Some((_, Part::Branch)) | None => {}
+                }
             }
-            outline.names(&code, (line.offset, section));
-            let word = statement(&code);
-            if let Some((_, close)) = BLOCKS.iter().find(|(open, _)| *open == word) {
-                open.push((close, number));
-            } else if let Some(at) = open.iter().rposition(|(close, _)| *close == word) {
-                outline.fold(Some(open[at].1), number);
-                open.truncate(at);
-            }
-            last = number;
         }
-        outline.fold(begin, last.saturating_add(1));
+        let ends_line = text.ends_with(['\n', '\r']);
+        let count = lines.lines() - usize::from(ends_line);
+        outline.fold(begin, u32::try_from(count).unwrap_or(u32::MAX));
         outline
     }
 
@@ -118,73 +129,6 @@ impl Outline {
             });
         }
     }
-
-    fn add(&mut self, (name, role): (Name, Role), (at, word): (usize, &str)) {
-        let span = Span::new(at, at + word.len());
-        self.mentions.push(Mention { name, role, span });
-    }
-
-    /// The names of a line without its comments, which begins at an offset of the text.
-    fn names(&mut self, code: &str, (offset, section): (usize, usize)) {
-        let trimmed = code.trim_start();
-        if let Some(header) = trimmed.strip_prefix('%') {
-            let header = match header.strip_prefix('L') {
-                Some(rest) if rest.starts_with([' ', '\t']) => rest,
-                _ => header,
-            };
-            let header = header.trim_start();
-            let name = header.split([' ', '\t']).next().unwrap_or_default();
-            if !name.is_empty() {
-                let at = offset + code.len() - header.len();
-                self.add(
-                    (Name::Program(name.to_owned()), Role::Definition),
-                    (at, name),
-                );
-            }
-            return;
-        }
-        let mut words = words(code);
-        words.retain(|(_, word)| !word.is_empty());
-        let mut is_jump = false;
-        for (at, (start, word)) in words.iter().enumerate() {
-            let after = code[start + word.len()..].trim_start();
-            let before = code[..*start].trim_end();
-            let next = words
-                .get(at + 1)
-                .filter(|(next, _)| code[start + word.len()..*next].trim().is_empty());
-            let place = (offset + start, *word);
-            if *word == "LL" || *word == "L" {
-                let Some((start, name)) =
-                    next.filter(|(_, name)| *name != "CYCLE" && *name != "SEQUENCE")
-                else {
-                    continue;
-                };
-                let name = file_name(code, *start, name);
-                let called = match *word {
-                    "LL" => Name::Program(name.to_owned()),
-                    _ => Name::File(name.to_owned()),
-                };
-                self.add((called, Role::Use), (offset + start, name));
-            } else if *word == "GOTO" {
-                is_jump = true;
-            } else if let Some(number) = word.strip_prefix('N').filter(|it| is_number(it)) {
-                let name = Name::Label(section, format!("N{}", number.trim_start_matches('0')));
-                if is_jump {
-                    self.add((name, Role::Use), place);
-                } else if before.is_empty() && after.starts_with(':') {
-                    self.add((name, Role::Definition), place);
-                }
-            } else if before.ends_with('[') && after.starts_with(']') {
-                let opens = before[..before.len() - 1].trim_end();
-                let name = Name::Label(section, (*word).to_owned());
-                let is_block = opens.is_empty() || opens.strip_prefix('N').is_some_and(is_number);
-                if is_jump || is_block {
-                    let role = if is_jump { Role::Use } else { Role::Definition };
-                    self.add((name, role), place);
-                }
-            }
-        }
-    }
 }
 
 /// The places of the definitions of names.
@@ -194,67 +138,15 @@ pub(super) fn definitions(outline: &Outline) -> BTreeMap<&Name, &Mention> {
     defined.map(|it| (&it.name, it)).collect()
 }
 
-/// A line with blanks in place of its comments and texts, byte by byte.
-fn without_comments(line: &str) -> String {
-    let (mut depth, mut is_text, mut ended) = (0_u32, false, false);
-    let mut code = String::with_capacity(line.len());
-    for letter in line.chars() {
-        match letter {
-            '"' if depth == 0 => is_text = !is_text,
-            '(' if !is_text => depth += 1,
-            ';' if depth == 0 && !is_text => ended = true,
-            _ => {}
-        }
-        if depth > 0 || ended || !letter.is_ascii() {
-            code.extend(std::iter::repeat_n(' ', letter.len_utf8()));
-        } else {
-            code.push(letter);
-        }
-        if letter == ')' && !is_text {
-            depth = depth.saturating_sub(1);
-        }
-    }
-    code
-}
-
-/// The words of letters, digits and `_`, each with its offset.
-fn words(code: &str) -> Vec<(usize, &str)> {
-    let mut offset = 0;
-    let is_part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
-    let pieces = code.split(|letter: char| !is_part(letter));
-    let words = pieces.map(|word| {
-        let at = offset;
-        offset += word.len() + 1;
-        (at, word)
-    });
-    words.collect()
-}
-
-/// The name of a file, which may hold dots and slashes, from where its first word begins.
-fn file_name<'a>(code: &'a str, start: usize, word: &'a str) -> &'a str {
-    let rest = &code[start..];
-    let is_part = |letter: char| letter.is_ascii_alphanumeric() || "_.-/\\".contains(letter);
-    let end = rest.find(|letter: char| !is_part(letter));
-    rest.get(..end.unwrap_or(rest.len())).unwrap_or(word)
-}
-
-fn is_number(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
-}
-
-/// The `$` statement of a line, in capital letters.
-fn statement(code: &str) -> String {
-    let Some(at) = code.find('$') else {
-        return String::new();
+/// Where a place of a block stands in the text: its lines are cut at their ends only.
+fn place_in(raw: &RawBlock<'_>, at: u32, line_span: impl Fn(u32) -> Span) -> usize {
+    let before = &raw.text[..at as usize];
+    let Some(end) = before.rfind('\n') else {
+        return raw.offset + before.len();
     };
-    let word = code[at + 1..].split(|letter: char| !letter.is_ascii_alphabetic());
-    format!(
-        "${}",
-        word.into_iter()
-            .next()
-            .unwrap_or_default()
-            .to_ascii_uppercase()
-    )
+    let lines = before.bytes().filter(|byte| *byte == b'\n').count();
+    let line = raw.line + u32::try_from(lines).unwrap_or(u32::MAX);
+    line_span(line).range().start + before.len() - end - 1
 }
 
 #[cfg(test)]
@@ -314,6 +206,73 @@ N30: M17
         );
         assert_eq!(outline.all(&label(0, "N30")).count(), 2);
         assert_eq!(definitions(&outline).len(), 5);
+    }
+
+    /// The names as they stand in a text, definitions with a colon, files with an exclamation mark.
+    fn mentions(text: &str) -> String {
+        let shown = Outline::of(text).mentions.into_iter().map(|it| {
+            let mark = if it.role == Definition { ":" } else { "" };
+            let name = match it.name {
+                Name::Program(name) => format!("%{name}"),
+                Name::Label(_, name) => name,
+                Name::File(name) => format!("{name}!"),
+            };
+            let written = it.span.of(text).replace("N0", "N");
+            assert!(name.contains(&written), "{text}: {written}");
+            name + mark
+        });
+        shown.collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn names_are_those_that_the_parser_reads() {
+        // R12.6
+        for (text, names) in [
+            ("n10 ll sub", "%sub"),
+            ("l a.nc", "a.nc!"),
+            ("N10LL SUB", "%SUB"),
+            ("LUP1.nc", "UP1.nc!"),
+            ("L4712", "4712!"),
+            ("L \"my part.nc\"", "my part.nc!"),
+            ("LL CYCLE [NAME=DRILL @P1=1]", "%DRILL"),
+            ("#MSG [\"LL SUB\"]", ""),
+            ("V.P.A = \"\\\"[A] LL SUB\"", ""),
+            ("X1 (LL SUB)", ""),
+            ("V.P.A=\"(\" LL SUB", "%SUB"),
+            ("#COMMENT BEGIN\nLL SUB\n[A]\n#COMMENT END\n[B]", "B:"),
+            ("$goto [A]", "A"),
+            ("$GOTON030", "N30"),
+            ("$IF P1 == 1 $GOTO N30:", "N30"),
+            ("N030 : X1", "N30:"),
+            ("L SEQUENCE [N10 [A]]", "N10 A"),
+            ("L SEQUENCE [NAME=a.nc N10]", "a.nc!"),
+            ("%l SUB ; LL A", "%SUB:"),
+            ("  %L SUB\r\nLL \\\r\n  SUB", "%SUB: %SUB"),
+            ("P1 = V.P.A[N] X[COMP ON FRICT]", ""),
+            ("LL V.P.NAME", ""),
+        ] {
+            assert_eq!(mentions(text), names, "{text}");
+        }
+    }
+
+    #[test]
+    fn folds_are_those_of_the_parser() {
+        // R12.6
+        let folds = |text: &str| {
+            let folds = Outline::of(text).folds.into_iter();
+            folds.map(|it| (it.first, it.last)).collect::<Vec<_>>()
+        };
+        for (text, lines) in [
+            ("#MSG [\"$IF\"]\n\nX1\n$ENDIF\n", vec![]),
+            ("$IF P1 $GOTO N10\n\nX1\n$ENDIF\n", vec![]),
+            ("#if P1\nX1\n#endif\n", vec![(0, 1)]),
+            ("#RT WHILE P1\nX1\n#RT ENDWHILE\n", vec![(0, 1)]),
+            ("N10 $while P1 ; $FOR\nX1\nX2\n$EndWhile\n", vec![(0, 2)]),
+            ("#COMMENT BEGIN\n$IF\n#COMMENT END\nX1\n$ENDIF\n", vec![]),
+            ("$IF P1 \\\n > 2\nX1\n$ENDIF", vec![(0, 2)]),
+        ] {
+            assert_eq!(folds(text), lines, "{text}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The comment that allows a message where it is said (R9.24, R12.5).
 
 use crate::diagnostic::{Code, Diagnostic, Fix};
-use crate::syntax::allow;
+use crate::syntax::{allow, goes_on};
 use crate::text::{SourceFile, Span};
 
 /// The change of a program that silences a message of it: a comment in its block, or above a block
@@ -16,7 +16,7 @@ pub fn allow_here(said: &Diagnostic, program: &SourceFile) -> Option<Fix> {
     let (text, lines) = (program.text(), program.lines());
     let meant = program.find(&said.place)?;
     let of = |line: u32| lines.line_span(text, line);
-    let goes_on = |line: u32| of(line).of(text).trim_end().ends_with('\\');
+    let goes_on = |line: u32| goes_on(of(line).of(text));
     let last = lines
         .first()
         .saturating_add(u32::try_from(lines.lines()).ok()?)

@@ -9,7 +9,7 @@ use crate::comp::Kind;
 use crate::text::TextLines;
 
 /// Number of macro definitions inside each other that are looked into.
-const MAX_MACROS: usize = 16;
+pub(super) const MAX_MACROS: usize = 16;
 
 /// What a program does with an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,39 +37,58 @@ pub fn axis_uses(text: &str) -> BTreeMap<String, AxisUse> {
 /// The axes that a block names. What a macro stands for counts where it is defined.
 pub(super) fn uses_of(block: &Block, text: &str) -> Vec<(String, AxisUse)> {
     let mut found = Vec::new();
-    find_uses(block, text, MAX_MACROS, &mut found);
+    with_macros(block, text, MAX_MACROS, &mut |block, text| {
+        found.extend(own_uses(block, text));
+    });
     // A single Q is no axis without a configuration.
     found.retain(|(name, _)| is_axis_name(name) && name != "Q");
     found
 }
 
-fn find_uses(block: &Block, text: &str, depth: usize, found: &mut Vec<(String, AxisUse)>) {
+/// Hands over a block, and the code of the macros that it defines.
+pub(super) fn with_macros(
+    block: &Block,
+    text: &str,
+    depth: usize,
+    take: &mut impl FnMut(&Block, &str),
+) {
+    take(block, text);
+    for item in &block.items {
+        if let Item::MacroDefinition(_, code) = item
+            && depth > 0
+        {
+            let code = code.of(text).trim_matches('"').replace("\\\"", "\"");
+            with_macros(&parse_block(&code), &code, depth - 1, take);
+        }
+    }
+}
+
+/// What stands for an axis in a block, without its macros.
+pub(super) fn own_uses<'a>(
+    block: &'a Block,
+    text: &'a str,
+) -> impl Iterator<Item = (String, AxisUse)> + 'a {
     let name = |word: &Word| match word.address {
         Address::Letter(letter) => Some(char::from(letter).to_string()),
         Address::Name(span) => Some(span.of(text).to_owned()),
         Address::Lower(_) | Address::Main(_) => None,
     };
     let words = block.words.iter().filter_map(name);
-    found.extend(words.map(|name| (name, AxisUse::Named)));
-    for item in &block.items {
-        match item {
-            Item::Word(word) => found.extend(name(word).map(|name| (name, AxisUse::Named))),
-            Item::Comp(command) => {
-                let how = if command.selection.kinds().contains(Kind::Frict) {
-                    AxisUse::Switched
-                } else {
-                    AxisUse::Named
-                };
-                found.push((command.axis.clone(), how));
-            }
-            Item::Bracket { axis, .. } => found.push((axis.of(text).to_owned(), AxisUse::Named)),
-            Item::MacroDefinition(_, code) if depth > 0 => {
-                let code = code.of(text).trim_matches('"').replace("\\\"", "\"");
-                find_uses(&parse_block(&code), &code, depth - 1, found);
-            }
-            _ => {}
+    let words = words.map(|name| (name, AxisUse::Named));
+    let items = block.items.iter().filter_map(move |item| match item {
+        Item::Word(word) => name(word).map(|name| (name, AxisUse::Named)),
+        Item::Comp(command) => {
+            let how = if command.selection.kinds().contains(Kind::Frict) {
+                AxisUse::Switched
+            } else {
+                AxisUse::Named
+            };
+            Some((command.axis.clone(), how))
         }
-    }
+        Item::Bracket { axis, .. } => Some((axis.of(text).to_owned(), AxisUse::Named)),
+        _ => None,
+    });
+    words.chain(items)
 }
 
 /// Whether a name has the form of an axis name (R2.20).

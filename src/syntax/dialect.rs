@@ -6,7 +6,7 @@ use std::fmt;
 
 use super::hash_words::hash_name;
 use super::known::{FLOW_WORDS, hash_command};
-use super::scan::code_stretches;
+use super::pieces::code_stretches;
 
 /// Number of blocks at the head of a program that are looked at.
 const MAX_LOOKED_AT: usize = 400;
@@ -173,8 +173,7 @@ fn code_of(line: &str) -> String {
     if line.trim_start().starts_with('%') {
         return line.to_ascii_uppercase();
     }
-    let stretches = code_stretches(line.as_bytes());
-    let code: Vec<&str> = stretches.filter_map(|stretch| line.get(stretch)).collect();
+    let code: Vec<&str> = code_stretches(line).collect();
     code.join(" ").to_ascii_uppercase()
 }
 

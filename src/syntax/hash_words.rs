@@ -1,6 +1,6 @@
 //! The words that a `#` command begins with.
 
-use super::mask::is_blank;
+use super::pieces::is_blank;
 
 /// The words of a `#` command in upper case, and how many bytes they take.
 pub(crate) fn hash_name(code: &str) -> (String, usize) {

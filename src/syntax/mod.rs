@@ -14,6 +14,7 @@ pub(crate) mod ast;
 mod axes;
 mod brackets;
 mod comp;
+mod control_block;
 mod dialect;
 mod expression;
 mod fast;
@@ -25,7 +26,10 @@ mod known;
 mod lines;
 mod lower;
 mod mask;
+#[cfg(feature = "host")]
+mod names;
 mod parse;
+mod pieces;
 mod raw;
 #[cfg_attr(not(feature = "host"), allow(dead_code, reason = "a host looks ahead"))]
 mod scan;
@@ -37,6 +41,7 @@ mod upper_case;
 pub(crate) use axes::is_axis_name;
 pub use axes::{AxisUse, axis_uses};
 pub use brackets::MAX_BRACKETS;
+pub(crate) use control_block::{ControlBlock, Part, control_part};
 pub(crate) use dialect::{Foreign, foreign};
 pub use fault::Fault;
 pub use flow_scan::FlowScan;
@@ -63,7 +68,14 @@ pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 pub use raw::{LostRemarks, RawBlock, Stretch};
 
 #[cfg(feature = "host")]
-pub(crate) use scan::{SwitchScan, calls_files, code_words, has_axis_word};
+pub(crate) use mask::code_of;
+pub(crate) use mask::goes_on;
+#[cfg(feature = "host")]
+pub(crate) use names::{Named, Role, names_in};
+#[cfg(feature = "host")]
+pub(crate) use pieces::{PieceKind, code_words, kind_at};
+#[cfg(feature = "host")]
+pub(crate) use scan::{NamedAxes, Scan, SwitchedAxes};
 pub use skip_levels::{NoSkipLevels, SkipLevels};
 pub(crate) use unread::not_known;
 

@@ -1,161 +1,80 @@
-//! A look over the text of programs before they run: which words stand in their code. What is a comment
-//! or a string is decided as for the parser, and nothing is executed.
+//! A look over programs before they run, piece by piece: blocks that may tell something are parsed as in a
+//! run, the rest is passed over. Nothing is executed.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
 
-use super::axes::{AxisUse, uses_of};
+use super::ast::{Block, CallScope, Item};
+use super::axes::{AxisUse, MAX_MACROS, own_uses, uses_of, with_macros};
 use super::hash_words::hash_word;
-use super::mask::{comment_end, mask};
+use super::mask::mask;
 use super::parse::parse_block;
-use super::texts::Texts;
 
 /// Bytes that the lines of a continued block may have together to be looked at.
 const MAX_CONTINUED: usize = 64 * 1024;
 
-/// The stretches of a line that are code: neither comment nor string nor quoted number, and not the name
-/// of a program. What a macro stands for is code, too.
-pub(crate) fn code_stretches(line: &[u8]) -> CodeStretches<'_> {
-    let is_name = line.trim_ascii_start().first() == Some(&b'%');
-    let line = if is_name { &[] } else { line };
-    CodeStretches {
-        line,
-        texts: Texts::new(line),
-        at: 0,
-        text: None,
-    }
+/// What is asked of a program.
+pub(crate) trait Question {
+    /// The first place of a text, from one on, at which a line may tell something.
+    fn next(&mut self, text: &[u8], from: usize) -> Option<usize>;
+
+    /// Looks at a block that may tell something.
+    fn look(&mut self, block: &Block, text: &str);
 }
 
-/// See [`code_stretches`].
-#[derive(Debug, Clone)]
-pub(crate) struct CodeStretches<'a> {
-    line: &'a [u8],
-    texts: Texts<'a>,
-    at: usize,
-    /// Where the last string ended.
-    text: Option<usize>,
-}
-
-impl Iterator for CodeStretches<'_> {
-    type Item = Range<usize>;
-
-    fn next(&mut self) -> Option<Range<usize>> {
-        while let Some(byte) = self.line.get(self.at) {
-            let start = self.at;
-            match byte {
-                b';' => self.at = self.line.len(),
-                b'(' => self.at = comment_end(self.line, start),
-                b'"' if self.texts.end(start).is_some() => {
-                    let end = self.texts.end(start).unwrap_or(self.line.len());
-                    self.at = end;
-                    let last = self.text.replace(end);
-                    let between = last.map(|last| self.line[last..start].trim_ascii());
-                    if between == Some(b"=") {
-                        return Some(start + 1..end - 1);
-                    }
-                }
-                b'\'' => {
-                    let rest = &self.line[start + 1..];
-                    let length = memchr::memchr(b'\'', rest).unwrap_or_default();
-                    self.at = start + length + 2;
-                }
-                _ => {
-                    let rest = &self.line[start + 1..];
-                    let ends = |byte: &u8| matches!(byte, b'"' | b'\'' | b';' | b'(');
-                    self.at = start + 1 + rest.iter().position(ends).unwrap_or(rest.len());
-                    return Some(start..self.at);
-                }
-            }
-        }
-        None
-    }
-}
-
-/// Whether a place of a text is code.
-fn is_code(text: &[u8], at: usize) -> bool {
-    let start = memchr::memrchr2(b'\n', b'\r', &text[..at]).map_or(0, |end| end + 1);
-    let end = memchr::memchr2(b'\n', b'\r', &text[at..]).map_or(text.len(), |end| at + end);
-    code_stretches(&text[start..end]).any(|stretch| stretch.contains(&(at - start)))
-}
-
-/// Whether a text has an axis word of this name: the interpreter decides what is one.
-pub(crate) fn has_axis_word(text: &[u8], name: &[u8]) -> bool {
-    memchr::memmem::find_iter(text, name).any(|at| is_axis_word(text, at, name))
-}
-
-fn is_axis_word(text: &[u8], at: usize, name: &[u8]) -> bool {
-    let before = at.checked_sub(1).map(|before| text[before]);
-    if before.is_some_and(|it| it.is_ascii_alphabetic() || b"_.@[#$'".contains(&it)) {
-        return false;
-    }
-    let mut rest = text[at + name.len()..].iter().copied();
-    let next = rest.find(|byte| !b" \t".contains(byte));
-    let then = rest.next();
-    let has_value = match next {
-        Some(b'.') => then.is_none_or(|it| !it.is_ascii_alphabetic()),
-        Some(b'=') => then != Some(b'='),
-        Some(b'P') => then.is_some_and(|it| it.is_ascii_digit() || it == b'P'),
-        Some(b'V') => then == Some(b'.'),
-        Some(b'@' | b'+' | b'-' | b'[' | b'(') => true,
-        Some(digit) => name.len() == 1 && digit.is_ascii_digit(),
-        None => false,
-    };
-    has_value && is_code(text, at)
-}
-
-/// Whether a text calls another file: `L name`, `L4712` (R2.74).
-pub(crate) fn calls_files(text: &[u8]) -> bool {
-    memchr::memchr2_iter(b'L', b'l', text).any(|at| {
-        let before = at.checked_sub(1).map(|before| text[before]);
-        let alone = before.is_none_or(|it| !it.is_ascii_alphabetic() && !b"%._#$@".contains(&it));
-        let begins_name = |it: u8| {
-            let is_second = it.eq_ignore_ascii_case(&b'L');
-            (it.is_ascii_alphanumeric() && !is_second) || b" \t\"_./\\".contains(&it)
-        };
-        alone && text.get(at + 1).copied().is_some_and(begins_name) && is_code(text, at)
-    })
-}
-
-/// The words of a line that may name variables and parameters.
-pub(crate) fn code_words(line: &str) -> impl Iterator<Item = &str> {
-    let is_part = |it: char| it.is_ascii_alphanumeric() || "_.@".contains(it);
-    let stretches = code_stretches(line.as_bytes());
-    let code = stretches.filter_map(|stretch| line.get(stretch));
-    code.flat_map(move |code| code.split(move |it| !is_part(it)))
-}
-
-/// Finds the axes whose friction compensation a program switches.
-///
-/// Only blocks that may hold a COMP command are parsed. What a macro stands for counts.
+/// Finds the blocks that answer a question; knows continued blocks and `#COMMENT` regions.
 #[derive(Debug, Default)]
-pub(crate) struct SwitchScan {
+pub(crate) struct Scan<Q> {
+    pub(crate) question: Q,
     /// The lines of a block that goes on.
     open: String,
     /// Inside `#COMMENT BEGIN` … `#COMMENT END`.
     is_comment: bool,
-    found: BTreeSet<String>,
 }
 
-impl SwitchScan {
+impl<Q: Question> Scan<Q> {
+    pub(crate) fn new(question: Q) -> Self {
+        Self {
+            question,
+            open: String::new(),
+            is_comment: false,
+        }
+    }
+
     /// Looks at the next lines, which are whole.
     pub(crate) fn feed(&mut self, lines: &[u8]) {
-        if !self.may_tell(lines) {
-            return;
-        }
-        for line in lines.split(|byte| matches!(byte, b'\n' | b'\r')) {
-            if self.may_tell(line) {
-                self.take(line);
+        let (mut marked, mut told) = (Some(0), Some(0));
+        let mut from = 0;
+        while from < lines.len() {
+            // What tells how to read on.
+            if marked.is_some_and(|at| at < from || from == 0) {
+                let mark = memchr::memchr2(b'#', b'\\', &lines[from..]);
+                marked = mark.map(|at| from + at);
             }
+            if told.is_some_and(|at| at < from || from == 0) {
+                told = self.question.next(lines, from);
+            }
+            let is_open = !self.open.is_empty();
+            let next = if is_open {
+                Some(from)
+            } else {
+                marked.into_iter().chain(told).min()
+            };
+            let Some(at) = next else {
+                return;
+            };
+            let before = memchr::memrchr2(b'\n', b'\r', &lines[from..at]);
+            let start = before.map_or(from, |end| from + end + 1);
+            let length = memchr::memchr2(b'\n', b'\r', &lines[at..]);
+            let end = length.map_or(lines.len(), |length| at + length);
+            let tells = told.is_some_and(|at| at < end);
+            if is_open || tells || marked.is_some_and(|at| at < end) {
+                self.take(&lines[start..end], tells);
+            }
+            from = end + 1;
         }
     }
 
-    /// Whether there may be a command in a text, or something that tells how to read it.
-    fn may_tell(&self, text: &[u8]) -> bool {
-        let is_marked = || memchr::memchr2(b'#', b'\\', text).is_some();
-        !self.open.is_empty() || (!self.is_comment && has_comp(text)) || is_marked()
-    }
-
-    fn take(&mut self, line: &[u8]) {
+    fn take(&mut self, line: &[u8], tells: bool) {
         let line = String::from_utf8_lossy(line);
         let mut code = String::new();
         let masked = mask(&line, &mut code);
@@ -168,55 +87,170 @@ impl SwitchScan {
             return;
         }
         let is_open = !self.open.is_empty();
+        if !is_open && !masked.continues {
+            if tells {
+                self.question.look(&parse_block(&line), &line);
+            }
+            return;
+        }
         self.open.push_str(&line);
         self.open.push('\n');
         let goes_on = masked.continues || (is_open && code.trim_ascii().is_empty());
         if goes_on && self.open.len() < MAX_CONTINUED {
             return;
         }
-        if has_comp(self.open.as_bytes()) {
-            let block = parse_block(&self.open);
-            let switched = uses_of(&block, &self.open).into_iter();
-            let switched = switched.filter(|(_, how)| *how == AxisUse::Switched);
-            self.found.extend(switched.map(|(name, _)| name));
-        }
-        self.open.clear();
-    }
-
-    /// The axes, sorted.
-    pub(crate) fn into_axes(self) -> Vec<String> {
-        self.found.into_iter().collect()
+        let text = std::mem::take(&mut self.open);
+        self.question.look(&parse_block(&text), &text);
     }
 }
 
-/// Whether a line may hold a command. Of the letters of the word the last one is the rarest in
-/// programs.
-fn has_comp(line: &[u8]) -> bool {
-    memchr::memchr2_iter(b'P', b'p', line).any(|at| {
-        let before = at.checked_sub(3).map(|start| &line[start..at]);
-        before.is_some_and(|letters| letters.eq_ignore_ascii_case(b"COM"))
-    })
+/// The axes whose friction compensation a program switches. What a macro stands for counts.
+#[derive(Debug, Default)]
+pub(crate) struct SwitchedAxes(pub(crate) BTreeSet<String>);
+
+impl Question for SwitchedAxes {
+    /// `COMP`. Of its letters the last one is the rarest in programs.
+    fn next(&mut self, text: &[u8], from: usize) -> Option<usize> {
+        let mut places = memchr::memchr2_iter(b'P', b'p', &text[from..]);
+        let is_word = |at: &usize| {
+            let before = at
+                .checked_sub(3)
+                .map(|start| &text[from + start..from + at]);
+            before.is_some_and(|letters| letters.eq_ignore_ascii_case(b"COM"))
+        };
+        places.find(is_word).map(|at| from + at)
+    }
+
+    fn look(&mut self, block: &Block, text: &str) {
+        let switched = uses_of(block, text).into_iter();
+        let switched = switched.filter(|(_, how)| *how == AxisUse::Switched);
+        self.0.extend(switched.map(|(name, _)| name));
+    }
+}
+
+/// Which axes a program names, of those that are asked for, and whether it calls a file (R2.74).
+#[derive(Debug, Default)]
+pub(crate) struct NamedAxes {
+    sought: Vec<Sought>,
+    found: BTreeSet<String>,
+    calls: Calls,
+}
+
+/// A name that was not found yet.
+#[derive(Debug)]
+struct Sought {
+    name: String,
+    next: Option<usize>,
+}
+
+/// Whether a call of a file was found.
+#[derive(Debug, Default)]
+struct Calls {
+    is_found: bool,
+    next: Option<usize>,
+}
+
+impl NamedAxes {
+    pub(crate) fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let sought = |name: &str| Sought {
+            name: name.to_owned(),
+            next: None,
+        };
+        Self {
+            sought: names.into_iter().map(sought).collect(),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn into_names(self) -> BTreeSet<String> {
+        self.found
+    }
+
+    pub(crate) fn calls_files(&self) -> bool {
+        self.calls.is_found
+    }
+}
+
+impl Question for NamedAxes {
+    fn next(&mut self, text: &[u8], from: usize) -> Option<usize> {
+        // Each place is looked for once, not again for each line before it.
+        let is_known = |next: &Option<usize>| from > 0 && next.is_none_or(|at| at >= from);
+        for sought in &mut self.sought {
+            if !is_known(&sought.next) {
+                sought.next = axis_place(text, from, sought.name.as_bytes());
+            }
+        }
+        if !is_known(&self.calls.next) {
+            let is_wanted = !self.calls.is_found;
+            self.calls.next = is_wanted.then(|| call_place(text, from)).flatten();
+        }
+        let places = self.sought.iter().filter_map(|sought| sought.next);
+        places.chain(self.calls.next).min()
+    }
+
+    fn look(&mut self, block: &Block, text: &str) {
+        with_macros(block, text, MAX_MACROS, &mut |block, text| {
+            for (name, _) in own_uses(block, text) {
+                if let Some(at) = self.sought.iter().position(|sought| sought.name == name) {
+                    self.sought.swap_remove(at);
+                    self.found.insert(name);
+                }
+            }
+            self.calls.is_found |= block.items.iter().any(calls_file);
+        });
+    }
+}
+
+/// Where a name may begin a word.
+fn axis_place(text: &[u8], from: usize, name: &[u8]) -> Option<usize> {
+    let begins = |at: &usize| {
+        let before = at.checked_sub(1).map(|before| text[from + before]);
+        before.is_none_or(|it| !it.is_ascii_alphabetic() && !b"_.".contains(&it))
+    };
+    let mut places = memchr::memmem::find_iter(&text[from..], name);
+    places.find(begins).map(|at| from + at)
+}
+
+/// Where an `L` may begin a call of a file.
+fn call_place(text: &[u8], from: usize) -> Option<usize> {
+    let begins = |at: &usize| {
+        let before = at.checked_sub(1).map(|before| text[from + before]);
+        let next = text.get(from + at + 1);
+        before.is_none_or(|it| !it.is_ascii_alphabetic() && !b"%._#$".contains(&it))
+            && next.is_some_and(|it| !it.eq_ignore_ascii_case(&b'L'))
+    };
+    let mut places = memchr::memchr2_iter(b'L', b'l', &text[from..]);
+    places.find(begins).map(|at| from + at)
+}
+
+fn calls_file(item: &Item) -> bool {
+    match item {
+        Item::Call(call) => call.scope == CallScope::Global,
+        Item::Sequence(part) => part.name.is_some(),
+        _ => false,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn code_is_what_the_parser_sees() {
-        // R9.74
-        let code = |line: &str| {
-            let stretches = code_stretches(line.as_bytes());
-            let code: Vec<&str> = stretches.map(|stretch| line[stretch].trim()).collect();
-            code.join("|")
-        };
-        assert_eq!(code("N10 X1 (Y2 (Z3) A4) B5 ; C6"), "N10 X1|B5");
-        assert_eq!(code("V.P.A=\"(\" X1 ; \"Y"), "V.P.A=|X1");
-        assert_eq!(code("#MSG [\"X1 ; (\"] Y2"), "#MSG [|] Y2");
-        assert_eq!(code("\"M\" = \"X1\""), "=|X1");
-        assert_eq!(code("P1 = 'H1B5' X2"), "P1 =|X2");
-        assert_eq!(code("X1 \" Y2"), "X1|\" Y2");
-        assert_eq!(code("%X1"), "");
+    fn switched(text: &str) -> Vec<String> {
+        let mut scan = Scan::new(SwitchedAxes::default());
+        scan.feed(text.as_bytes());
+        scan.question.0.into_iter().collect()
+    }
+
+    fn named(pieces: &[&str]) -> (String, bool) {
+        let mut scan = Scan::new(NamedAxes::new([
+            "X", "Y", "Z", "A", "B", "U", "V", "W", "AX2",
+        ]));
+        for piece in pieces {
+            scan.feed(piece.as_bytes());
+        }
+        let calls = scan.question.calls_files();
+        let names: Vec<String> = scan.question.into_names().into_iter().collect();
+        (names.join(" "), calls)
     }
 
     #[test]
@@ -228,8 +262,12 @@ mod tests {
             "L4712",
             "LUP1.nc",
             "G0 X1\nl a.nc",
+            "N10L A.nc",
+            "L CYCLE [NAME=a.cyc]",
+            "L \\\nSUB.nc",
+            "\"CALL\" = \"L A.nc\"",
         ] {
-            assert!(calls_files(text.as_bytes()), "{text}");
+            assert!(named(&[text]).1, "{text}");
         }
         for text in [
             "LL SUB",
@@ -239,36 +277,53 @@ mod tests {
             "(L SUB)",
             "#MSG [\"L SUB\"]",
             "MULL X",
+            "P1 = \"(\" ; L SUB",
+            "#COMMENT BEGIN\nL SUB\n#COMMENT END",
+            "L10=5",
         ] {
-            assert!(!calls_files(text.as_bytes()), "{text}");
+            assert!(!named(&[text]).1, "{text}");
         }
+    }
+
+    #[test]
+    fn axes_that_are_named_are_found() {
+        // R9.74
+        let names = |text: &str| named(&[text]).0;
+        assert_eq!(names("N10G1X1Y-2\nAX2=5"), "AX2 X Y");
+        assert_eq!(names("#COMMENT BEGIN\nX1\n#COMMENT END\nY1"), "Y");
+        assert_eq!(names("#MSG [\"(\"] \nY1 (X1 (Z1) A1) ; B1"), "Y");
+        assert_eq!(names("P1='H(X1' Y1\nV.P.X=1 x1\nX_ACHSE=1"), "");
+        assert_eq!(names("G1 \\ ; X1\n(Y1)\n N20 Z1\nU1"), "U Z");
+        // A block that goes on in the next piece.
+        assert_eq!(named(&["G1 \\\n", "X1\nY1\n"]).0, "X Y");
     }
 
     #[test]
     fn axes_that_are_switched_are_found() {
         // R1.37
-        let axes = |text: &str| {
-            let mut scan = SwitchScan::default();
-            scan.feed(text.as_bytes());
-            scan.into_axes()
-        };
         assert_eq!(
-            axes("N10 X[COMP OFF FRICT] Y [comp on LEAD FRICT]"),
+            switched("N10 X[COMP OFF FRICT] Y [comp on LEAD FRICT]"),
             ["X", "Y"]
         );
-        assert_eq!(axes("N10 (c) X1[COMP OFF_ALL] ; Z[COMP ON FRICT]"), ["X1"]);
         assert_eq!(
-            axes("Z[COMP OFF \\ ; more\n\nN20 FRICT]\nX[COMP OFF LEAD]\n"),
+            switched("N10 (c) X1[COMP OFF_ALL] ; Z[COMP ON FRICT]"),
+            ["X1"]
+        );
+        assert_eq!(
+            switched("Z[COMP OFF \\ ; more\n\nN20 FRICT]\nX[COMP OFF LEAD]\n"),
             ["Z"]
         );
-        assert_eq!(axes("X[ \\\r\nCOMP OFF FRICT]\r\n"), ["X"]);
-        assert_eq!(axes("X1 ; end\rY[COMP ON FRICT]\rM30"), ["Y"]);
-        assert_eq!(axes("S[COMP ON FRICT]\nG0 X[P1]\nFRICT COMP"), [""; 0]);
-        assert_eq!(axes("#MSG [\"X[COMP OFF FRICT]\"]\n"), [""; 0]);
-        assert_eq!(axes("V.P.A=\"(\" X[COMP ON FRICT]\n"), ["X"]);
-        assert_eq!(axes("\"OFF\" = \"A[COMP OFF FRICT]\"\n\"OFF\"\n"), ["A"]);
+        assert_eq!(switched("X[ \\\r\nCOMP OFF FRICT]\r\n"), ["X"]);
+        assert_eq!(switched("X1 ; end\rY[COMP ON FRICT]\rM30"), ["Y"]);
+        assert_eq!(switched("S[COMP ON FRICT]\nG0 X[P1]\nFRICT COMP"), [""; 0]);
+        assert_eq!(switched("#MSG [\"X[COMP OFF FRICT]\"]\n"), [""; 0]);
+        assert_eq!(switched("V.P.A=\"(\" X[COMP ON FRICT]\n"), ["X"]);
         assert_eq!(
-            axes("#COMMENT BEGIN\nX[COMP ON FRICT]\n#COMMENT END\nY[COMP ON FRICT]"),
+            switched("\"OFF\" = \"A[COMP OFF FRICT]\"\n\"OFF\"\n"),
+            ["A"]
+        );
+        assert_eq!(
+            switched("#COMMENT BEGIN\nX[COMP ON FRICT]\n#COMMENT END\nY[COMP ON FRICT]"),
             ["Y"]
         );
     }

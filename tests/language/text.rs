@@ -156,6 +156,27 @@ fn comments() {
 }
 
 #[test]
+fn a_call_may_go_on_in_the_next_line() {
+    // R2.7, R2.74
+    let bench = Bench::new().file("b.nc", "N1 X[COMP OFF FRICT]\nM17");
+    for call in [
+        "LL \\\nOFF",
+        "LL \\ ; a comment\n N20 OFF",
+        "L \\\n b.nc",
+        "L \\\n\"b.nc\"",
+        "L \\\nSEQUENCE [NAME=b.nc N1 N1]",
+    ] {
+        let said = bench.run(&[&format!(
+            "%MAIN\n{call}\nM30\n%L OFF\nN1 X[COMP OFF FRICT]\nM17"
+        )]);
+        assert!(
+            said.contains("X:active>inactive") && !said.contains("FC320"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn continued_lines() {
     // R2.7
     let bench = Bench::new().file("c.cyc", "N1 X[COMP OFF FRICT]\nN2 P9=@P1+@P2\nM17");

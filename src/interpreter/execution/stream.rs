@@ -9,7 +9,6 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::diagnostic::Collected;
-use crate::interpreter::programs::builder::REAL_TIME_LOOP;
 use crate::interpreter::programs::finder::Finder;
 use crate::interpreter::programs::index::{Index, LabelName, ProgramId, never_run};
 use crate::interpreter::run::at::{At, Shown};
@@ -20,7 +19,7 @@ use crate::interpreter::run::step::Departure;
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, CallScope, Item, Operand};
-use crate::syntax::{BlockReader, RawBlock, Stretch};
+use crate::syntax::{BlockReader, ControlBlock, RawBlock, Stretch};
 use crate::text::{LineSource, SourceFile};
 
 /// How far the program has come.
@@ -328,7 +327,7 @@ fn needs_rest(raw: &RawBlock<'_>, block: &Block) -> bool {
                     Item::Label(_) | Item::Flow(..) | Item::MacroUse(_) => true,
                     Item::Call(call) => call.scope == CallScope::Local,
                     Item::Sequence(sequence) => sequence.name.is_none(),
-                    Item::Hash(hash) => hash.name == REAL_TIME_LOOP,
+                    Item::Hash(hash) => hash.name == ControlBlock::RealTime.opener(),
                     _ => false,
                 })
         }

@@ -7,65 +7,15 @@ use super::index::{Entry, EntryIndex, Index, LabelName, Links, Section};
 use crate::diagnostic::{Advice, Budget, Code, Collected};
 use crate::interpreter::values::value::rounded;
 use crate::syntax::ast::{Block, Flow, Item, JumpTarget, Operand};
-use crate::syntax::{BlockReader, FastPath, Fault, LostRemarks, Stretch, is_statement};
+use crate::syntax::{
+    BlockReader, ControlBlock, FastPath, Fault, LostRemarks, Part, Stretch, control_part,
+    is_statement,
+};
 use crate::text::{Place, SourceFile, Span, TextLines};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    If,
-    Switch,
-    For,
-    While,
-    Do,
-    Repeat,
-    /// `#RT WHILE`, which real time leaves.
-    RealTime,
-}
-
-impl Kind {
-    const ALL: [Self; 7] = [
-        Self::If,
-        Self::Switch,
-        Self::For,
-        Self::While,
-        Self::Do,
-        Self::Repeat,
-        Self::RealTime,
-    ];
-
-    fn opener(self) -> &'static str {
-        match self {
-            Self::If => "$IF",
-            Self::Switch => "$SWITCH",
-            Self::For => "$FOR",
-            Self::While => "$WHILE",
-            Self::Do => "$DO",
-            Self::Repeat => "$REPEAT",
-            Self::RealTime => REAL_TIME_LOOP,
-        }
-    }
-
-    fn closer(self) -> &'static str {
-        match self {
-            Self::If => "$ENDIF",
-            Self::Switch => "$ENDSWITCH",
-            Self::For => "$ENDFOR",
-            Self::While => "$ENDWHILE",
-            Self::Do => "$ENDDO",
-            Self::Repeat => "$UNTIL",
-            Self::RealTime => REAL_TIME_END,
-        }
-    }
-}
-
-/// The loop of real time and its end (tf5261, 783727499).
-pub(in crate::interpreter) const REAL_TIME_LOOP: &str = "#RT WHILE";
-
-const REAL_TIME_END: &str = "#RT ENDWHILE";
 
 /// A control block that is not closed yet.
 struct Open {
-    kind: Kind,
+    kind: ControlBlock,
     opener: EntryIndex,
     /// All statements of the control block so far.
     parts: Vec<EntryIndex>,
@@ -73,7 +23,7 @@ struct Open {
     /// `$`, or the `#` of `#IF`; `None` for a misspelt statement.
     sign: Option<char>,
     /// How many are open up to the innermost one of each kind, so that nobody looks through all of them.
-    innermost: [usize; Kind::ALL.len()],
+    innermost: [usize; ControlBlock::ALL.len()],
 }
 
 /// A jump whose label is looked up when the section is known.
@@ -267,7 +217,7 @@ impl Builder {
         }
     }
 
-    fn refuse_stray(&mut self, kind: Kind, at: Statement<'_>) {
+    fn refuse_stray(&mut self, kind: ControlBlock, at: Statement<'_>) {
         if is_spelt(kind, at.word()) {
             self.refuse(at.entry, stray(kind, at));
         }
@@ -285,23 +235,17 @@ impl Builder {
                 self.refuse(entry, Fault::new(Code::Fc209, number.span, message));
             }
         }
-        let jumps = block.jumps();
         let at = |span| Statement { entry, span, text };
         for item in &block.items {
-            match item {
-                Item::Label(span) => {
+            match (control_part(block, item), item) {
+                (Some((kind, Part::Opener)), _) => self.opens(kind, at(item.span())),
+                (Some((kind, Part::Branch)), _) => self.branches(kind, at(item.span())),
+                (Some((kind, Part::Closer)), _) => self.closes(kind, at(item.span())),
+                (None, Item::Label(span)) => {
                     let name = LabelName::Text(span.of(text).to_owned());
                     self.label(entry, name, *span);
                 }
-                // `$IF c $GOTO N10` opens nothing.
-                Item::Flow(Flow::If(_), _) if jumps => {}
-                Item::Flow(flow, span) => self.flow(flow, at(*span)),
-                Item::Hash(hash) if hash.name == REAL_TIME_LOOP => {
-                    self.opens(Kind::RealTime, at(hash.span));
-                }
-                Item::Hash(hash) if hash.name == REAL_TIME_END => {
-                    self.closes(Kind::RealTime, at(hash.span));
-                }
+                (None, Item::Flow(flow, span)) => self.flow(flow, at(*span)),
                 _ => {}
             }
         }
@@ -325,31 +269,23 @@ impl Builder {
 
     fn flow(&mut self, flow: &Flow, at: Statement<'_>) {
         match flow {
-            Flow::If(_) => self.opens(Kind::If, at),
-            Flow::Switch(..) => self.opens(Kind::Switch, at),
-            Flow::For { .. } => self.opens(Kind::For, at),
-            Flow::While(_) => self.opens(Kind::While, at),
-            Flow::Do(_) => self.opens(Kind::Do, at),
-            Flow::Repeat => self.opens(Kind::Repeat, at),
-            Flow::ElseIf(_) | Flow::Else => self.branches(Kind::If, at),
-            Flow::Case(_) | Flow::Default => self.branches(Kind::Switch, at),
-            Flow::EndIf => self.closes(Kind::If, at),
-            Flow::EndSwitch => self.closes(Kind::Switch, at),
-            Flow::EndFor => self.closes(Kind::For, at),
-            Flow::EndWhile => self.closes(Kind::While, at),
-            Flow::EndDo(_) => self.closes(Kind::Do, at),
-            Flow::Until(_) => self.closes(Kind::Repeat, at),
-            Flow::Break => self.leaves(at, |kind| !matches!(kind, Kind::If | Kind::RealTime)),
+            Flow::Break => self.leaves(at, |kind| {
+                !matches!(kind, ControlBlock::If | ControlBlock::RealTime)
+            }),
             Flow::Continue => {
                 self.leaves(at, |kind| {
-                    !matches!(kind, Kind::If | Kind::Switch | Kind::RealTime)
+                    !matches!(
+                        kind,
+                        ControlBlock::If | ControlBlock::Switch | ControlBlock::RealTime
+                    )
                 });
             }
             Flow::Goto(target) => self.jump(target, at),
+            _ => {}
         }
     }
 
-    fn opens(&mut self, kind: Kind, at: Statement<'_>) {
+    fn opens(&mut self, kind: ControlBlock, at: Statement<'_>) {
         if self.open.len() >= self.nesting {
             let fault = Fault::new(
                 Code::Fc912,
@@ -362,7 +298,7 @@ impl Builder {
             .with_help(Advice::RaiseBudget(Budget::Nesting));
             self.refuse(at.entry, fault);
         }
-        if !matches!(kind, Kind::If | Kind::Switch) {
+        if !matches!(kind, ControlBlock::If | ControlBlock::Switch) {
             self.index.loops.push(at.entry);
         }
         let mut innermost = self.open.last().map(|open| open.innermost);
@@ -377,14 +313,14 @@ impl Builder {
         });
     }
 
-    fn branches(&mut self, kind: Kind, at: Statement<'_>) {
+    fn branches(&mut self, kind: ControlBlock, at: Statement<'_>) {
         match self.open.last_mut() {
             Some(open) if open.kind == kind => open.parts.push(at.entry),
             _ => self.refuse_stray(kind, at),
         }
     }
 
-    fn closes(&mut self, kind: Kind, at: Statement<'_>) {
+    fn closes(&mut self, kind: ControlBlock, at: Statement<'_>) {
         let Some(depth) = self.innermost(|it| it == kind) else {
             self.refuse_stray(kind, at);
             return;
@@ -395,7 +331,7 @@ impl Builder {
         let Some(mut open) = self.open.pop() else {
             return;
         };
-        if open.kind == Kind::If && open.sign == Some('#') {
+        if open.kind == ControlBlock::If && open.sign == Some('#') {
             self.index.interpreted.insert(open.opener, at.entry);
         }
         open.parts.push(at.entry);
@@ -422,16 +358,16 @@ impl Builder {
     }
 
     /// The innermost open control block of certain kinds.
-    fn innermost(&self, wanted: impl Fn(Kind) -> bool) -> Option<usize> {
+    fn innermost(&self, wanted: impl Fn(ControlBlock) -> bool) -> Option<usize> {
         let innermost = self.open.last()?.innermost;
-        let kinds = Kind::ALL.into_iter().filter(|kind| wanted(*kind));
+        let kinds = ControlBlock::ALL.into_iter().filter(|kind| wanted(*kind));
         kinds
             .map(|kind| innermost[kind as usize])
             .max()?
             .checked_sub(1)
     }
 
-    fn leaves(&mut self, at: Statement<'_>, left: fn(Kind) -> bool) {
+    fn leaves(&mut self, at: Statement<'_>, left: fn(ControlBlock) -> bool) {
         if let Some(depth) = self.innermost(left) {
             self.inner.push((at.entry, self.open[depth].opener));
         } else {
@@ -492,11 +428,11 @@ fn not_closed(open: &Open) -> Option<Fault> {
 }
 
 /// Whether a statement is one of the language, and not a misspelt one.
-fn is_spelt(kind: Kind, text: &str) -> bool {
-    kind == Kind::RealTime || is_statement(text)
+fn is_spelt(kind: ControlBlock, text: &str) -> bool {
+    kind == ControlBlock::RealTime || is_statement(text)
 }
 
-fn stray(kind: Kind, at: Statement<'_>) -> Fault {
+fn stray(kind: ControlBlock, at: Statement<'_>) -> Fault {
     let word = at.word().split_whitespace().next().unwrap_or_default();
     let opener = kind
         .opener()

@@ -11,7 +11,7 @@ use crate::syntax::{
     expression,
     fault::Fault,
     grammar::Rule,
-    mask::is_blank,
+    pieces::is_blank,
 };
 use crate::text::Span;
 

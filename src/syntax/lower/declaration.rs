@@ -6,7 +6,7 @@ use pest::iterators::Pair;
 use super::lowering::{Lowering, not_understood, span_of, trimmed};
 use crate::syntax::ast::{Declaration, Operand, Target};
 use crate::syntax::grammar::{NcParser, Rule};
-use crate::syntax::{expression, hash_words::hash_word, mask::is_blank};
+use crate::syntax::{expression, hash_words::hash_word, pieces::is_blank};
 use crate::text::Span;
 
 impl Lowering<'_> {

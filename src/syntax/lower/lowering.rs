@@ -6,7 +6,7 @@ use crate::diagnostic::Code;
 use crate::syntax::ast::{Assignment, Block, Effect, Item, Target};
 use crate::syntax::fault::Fault;
 use crate::syntax::grammar::Rule;
-use crate::syntax::mask::is_blank;
+use crate::syntax::pieces::is_blank;
 use crate::syntax::upper_case::in_upper_case;
 use crate::syntax::{expression, unread::not_known};
 use crate::text::Span;

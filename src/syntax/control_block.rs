@@ -1,0 +1,86 @@
+//! Which statements open, part and close control blocks.
+
+use super::ast::{Block, Flow, Item};
+
+/// A kind of control block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ControlBlock {
+    If,
+    Switch,
+    For,
+    While,
+    Do,
+    Repeat,
+    /// `#RT WHILE`, which real time leaves (tf5261, 783727499).
+    RealTime,
+}
+
+/// What a statement is to its control block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    Opener,
+    Branch,
+    Closer,
+}
+
+impl ControlBlock {
+    pub(crate) const ALL: [Self; 7] = [
+        Self::If,
+        Self::Switch,
+        Self::For,
+        Self::While,
+        Self::Do,
+        Self::Repeat,
+        Self::RealTime,
+    ];
+
+    pub(crate) fn opener(self) -> &'static str {
+        self.words().0
+    }
+
+    pub(crate) fn closer(self) -> &'static str {
+        self.words().1
+    }
+
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::If => ("$IF", "$ENDIF"),
+            Self::Switch => ("$SWITCH", "$ENDSWITCH"),
+            Self::For => ("$FOR", "$ENDFOR"),
+            Self::While => ("$WHILE", "$ENDWHILE"),
+            Self::Do => ("$DO", "$ENDDO"),
+            Self::Repeat => ("$REPEAT", "$UNTIL"),
+            Self::RealTime => ("#RT WHILE", "#RT ENDWHILE"),
+        }
+    }
+}
+
+/// The control block that an item of a block belongs to, and as what. `$IF c $GOTO N10` opens none.
+pub(crate) fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> {
+    use ControlBlock::{Do, For, If, RealTime, Repeat, Switch, While};
+    use Part::{Branch, Closer, Opener};
+    let flow = match item {
+        Item::Flow(flow, _) => flow,
+        Item::Hash(hash) if hash.name == RealTime.opener() => return Some((RealTime, Opener)),
+        Item::Hash(hash) if hash.name == RealTime.closer() => return Some((RealTime, Closer)),
+        _ => return None,
+    };
+    Some(match flow {
+        Flow::If(_) if block.jumps() => return None,
+        Flow::If(_) => (If, Opener),
+        Flow::ElseIf(_) | Flow::Else => (If, Branch),
+        Flow::EndIf => (If, Closer),
+        Flow::Switch(..) => (Switch, Opener),
+        Flow::Case(_) | Flow::Default => (Switch, Branch),
+        Flow::EndSwitch => (Switch, Closer),
+        Flow::For { .. } => (For, Opener),
+        Flow::EndFor => (For, Closer),
+        Flow::While(_) => (While, Opener),
+        Flow::EndWhile => (While, Closer),
+        Flow::Do(_) => (Do, Opener),
+        Flow::EndDo(_) => (Do, Closer),
+        Flow::Repeat => (Repeat, Opener),
+        Flow::Until(_) => (Repeat, Closer),
+        Flow::Break | Flow::Continue | Flow::Goto(_) => return None,
+    })
+}

@@ -1,0 +1,143 @@
+//! The names that a block defines and uses: programs, jump labels, files.
+
+use super::ast::{Block, CallName, CallScope, Flow, Item, JumpTarget, Operand};
+use crate::text::Span;
+
+/// What has a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Named {
+    /// A local subprogram.
+    Program,
+    /// `N100:` or `[NAME]`.
+    Label,
+    File,
+}
+
+/// What a name does where it stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// What has the name is here.
+    Definition,
+    /// It is called, or jumped to.
+    Use,
+}
+
+/// A name in a block.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct NameInBlock {
+    pub(crate) named: Named,
+    pub(crate) role: Role,
+    /// A number without leading zeros: `N30`.
+    pub(crate) name: String,
+    pub(crate) span: Span,
+}
+
+/// The names of a block, from left to right. What a variable holds has none.
+pub(crate) fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
+    let mut names = Names {
+        text,
+        found: Vec::new(),
+    };
+    if let Some(number) = block.number.filter(|number| number.label)
+        && let Operand::Number(value) = number.value
+    {
+        let label = number.span.of(text).trim_end_matches([':', ' ', '\t']);
+        let span = Span::new(
+            number.span.range().start,
+            number.span.range().start + label.len(),
+        );
+        names.add(Named::Label, Role::Definition, (numbered(value), span));
+    }
+    for item in &block.items {
+        match item {
+            Item::Label(span) => names.label(*span, Role::Definition),
+            Item::Flow(Flow::Goto(target), span) => {
+                // `$GOTON30` needs no blank.
+                let after = Span::new(span.range().start + "$GOTO".len(), span.range().end);
+                names.targets([Some(target), None], after);
+            }
+            Item::Call(call) => names.call(call.name, call.scope),
+            Item::Sequence(part) => match part.name {
+                Some(name) => names.call(name, CallScope::Global),
+                None => names.targets([Some(&part.first), part.last.as_ref()], part.span),
+            },
+            _ => {}
+        }
+    }
+    names.found
+}
+
+struct Names<'a> {
+    text: &'a str,
+    found: Vec<NameInBlock>,
+}
+
+impl Names<'_> {
+    fn add(&mut self, named: Named, role: Role, (name, span): (String, Span)) {
+        self.found.push(NameInBlock {
+            named,
+            role,
+            name,
+            span,
+        });
+    }
+
+    fn label(&mut self, span: Span, role: Role) {
+        self.add(Named::Label, role, (span.of(self.text).to_owned(), span));
+    }
+
+    fn call(&mut self, name: CallName, scope: CallScope) {
+        let span = match name {
+            CallName::Literal(span) => span,
+            CallName::Quoted(span) => Span::new(span.range().start + 1, span.range().end - 1),
+            CallName::Variable(_) => return,
+        };
+        let named = match scope {
+            CallScope::Local => Named::Program,
+            CallScope::Global => Named::File,
+        };
+        self.add(named, Role::Use, (span.of(self.text).to_owned(), span));
+    }
+
+    /// The labels that a statement names, in their order.
+    fn targets(&mut self, targets: [Option<&JumpTarget>; 2], statement: Span) {
+        let mut from = statement.range().start;
+        for target in targets.into_iter().flatten() {
+            match target {
+                JumpTarget::Label(span) => {
+                    self.label(*span, Role::Use);
+                    from = span.range().end;
+                }
+                JumpTarget::Number(Operand::Number(value)) => {
+                    let Some(span) = number_in(self.text, from..statement.range().end) else {
+                        return;
+                    };
+                    from = span.range().end;
+                    self.add(Named::Label, Role::Use, (numbered(*value), span));
+                }
+                JumpTarget::Number(_) | JumpTarget::Variable(_) => {}
+            }
+        }
+    }
+}
+
+fn numbered(value: f64) -> String {
+    format!("N{value}")
+}
+
+/// The first `N` with its number in a part of a text.
+fn number_in(text: &str, part: std::ops::Range<usize>) -> Option<Span> {
+    let bytes = &text.as_bytes()[part.clone()];
+    let is_number = |at: &usize| {
+        let begins = at
+            .checked_sub(1)
+            .is_none_or(|before| !bytes[before].is_ascii_alphanumeric());
+        begins && bytes.get(at + 1).is_some_and(u8::is_ascii_digit)
+    };
+    let start = memchr::memchr2_iter(b'N', b'n', bytes).find(is_number)?;
+    let digits = bytes[start + 1..]
+        .iter()
+        .take_while(|it| it.is_ascii_digit());
+    let length = 1 + digits.count();
+    Some(Span::new(part.start + start, part.start + start + length))
+}

@@ -1,0 +1,184 @@
+//! What each byte of a line is: code, string, quoted number, comment, or a character that is none of the
+//! language. Everybody who looks at the text of a program asks here.
+
+use std::ops::Range;
+
+use super::texts::Texts;
+
+/// What a piece of a line is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PieceKind {
+    Code,
+    /// `"…"`, with its quotes.
+    Text,
+    /// `'16#FA1B'`, with its quotes.
+    Quoted,
+    /// `(…)` or `; …`.
+    Comment,
+    /// A character outside ASCII, or a control character.
+    Foreign,
+}
+
+/// A piece of a line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Piece {
+    pub(crate) kind: PieceKind,
+    pub(crate) range: Range<usize>,
+}
+
+/// The pieces of a line, one after another without gaps.
+pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
+    let bytes = line.as_bytes();
+    let trailing = line.trim_end_matches(is_blank).len();
+    let texts = Texts::new(bytes);
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let start = at;
+        let byte = *bytes.get(start)?;
+        let is_code = byte.is_ascii() && (start >= trailing || !is_control(byte));
+        let (kind, end) = match byte {
+            b'"' => match texts.end(start) {
+                Some(end) => (PieceKind::Text, end),
+                None => (PieceKind::Code, start + 1),
+            },
+            b';' => (PieceKind::Comment, bytes.len()),
+            b'(' => (PieceKind::Comment, comment_end(bytes, start)),
+            b'\'' => {
+                let code = &bytes[start + 1..start + 1 + code_length(&bytes[start + 1..])];
+                match memchr::memchr(b'\'', code) {
+                    Some(length) => (PieceKind::Quoted, start + length + 2),
+                    None => (PieceKind::Code, start + 1 + code.len()),
+                }
+            }
+            _ if is_code => {
+                let code = &bytes[start + 1..start + 1 + code_length(&bytes[start + 1..])];
+                let length = memchr::memchr(b'\'', code).unwrap_or(code.len());
+                (PieceKind::Code, start + 1 + length)
+            }
+            _ => {
+                let length = line[start..].chars().next().map_or(1, char::len_utf8);
+                (PieceKind::Foreign, start + length)
+            }
+        };
+        at = end;
+        Some(Piece {
+            kind,
+            range: start..end,
+        })
+    })
+}
+
+/// What a letter would be that is typed at a place of a line.
+#[cfg(feature = "host")]
+pub(crate) fn kind_at(line: &str, at: usize) -> PieceKind {
+    let (before, after) = line.split_at(at);
+    let typed = format!("{before}A{after}");
+    let found = pieces(&typed).find(|piece| piece.range.contains(&at));
+    found.map_or(PieceKind::Code, |piece| piece.kind)
+}
+
+/// The stretches of a line that are code, and the code of a macro that it defines; nothing of a line that
+/// names a program.
+pub(crate) fn code_stretches(line: &str) -> impl Iterator<Item = &str> {
+    let is_name = line.trim_start_matches(is_blank).starts_with('%');
+    let line = if is_name { "" } else { line };
+    let mut before: Option<usize> = None;
+    pieces(line).filter_map(move |piece| match piece.kind {
+        PieceKind::Code => Some(&line[piece.range]),
+        PieceKind::Text => {
+            let last = before.replace(piece.range.end);
+            let is_macro = last.is_some_and(|last| line[last..piece.range.start].trim() == "=");
+            is_macro.then(|| &line[piece.range.start + 1..piece.range.end - 1])
+        }
+        PieceKind::Quoted | PieceKind::Comment | PieceKind::Foreign => None,
+    })
+}
+
+/// The words of a line that may name variables and parameters.
+#[cfg(feature = "host")]
+pub(crate) fn code_words(line: &str) -> impl Iterator<Item = &str> {
+    let is_part = |it: char| it.is_ascii_alphanumeric() || "_.@".contains(it);
+    code_stretches(line).flat_map(move |code| code.split(move |it| !is_part(it)))
+}
+
+/// Blank, tab, and the NUL and ETX that some editors leave (R2.1).
+pub(super) fn is_blank(c: char) -> bool {
+    c.is_ascii_whitespace() || matches!(c, '\u{0}' | '\u{3}' | '\u{1a}')
+}
+
+/// A control character that editors leave at the end of a file; within a block it is none of the
+/// language (R2.1, R9.94).
+fn is_control(byte: u8) -> bool {
+    matches!(byte, 0 | 3 | 0x1a)
+}
+
+/// How many bytes stand in front of a text, a comment, a foreign or a control character.
+fn code_length(bytes: &[u8]) -> usize {
+    let ends = |byte: &u8| is_control(*byte) || matches!(byte, b'"' | b';' | b'(' | 0x80..);
+    bytes.iter().position(ends).unwrap_or(bytes.len())
+}
+
+/// One past the `)` that closes the comment at `start`; comments nest (R2.6).
+fn comment_end(bytes: &[u8], start: usize) -> usize {
+    let mut depth = 0_usize;
+    for (at, byte) in bytes.iter().enumerate().skip(start) {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth -= 1,
+            _ => continue,
+        }
+        if depth == 0 {
+            return at + 1;
+        }
+    }
+    bytes.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn code_is_what_the_parser_sees() {
+        // R9.74
+        let code = |line: &str| {
+            let code: Vec<&str> = code_stretches(line).map(str::trim).collect();
+            code.join("|")
+        };
+        assert_eq!(code("N10 X1 (Y2 (Z3) A4) B5 ; C6"), "N10 X1|B5");
+        assert_eq!(code("V.P.A=\"(\" X1 ; \"Y"), "V.P.A=|X1");
+        assert_eq!(code("#MSG [\"X1 ; (\"] Y2"), "#MSG [|] Y2");
+        assert_eq!(code("\"M\" = \"X1\""), "=|X1");
+        assert_eq!(code("P1 = 'H1B5' X2"), "P1 =|X2");
+        assert_eq!(code("P1 = 'H1(B5' X2"), "P1 =|'H1");
+        assert_eq!(code("X1 'Y2"), "X1|'Y2");
+        assert_eq!(code("X1 \" Y2"), "X1|\"|Y2");
+        assert_eq!(code("%X1"), "");
+    }
+
+    #[test]
+    fn a_place_is_code_unless_it_lies_inside_something_else() {
+        use PieceKind::{Code, Comment, Text};
+
+        let text = "X1 (Y) \"Z\" ;";
+        let kinds = [1, 4, 6, 8, 10, 12].map(|at| kind_at(text, at));
+        assert_eq!(kinds, [Code, Comment, Code, Text, Code, Comment]);
+        assert_eq!(kind_at("X1 (Y", 5), Comment);
+    }
+
+    proptest! {
+        #[test]
+        fn pieces_tile_a_line(line in r#"([ -~]|[;("')\\]|\u{0}|ü|\t){0,40}"#) {
+            // R2.6
+            let mut end = 0;
+            for piece in pieces(&line) {
+                prop_assert_eq!(piece.range.start, end);
+                prop_assert!(piece.range.end > end);
+                end = piece.range.end;
+            }
+            prop_assert_eq!(end, line.len());
+        }
+    }
+}

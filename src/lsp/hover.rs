@@ -72,7 +72,7 @@ fn command_at(line: &str, offset: usize) -> Option<CompCommand> {
     });
     let mut around = brackets.filter(|(start, end)| (*start..=*end).contains(&offset));
     let (start, end) = around.next()?;
-    parse_comp(line[start..end].trim_start()).ok()
+    parse_comp(line[start..end].trim_start()).ok().flatten()
 }
 
 /// What a COMP command does, as the documents say it.

@@ -96,7 +96,7 @@ fn what_is_no_comp_command_is_told_from_a_wrong_one() {
         ("X[COMP]", "FC201"),
         ("X[COMP ON FRIKT]", "FC202"),
         ("X[ comp on FRICT", "FC205"),
-        ("X[KOMP ON FRICT]", "FC207"),
+        ("X[KOMP ON FRICT]", "P-ERR-21301"),
         ("X[COMP ON FRICT] Y[COMP ON FRICT]", "FC207"),
         ("X[COMP ON FRICT] M30", "FC207"),
     ] {

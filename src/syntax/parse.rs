@@ -26,18 +26,18 @@ use crate::text::{Span, TextLines};
 /// # Errors
 /// The first fault that keeps the control from taking a COMP command, also one whose `COMP` is misspelt.
 pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
-    if !opens_comp(text) {
-        return Ok(None);
-    }
-    let block = parse_block(text);
+    let mut block = parse_block(text);
     let refused = |fault: &Fault| fault.code.severity() == Severity::Error;
-    if let Some(fault) = block.faults.into_iter().find(refused) {
-        return Err(fault);
+    if let Some(at) = block.faults.iter().position(refused) {
+        let fault = block.faults.swap_remove(at);
+        return if opens_comp(text) { Err(fault) } else { Ok(None) };
     }
-    let mut items = block.items.into_iter();
-    match (items.next(), items.next()) {
-        (Some(Item::Comp(command)), None) if block.words.is_empty() => Ok(Some(command)),
-        _ => Err(Fault::new(
+    let is_alone = block.items.len() == 1 && block.words.is_empty();
+    let is_comp = |item: &Item| matches!(item, Item::Comp(_));
+    match block.items.into_iter().find(is_comp) {
+        Some(Item::Comp(command)) if is_alone => Ok(Some(command)),
+        None => Ok(None),
+        Some(_) => Err(Fault::new(
             Code::Fc207,
             Span::new(0, text.len()),
             "this is not a single COMP command",

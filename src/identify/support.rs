@@ -5,13 +5,13 @@ use super::curve::FrictionCurve;
 /// How many points are wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wanted {
-    /// The greatest number of segments.
+    /// At most this many.
     Points(usize),
     /// As few as keep the error below this part of the friction, but at most `most`.
     Error {
         /// The part of the Coulomb friction.
         part: f64,
-        /// The greatest number of segments.
+        /// The greatest number of points.
         most: usize,
     },
 }

@@ -72,7 +72,8 @@ fn comp_is_the_first_keyword() {
 }
 
 fn command(text: &str) -> CompCommand {
-    parse_comp(text).unwrap().expect("a COMP command")
+    let parsed = parse_comp(text).expect("no mistake");
+    parsed.expect("a COMP command")
 }
 
 #[test]
@@ -119,10 +120,7 @@ fn one_selection_governs_all_kinds() {
 #[test]
 fn off_all_takes_no_kind() {
     // R1.3
-    assert_eq!(
-        command("X[COMP OFF_ALL]").selection,
-        Selection::OffAll
-    );
+    assert_eq!(command("X[COMP OFF_ALL]").selection, Selection::OffAll);
     assert_eq!(
         parse_comp("X[COMP OFF_ALL FRICT]")
             .unwrap_err()

@@ -30,7 +30,11 @@ pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
     let refused = |fault: &Fault| fault.code.severity() == Severity::Error;
     if let Some(at) = block.faults.iter().position(refused) {
         let fault = block.faults.swap_remove(at);
-        return if opens_comp(text) { Err(fault) } else { Ok(None) };
+        return if opens_comp(text) {
+            Err(fault)
+        } else {
+            Ok(None)
+        };
     }
     let is_alone = block.items.len() == 1 && block.words.is_empty();
     let is_comp = |item: &Item| matches!(item, Item::Comp(_));

@@ -38,8 +38,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut refused = Vec::new();
     for block in PROGRAM.lines() {
         for bracket in brackets(block) {
-            let Ok(command) = parse_comp(bracket) else {
-                continue; // Not for us: another command, or an expression.
+            let command = match parse_comp(bracket) {
+                Ok(Some(command)) => command,
+                Ok(None) => continue, // Another command, or an expression: for the host.
+                Err(fault) => return Err(format!("{block}: {fault}").into()),
             };
             match compensation.apply(&command) {
                 Ok(changes) => {

@@ -14,10 +14,14 @@
 //!
 //! let machine = Machine::enabled(["X"]);
 //! let mut compensation = machine.compensation();
-//! let changes = compensation.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
-//! assert_eq!(changes[0].to.as_str(), "inactive");
-//! let refused = compensation.apply(&parse_comp("Y[COMP ON FRICT]")?).unwrap_err();
+//! if let Some(command) = parse_comp("X[COMP OFF FRICT]")? {
+//!     let changes = compensation.apply(&command)?;
+//!     assert_eq!(changes[0].to.as_str(), "inactive");
+//! }
+//! let command = parse_comp("Y[COMP ON FRICT]")?.expect("a COMP command");
+//! let refused = compensation.apply(&command).unwrap_err();
 //! assert_eq!(refused.code().as_str(), "P-ERR-70495");
+//! assert_eq!(parse_comp("V.E.OFFSET[2]")?, None);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -84,9 +84,9 @@ fn no_output_destroys_an_input() {
     both(&["lists", "v.lis", "--svg", "v.lis"], "v.lis");
     let trace = ["current", "--trace", "t.csv", "--value-list", "v.lis"];
     both(&[&trace[..], &["-o", "t.csv"]].concat(), "t.csv");
-    both(&[&trace[..], &["--plot", "v.lis"]].concat(), "v.lis");
+    both(&[&trace[..], &["--svg", "v.lis"]].concat(), "v.lis");
     let program = ["current", "part.nc", "--axis", "X"];
-    both(&[&program[..], &["--plot", "part.nc"]].concat(), "part.nc");
+    both(&[&program[..], &["--svg", "part.nc"]].concat(), "part.nc");
     both(
         &[&program[..], &["-o", "frictcomp.toml"]].concat(),
         "frictcomp.toml",

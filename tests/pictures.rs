@@ -653,7 +653,7 @@ fn commands_draw_what_they_compute() {
         "t.csv",
         "--value-list",
         "v.lis",
-        "--plot",
+        "--svg",
         "out.svg",
     ];
     let svg = draw(&recorded);
@@ -668,7 +668,7 @@ fn commands_draw_what_they_compute() {
         assert!(shown.contains(&wanted), "no `{wanted}` in {shown:?}");
     }
     let svg = draw(&[
-        "current", "a.nc", "--axis", "X", "--plot", "out.svg", "-o", "a.csv",
+        "current", "a.nc", "--axis", "X", "--svg", "out.svg", "-o", "a.csv",
     ]);
     assert!(svg.contains("Additive current of axis X"));
     assert!(svg.contains("X inactive from"), "{svg}");

@@ -2,7 +2,7 @@
 
 mod support;
 
-use frictcomp::comp::{Kind, KindSet, Selection, State};
+use frictcomp::comp::{CompCommand, Kind, KindSet, Selection, State};
 use frictcomp::machine::Machine;
 use frictcomp::session::{Session, SessionOptions};
 use frictcomp::syntax::parse_comp;
@@ -71,10 +71,44 @@ fn comp_is_the_first_keyword() {
     "#);
 }
 
+fn command(text: &str) -> CompCommand {
+    let parsed = parse_comp(text).expect("no mistake");
+    parsed.expect("a COMP command")
+}
+
+#[test]
+fn what_is_no_comp_command_is_told_from_a_wrong_one() {
+    // R1.1
+    for text in [
+        "X[INDP_ASYN G1 POS=5 FEED=100 SLOPE_TYPE=STEP]",
+        "X[MC_MoveAbsolute POS=5",
+        "V.E.OFFSET[2]",
+        "V.E.COMP[2]",
+        "[3+4]",
+        "X[SIN[30]]",
+        "G01 X10",
+        "X10 (X[COMP",
+        "",
+        "[",
+    ] {
+        assert_eq!(parse_comp(text), Ok(None), "{text}");
+    }
+    for (text, code) in [
+        ("X[COMP]", "FC201"),
+        ("X[COMP ON FRIKT]", "FC202"),
+        ("X[ comp on FRICT", "FC205"),
+        ("X[KOMP ON FRICT]", "P-ERR-21301"),
+        ("X[COMP ON FRICT] Y[COMP ON FRICT]", "FC207"),
+        ("X[COMP ON FRICT] M30", "FC207"),
+    ] {
+        assert_eq!(parse_comp(text).unwrap_err().code.as_str(), code, "{text}");
+    }
+}
+
 #[test]
 fn one_selection_governs_all_kinds() {
     // R1.2
-    let command = parse_comp("X[COMP OFF LEAD FRICT TEMP]").unwrap();
+    let command = command("X[COMP OFF LEAD FRICT TEMP]");
     let kinds: KindSet = [Kind::Lead, Kind::Frict, Kind::Temp].into_iter().collect();
     assert_eq!(command.selection, Selection::Off(kinds));
     assert_eq!(
@@ -86,10 +120,7 @@ fn one_selection_governs_all_kinds() {
 #[test]
 fn off_all_takes_no_kind() {
     // R1.3
-    assert_eq!(
-        parse_comp("X[COMP OFF_ALL]").unwrap().selection,
-        Selection::OffAll
-    );
+    assert_eq!(command("X[COMP OFF_ALL]").selection, Selection::OffAll);
     assert_eq!(
         parse_comp("X[COMP OFF_ALL FRICT]")
             .unwrap_err()
@@ -153,7 +184,7 @@ fn commands_are_continued() {
 #[test]
 fn no_move_changes_nothing_for_frict() {
     // R1.6
-    let command = parse_comp("X[COMP OFF FRICT NO_MOVE]").unwrap();
+    let command = command("X[COMP OFF FRICT NO_MOVE]");
     assert!(command.no_move);
     let bench = Bench::new();
     let plain = bench.run(&["X[COMP OFF FRICT]\nX[COMP ON FRICT]\nY[COMP OFF_ALL]\nM30"]);
@@ -452,9 +483,7 @@ fn reset_keeps_the_state_a_restart_does_not() {
     let machine = Machine::from_toml(MACHINE).unwrap();
     let x = machine.find("X").unwrap();
     let mut state = machine.compensation();
-    state
-        .apply(&parse_comp("X[COMP OFF FRICT]").unwrap())
-        .unwrap();
+    state.apply(&command("X[COMP OFF FRICT]")).unwrap();
     assert!(state.reset().is_empty());
     assert_eq!(state.state(x, Kind::Frict), State::Inactive);
     assert_eq!(machine.compensation().state(x, Kind::Frict), State::Active);

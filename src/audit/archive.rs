@@ -1,4 +1,4 @@
-//! The programs of one machine together: who leaves an axis away from its start-up state, and who inherits it.
+//! The programs of one machine together: which leave an axis away from its start-up state, and which inherit it.
 
 use std::collections::BTreeMap;
 
@@ -29,9 +29,9 @@ pub enum MendedEnd {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct AxisFinding {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
-    /// The kind.
+    /// Kind of compensation.
     pub kind: Kind,
     /// Whether it is selected at the start of the control.
     pub on_at_start_up: bool,

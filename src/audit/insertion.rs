@@ -7,7 +7,7 @@ use std::ops::Range;
 pub struct Insertion {
     /// The line before which it stands, from 1; one more than there are stands for the end.
     pub line: u32,
-    /// The block.
+    /// The block to insert, without its line end.
     pub text: String,
 }
 

@@ -4,7 +4,7 @@
 //! leaves, another finds. Each program is taken as a function from the states that it finds to the
 //! states that it leaves. Two dry runs give it, one with every configured axis in its start-up state and one with
 //! every one away from its start-up state: a [`ProgramAudit`]. An [`Archive`] puts the programs of one machine
-//! together and finds who leaves an axis away from its start-up state and who would inherit that, without ever
+//! together and finds which programs leave an axis away from its start-up state and which would inherit that, without ever
 //! looking at pairs. [`Mending`] finds the block that ends it, and [`Step`] tells what happens in one
 //! given order.
 //!

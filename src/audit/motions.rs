@@ -2,7 +2,7 @@
 
 use super::scope::Selected;
 
-/// So many changes are kept one by one; the rest is only told to be the same or not.
+/// Changes that are kept one by one; of the rest only a fingerprint is compared.
 const MOST: usize = 4096;
 
 /// The selection of one kind on one axis at every motion, in the order of the run.

@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::interpreter::{Certainty, Ended, EndedBy, Event, Executed, MovedAxis, Outcome};
 use crate::text::Place;
 
-/// So many blocks of the main program are remembered before its end.
+/// Blocks of the main program that are remembered before its end.
 pub(super) const LAST_BLOCKS: usize = 8;
 
 /// What made a selection what it is.

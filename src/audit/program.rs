@@ -29,10 +29,10 @@ pub enum Ending {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct AxisAudit {
-    /// The axis.
+    /// Name of the axis.
     #[serde(skip)]
     pub axis: String,
-    /// The kind.
+    /// Kind of compensation.
     #[serde(skip)]
     pub kind: Kind,
     /// Whether it is selected at the start of the control.

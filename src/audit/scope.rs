@@ -8,9 +8,9 @@ use crate::machine::Machine;
 /// A kind of compensation on an axis that is configured for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AuditedKind {
-    /// The axis.
+    /// Position of the axis in the machine.
     pub axis: AxisIndex,
-    /// The kind.
+    /// Kind of compensation.
     pub kind: Kind,
 }
 

@@ -15,7 +15,7 @@ use crate::interpreter::{EndedBy, Event, Interpreter, Observer};
 pub struct Sequence<'a> {
     auditor: &'a Auditor,
     interpreter: Interpreter,
-    /// Who left each subject as it is, where it is not in its start-up state.
+    /// The program that left each subject as it is, where that is not its start-up state.
     left_by: Vec<Option<String>>,
 }
 
@@ -37,10 +37,10 @@ pub struct Step {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct StepAxis {
-    /// The axis.
+    /// Name of the axis.
     #[serde(skip)]
     pub axis: String,
-    /// The kind.
+    /// Kind of compensation.
     #[serde(skip)]
     pub kind: Kind,
     /// The selection at its start: `on`, `off` or `unknown`.

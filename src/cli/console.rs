@@ -65,7 +65,7 @@ pub(super) struct Target {
     pub(super) look: Look,
 }
 
-/// Whether somebody read what was printed.
+/// Whether the output was read to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Printed {
     /// It went out.

@@ -65,7 +65,7 @@ static EXAMPLES: [Examples; 24] = [
     examples(
         &["current"],
         [
-            "frictcomp current mill.nc --axis X --start X0,Y0,Z0 --plot current.svg -o current.csv",
+            "frictcomp current mill.nc --axis X --start X0,Y0,Z0 --svg current.svg -o current.csv",
             "frictcomp current --trace trace.csv --value-list comp_x.lis",
         ],
     ),

@@ -17,7 +17,7 @@ const STDOUT: &str = "-";
 pub(super) struct Outputs {
     files: OutputFiles,
     console: Console,
-    /// Who writes to standard output.
+    /// The option or result that goes to standard output.
     printing: Option<&'static str>,
 }
 

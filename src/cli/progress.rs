@@ -23,7 +23,7 @@ pub(super) struct Terminal {
 }
 
 impl Terminal {
-    /// The terminal of a run that begins now, where somebody watches.
+    /// The terminal of a run that begins now, where standard error is one.
     pub(super) fn watched() -> Option<Self> {
         io::stderr().is_terminal().then(|| Self {
             begun: Instant::now(),
@@ -32,7 +32,7 @@ impl Terminal {
     }
 }
 
-/// The terminal as who watches a run that begins now.
+/// The terminal as the watcher of a run that begins now.
 pub(super) fn watch() -> Watch {
     match Terminal::watched() {
         Some(terminal) => Watch::by(Arc::new(terminal)),
@@ -42,7 +42,7 @@ pub(super) fn watch() -> Watch {
 
 impl Watcher for Terminal {
     fn is_due(&self) -> bool {
-        // Who comes while another thread shows something need not wait.
+        // While another thread shows its progress, this one need not wait.
         let last = self.shown.try_lock().map(|shown| *shown);
         self.begun.elapsed() > QUIET
             && last.is_ok_and(|last| last.is_none_or(|last| last.elapsed() > PAUSE))

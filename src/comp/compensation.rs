@@ -64,13 +64,14 @@ impl AxisState {
 ///
 /// let axis = AxisSetup::new("X", KindSet::of(Kind::Frict));
 /// let mut comp = Compensation::at_startup([axis]);
-/// let changes = comp.apply(&parse_comp("X[COMP OFF FRICT]")?)?;
+/// let command = |text| parse_comp(text).map(|parsed| parsed.expect("a COMP command"));
+/// let changes = comp.apply(&command("X[COMP OFF FRICT]")?)?;
 /// assert_eq!((changes[0].from, changes[0].to), (State::Active, State::Inactive));
 ///
 /// comp.program_end();
 /// assert_eq!(comp.state(comp.resolve("X")?, Kind::Frict), State::Inactive);
 ///
-/// let refused = comp.apply(&parse_comp("Y[COMP ON FRICT]")?);
+/// let refused = comp.apply(&command("Y[COMP ON FRICT]")?);
 /// assert_eq!(refused.unwrap_err().code().as_str(), "P-ERR-21947");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

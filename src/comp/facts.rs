@@ -7,7 +7,7 @@ use crate::diagnostic::Code;
 /// What the control's documents say about a kind (R1.10, R1.36, R1.40, R1.41).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Facts {
-    /// The kind.
+    /// Kind of compensation.
     pub kind: Kind,
     /// The key in the axis list that configures it.
     pub selector: &'static str,

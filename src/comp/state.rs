@@ -46,9 +46,9 @@ impl fmt::Display for State {
 /// One state that a command changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Change {
-    /// The axis.
+    /// Position of the axis in the machine.
     pub axis: AxisIndex,
-    /// The kind.
+    /// Kind of compensation.
     pub kind: Kind,
     /// The state before the command.
     pub from: State,

@@ -11,13 +11,13 @@ use crate::timeline::Row;
 /// A block has no more stretches: where it is longer they are longer, too.
 const MOST_STRETCHES: usize = 64;
 
-/// So many reversals of a block are kept one by one.
+/// Reversals of a block that are kept one by one.
 const MOST_REVERSALS: usize = 8;
 
 /// A block that moves axes, and how far the axes are from its path while it is cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockDeviation {
-    /// The file.
+    /// Path of the file, as it is shown.
     pub file: Arc<str>,
     /// The line of the block, from 1.
     pub line: u32,

@@ -66,7 +66,7 @@ impl Deviations {
 pub struct Due {
     /// The difference in µm, 0 where nothing is missing.
     pub um: f64,
-    /// The block.
+    /// The block that drives there.
     pub at: Option<Arc<Cause>>,
 }
 
@@ -84,7 +84,7 @@ impl Due {
 /// The reversals of an axis, counted (R11.4).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContourSummary {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// Reversals in feed moves.
     pub cutting: u64,

@@ -10,7 +10,7 @@ use crate::diagnostic::Code;
 pub enum ContourObstacle {
     /// Nothing was driven.
     NotDriven,
-    /// So many feed moves were left out.
+    /// The number of feed moves that were left out.
     LeftOut(u64),
     /// It ends before the program does.
     Ended(Code),

@@ -24,7 +24,7 @@ pub enum ListSource {
 /// An axis that is driven.
 #[derive(Debug, Clone)]
 pub struct ContourAxis {
-    /// The axis.
+    /// Position of the axis in the machine.
     pub axis: AxisIndex,
     /// Its name.
     pub name: String,

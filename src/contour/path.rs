@@ -43,7 +43,7 @@ pub(super) struct Distance {
 #[derive(Debug, Clone)]
 pub(super) struct CommandedPath {
     points: VecDeque<Point>,
-    /// So many points before the commanded one the nearest may be.
+    /// How many points before the commanded one the nearest may lie.
     back: u64,
     /// The number of the first of the points.
     first: u64,

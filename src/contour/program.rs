@@ -28,7 +28,7 @@ use crate::timeline::{Record, Row, Sink};
 
 const UM_PER_MM: f64 = 1000.0;
 
-/// So many cycles of the path are known beyond the one that is driven.
+/// Cycles of the path that are known beyond the one that is driven.
 const AHEAD: usize = 16;
 
 /// The contour in one CNC cycle.
@@ -49,7 +49,7 @@ pub struct ContourPoint<'a> {
     pub counts: bool,
 }
 
-/// Who hears of a contour.
+/// A listener to a contour.
 pub trait ContourSink {
     /// Takes a block that moves axes, before its cycles.
     fn block(&mut self, row: &Row<'_>) {
@@ -290,7 +290,7 @@ impl<S: ContourSink> ProgramContour<S> {
         self.trace.diagnostics()
     }
 
-    /// Who heard of the contour.
+    /// The listener to the contour.
     pub fn sink(&mut self) -> &mut S {
         &mut self.trace.sink().sink
     }

@@ -16,9 +16,9 @@ const WINDOW_S: f64 = 0.2;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ContourReversal {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
-    /// The file.
+    /// Path of the file, as it is shown.
     pub file: Arc<str>,
     /// The line of the block, from 1.
     pub line: u32,

@@ -12,7 +12,7 @@ use super::transport::Request;
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Launch {
-    /// The program.
+    /// Path of the program.
     pub(super) program: PathBuf,
     /// Whether the run stops before the first block.
     #[serde(default = "yes")]

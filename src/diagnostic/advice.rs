@@ -47,7 +47,7 @@ pub enum Advice {
     Configure(String),
     /// Set P-AXIS-00522 of this axis to 1 where its list sets it to 0.
     ConfigureInList {
-        /// The axis.
+        /// Name of the axis.
         axis: String,
         /// The list.
         file: String,

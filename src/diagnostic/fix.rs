@@ -12,7 +12,7 @@ use crate::text::{Place, SourceFile, Span};
 pub enum Safety {
     /// The machine does the same before and after it.
     Safe,
-    /// It guesses what is meant, or changes what the machine does: somebody has to look at it.
+    /// It guesses what is meant, or changes what the machine does, and has to be reviewed.
     Unsafe,
 }
 
@@ -51,7 +51,7 @@ impl<P> Fix<P> {
         }
     }
 
-    /// A fix that somebody has to look at.
+    /// A fix that has to be reviewed.
     pub fn guess(place: P, text: impl Into<String>) -> Self {
         Self {
             place,
@@ -104,7 +104,7 @@ pub struct NamedFix {
 }
 
 impl NamedFix {
-    /// The fix for a name, at which somebody has to look.
+    /// The fix for a name, which has to be reviewed.
     pub fn guess(&self, name: &str) -> Fix {
         let Self { before, after, .. } = self;
         Fix::guess(self.place.clone(), format!("{before}{name}{after}"))
@@ -114,7 +114,7 @@ impl NamedFix {
 /// A text after fixes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fixed {
-    /// The text.
+    /// The text that takes the place of what stands there.
     pub text: String,
     /// How many fixes were applied; the others overlap an earlier one, or their place is not in the
     /// text.

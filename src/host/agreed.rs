@@ -33,7 +33,7 @@ pub struct AgreedResults {
 /// A program with the file that holds what was agreed on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AgreedFile {
-    /// The program.
+    /// The program whose result was agreed on.
     pub program: Input,
     /// The file beside it.
     pub path: PathBuf,

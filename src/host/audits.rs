@@ -141,7 +141,7 @@ impl ArchiveAuditor {
         self.options.workers.min(most)
     }
 
-    /// `Break` where who watches wants the work to stop.
+    /// `Break` where the watcher wants the work to stop.
     fn flow(&self) -> ControlFlow<()> {
         if self.machines.iter().any(|it| it.watch.is_stopped()) {
             return ControlFlow::Break(());

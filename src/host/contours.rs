@@ -51,7 +51,7 @@ pub enum NoDrivenContour {
     /// A plant whose loops do not hold the path.
     #[error("the simulated drives are unstable after {after_s:.3} s of `{program}`")]
     Unstable {
-        /// The program.
+        /// Path of the program.
         program: String,
         /// The machine time in s.
         after_s: f64,

@@ -77,7 +77,7 @@ pub struct LoadedMachine {
     pub ledger: Ledger,
     /// The disk that runs on this machine read from.
     pub disk: Disk,
-    /// Who watches the runs on this machine.
+    /// The watcher of the runs on this machine.
     pub watch: Arc<Watch>,
 }
 
@@ -139,7 +139,7 @@ pub struct Machines {
     options: MachineOptions,
     ledger: Ledger,
     disk: Disk,
-    /// The axes of the programs, where somebody asks for axes.
+    /// The axes of the programs, where axes are asked for.
     ahead: Option<AxesOfPrograms>,
     watch: Arc<Watch>,
     /// The machines without the axes that the user enables.
@@ -164,7 +164,7 @@ impl Machines {
         }
     }
 
-    /// The same, with somebody who watches the programs that run on the machines.
+    /// The same, with a watcher of the programs that run on the machines.
     pub fn watched_by(mut self, watcher: Arc<dyn Watcher>) -> Self {
         self.watch = Arc::new(Watch::by(watcher));
         self

@@ -183,7 +183,7 @@ pub struct Alone {
 pub enum Axes {
     /// Those that a look over the program finds (R9.74).
     Ahead,
-    /// Nobody lists them.
+    /// They are not listed.
     AsTheyOccur,
 }
 

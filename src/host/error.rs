@@ -34,7 +34,7 @@ pub enum HostError {
     /// A change that the code page of a file cannot write.
     #[error("`{}` cannot be changed: {reason}", shown_path(.path))]
     Unwritable {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Why.
         reason: String,
@@ -78,7 +78,7 @@ pub enum HostError {
     /// A `frictcomp.toml` with a mistake.
     #[error("the configuration `{}` cannot be used", shown_path(.path))]
     Configuration {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// The lines that are the reason.
         diagnostics: Vec<Diagnostic>,
@@ -86,7 +86,7 @@ pub enum HostError {
     /// An axis list where a start-up list is wanted.
     #[error("{message}")]
     NotAStartupList {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What it is instead.
         message: String,
@@ -140,7 +140,7 @@ pub enum HostError {
         output: String,
         /// The kind of file.
         what: &'static str,
-        /// The file.
+        /// Path of the file.
         target: PathBuf,
     },
     /// An output in the place of a file that users write.
@@ -160,7 +160,7 @@ pub enum HostError {
     /// A state that is damaged, or of another machine.
     #[error("the state file `{}` cannot be used: {reason}", shown_path(.path))]
     State {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it.
         reason: String,
@@ -168,7 +168,7 @@ pub enum HostError {
     /// A value list that the control would not take.
     #[error("the value list `{}` cannot be used: {reason}", shown_path(.path))]
     ValueList {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it.
         reason: &'static str,
@@ -181,7 +181,7 @@ pub enum HostError {
     /// A plant file with a mistake.
     #[error("the plant `{}` cannot be used", shown_path(.path))]
     Plant {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// The lines that are the reason.
         diagnostics: Vec<Diagnostic>,

@@ -34,7 +34,7 @@ pub(super) const PROGRAM: &str = "program";
 pub(super) struct Claim {
     /// What it is called in errors.
     pub name: &'static str,
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
     /// What it may take the place of.
     pub replaces: Replaces,

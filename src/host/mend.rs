@@ -13,7 +13,7 @@ use crate::text::{EncodedText, SourceFile, decode, shown_path};
 /// A file and what changes make of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MendedFile {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
     /// Its text.
     pub before: String,

@@ -7,7 +7,7 @@
 //! [`OutputFiles`] take their place all at once, [`read_commanded`] and [`read_circles`] read what was
 //! recorded on a machine, and [`compare`] and [`tune`] simulate on all processors.
 //!
-//! Nothing here prints or knows an option: who watches long work gives a [`Watcher`], and what cannot
+//! Nothing here prints or knows an option: long work is followed by a [`Watcher`], and what cannot
 //! be done is a [`HostError`].
 
 mod agreed;

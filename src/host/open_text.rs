@@ -7,8 +7,8 @@ use std::sync::Arc;
 /// there at all.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct OpenText {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The text.
+    /// The text as it stands in the editor.
     pub text: Arc<String>,
 }

@@ -32,7 +32,7 @@ pub fn tune(task: &Task, watch: &Watch) -> Result<Tuned, CircleError> {
     tune_with(task, &Runs { of: "tune", watch })
 }
 
-/// Runs of a simulation, and who watches them.
+/// Runs of a simulation, and their watcher.
 struct Runs<'a> {
     of: &'static str,
     watch: &'a Watch,

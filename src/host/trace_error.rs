@@ -16,7 +16,7 @@ pub enum TraceError {
     /// A file that is no trace, or not the one that is wanted.
     #[error("{}", said(.path, .problem))]
     Problem {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it.
         problem: TraceProblem,
@@ -27,7 +27,7 @@ pub enum TraceError {
     /// Channels that cannot be brought to one clock.
     #[error("the trace `{}`: {reason}", shown_path(.path))]
     Apart {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it.
         reason: NotAligned,
@@ -35,7 +35,7 @@ pub enum TraceError {
     /// Rows that are not CNC cycles.
     #[error("the trace `{}`: {reason}", shown_path(.path))]
     Cycles {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with its times.
         reason: CyclesError,
@@ -46,7 +46,7 @@ pub enum TraceError {
     /// Points that make no circle.
     #[error("`{}`: {reason}", shown_path(.path))]
     Circle {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// What is wrong with it.
         reason: RecordedError,

@@ -23,7 +23,7 @@ const MAX_POINTS: usize = 4_000_000;
 /// Rows of a trace at most: eleven hours of cycles of 1 ms.
 const MAX_ROWS: usize = 40_000_000;
 
-/// So many bytes are read at a time.
+/// Bytes that are read at a time.
 const PIECE: usize = 1 << 18;
 
 /// Kinds of files that Scope writes and that are not read.

@@ -58,7 +58,7 @@ pub(super) struct UnfinishedFile {
 
 #[derive(Debug)]
 enum Stage {
-    /// More may come. The file is locked, so that other runs know that somebody writes it.
+    /// More may come. The file is locked, so that other runs know that it is being written.
     Open(NamedTempFile),
     /// It lies on the disk, and many may wait for each other: most of them are locked still.
     Synced(TempPath, Option<Held>),
@@ -270,7 +270,7 @@ fn create(folder: &Path) -> io::Result<NamedTempFile> {
     let mut unfinished = Unfinished::lock();
     for _ in 0..TRIES {
         let file = builder.tempfile_in(folder)?;
-        // Who holds the lock lives (see `take_away_left`). Not every file system has locks.
+        // The process that holds the lock is alive (see `take_away_left`). Not every file system has locks.
         let is_taken = matches!(
             file.as_file().try_lock(),
             Err(std::fs::TryLockError::WouldBlock)

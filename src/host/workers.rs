@@ -60,7 +60,7 @@ pub fn in_order<T: Send, R: Send>(
             .map_while(|_| {
                 let worker = move || {
                     while let Some((item, result)) = next(queue) {
-                        // Nobody waits for it after a `Break`.
+                        // Its receiver is gone after a `Break`.
                         let _ = result.send(work(item));
                     }
                 };

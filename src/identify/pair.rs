@@ -253,7 +253,7 @@ pub struct Drift {
 
 /// The drift of all speeds that were visited more than once; `None` where there are too few.
 fn drift(pairs: &[Pair], duration_s: f64) -> Option<Drift> {
-    /// So many standard errors are no accident.
+    /// Standard errors from which a difference counts as real.
     const SIGNIFICANT: f64 = 4.0;
     let (mut product, mut square) = (0.0, 0.0);
     // Of a speed in one direction, friction is not known yet.

@@ -178,7 +178,7 @@ impl<'a> Speeds<'a> {
     /// Divides a stretch where noise hides that it has two speeds: where the means of both sides
     /// differ by far more than their errors.
     fn split(&self, range: Range<usize>, pieces: &mut Vec<Range<usize>>) {
-        /// So many standard errors are no accident, whatever place is tried.
+        /// Standard errors from which a step counts as real, wherever it is looked for.
         const SIGNIFICANT: f64 = 7.0;
         let values = &self.single[range.clone()];
         let total: f64 = values.iter().sum();

@@ -5,13 +5,13 @@ use super::curve::FrictionCurve;
 /// How many points are wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wanted {
-    /// So many at most.
+    /// At most this many.
     Points(usize),
-    /// As few as keep the error below this part of the friction, but not more than so many.
+    /// As few as keep the error below this part of the friction, but at most `most`.
     Error {
         /// The part of the Coulomb friction.
         part: f64,
-        /// So many at most.
+        /// The greatest number of points.
         most: usize,
     },
 }

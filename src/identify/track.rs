@@ -29,7 +29,7 @@ pub enum TrackError {
     Absurd {
         /// When.
         time_s: f64,
-        /// What it is.
+        /// The quantity, in words.
         what: &'static str,
         /// Its value.
         value: f64,

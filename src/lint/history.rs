@@ -37,7 +37,7 @@ impl Maker {
 /// Whether the user has been told that a state is left away from its start-up state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Told {
-    /// Nobody said it.
+    /// It was not said.
     #[default]
     No,
     /// FC401 or FC407 stands under a program of this session.

@@ -20,7 +20,7 @@ use crate::timeline::{EndedBy, Record, Sink};
 
 /// A text to check, as it and all others were when it was asked for.
 pub(super) struct Job {
-    /// The text.
+    /// The text that was checked.
     pub(super) document: Arc<Document>,
     /// The disk with all open texts.
     pub(super) disk: Disk,

@@ -23,7 +23,7 @@ impl Request for StatesRequest {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct StatesParams {
-    /// The text.
+    /// The program or list that is asked about.
     pub(super) text_document: TextDocumentIdentifier,
     /// The place.
     pub(super) position: Position,
@@ -70,7 +70,7 @@ impl Request for TimelineRequest {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct TimelineParams {
-    /// The program.
+    /// The program that is asked about.
     pub(super) text_document: TextDocumentIdentifier,
 }
 

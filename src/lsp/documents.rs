@@ -31,7 +31,7 @@ pub(super) struct Document {
     pub(super) uri: Uri,
     /// The file that it stands in for; for a text without one, a name in the folder of the project.
     pub(super) path: PathBuf,
-    /// What it is.
+    /// Whether it is a program, a list or a configuration.
     pub(super) kind: Kind,
     /// The number that the client gives to its state.
     pub(super) version: i32,
@@ -173,7 +173,7 @@ impl Documents {
         encoding: Encoding,
     ) -> Option<Arc<Document>> {
         let document = self.open.get_mut(&uri.0)?;
-        // Nobody but the document holds the text while it changes, so that it need not be copied.
+        // The document alone holds the text while it changes, so that it need not be copied.
         self.texts.remove(&document.place);
         let text = Arc::make_mut(document);
         text.version = version;

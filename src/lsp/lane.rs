@@ -36,7 +36,7 @@ impl<J: Send + 'static> Lane<J> {
 pub(super) struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Nobody waits any more.
+    /// The receiver is gone.
     pub(super) fn set(&self) {
         self.0.store(true, Ordering::Relaxed);
     }

@@ -16,7 +16,7 @@ use super::pages::page_uri;
 use crate::diagnostic::{Advice, Code, Diagnostic, Severity};
 use crate::text::Place;
 
-/// Who says it.
+/// The source that an editor shows beside a message.
 const SOURCE: &str = "frictcomp";
 
 /// What stands before advice.

@@ -25,7 +25,7 @@ pub(super) enum Name {
 /// A name in the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Mention {
-    /// The name.
+    /// The name that is defined or used.
     pub(super) name: Name,
     /// What it does here.
     pub(super) role: Role,

@@ -36,7 +36,7 @@ struct Known {
     answerer: Answerer,
 }
 
-/// Who answers a question; `None` where nobody does.
+/// The handler of a request; `None` for an unknown method.
 pub(super) fn answerer(method: &str) -> Option<(Needs, Answerer)> {
     let known = KNOWN.iter().find(|known| known.method == method)?;
     Some((known.needs, known.answerer))

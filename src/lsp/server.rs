@@ -90,7 +90,8 @@ pub fn serve(connection: &Connection) -> io::Result<Farewell> {
     Ok(server.listen())
 }
 
-/// Waits for the client to say what it can do. Who leaves before has not come.
+/// Waits for the client to say what it can do. One that leaves before then ends the session without an
+/// error.
 fn initialize(connection: &Connection) -> Result<(RequestId, InitializeParams), Farewell> {
     loop {
         let Ok(message) = connection.receiver.recv() else {
@@ -489,7 +490,7 @@ impl<'c> Server<'c> {
         self.publish(changed);
         self.answer_waiting(&uri);
         if is_by_others {
-            // Nobody typed in this text: the client has no reason of its own to ask again.
+            // The text itself did not change, so the client has no reason to ask again.
             let hints = (
                 self.client.refreshes_inlay_hints(),
                 InlayHintRefreshRequest::METHOD,
@@ -546,7 +547,7 @@ fn read<P: DeserializeOwned>(params: Value) -> Result<P, serde_json::Error> {
 /// The thread of the checks.
 fn checking(done: Sender<Done>) -> io::Result<Lane<Job>> {
     Lane::new("checks", move |job: Job| {
-        // Who waits is gone with the server.
+        // The receiver is gone with the server.
         let _ = done.send(Done::Checked(job.run().map(Box::new)));
     })
 }

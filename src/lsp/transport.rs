@@ -59,7 +59,7 @@ impl Stdio {
         })
     }
 
-    /// Lets the last messages go out, as long as somebody reads them.
+    /// Lets the last messages go out, as long as the client reads them.
     pub(super) fn close(self) {
         drop(self.connection);
         let end = Instant::now() + PATIENCE;

@@ -26,7 +26,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// Who makes messages for the client.
+    /// The source of the messages to the client.
     pub(super) fn translator(&self) -> Translator<'_> {
         Translator {
             client: &self.client,

@@ -309,7 +309,7 @@ mod tests {
         result.is_ok().then(|| trajectory.get_duration())
     }
 
-    /// So many cases, the same each time unless `PROPTEST_RNG_SEED` asks for others.
+    /// The number of cases, the same each time unless `PROPTEST_RNG_SEED` asks for others.
     fn seeded(cases: u32) -> ProptestConfig {
         let config = ProptestConfig::with_cases(cases);
         let rng_seed = match config.rng_seed {

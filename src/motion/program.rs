@@ -110,12 +110,12 @@ impl<S: TraceSink> ProgramTrace<S> {
         self.planner.left_out_feed()
     }
 
-    /// Who takes the trace, to look at.
+    /// The receiver of the trace.
     pub fn sink_ref(&self) -> &S {
         &self.sink
     }
 
-    /// Who takes the trace.
+    /// The receiver of the trace.
     pub fn sink(&mut self) -> &mut S {
         &mut self.sink
     }

@@ -13,7 +13,7 @@ pub struct Cause {
     pub program: u32,
     /// The executed block of its program, from 1.
     pub seq: u64,
-    /// The file.
+    /// Path of the file, as it is shown.
     pub file: Arc<str>,
     /// The line on which the block starts, from 1.
     pub line: u32,
@@ -75,7 +75,7 @@ pub struct Sample<'a> {
 pub struct SkippedMotion<'a> {
     /// The time of the trace at which it would begin.
     pub time_s: f64,
-    /// The file.
+    /// Path of the file, as it is shown.
     pub file: &'a str,
     /// The line of the block, from 1.
     pub line: u32,

@@ -7,7 +7,6 @@ mod advice;
 pub mod assumptions;
 pub mod audit;
 pub mod circle;
-mod concise;
 #[cfg(feature = "toml")]
 pub mod configuration;
 pub mod contour;
@@ -16,22 +15,19 @@ mod diagnostics;
 pub mod drives;
 mod feed_moves;
 mod findings;
-mod github;
-mod gitlab;
 pub mod html;
 pub mod identify;
 mod json;
 mod limits;
 #[cfg(feature = "cli")]
 mod listeners;
-mod listing;
 pub mod lists;
+mod messages;
 mod ndjson;
 pub mod on_circles;
 mod output;
 pub mod pictures;
 mod records;
-mod sarif;
 pub mod stiction;
 mod strings;
 pub mod svg;
@@ -47,8 +43,6 @@ mod view;
 mod visible;
 mod wording;
 
-#[cfg(feature = "cli")]
-pub(crate) use concise::concise_line;
 pub use csv::{Csv, Positions};
 #[cfg(feature = "cli")]
 pub(crate) use diagnostics::wrap;
@@ -58,7 +52,9 @@ pub use json::Json;
 pub use limits::assumed_limits;
 #[cfg(feature = "cli")]
 pub(crate) use listeners::{Listeners, SharedReport};
-pub use listing::{Listing, ListingFormat, Tally};
+#[cfg(feature = "cli")]
+pub(crate) use messages::concise_line;
+pub use messages::{Listing, ListingFormat, Tally};
 pub use ndjson::Ndjson;
 pub use output::Report;
 pub use text::{Runs, Text, TextOptions};

@@ -370,7 +370,7 @@ impl Recorder<'_> {
                 notes.push(left.note);
             }
         }
-        // Who never came to program end was not judged there.
+        // A run that did not reach program end was not judged there.
         let judged = match ended.by {
             EndedBy::Error => false,
             EndedBy::Budget => ended.endless,

@@ -83,7 +83,7 @@ pub struct SavedState {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedAxis {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The kinds that are selected.
     pub selected: KindSet,
@@ -108,7 +108,7 @@ pub struct SavedAxis {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedAway {
-    /// The kind.
+    /// Kind of compensation.
     pub kind: Kind,
     /// The block that made it so, where that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -65,7 +65,7 @@ pub(super) fn lower_text(text: &str, block: &mut Block) -> Option<Operand> {
     Some(lower(pair, 0, block))
 }
 
-/// An operand whose text could not be read; who calls says what is wrong with it.
+/// An operand whose text could not be read; the caller says what is wrong with it.
 pub(super) fn unread(span: Span, block: &mut Block) -> Expression {
     let from = block.nodes.len();
     Lowering { base: 0, block }.push(Node::Unread, span);

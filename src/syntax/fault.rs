@@ -7,7 +7,7 @@ use crate::text::{Place, Span};
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Fault {
-    /// The code.
+    /// The code of the message.
     pub code: Code,
     /// The bytes of the block's text that are meant.
     pub span: Span,

@@ -6,39 +6,58 @@ use super::expression::lower_text;
 use super::fault::Fault;
 use super::lines::{BlockReader, FastPath};
 use crate::comp::CompCommand;
-use crate::diagnostic::{Code, Severity};
+use crate::diagnostic::{Code, Severity, nearest};
 use crate::text::{Span, TextLines};
 
-/// Parses one COMP command, `X[COMP ON FRICT]`, and nothing else.
+/// Parses one COMP command, `X[COMP ON FRICT]`; `None` where the text is something else:
+/// another bracket, an expression, or no bracket at all.
 ///
 /// ```
 /// use frictcomp::comp::{Kind, KindSet, Selection};
 /// use frictcomp::syntax::parse_comp;
 ///
-/// let command = parse_comp("X[COMP ON FRICT]").unwrap();
+/// let command = parse_comp("X[COMP ON FRICT]").unwrap().expect("a COMP command");
 /// assert_eq!(command.axis, "X");
 /// assert_eq!(command.selection, Selection::On(KindSet::of(Kind::Frict)));
+/// assert_eq!(parse_comp("X[INDP_ASYN G1 POS=5 FEED=100 SLOPE_TYPE=STEP]"), Ok(None));
 /// assert_eq!(parse_comp("X[COMP ON FRIKT]").unwrap_err().code.as_str(), "FC202");
 /// ```
 ///
 /// # Errors
-/// The first fault that keeps the control from taking the command.
-pub fn parse_comp(text: &str) -> Result<CompCommand, Fault> {
-    let block = parse_block(text);
+/// The first fault that keeps the control from taking a COMP command, also one whose `COMP` is misspelt.
+pub fn parse_comp(text: &str) -> Result<Option<CompCommand>, Fault> {
+    let mut block = parse_block(text);
     let refused = |fault: &Fault| fault.code.severity() == Severity::Error;
-    if let Some(fault) = block.faults.into_iter().find(refused) {
-        return Err(fault);
+    if let Some(at) = block.faults.iter().position(refused) {
+        let fault = block.faults.swap_remove(at);
+        return if opens_comp(text) {
+            Err(fault)
+        } else {
+            Ok(None)
+        };
     }
-    let mut items = block.items.into_iter();
-    match (items.next(), items.next()) {
-        (Some(Item::Comp(command)), None) if block.words.is_empty() => Ok(command),
-        _ => Err(Fault::new(
+    let is_alone = block.items.len() == 1 && block.words.is_empty();
+    let is_comp = |item: &Item| matches!(item, Item::Comp(_));
+    match block.items.into_iter().find(is_comp) {
+        Some(Item::Comp(command)) if is_alone => Ok(Some(command)),
+        None => Ok(None),
+        Some(_) => Err(Fault::new(
             Code::Fc207,
             Span::new(0, text.len()),
             "this is not a single COMP command",
         )
         .with_help("write `X[COMP ON FRICT]`")),
     }
+}
+
+/// Whether the first bracket of a text begins with `COMP`, or with what is nearly that.
+fn opens_comp(text: &str) -> bool {
+    let Some((_, inside)) = text.split_once('[') else {
+        return false;
+    };
+    let inside = inside.trim_start();
+    let word = inside.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
+    word.take(1).any(|word| !nearest(word, ["COMP"]).is_empty())
 }
 
 /// Parses the first block of a text; an empty block where there is none.

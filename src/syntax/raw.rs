@@ -16,7 +16,7 @@ pub enum Stretch {
     Block,
     /// `%NAME`: a program begins.
     Program {
-        /// The name.
+        /// The name of the program.
         name: Span,
         /// Whether it is a local subprogram, `%L NAME`.
         local: bool,

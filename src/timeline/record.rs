@@ -24,7 +24,7 @@ pub const TOOL: &str = concat!("frictcomp ", env!("CARGO_PKG_VERSION"));
 pub struct StateView<'a> {
     /// The machine, for the names of the axes.
     pub machine: &'a Machine,
-    /// The state.
+    /// The state of all kinds on all axes.
     pub compensation: &'a Compensation,
     /// The axes that are listed, by position: all of a configured machine; of an unconfigured one
     /// those that occurred so far.
@@ -90,7 +90,7 @@ pub struct Row<'a> {
 pub struct Repeat {
     /// The remark.
     pub code: Code,
-    /// The file.
+    /// Path of the file, as it is shown.
     pub file: String,
     /// The line of the remark.
     pub line: u32,
@@ -126,7 +126,7 @@ pub struct End<'a> {
 pub struct AxisSummary {
     /// Kinds other than friction compensation that are not as at the start of the control.
     pub others_away: KindSet,
-    /// The axis.
+    /// Position of the axis in the machine.
     pub axis: AxisIndex,
     /// Friction compensation when the session began.
     pub start: State,

@@ -13,7 +13,7 @@ const MOST_LINE: usize = 4 << 20;
 /// A table of which some lines came.
 #[derive(Default)]
 pub(super) struct Csv {
-    /// The begin of a line whose end has not come.
+    /// The start of a line whose end is in the next piece.
     begun: Vec<u8>,
     lines: u64,
     stage: Stage,

@@ -24,7 +24,7 @@ pub(super) const MOST_HEADER: usize = 16 << 20;
 /// A header has no more lines.
 const MOST_LINES: usize = 4096;
 
-/// So many rows are looked at where there is no header.
+/// Rows that are examined where the file has no header.
 const ROWS: usize = 64;
 
 /// A table has no more columns.

@@ -38,7 +38,7 @@ enum Form {
     Xml(Box<Xml>),
 }
 
-/// So many bytes tell what a file is.
+/// Bytes from the start of a file by which its layout is recognised.
 const ENOUGH: usize = 1024;
 
 /// The first bytes of a file that gzip compressed.

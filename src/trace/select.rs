@@ -34,7 +34,7 @@ pub struct Pick {
     pub channel: ChannelIndex,
     /// Its unit.
     pub unit: Unit,
-    /// Nobody named the unit: it is taken as that of the CNC.
+    /// No unit is named: that of the CNC is assumed.
     pub is_unit_assumed: bool,
 }
 

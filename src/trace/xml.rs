@@ -113,7 +113,7 @@ impl Xml {
             let event = reader.read_event();
             let at = usize::try_from(reader.buffer_position()).unwrap_or(text.len());
             match event {
-                // An element whose end has not come is no more than the end of a piece.
+                // An element without its end is cut off by the end of a piece, which is no mistake.
                 Ok(Event::Eof) | Err(quick_xml::Error::Syntax(_)) => return Ok(done),
                 Ok(Event::Start(element) | Event::Empty(element)) => {
                     self.element(&element, &text[..done], demand)?;

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 /// What keeps a version from being compared as a whole, and where: what follows is not known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Obstacle {
-    /// The file.
+    /// Path of the file, as it is shown.
     pub file: String,
     /// The line, from 1, where it is known.
     pub line: Option<u32>,
@@ -29,7 +29,7 @@ pub enum Reason {
     },
     /// A state depends on what only the machine knows.
     Unknown {
-        /// The axis.
+        /// Name of the axis.
         axis: String,
         /// The kind of compensation.
         kind: Kind,

@@ -8,7 +8,7 @@ use crate::timeline::Row;
 /// A change of one state by one block of a version.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Switch {
-    /// The axis.
+    /// Name of the axis.
     pub axis: String,
     /// The kind of compensation.
     pub kind: Kind,

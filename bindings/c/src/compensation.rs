@@ -92,7 +92,7 @@ impl FrictcompCompensation {
 
     /// Applies one command, as `X[COMP OFF FRICT]`.
     pub(crate) fn apply(&mut self, command: &str) -> Result<(), Failure> {
-        let command = parse_comp(command)?;
+        let command = parse_comp(command)?.ok_or(Failure::NotComp)?;
         let changes = self.states.apply(&command)?;
         self.changed(&changes);
         Ok(())

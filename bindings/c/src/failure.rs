@@ -36,6 +36,8 @@ pub enum FrictcompStatus {
 pub(crate) enum Failure {
     #[error(transparent)]
     Refused(#[from] CompensationError),
+    #[error("this is not a COMP command; write `X[COMP ON FRICT]`")]
+    NotComp,
     #[error("{message}")]
     Text { code: Code, message: String },
     #[error("{0}")]
@@ -54,8 +56,7 @@ impl Failure {
     pub(crate) fn status(&self) -> FrictcompStatus {
         match self {
             Self::Refused(_) => FrictcompStatus::Refused,
-            // FC207 is the word for a text that is something else than one COMP command.
-            Self::Text { code, .. } if *code == Code::Fc207 => FrictcompStatus::NotComp,
+            Self::NotComp => FrictcompStatus::NotComp,
             Self::Text { .. } => FrictcompStatus::Faulty,
             Self::BadArgument(_) => FrictcompStatus::BadArgument,
             Self::Machine(_) => FrictcompStatus::NoMachine,

@@ -82,8 +82,8 @@ pub(in crate::cli) struct CurrentArgs {
     #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) max_cycles: u64,
     /// Draw currents, velocities, weights and compensation states over time to this SVG file
-    #[arg(long, value_name = "FILE")]
-    pub(super) plot: Option<PathBuf>,
+    #[arg(long, alias = "plot", value_name = "FILE")]
+    pub(super) svg: Option<PathBuf>,
     /// Write the result to this file
     #[arg(long, short, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

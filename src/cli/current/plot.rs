@@ -24,7 +24,7 @@ impl Plot {
         outputs: &mut Outputs,
         axes: Vec<AxisPlot>,
     ) -> Result<Option<Self>, Failure> {
-        let file = outputs.optional("--plot", path)?;
+        let file = outputs.optional("--svg", path)?;
         Ok(file.map(|file| Self {
             file,
             traces: CurrentPlot::new(axes),

@@ -46,7 +46,7 @@ pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Resul
     say_scaling(&loaded);
     let result = outputs.result(args.output.as_deref())?;
     let plot = Plot::create(
-        args.plot.as_deref(),
+        args.svg.as_deref(),
         &mut outputs,
         plotted(&loaded, &followed),
     )?;

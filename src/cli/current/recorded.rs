@@ -28,7 +28,7 @@ pub(super) fn run(
     let list = value_list(list, &ledger)?;
     let mut writer = outputs.result(args.output.as_deref())?.writer;
     let axes = vec![AxisPlot::new("", None)];
-    let mut plot = Plot::create(args.plot.as_deref(), &mut outputs, axes)?;
+    let mut plot = Plot::create(args.svg.as_deref(), &mut outputs, axes)?;
     outputs.check()?;
     let trace = read_commanded(trace, &args.channels.selection(), args.trace_options()?)?;
     for remark in trace.remarks() {

@@ -6,7 +6,7 @@ use crate::text::Span;
 /// An axis word of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisWord {
-    /// The axis.
+    /// Position of the axis in the machine.
     pub axis: AxisIndex,
     /// The word.
     pub span: Span,

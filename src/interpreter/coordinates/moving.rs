@@ -57,7 +57,7 @@ pub enum Certainty {
 /// The motion of one axis in a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedAxis {
-    /// The axis.
+    /// Position of the axis in the machine.
     pub axis: AxisIndex,
     /// The words that move it.
     pub span: Span,

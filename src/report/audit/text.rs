@@ -7,7 +7,7 @@ use crate::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, ProgramAudit}
 use crate::interpreter::MotionKind;
 use crate::report::visible::visible_line;
 
-/// So many rows of a table are shown, and so many programs of a list.
+/// Rows of a table, and programs of a list, that are shown.
 const ROWS: usize = 40;
 const LISTED: usize = 10;
 

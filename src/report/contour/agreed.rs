@@ -11,7 +11,7 @@ use crate::report::visible::visible_line;
 /// What was driven, and from where.
 #[derive(Debug, Clone)]
 pub struct AgreedContour {
-    /// The program.
+    /// Path of the program.
     pub program: String,
     /// The plant.
     pub plant: String,

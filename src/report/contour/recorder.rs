@@ -9,7 +9,7 @@ use crate::contour::{ContourPoint, ContourReversal, ContourSink};
 use crate::motion::Movement;
 use crate::report::pictures::ContourPicture;
 
-/// So many of the worst reversals are kept.
+/// How many of the worst reversals are kept.
 const WORST: usize = 10;
 
 /// What becomes of each reversal.

@@ -12,7 +12,7 @@ use crate::report::visible::visible_line;
 /// What was driven.
 #[derive(Debug, Clone)]
 pub struct ContourSubject {
-    /// The program.
+    /// Path of the program.
     pub program: String,
     /// The plant.
     pub plant: String,

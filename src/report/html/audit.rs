@@ -15,10 +15,10 @@ const FINDINGS: Part = Part::new("findings", "Findings");
 const MATRIX: Part = Part::new("programs", "Programs and axes");
 const LINES: Part = Part::new("lines", "Lines");
 
-/// So many programs have a row of their own, the most dangerous ones.
+/// Programs with a row of their own, the most dangerous ones first.
 const ROWS: usize = 2000;
 
-/// So many lines are shown with what stands around them.
+/// Lines that are shown with their surroundings.
 const MARKS: usize = 4000;
 
 /// Lines around one that matters.

@@ -20,7 +20,7 @@ const FIGURES: Part = Part::new("figures", "Figures");
 const REVERSALS: Part = Part::new("reversals", "Reversals by line");
 const SOURCE: Part = Part::new("source", "Source with its reversals");
 
-/// So many lines have a row of their own, those with the worst reversals.
+/// Lines with a row of their own, those with the worst reversals first.
 const LINES: usize = 500;
 
 /// Writes the report of a contour as one page: each mark of the picture leads to its line, and each

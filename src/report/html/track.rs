@@ -19,7 +19,7 @@ pub(super) struct Spot {
 pub(super) struct Stretch {
     /// The executed block after which the state holds, 0 at program start.
     pub(super) from: u64,
-    /// The state.
+    /// The state that the band shows.
     pub(super) state: BandState,
     /// The block that made it so; `None` at program start.
     pub(super) spot: Option<Spot>,

@@ -20,7 +20,7 @@ const MOST_MARKS: usize = 20_000;
 /// More states over time are not kept apart.
 const MOST_BANDS: usize = 5000;
 
-/// So many of the worst reversals are named.
+/// How many of the worst reversals are labelled.
 const NAMED: usize = 6;
 
 /// The block of a reversal, or of the largest deviation.
@@ -35,7 +35,7 @@ struct Spot {
 pub struct ContourPicture {
     axes: [String; 2],
     points: Vec<PlanePoint>,
-    /// So many cycles make a point.
+    /// Cycles that are drawn as one point.
     every: u64,
     filled: u64,
     curves: [Curve; 3],

@@ -80,7 +80,7 @@ pub struct Panel {
 pub struct XMark {
     /// The place.
     pub at: f64,
-    /// The name.
+    /// The name in the legend.
     pub name: String,
 }
 

@@ -9,7 +9,7 @@ use crate::report::contour::places::{Block, record};
 use crate::report::visible::visible_line;
 use crate::versions::{BlockChange, ContourAgreement, ContourComparison, Which};
 
-/// So many blocks are listed for people.
+/// Blocks that the text lists.
 const LISTED: usize = 25;
 
 /// A comparison of contours, and how the path was driven.

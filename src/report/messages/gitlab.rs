@@ -4,15 +4,11 @@ use std::collections::HashMap;
 use std::hash::Hasher;
 
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::report::strings::{integer, string};
 use fnv::FnvHasher;
 
-use super::strings::{integer, string};
-
-/// What stands before the messages.
-pub(super) const OPENING: &[u8] = b"[";
-
-/// What stands after them.
-pub(super) const CLOSING: &[u8] = b"\n]\n";
+use super::format::MessageFormat;
+use super::tally::Tally;
 
 /// The messages so far.
 #[derive(Debug, Default)]
@@ -21,9 +17,12 @@ pub(super) struct GitLab {
     said: HashMap<u64, u64>,
 }
 
-impl GitLab {
-    /// Appends a message.
-    pub(super) fn append(&mut self, out: &mut Vec<u8>, diagnostic: &Diagnostic) {
+impl MessageFormat for GitLab {
+    fn open(&mut self, out: &mut Vec<u8>) {
+        out.push(b'[');
+    }
+
+    fn message(&mut self, out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         out.extend_from_slice(if self.said.is_empty() { b"\n" } else { b",\n" });
         let path = diagnostic.place.file.replace('\\', "/");
         let fingerprint = self.fingerprint(&path, diagnostic);
@@ -44,6 +43,12 @@ impl GitLab {
         out.extend_from_slice(b"}}}");
     }
 
+    fn close(&mut self, out: &mut Vec<u8>, _tally: &Tally) {
+        out.extend_from_slice(b"\n]\n");
+    }
+}
+
+impl GitLab {
     /// By this GitLab tells which messages are new. It does not change when lines above do, nor when
     /// another program reaches the place (R17.1), so it is made of the words, and counted where they
     /// are the same.

@@ -2,11 +2,23 @@
 
 use crate::diagnostic::{Diagnostic, Severity};
 
-use super::strings::integer;
-use super::visible::visible;
+use crate::report::strings::integer;
+use crate::report::visible::visible;
+
+use super::format::MessageFormat;
+
+/// Messages as workflow commands.
+#[derive(Debug)]
+pub(super) struct GitHub;
+
+impl MessageFormat for GitHub {
+    fn message(&mut self, out: &mut Vec<u8>, message: &Diagnostic) {
+        append(out, message);
+    }
+}
 
 /// Appends a diagnostic as a workflow command.
-pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
+fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     let (start, end) = (diagnostic.place.start(), diagnostic.place.end());
     let command: &[u8] = match diagnostic.severity {
         Severity::Error => b"::error",

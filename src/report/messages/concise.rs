@@ -2,8 +2,10 @@
 
 use crate::diagnostic::Diagnostic;
 
-use super::strings::integer;
-use super::visible::{leading, visible_line};
+use crate::report::strings::integer;
+use crate::report::visible::{leading, visible_line};
+
+use super::format::MessageFormat;
 
 /// A diagnostic as one line, without its end.
 #[cfg(feature = "cli")]
@@ -13,8 +15,18 @@ pub(crate) fn concise_line(diagnostic: &Diagnostic) -> String {
     String::from_utf8_lossy(&line).trim_end().to_owned()
 }
 
+/// Messages of one line each.
+#[derive(Debug)]
+pub(super) struct Concise;
+
+impl MessageFormat for Concise {
+    fn message(&mut self, out: &mut Vec<u8>, message: &Diagnostic) {
+        append(out, message);
+    }
+}
+
 /// Appends a diagnostic as one line.
-pub(super) fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
+fn append(out: &mut Vec<u8>, diagnostic: &Diagnostic) {
     let start = diagnostic.place.start();
     out.extend_from_slice(leading(&diagnostic.place.file).as_bytes());
     out.push(b':');

@@ -8,7 +8,10 @@ use serde_json::{Value, json};
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::text::Place;
 
-use super::strings::to_pretty;
+use crate::report::strings::to_pretty;
+
+use super::format::MessageFormat;
+use super::tally::Tally;
 
 /// What stands before the results. The keys of SARIF may come in any order, so the results go out one
 /// by one, and what they add up to comes after them.
@@ -32,22 +35,20 @@ pub(super) struct Sarif {
     results: u64,
 }
 
-impl Sarif {
-    /// Appends the beginning of the document.
-    pub(super) fn open(out: &mut Vec<u8>) {
+impl MessageFormat for Sarif {
+    fn open(&mut self, out: &mut Vec<u8>) {
         out.extend_from_slice(BEFORE.as_bytes());
     }
 
-    /// Appends a result.
-    pub(super) fn append(&mut self, out: &mut Vec<u8>, diagnostic: &Diagnostic) {
+    fn message(&mut self, out: &mut Vec<u8>, diagnostic: &Diagnostic) {
         self.used.insert(diagnostic.code);
         out.extend_from_slice(if self.results == 0 { b"\n" } else { b",\n" });
         self.results += 1;
         indented(out, &result(diagnostic), RESULT);
     }
 
-    /// Appends the end of the document: the rules that were named.
-    pub(super) fn close(&self, out: &mut Vec<u8>) {
+    /// The rules that were named come after the results.
+    fn close(&mut self, out: &mut Vec<u8>, _tally: &Tally) {
         let rules: Vec<Value> = Code::ALL
             .iter()
             .filter(|code| self.used.contains(code))
@@ -183,14 +184,14 @@ mod tests {
         let file = SourceFile::new("a b.nc", "N10 X1");
         for results in 0..3 {
             let (mut sarif, mut out) = (Sarif::default(), Vec::new());
-            Sarif::open(&mut out);
+            sarif.open(&mut out);
             for _ in 0..results {
                 let place = file.place(Span::new(0, 3));
                 let said =
                     Diagnostic::new(Code::Fc402, place.clone(), "a \"message\"\nof two lines");
-                sarif.append(&mut out, &said.with_help("help").with_label(place, "here"));
+                sarif.message(&mut out, &said.with_help("help").with_label(place, "here"));
             }
-            sarif.close(&mut out);
+            sarif.close(&mut out, &Tally::default());
             let text = String::from_utf8(out).expect("text");
             let document: Value = serde_json::from_str(&text).expect("JSON");
             assert_eq!(

@@ -102,13 +102,6 @@ fn results_of_programs() {
     ] {
         survives_after(&[], Range::FullDisk, call);
     }
-    let files = ["-o", "r.txt", "--svg", "r.svg", "--html", "r.html"];
-    let call = ["contour", "plate.nc", "--start", "X0,Y0,Z0"];
-    survives(
-        &demo("contour"),
-        Range::FullDisk,
-        &[&call[..], &files].concat(),
-    );
 }
 
 #[test]
@@ -153,6 +146,12 @@ fn results_of_simulations() {
     survives(&bench, Range::FullDisk, &[&circle[..], &files].concat());
     let tune = ["tune", "--accelerations", "70", "--no-shaping"];
     survives(&bench, Range::FullDisk, &[&tune[..], &files].concat());
+    let contour = [
+        "contour", "plate.nc", "--start", "X0,Y0,Z0", "--html", "r.html",
+    ];
+    survives(&bench, Range::FullDisk, &[&contour[..], &files].concat());
+    let agreed = ["golden", "--contour", "--update", "plate.nc"];
+    survives(&bench, Range::FullDisk, &agreed);
     let call = [&tune[..], &["--output-dir", "lists"]].concat();
     survives(&bench, Range::FullDisk, &call);
 }

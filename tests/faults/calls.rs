@@ -61,7 +61,9 @@ static SHIM: LazyLock<Option<(tempfile::TempDir, PathBuf)>> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a folder");
     let shim = folder.path().join("shim.so");
     let built = Command::new("cc")
-        .args(["-O1", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o"])
+        .args([
+            "-O1", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o",
+        ])
         .arg(&shim)
         .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/faults/shim.c"))
         .arg("-ldl")

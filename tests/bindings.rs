@@ -211,3 +211,20 @@ fn every_package_says_where_its_sources_are_and_can_be_published() {
             && build.contains("names_no_folder \"$executable\"")
     );
 }
+
+#[test]
+fn what_c_hosts_link_with_has_a_version() {
+    // R13.14: `bindings/c/test` links with it, by the lines of docs/c.md.
+    let major = env!("CARGO_PKG_VERSION_MAJOR");
+    assert!(read("bindings/c/build.rs").contains("-soname,libfrictcomp_c.so.{major}"));
+    assert!(read("docs/c.md").contains(&format!("`libfrictcomp_c.so.{major}`")));
+    let header = read("bindings/c/include/frictcomp.h");
+    assert!(header.contains(&format!(
+        "#define FRICTCOMP_VERSION \"{}\"",
+        env!("CARGO_PKG_VERSION")
+    )));
+    let build = read("bindings/c/build");
+    for file in ["frictcomp.pc", "frictcomp-config.cmake", "target_directory"] {
+        assert!(build.contains(file), "{file}");
+    }
+}

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::arguments::SourceBreakpoint;
 use super::conditions::{Condition, HitCount};
 use super::paths::RealPaths;
-use super::variables::in_words;
+use super::wording::in_words;
 use crate::interpreter::{Executed, Interpreter};
 use crate::syntax::ast::Block;
 use crate::syntax::{BlockReader, FastPath};

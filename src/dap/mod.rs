@@ -12,5 +12,6 @@ mod server;
 mod stepper;
 mod transport;
 mod variables;
+mod wording;
 
 pub use server::serve;

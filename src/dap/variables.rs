@@ -3,8 +3,9 @@
 use serde_json::{Value as Json, json};
 
 use super::stepper::Stepper;
+use super::wording::in_words;
 use crate::comp::{AxisIndex, Kind};
-use crate::interpreter::{AxisPosition, Group, Interpreter, PositionFrame, Value};
+use crate::interpreter::{AxisPosition, Group, Interpreter, PositionFrame};
 use crate::machine::Setting;
 
 /// What is shown together; the number is the client's handle of it.
@@ -177,15 +178,6 @@ fn modal(here: &Interpreter) -> Vec<Json> {
         }
     })
     .into()
-}
-
-/// A value as it is shown.
-pub(super) fn in_words(value: &Value) -> String {
-    match value {
-        Value::Number(number) => number.to_string(),
-        Value::Text(text) => format!("\"{text}\""),
-        Value::Unknown(cause) => format!("unknown, from {cause}"),
-    }
 }
 
 fn line(name: &str, value: &str) -> Json {

@@ -494,11 +494,10 @@ fn beside_the_extension_of_isg_nothing_is_offered_twice() {
 #[test]
 fn a_called_program_is_found_where_the_configuration_says() {
     // R12.17
-    let configuration = "program_dirs = [\"subs\"]\n[[axis]]\nname = \"X\"\n";
-    let bench = Bench::new(&[
-        ("frictcomp.toml", configuration),
-        ("subs/other.nc", "M17\n"),
-    ]);
+    let configuration = "[machine]\nprogram_dirs = [\"subs\"]\n[[axis]]\nname = \"X\"\n";
+    let bench = Bench::new(&[("frictcomp.toml", configuration)]);
+    std::fs::create_dir(bench.folder().join("subs")).expect("a folder");
+    bench.write("subs/other.nc", "M17\n");
     let a = uri(&bench.folder().join("a.nc"));
     let mut client = Client::with(&json!({
         "capabilities": {},

@@ -108,9 +108,9 @@ fn step(action: &str, name: &str) -> String {
     let lines = script
         .lines()
         .take_while(|line| line.starts_with("        "));
-    lines
-        .map(|line| format!("{}\n", line.trim_start_matches("        ")))
-        .collect()
+    lines.fold(String::new(), |script, line| {
+        script + line.trim_start_matches("        ") + "\n"
+    })
 }
 
 /// Runs a script as GitHub does, with a command that prints its arguments in place of frictcomp.

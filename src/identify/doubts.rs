@@ -56,13 +56,13 @@ pub(super) fn check_directions(
     }
     let is_one_way = is_one_way(samples, segments);
     if is_one_way && samples.has_positions && back > 0.1 * way {
-        return Err(unsigned_velocity(format!(
+        return Err(unsigned_velocity(&format!(
             "the velocity never changes its sign, but on {:.0} % of the way the position goes back",
             back / way * 100.0
         )));
     }
     match two_torques(samples, segments).filter(|_| is_one_way) {
-        Some((speed, [one, other])) => Err(unsigned_velocity(format!(
+        Some((speed, [one, other])) => Err(unsigned_velocity(&format!(
             "the velocity never changes its sign, but at {speed:.3} mm/s the torque is {one:.3} and {other:.3}"
         ))),
         None => Ok(()),
@@ -85,7 +85,7 @@ fn is_one_way(samples: &Samples, segments: &[Segment]) -> bool {
     forth.min(back) < NOISE * forth.max(back)
 }
 
-fn unsigned_velocity(message: String) -> IdentifyError {
+fn unsigned_velocity(message: &str) -> IdentifyError {
     refused(
         Code::Fc523,
         format!("{message}: it is an absolute value"),
@@ -144,9 +144,9 @@ pub(super) fn drop_clipped(
 pub(super) fn missing_rows(times_s: &[f64], step_s: f64) -> Option<TraceFinding> {
     let (mut rows, mut gaps) = (0.0, 0_u32);
     for pair in times_s.windows(2) {
-        let steps = ((pair[1] - pair[0]) / step_s).round();
-        if pair[1] - pair[0] > 1.5 * step_s && steps >= 2.0 {
-            rows += steps - 1.0;
+        let expected = ((pair[1] - pair[0]) / step_s).round();
+        if pair[1] - pair[0] > 1.5 * step_s && expected >= 2.0 {
+            rows += expected - 1.0;
             gaps += 1;
         }
     }

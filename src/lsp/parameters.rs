@@ -93,17 +93,15 @@ pub(super) fn page_of(line: &str) -> Option<Page> {
 /// The parameters that may be meant by the beginning of a line of a list. A point of the curve has the
 /// index that is typed, otherwise the first one that the list does not have.
 pub(super) fn pages_for(typed: &str, list: &str) -> Vec<Page> {
-    let index = match index_of(typed) {
-        Some(index) => index.to_owned(),
-        None => {
-            let used = list.lines().filter_map(|line| {
-                let key = line.split_whitespace().next()?;
-                index_of(key.strip_suffix(".out")?)?.parse().ok()
-            });
-            let next: u64 = used.max().map_or(0, |last: u64| last.saturating_add(1));
-            next.to_string()
-        }
+    let first_free = || {
+        let used = list.lines().filter_map(|line| {
+            let key = line.split_whitespace().next()?;
+            index_of(key.strip_suffix(".out")?)?.parse().ok()
+        });
+        let next: u64 = used.max().map_or(0, |last: u64| last.saturating_add(1));
+        next.to_string()
     };
+    let index = index_of(typed).map_or_else(first_free, str::to_owned);
     let pages = pages().into_iter().map(|page| Page {
         key: page.key.replace("[i]", &format!("[{index}]")),
         ..page

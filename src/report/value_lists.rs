@@ -79,7 +79,7 @@ pub fn render_identified(
     let points = Points::of_build(build);
     let faults: Vec<_> = made.faults.iter().map(|it| visible_line(it)).collect();
     let mut remarks = vec![from.as_str(), unit.as_str()];
-    remarks.extend(faults.iter().map(|it| it.as_ref()));
+    remarks.extend(faults.iter().map(AsRef::as_ref));
     if points == Points::Real {
         remarks.push(FRACTIONS);
     }

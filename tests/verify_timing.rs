@@ -2,7 +2,9 @@
 //! simulated drives, with lists that are right, early, late, and others.
 
 #![allow(
+    clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
     reason = "rows and times of recordings that the tests make themselves"
 )]
 

@@ -130,7 +130,7 @@ fn results_of_recordings() {
         "ActTorque",
     ];
     for call in [&["trace", "friction_x.csv"][..], &identify] {
-        survives(&bench, Range::FullDisk, &[&call[..], &files].concat());
+        survives(&bench, Range::FullDisk, &[call, &files].concat());
     }
 }
 

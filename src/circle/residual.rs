@@ -6,7 +6,6 @@ use std::f64::consts::TAU;
 use super::crossing::PlaneAxis;
 use super::direction::Direction;
 use super::evidence_shape::OtherShape;
-use super::linear::Normal;
 use super::profile::{RadialProfile, UM_PER_M};
 use super::turning::Turning;
 
@@ -42,6 +41,8 @@ pub(super) struct Series {
     pub(super) direction: Direction,
     /// Noise of a step as a part of that of a sample.
     pub(super) noise_share: f64,
+    /// What is not masked.
+    places: Vec<(Turning, f64)>,
     values: Vec<Option<f64>>,
     radius_mm: f64,
     turn_s: Option<f64>,
@@ -54,6 +55,13 @@ fn real(count: usize) -> f64 {
 
 fn angle_of(at: usize) -> Turning {
     Turning::of((real(at) + 0.5) / real(ANGLES) * TAU)
+}
+
+/// The values that are there, with their directions.
+fn unmasked(values: &[Option<f64>]) -> Vec<(Turning, f64)> {
+    let all = values.iter().enumerate();
+    all.filter_map(|(at, value)| Some((angle_of(at), (*value)?)))
+        .collect()
 }
 
 impl Series {
@@ -76,11 +84,13 @@ impl Series {
             let mean = chunk.iter().sum::<f64>() / real(chunk.len()) * UM_PER_M;
             (after > masked && after < 89.0).then_some(mean)
         });
+        let values: Vec<Option<f64>> = values.collect();
         let in_step = real(samples) / real(ANGLES);
         Some(Self {
+            places: unmasked(&values),
             direction,
             noise_share: 1.0 / in_step.max(1.0).sqrt(),
-            values: values.collect(),
+            values,
             radius_mm: profile.radius_m() * 1000.0,
             turn_s,
         })
@@ -88,16 +98,17 @@ impl Series {
 
     /// The samples that are not masked, with their directions.
     pub(super) fn samples(&self) -> impl Iterator<Item = (Turning, f64)> + '_ {
-        let all = self.values.iter().enumerate();
-        all.filter_map(|(at, value)| Some((angle_of(at), (*value)?)))
+        self.places.iter().copied()
     }
 
     /// The same path with other values.
     pub(super) fn map(&self, value: impl Fn(Turning, f64) -> f64) -> Self {
         let values = self.values.iter().enumerate();
         let values = values.map(|(at, old)| old.map(|old| value(angle_of(at), old)));
+        let values: Vec<Option<f64>> = values.collect();
         Self {
-            values: values.collect(),
+            places: unmasked(&values),
+            values,
             ..*self
         }
     }
@@ -159,17 +170,25 @@ impl Periodic {
     }
 
     fn of(series: &[Series], axis: PlaneAxis, frequency: f64) -> Option<Self> {
-        let mut normal = Normal::<2>::new();
+        let (mut cc, mut cs, mut ss) = (0.0, 0.0, 0.0);
         let mut products = [0.0; 2];
         for one in series {
             for (angle, value) in one.samples() {
-                let row = Self::row(axis, frequency, angle, one.radius_mm);
-                normal.add(row, value);
-                products = [0, 1].map(|at| products[at] + row[at] * value);
+                let [c, s] = Self::row(axis, frequency, angle, one.radius_mm);
+                cc += c * c;
+                cs += c * s;
+                ss += s * s;
+                products[0] += c * value;
+                products[1] += s * value;
             }
         }
-        let parts = normal.solve()?;
-        Some(Self {
+        let determinant = cc * ss - cs * cs;
+        let is_firm = determinant > 1e-9 * cc * ss;
+        let parts = [
+            (ss * products[0] - cs * products[1]) / determinant,
+            (cc * products[1] - cs * products[0]) / determinant,
+        ];
+        is_firm.then_some(Self {
             axis,
             frequency,
             parts,
@@ -186,7 +205,7 @@ impl Periodic {
     fn search(series: &[Series]) -> Option<Self> {
         let radius = series.first()?.radius_mm;
         let [from, to] = [1.0 / PITCHES[1], 1.0 / PITCHES[0]];
-        let step = 1.0 / (8.0 * radius);
+        let step = 1.0 / (6.0 * radius);
         let mut best: Option<Self> = None;
         for axis in PlaneAxis::ALL {
             let mut frequency = from.max(1.0 / radius);

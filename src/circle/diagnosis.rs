@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::compare::Comparison;
 use super::crossing::{Crossing, PlaneAxis};
 use super::direction::Direction;
-use super::evidence::{Evidence, ShapeTerm, Term};
+use super::evidence::{CircleEvidence, ShapeTerm, Term};
 use super::evidence_shape::OtherShape;
 use super::figures::{Figures, PathFigures};
 use super::glitch::{AxisShape, Bulge, Glitch, PathShape};
@@ -96,12 +96,12 @@ pub struct Diagnosis {
     pub size_um: f64,
     /// What it rests on, of recorded paths.
     #[serde(flatten)]
-    pub grounds: Grounds,
+    pub grounds: DiagnosisGrounds,
 }
 
 /// What a piece of advice about a recording rests on, and what speaks against it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-pub struct Grounds {
+pub struct DiagnosisGrounds {
     /// Standard error of the size.
     #[serde(rename = "error", skip_serializing_if = "Option::is_none")]
     pub error_um: Option<f64>,
@@ -137,10 +137,10 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
                     direction: Some(direction),
                     finding,
                     size_um: glitch.outward_um - glitch.inward_um,
-                    grounds: Grounds {
+                    grounds: DiagnosisGrounds {
                         error_um: evidence.map(|it| it.noise_um),
                         unexplained_um: evidence.map(|it| it.rest_um),
-                        ..Grounds::default()
+                        ..DiagnosisGrounds::default()
                     },
                 });
             }
@@ -156,14 +156,14 @@ pub fn diagnose(figures: &Figures, compensation: Option<Switched>) -> Vec<Diagno
 }
 
 /// How far noise alone bulges out of a path, in µm: the greatest of many samples.
-fn bulge_of_noise(evidence: &Evidence) -> f64 {
+fn bulge_of_noise(evidence: &CircleEvidence) -> f64 {
     const GREATEST: f64 = 4.0;
     GREATEST * evidence.noise_um
 }
 
 /// Whether a recording carries what a peak suggests: timing and strength not where something else is
 /// left over, friction if it is far larger than that.
-fn is_carried(finding: Finding, glitch: &Glitch, evidence: &Evidence) -> bool {
+fn is_carried(finding: Finding, glitch: &Glitch, evidence: &CircleEvidence) -> bool {
     /// The peak to peak of a shape in its root mean square, and as much again.
     const FAR: f64 = 6.0;
     let swings = match glitch.crossing.axis() {
@@ -222,7 +222,7 @@ fn of_shapes(paths: &[&PathShape]) -> Vec<Diagnosis> {
             direction: None,
             finding,
             size_um,
-            grounds: Grounds::default(),
+            grounds: DiagnosisGrounds::default(),
         }));
     }
     if let [ccw, cw] = paths[..] {
@@ -237,15 +237,15 @@ fn of_shapes(paths: &[&PathShape]) -> Vec<Diagnosis> {
 }
 
 /// The shapes that a recording carries, and what is left over.
-fn carried(evidence: &Evidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
+fn carried(evidence: &CircleEvidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
     let peak = |axis: PlaneAxis| {
         let peaks = paths.iter().map(|shape| shape.axis(axis).peak_um.abs());
         peaks.fold(0.0, f64::max)
     };
-    let grounds = |term: &Term| Grounds {
+    let grounds = |term: &Term| DiagnosisGrounds {
         error_um: Some(term.error_um),
         unexplained_um: Some(evidence.rest_um),
-        ..Grounds::default()
+        ..DiagnosisGrounds::default()
     };
     let is_worth = |term: &&Term| {
         let least = match term.shape {
@@ -286,7 +286,7 @@ fn carried(evidence: &Evidence, paths: &[&PathShape]) -> Vec<Diagnosis> {
 }
 
 /// Axes that stick and slip.
-fn sticking(evidence: &Evidence) -> impl Iterator<Item = Diagnosis> + '_ {
+fn sticking(evidence: &CircleEvidence) -> impl Iterator<Item = Diagnosis> + '_ {
     let axes = PlaneAxis::ALL.into_iter().zip(evidence.stick_slip_um);
     axes.filter_map(|(axis, size)| {
         Some(Diagnosis {
@@ -294,19 +294,19 @@ fn sticking(evidence: &Evidence) -> impl Iterator<Item = Diagnosis> + '_ {
             direction: None,
             finding: Finding::StickSlip,
             size_um: size?,
-            grounds: Grounds {
+            grounds: DiagnosisGrounds {
                 error_um: Some(evidence.noise_um),
-                ..Grounds::default()
+                ..DiagnosisGrounds::default()
             },
         })
     })
 }
 
 /// What no shape explains.
-fn left_over(evidence: &Evidence) -> Option<Diagnosis> {
-    let rest = Grounds {
+fn left_over(evidence: &CircleEvidence) -> Option<Diagnosis> {
+    let rest = DiagnosisGrounds {
         unexplained_um: Some(evidence.rest_um),
-        ..Grounds::default()
+        ..DiagnosisGrounds::default()
     };
     let (place, finding, size_um, grounds) = match evidence.other? {
         OtherShape::Periodic {
@@ -317,7 +317,7 @@ fn left_over(evidence: &Evidence) -> Option<Diagnosis> {
             FoundAt::Axis(axis),
             Finding::Periodic,
             2.0 * amplitude_um,
-            Grounds {
+            DiagnosisGrounds {
                 pitch_mm: Some(pitch_mm),
                 ..rest
             },
@@ -329,7 +329,7 @@ fn left_over(evidence: &Evidence) -> Option<Diagnosis> {
             FoundAt::Whole,
             Finding::Vibration,
             2.0 * amplitude_um,
-            Grounds {
+            DiagnosisGrounds {
                 hertz: Some(hertz),
                 ..rest
             },
@@ -428,6 +428,6 @@ fn ellipses(ccw: [f64; 2], cw: [f64; 2]) -> impl Iterator<Item = Diagnosis> {
         finding,
         // From the short to the long axis.
         size_um: 2.0 * amplitude.abs(),
-        grounds: Grounds::default(),
+        grounds: DiagnosisGrounds::default(),
     })
 }

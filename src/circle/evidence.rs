@@ -32,7 +32,7 @@ const ROUNDS: usize = 3;
 
 /// What a recording carries, and what speaks against reading more into it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Evidence {
+pub struct CircleEvidence {
     /// Standard deviation of the noise of single samples.
     pub noise_um: f64,
     /// The shapes that were fitted, named or not.
@@ -80,7 +80,7 @@ impl Term {
     }
 }
 
-impl Evidence {
+impl CircleEvidence {
     /// The evidence in the paths; `None` where the masked reversals leave too little of a turn.
     pub(super) fn of<'a>(
         paths: impl Iterator<Item = (Direction, &'a RadialProfile)>,

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::centre::PathCentre;
 use super::direction::Direction;
-use super::evidence::Evidence;
+use super::evidence::CircleEvidence;
 use super::glitch::PathShape;
 use super::profile::{Quality, RadialProfile, UM_PER_M};
 use super::zone::{least_squares, minimum_zone, zone_about};
@@ -56,7 +56,7 @@ pub struct Figures {
     pub d_um: Option<f64>,
     /// What a recording carries beyond these figures; `None` of simulated paths.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub evidence: Option<Evidence>,
+    pub evidence: Option<CircleEvidence>,
 }
 
 /// The profiles of the paths in both directions.
@@ -138,7 +138,7 @@ impl Figures {
             d_um: ds.map(|(ccw, cw)| f64::midpoint(ccw, cw)),
             evidence: paths
                 .quality()
-                .and_then(|it| Evidence::of(paths.iter(), it)),
+                .and_then(|it| CircleEvidence::of(paths.iter(), it)),
             ccw,
             cw,
         }

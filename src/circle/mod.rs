@@ -37,10 +37,10 @@ pub use centre::{PathCentre, UnknownPathCentre};
 pub use compare::{Comparison, Side};
 pub use crossing::{Crossing, PlaneAxis};
 pub use diagnosis::{
-    Diagnosis, Finding, FoundAt, Grounds, NOTICEABLE_UM, diagnose, diagnose_comparison,
+    Diagnosis, DiagnosisGrounds, Finding, FoundAt, NOTICEABLE_UM, diagnose, diagnose_comparison,
 };
 pub use direction::Direction;
-pub use evidence::{Evidence, ShapeTerm, Term};
+pub use evidence::{CircleEvidence, ShapeTerm, Term};
 pub use evidence_shape::OtherShape;
 pub use figures::{Figures, PathFigures, Paths};
 pub use glitch::{AxisShape, Bulge, Glitch, PathShape};

@@ -35,6 +35,9 @@ const SLOWEST_HZ: f64 = 5.0;
 /// A shape explains at least this part of what is left.
 const EXPLAINS: f64 = 0.2;
 
+/// Frequencies on either side of the best one among which the pitch is sharpened.
+const FINE: i32 = 15;
+
 /// A path in equal steps of the angle, in µm, without the reversals.
 #[derive(Debug, Clone)]
 pub(super) struct Series {
@@ -219,7 +222,13 @@ impl Periodic {
                 frequency += step;
             }
         }
-        best
+        let best = best?;
+        // Between the frequencies that were tried.
+        let near = (-FINE..=FINE).filter_map(|at| {
+            let part = f64::from(at) / f64::from(FINE);
+            Self::of(series, best.axis, best.frequency + part * step)
+        });
+        near.max_by(|one, other| one.explains.total_cmp(&other.explains))
     }
 }
 

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::super::stiction::guideline;
 use super::subject::{CircleReport, ListOrigin, NamedSide, Subject, TREATMENT, round};
 use crate::circle::{
-    AxisShape, CircularTest, Crossing, Diagnosis, Direction, Figures, Finding, FoundAt, Grounds,
-    LeftOut, Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
+    AxisShape, CircularTest, Crossing, Diagnosis, DiagnosisGrounds, Direction, Figures, Finding,
+    FoundAt, LeftOut, Method, PathFigures, PathShape, PlaneAxis, RecordedCircle, Recording,
 };
 use crate::diagnostic::{Rounded, Shown};
 use crate::stiction::StictionParameters;
@@ -458,7 +458,7 @@ pub(in crate::report) fn advice_lines(report: &CircleReport, side: &NamedSide) -
 }
 
 /// What advice about a recording rests on, and what speaks against it (R5.28).
-fn grounds(grounds: &Grounds) -> String {
+fn grounds(grounds: &DiagnosisGrounds) -> String {
     let mut said = Vec::new();
     said.extend(grounds.error_um.map(|it| format!("± {it:.2}")));
     said.extend(grounds.pitch_mm.map(|it| format!("every {it:.2} mm")));

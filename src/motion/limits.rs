@@ -11,6 +11,8 @@ pub struct AxisLimits {
     pub acceleration_per_s2: f64,
     /// The greatest jerk.
     pub jerk_per_s3: f64,
+    /// The greatest jerk that the curvature of the path may take.
+    pub curve_jerk_per_s3: f64,
     /// Which of them the configuration does not give.
     pub assumed: Assumed,
 }
@@ -87,6 +89,7 @@ impl AxisLimits {
             velocity_per_s: velocity.map_or(VELOCITY, |per_minute| per_minute / 60.0),
             acceleration_per_s2: acceleration.map_or(ACCELERATION, |given| given * unit),
             jerk_per_s3: jerk.map_or(JERK, |given| given * unit),
+            curve_jerk_per_s3: jerk.map_or(JERK, |given| given * unit),
             assumed: Assumed {
                 velocity: velocity.is_none(),
                 acceleration: acceleration.is_none(),

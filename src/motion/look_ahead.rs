@@ -9,7 +9,8 @@ use super::plan::{Stage, Stretch, plan};
 use super::sampler::Sampler;
 use super::segment::Segment;
 use super::share::Share;
-use super::trace::{Dwell, TraceSink};
+use super::trace::{Dwell, Movement, TraceSink};
+use crate::interpreter::BlockEnd;
 
 /// How many segments are looked at together. The path is planned to a stop after the last one;
 /// half of the plan is kept, the rest is planned anew when more segments are known.
@@ -24,7 +25,11 @@ pub(super) struct LookAhead {
     /// What is left of the last plan.
     left: Vec<Stretch>,
     sampler: Sampler,
+    slow_kinks: u64,
 }
+
+/// The share of F below which a kink is slow (R11.23).
+const REACHED: f64 = 0.8;
 
 /// A segment and the transition into it.
 struct Queued {
@@ -41,6 +46,7 @@ impl LookAhead {
             velocity: 0.0,
             left: Vec::new(),
             sampler,
+            slow_kinks: 0,
         }
     }
 
@@ -54,6 +60,11 @@ impl LookAhead {
         self.sampler.time_s()
     }
 
+    /// How many kinks between feed moves are passed below 80 % of F.
+    pub(super) fn slow_kinks(&self) -> u64 {
+        self.slow_kinks
+    }
+
     /// Adds the next segment, which begins where the last one ends.
     pub(super) fn add(&mut self, segment: Segment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let cycle = self.sampler.cycle();
@@ -61,6 +72,7 @@ impl LookAhead {
             Some(last) => Junction::between(&last.segment, &segment, &self.limits, cycle),
             None => Junction::Stop,
         };
+        self.slow_kinks += u64::from(self.is_slow(entry, &segment));
         if entry == Junction::Stop {
             self.drain(sink)?;
         }
@@ -80,6 +92,20 @@ impl LookAhead {
             self.advance(sink)?;
         }
         ControlFlow::Continue(())
+    }
+
+    /// Whether a kink between feed moves slows the path down, and not the program.
+    fn is_slow(&self, entry: Junction, next: &Segment) -> bool {
+        let Some(Queued { segment: last, .. }) = self.queue.back() else {
+            return false;
+        };
+        let is_feed = |segment: &Segment| segment.cause.movement == Movement::Feed;
+        let is_kink = entry.is_kink() || entry == Junction::Stop;
+        is_kink
+            && last.end == BlockEnd::Through
+            && is_feed(last)
+            && is_feed(next)
+            && entry.velocity() < REACHED * next.feed.min(last.end_velocity)
     }
 
     /// Whether the budget of cycles is used up.

@@ -152,6 +152,7 @@ impl Interpreter {
                 BlockEnd::Through => modal.functions.block_end,
                 BlockEnd::ExactStop => BlockEnd::ExactStop,
             },
+            contouring: modal.contouring(geometry.simplified),
             end_feed_per_min: self.end_feed(geometry),
             simplified: modal.simplified.union(geometry.simplified),
         }))

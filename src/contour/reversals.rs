@@ -8,7 +8,7 @@ use super::measured::Measured;
 use super::path::Places;
 use super::per_run::PerRun;
 use crate::comp::State;
-use crate::motion::{Cause, Movement};
+use crate::motion::Movement;
 
 /// How much of the motion an axis may have where it reverses: beyond it the path itself turns back.
 const ALONG: f64 = 0.99;

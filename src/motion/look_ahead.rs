@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use super::junction::Junction;
-use super::limits::AxisLimits;
+use super::limits::{AxisLimits, MachineLimits};
 use super::plan::{Stage, Stretch, plan};
 use super::sampler::Sampler;
 use super::segment::Segment;
@@ -18,7 +18,7 @@ const CAPACITY: usize = 4096;
 
 /// What is known of the path and not sampled yet.
 pub(super) struct LookAhead {
-    limits: Vec<AxisLimits>,
+    limits: MachineLimits,
     queue: VecDeque<Queued>,
     /// The path velocity at the start of the first segment in the queue.
     velocity: f64,
@@ -39,7 +39,7 @@ struct Queued {
 }
 
 impl LookAhead {
-    pub(super) fn new(limits: Vec<AxisLimits>, sampler: Sampler) -> Self {
+    pub(super) fn new(limits: MachineLimits, sampler: Sampler) -> Self {
         Self {
             limits,
             queue: VecDeque::new(),
@@ -52,7 +52,11 @@ impl LookAhead {
 
     /// The path velocity along a segment at which one axis moves at its limit.
     pub(super) fn fastest(&self, segment: &Segment) -> f64 {
-        segment.fastest(&self.limits)
+        segment.fastest(self.limits_of(segment))
+    }
+
+    fn limits_of(&self, segment: &Segment) -> &[AxisLimits] {
+        self.limits.during(segment.cause.movement)
     }
 
     /// The sampled seconds.
@@ -69,7 +73,10 @@ impl LookAhead {
     pub(super) fn add(&mut self, segment: Segment, sink: &mut dyn TraceSink) -> ControlFlow<()> {
         let cycle = self.sampler.cycle();
         let entry = match self.queue.back() {
-            Some(last) => Junction::between(&last.segment, &segment, &self.limits, cycle),
+            Some(last) => {
+                let limits = self.limits_of(&segment);
+                Junction::between(&last.segment, &segment, limits, cycle)
+            }
             None => Junction::Stop,
         };
         self.slow_kinks += u64::from(self.is_slow(entry, &segment));
@@ -190,7 +197,9 @@ impl LookAhead {
     fn stage(&self, queued: &Queued) -> Stage {
         Stage {
             length: queued.segment.length,
-            bounds: queued.segment.bounds(&self.limits, queued.share),
+            bounds: queued
+                .segment
+                .bounds(self.limits_of(&queued.segment), queued.share),
             entry: queued.entry,
         }
     }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::limits::AxisLimits;
+use super::limits::MachineLimits;
 use super::look_ahead::LookAhead;
 use super::remarks::{At, Remark, Remarks};
 use super::rounding::{Rounding, Transitions};
@@ -110,7 +110,7 @@ enum Obstacle {
 impl TrajectoryPlanner {
     /// A planner for some axes of a machine, before the first block.
     pub fn new(machine: &Machine, followed: &[AxisIndex], options: PlannerOptions) -> Self {
-        let limits = machine.axes.iter().map(AxisLimits::of).collect();
+        let limits = MachineLimits::of(machine, options.cycle_s);
         let sampler = Sampler::new(followed, options.cycle_s, options.max_cycles);
         let is_main = |axis: &Axis| matches!(axis.name.as_str(), "X" | "Y" | "Z");
         let main: Arc<[bool]> = machine.axes.iter().map(is_main).collect();

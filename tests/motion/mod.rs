@@ -6,6 +6,7 @@ mod contouring;
 mod feeds;
 mod forms;
 mod limits;
+mod listed;
 mod start;
 mod unknown;
 

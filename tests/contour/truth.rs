@@ -420,3 +420,21 @@ fn a_glitch_is_that_of_the_circular_test() {
         }
     }
 }
+
+#[test]
+fn a_deviation_is_the_same_in_any_plane() {
+    // R11.27: the same circle in XY and in ZX, with the same drive for all axes.
+    let mut plant = Preset::Stiff.plant();
+    plant.y = plant.x.clone();
+    let machine = machine("")
+        + "[[axis]]\nname = \"Z\"\nfrict_comp = true\nmax_acceleration = 10.0\nmax_jerk = 5000.0\nmax_velocity = 30000\n";
+    let largest = |program: &str| {
+        let start = [("X", 10.0), ("Y", 0.0), ("Z", 0.0)];
+        let found = drive(&machine, &plant, (program, &start), Found::default());
+        found.largest_um
+    };
+    let flat = largest("G17 G90 G01 X11 Y0 F1500\nG03 X11 Y0 I-11 J0\nM30\n");
+    let upright = largest("G18 G90 G01 X11 Z0 F1500\nG02 X11 Z0 I-11 K0\nM30\n");
+    assert!(flat > 3.0, "{flat}");
+    Tolerance(0.01, 0.0).check("in ZX", (upright, flat));
+}

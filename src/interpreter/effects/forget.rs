@@ -131,7 +131,7 @@ impl Interpreter {
             "#MAIN SPINDLE" => self.state.modal.pace.forget_spindle(),
             name => {
                 if let Some((what, Holds::On)) = simplified::of_command(name) {
-                    self.state.modal.simplify(what, Holds::On);
+                    self.state.modal.perhaps_simplify(what);
                 }
                 self.state.modal.forget_hash(name);
             }

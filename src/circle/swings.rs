@@ -50,7 +50,7 @@ fn swings(
     noise_um: f64,
 ) -> Option<(usize, f64)> {
     let turning = 360.0 / profile.turn_s()?;
-    let degrees = (AFTER_S * turning).max(AFTER_DEG).min(80.0);
+    let degrees = (AFTER_S * turning).clamp(AFTER_DEG, 80.0);
     #[allow(clippy::cast_possible_truncation)] // at most 8000
     let angles = |degrees: f64| (degrees * f64::from(PER_DEGREE)).round() as i32;
     let points = profile.fixed(crossing, direction, 0..=angles(degrees));

@@ -83,10 +83,7 @@ impl Timing {
                 error_um,
                 reversals,
             } => {
-                let state = match self.early_or_late() {
-                    Some(word) => word,
-                    None => "neither early nor late",
-                };
+                let state = self.early_or_late().unwrap_or("neither early nor late");
                 format!(
                     "the list acted ({share:.2} of its current) and is {state}: following error of \
                      {swing_um:.2} µm, ± {error_um:.2}, at {reversals} reversals"
@@ -254,12 +251,12 @@ impl Smooth<'_> {
             }
         }
         let found = solve_linear(sums)?;
-        let parts = found.iter().zip(&sizes).map(|(part, size)| part / size);
+        let mut parts = found.iter().zip(&sizes).map(|(part, size)| part / size);
         let explained: f64 = parts
             .clone()
             .zip(&right)
             .map(|(part, sum)| part * sum)
             .sum();
-        Some((parts.last()?, squares - explained))
+        Some((parts.next_back()?, squares - explained))
     }
 }

@@ -94,25 +94,20 @@ impl DynamicsDraft {
         let given = entry.number();
         let is_possible =
             |value: f64| value > 0.0 || (*quantity == Quantity::Weight && value == 0.0);
-        match given
-            .value
-            .number
-            .filter(|value| is_possible(value.to_f64()))
-        {
-            Some(value) => {
-                self.0.insert(number, (entry.key(), given.with(value)));
-            }
-            None => {
-                let message = format!(
-                    "`{}` is `{}`; the value is not used",
-                    entry.key(),
-                    given.value.text
-                );
-                diagnostics.push(
-                    Diagnostic::new(Code::Fc130, given.place(), message)
-                        .with_help("write a number above 0"),
-                );
-            }
+        let possible = given.value.number;
+        let possible = possible.filter(|value| is_possible(value.to_f64()));
+        if let Some(value) = possible {
+            self.0.insert(number, (entry.key(), given.with(value)));
+        } else {
+            let message = format!(
+                "`{}` is `{}`; the value is not used",
+                entry.key(),
+                given.value.text
+            );
+            diagnostics.push(
+                Diagnostic::new(Code::Fc130, given.place(), message)
+                    .with_help("write a number above 0"),
+            );
         }
         true
     }

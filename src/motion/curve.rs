@@ -39,7 +39,7 @@ pub(super) struct Curve {
 #[derive(Debug, Clone, Copy)]
 struct Axis {
     /// Its place among the axes of the machine.
-    axis: usize,
+    place: usize,
     /// Whether the feed refers to it.
     is_main: bool,
     /// The coefficients of the powers of the parameter.
@@ -60,8 +60,8 @@ pub(super) struct Along {
 
 impl Axis {
     fn position(&self, u: f64) -> f64 {
-        let [a, b, c, d] = self.cubic;
-        a + u * (b + u * (c + u * d))
+        let horner = |sum: f64, coefficient: &f64| sum * u + coefficient;
+        self.cubic.iter().rev().fold(0.0, horner)
     }
 
     /// The first, second and third derivatives by the parameter.
@@ -94,27 +94,27 @@ impl Curve {
     /// The span with these control points, by axis; `None` where it is no curve with a length.
     pub(super) fn new(points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
         let [p, q, r, s] = points;
-        let axis = |axis: usize| {
-            let (p, q, r, s) = (p[axis], q[axis], r[axis], s[axis]);
+        let axis = |place: usize| {
+            let (p, q, r, s) = (p[place], q[place], r[place], s[place]);
             Axis {
-                axis,
-                is_main: main[axis],
+                place,
+                is_main: main[place],
                 cubic: [
                     (p + 4.0 * q + r) / 6.0,
                     (r - p) / 2.0,
-                    (p - 2.0 * q + r) / 2.0,
+                    f64::midpoint(p, r) - q,
                     (s - p + 3.0 * (q - r)) / 6.0,
                 ],
                 largest: [0.0; 3],
             }
         };
-        let moves = |axis: &usize| {
-            let at = *axis;
-            [q[at], r[at], s[at]].iter().any(|it| *it != p[at])
+        let moves = |place: &usize| {
+            let to_p = |other: &[f64]| other[*place].total_cmp(&p[*place]);
+            [q, r, s].into_iter().any(|other| to_p(other).is_ne())
         };
-        let axes = (0..p.len()).filter(moves).map(axis);
+        let moving = (0..p.len()).filter(moves).map(axis);
         let mut curve = Self {
-            axes: axes.collect(),
+            axes: moving.collect(),
             length: 0.0,
         };
         curve.length = curve.way(1.0);
@@ -192,7 +192,7 @@ impl Curve {
     }
 
     fn axis(&self, axis: usize) -> Option<&Axis> {
-        self.axes.iter().find(|it| it.axis == axis)
+        self.axes.iter().find(|it| it.place == axis)
     }
 
     /// The position of an axis there; `None` where it does not move.
@@ -213,7 +213,7 @@ impl Curve {
     /// the path velocity.
     pub(super) fn restrict(&self, bounds: &mut Bounds, (limits, share): (&[AxisLimits], Share)) {
         for axis in &self.axes {
-            let limits = share.of(&limits[axis.axis]);
+            let limits = share.of(&limits[axis.place]);
             let [slope, bend, twist] = axis.largest;
             let velocity = [
                 limits.velocity / slope,
@@ -224,7 +224,7 @@ impl Curve {
         }
         let velocity = bounds.velocity;
         for axis in &self.axes {
-            let limits = share.of(&limits[axis.axis]);
+            let limits = share.of(&limits[axis.place]);
             let [slope, bend, twist] = axis.largest;
             let across = velocity * velocity * bend;
             let jerk =

@@ -216,17 +216,17 @@ impl Rounding {
             along(&next.segment, vertex, 1.0),
             along(&next.segment, vertex, 2.0),
         ];
-        let [a, b, c, d, e] = &points;
+        let [first, from, middle, to, last] = &points;
         let halves = (
-            before.curved([a, b, c, d], &self.main),
-            next.segment.curved([b, c, d, e], &self.main),
+            before.curved([first, from, middle, to], &self.main),
+            next.segment.curved([from, middle, to, last], &self.main),
         );
-        self.flush(Some(b.clone()), sink)?;
+        self.flush(Some(from.clone()), sink)?;
         if let (Some(first), Some(second)) = halves {
             self.hand_on(first, sink)?;
             self.hand_on(second, sink)?;
         }
-        self.begin(next, Some(d.clone()));
+        self.begin(next, Some(to.clone()));
         ControlFlow::Continue(())
     }
 

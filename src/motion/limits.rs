@@ -1,8 +1,7 @@
 //! What each axis can do, and what is assumed where the configuration does not say it.
 
 use super::trace::Movement;
-use crate::lists::SlopeProfile;
-use crate::machine::{Axis, AxisType, Machine};
+use crate::machine::{Axis, AxisType, Machine, SlopeProfile};
 
 /// The bounds of one axis: mm or degrees, per second.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -113,6 +113,22 @@ fn a_corner_is_rounded_within_its_tolerance() {
 }
 
 #[test]
+fn a_long_run_of_short_lines_is_one_curve() {
+    // R11.28: three times the look-ahead, without a stop between.
+    let mut text = String::from("G261\nG90 G01 X0 Y0 F6000\n");
+    let (mut x, mut y, mut angle) = (0.0, 0.0, 0.0_f64);
+    for _ in 0..12_000 {
+        angle += 0.0005;
+        x += 0.1 * angle.cos();
+        y += 0.1 * angle.sin();
+        let _ = writeln!(text, "X{x:.4} Y{y:.4}");
+    }
+    let found = follow(&(text + "M30\n"));
+    assert_eq!(found.transitions.joined, 11_999);
+    assert!(found.seconds() < 12.5, "{}", found.seconds());
+}
+
+#[test]
 fn a_block_function_rounds_the_end_of_its_block() {
     // R11.21
     let program = "G90 G01 X0 Y0 F3000\nG61 X40\nY40\nX0\nM30\n";

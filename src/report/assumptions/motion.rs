@@ -102,7 +102,7 @@ pub(super) const ASSUMED: &[Assumption] = &[
         when: &[],
     },
     Assumption {
-        rule: "R5.2",
+        rule: "R11.20",
         sentence: "jerk is acceleration by ramp time; where a list gives only some of the accelerations \
             or ramp times of P-AXIS-00001, P-AXIS-00002 and P-AXIS-00195 to P-AXIS-00198, they count for \
             speeding up and braking; without P-CHAN-00071 the acceleration has ramps",

@@ -146,7 +146,7 @@ fn a_unit_that_nobody_names_is_said() {
         findings.map(|it| (it.code, it.message)).collect::<Vec<_>>()
     };
     let both = said(&selection);
-    assert_eq!(both.len(), 2);
+    assert_eq!(both.len(), 2, "{both:?}");
     assert!(both.iter().all(|(code, _)| *code == Code::Fc519));
     for (name, unit) in [("Speed", "mm/s"), ("Current", "%")] {
         let unit = Unit::parse(unit).expect("a unit");

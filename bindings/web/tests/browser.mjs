@@ -162,7 +162,7 @@ const tests = {
     await page.getByRole("button", { name: "Show an example" }).click();
     await rows(page).first().waitFor();
     const leaves = () => page.evaluate(() =>
-      window.dispatchEvent(new Event("beforeunload", { cancelable: true })));
+      window.dispatchEvent(new window.Event("beforeunload", { cancelable: true })));
     assert.equal(await leaves(), true, "nothing is lost yet");
     await page.getByRole("tab", { name: /Messages/ }).click();
     await page.getByRole("button", { name: /Apply: insert \w\[COMP ON FRICT\]/ }).first().click();

@@ -11,9 +11,9 @@ use std::hint::black_box;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use frictcomp::circle::{Circle, CircularTest, Job, Method};
-use frictcomp::current::Reading;
-use frictcomp::simulation::{FrictionModel, Preset};
+use frictcomp_physics::circle::{Circle, CircularTest, Job, Method};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::{FrictionModel, Preset};
 use measure::Bench;
 
 const TOOL: &str = env!("CARGO_BIN_EXE_frictcomp");

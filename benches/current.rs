@@ -13,13 +13,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use frictcomp::comp::{AxisIndex, State};
-use frictcomp::current::{AdditiveCurrent, Commanded, Followers, Reading};
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::machine::Machine;
-use frictcomp::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
+use frictcomp_physics::current::{AdditiveCurrent, Commanded, Followers, Reading};
+use frictcomp_physics::motion::{Cause, PlannerOptions, Sample, TraceSink, TrajectoryPlanner};
 use measure::{Bench, median};
 
 /// The cycles of the trace: 1000 s, a reversal every half second.

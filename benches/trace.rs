@@ -7,7 +7,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use frictcomp::trace::{ChannelQuantity, ChannelSelection, Choice, TraceReader};
+use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice, TraceReader};
 
 const ROWS: usize = 600_000;
 const CHANNELS: usize = 10;

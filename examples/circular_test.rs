@@ -2,9 +2,9 @@
 //!
 //! `cargo run --example circular_test`
 
-use frictcomp::circle::{Circle, CircularTest, Method};
-use frictcomp::current::Reading;
-use frictcomp::simulation::{FrictionModel, Preset};
+use frictcomp_physics::circle::{Circle, CircularTest, Method};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::{FrictionModel, Preset};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let plant = "stiff".parse::<Preset>()?.plant();

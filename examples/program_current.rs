@@ -4,10 +4,10 @@
 
 use std::ops::ControlFlow;
 
-use frictcomp::current::CurrentCycle;
 use frictcomp::currents;
 use frictcomp::machine::Machine;
 use frictcomp::text::SourceFile;
+use frictcomp_physics::current::CurrentCycle;
 
 const MACHINE: &str = r#"
 [[axis]]

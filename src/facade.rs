@@ -1,13 +1,10 @@
-//! The three questions that most hosts ask, each in one call. For more, such as several programs in
-//! one session, a saved state or currents beside records, use [`Session`] itself.
+//! The two questions that most hosts ask, each in one call. For more, such as several programs in one
+//! session or a saved state, use [`Session`] itself.
 
 use std::ops::ControlFlow;
 
-use crate::current::{CurrentCycle, CurrentOptions, FollowError, ProgramCurrents, axes_to_follow};
 use crate::machine::Machine;
-use crate::session::{
-    Finder, Findings, Motions, NoFiles, Options, Program, Session, SessionOptions, StopPolicy,
-};
+use crate::session::{Finder, Findings, NoFiles, Program, Session, SessionOptions, StopPolicy};
 use crate::text::SourceFile;
 use crate::timeline::Sink;
 
@@ -60,27 +57,7 @@ pub fn check(
     findings
 }
 
-/// Runs a program from the start of the control and gives the additive currents of some axes to
-/// `sink`, CNC cycle by CNC cycle, until it breaks.
-///
-/// # Errors
-/// The machine has no axis of a name, or no value list for it.
-pub fn currents(
-    program: SourceFile,
-    mut machine: Machine,
-    axes: &[String],
-    sink: impl FnMut(&CurrentCycle<'_>) -> ControlFlow<()>,
-) -> Result<(), FollowError> {
-    let followed = axes_to_follow(axes, &mut machine, None)?;
-    let options = CurrentOptions::default();
-    let mut currents = ProgramCurrents::new(&machine, &followed, options, sink);
-    let options = SessionOptions::from(Options::default().with_motions(Motions::Taken));
-    let session = Session::new(machine, options);
-    run_in(session, program, &mut NoFiles, &mut currents);
-    currents.finish();
-    Ok(())
-}
-
+/// Runs one program in a session, from its begin to its summary.
 fn run_in(
     mut session: Session,
     program: SourceFile,

@@ -74,54 +74,34 @@
 //! # More
 //!
 //! [`interpreter::Interpreter`] runs a program block by block, and can be stopped, saved and resumed.
-//! A [`motion::TrajectoryPlanner`] turns the records of a session into commanded traces, and a
-//! [`current::AdditiveCurrent`] turns traces into currents; [`currents`] does both. A [`Machine`]
-//! comes from the control's lists or from `frictcomp.toml`. [`circle`] simulates and judges circular
-//! tests.
+//! A [`Machine`] comes from the control's lists or from `frictcomp.toml`.
 //!
 //! The library opens no file, prints nothing and reads neither clock nor environment: texts are
-//! handed to it. The feature `report` adds formats and pictures, `host` what touches files and
-//! threads. The command line, the feature `cli`, is on by default. What the feature `unstable` shows
-//! may change with every version.
+//! handed to it. What uses it is in packages of their own: `frictcomp-physics` turns the records of a
+//! session into commanded traces and currents and simulates circular tests, `frictcomp-recordings`
+//! reads recorded traces, `frictcomp-report` has the formats and pictures, `frictcomp-host` touches
+//! files and threads, and `frictcomp-cli` is the command. What the feature `unstable` shows may change
+//! with every version.
 
 pub mod audit;
-pub mod circle;
-#[cfg(feature = "cli")]
-pub mod cli;
 pub mod comp;
-#[cfg(feature = "toml")]
-mod config;
-pub mod contour;
-pub mod current;
-#[cfg(feature = "lsp")]
-pub mod dap;
+pub mod config;
 pub mod diagnostic;
+pub mod documents;
 pub mod drive_interface;
 mod facade;
-#[cfg(feature = "host")]
-pub mod host;
-pub mod identify;
 pub mod interpreter;
 mod lint;
 pub mod lists;
-#[cfg(feature = "lsp")]
-pub mod lsp;
 pub mod machine;
-pub mod motion;
-#[cfg(feature = "report")]
-pub mod report;
 pub mod session;
-pub mod simulation;
-pub mod stiction;
 pub mod syntax;
 pub mod text;
 pub mod timeline;
-pub mod trace;
-pub mod versions;
 
 pub use comp::{CompCommand, Compensation, CompensationError};
 pub use diagnostic::{Code, Diagnostic, Severity};
-pub use facade::{check, currents, run};
+pub use facade::{check, run};
 pub use machine::Machine;
 pub use session::Session;
 pub use syntax::{NoSkipLevels, SkipLevels, parse_comp};

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use frictcomp::report::{Csv, Positions, View};
 use frictcomp::{Machine, SourceFile};
+use frictcomp_report::{Csv, Positions, View};
 
 fn read(path: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);

@@ -32,7 +32,7 @@ impl Client {
         let (input, to) = pipe().expect("a pipe");
         let (from, output) = pipe().expect("a pipe");
         let server = thread::spawn(move || {
-            let _ = frictcomp::dap::serve(BufReader::new(input), output);
+            let _ = frictcomp_editor::dap::serve(BufReader::new(input), output);
         });
         Self {
             folder,

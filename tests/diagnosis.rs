@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
 
-use frictcomp::circle::{
+use frictcomp_physics::circle::{
     CommandedCircle, Direction, Figures, Finding, PathCentre, RecordedCircle, Recording, diagnose,
 };
 use recorder::{Noise, Recorder, backlash, friction};

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use frictcomp::report::assumptions::{CHAPTERS, Chapter};
+use frictcomp_report::assumptions::{CHAPTERS, Chapter};
 
 /// Set to write the output of the commands into the documents.
 const UPDATE: &str = "UPDATE_DOCS";

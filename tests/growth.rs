@@ -10,13 +10,13 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use frictcomp::host::read_axis;
-use frictcomp::identify::{IdentifyOptions, identify};
 use frictcomp::machine::{Machine, NoLists, check_list};
 use frictcomp::session::{Limits, Options, Program, Session, SessionOptions, StopPolicy};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
-use frictcomp::trace::ChannelSelection;
+use frictcomp_host::read_axis;
+use frictcomp_recordings::identify::{IdentifyOptions, identify};
+use frictcomp_recordings::trace::ChannelSelection;
 
 /// How much more a program of twice the length may need: the exponent 1.2.
 const TWICE: f64 = 2.3;

@@ -15,16 +15,16 @@ mod plant;
 
 use std::fmt::Write as _;
 
-use frictcomp::circle::{Circle, CircularTest, Comparison, Direction, Job};
-use frictcomp::current::{Reading, Switched};
 use frictcomp::diagnostic::Code;
-use frictcomp::identify::{
+use frictcomp::lists::{FrictionList, ListHead, Points, TablePoint, write_value_list};
+use frictcomp::text::SourceFile;
+use frictcomp_physics::circle::{Circle, CircularTest, Comparison, Direction, Job};
+use frictcomp_physics::current::{Reading, Switched};
+use frictcomp_physics::simulation::{FrictionModel, Plant, plant_list};
+use frictcomp_recordings::identify::{
     FrictionCurve, Identified, IdentifyError, IdentifyOptions, Predictor, Timing, Track,
     TrackError, Verified, Wanted, identify, identify_circles, verify,
 };
-use frictcomp::lists::{FrictionList, ListHead, Points, TablePoint, write_value_list};
-use frictcomp::simulation::{FrictionModel, Plant, plant_list};
-use frictcomp::text::SourceFile;
 use plant::{ASYMMETRY, Bench, FC, FV, Recorded, UNIT, VS, WEIGHT};
 
 fn track(recorded: Recorded) -> Track {

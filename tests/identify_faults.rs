@@ -15,13 +15,13 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::LazyLock;
 
-use frictcomp::current::Switched;
 use frictcomp::diagnostic::Code;
-use frictcomp::host::read_axis;
-use frictcomp::identify::{
+use frictcomp_host::read_axis;
+use frictcomp_physics::current::Switched;
+use frictcomp_recordings::identify::{
     Identified, IdentifyError, IdentifyOptions, Measured, TorqueKind, Track, identify,
 };
-use frictcomp::trace::ChannelSelection;
+use frictcomp_recordings::trace::ChannelSelection;
 use plant::Bench;
 
 const DEMO: &str = "programs/demo/recordings/friction_x.csv";

@@ -10,13 +10,13 @@ use std::process::{Command, Stdio};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use frictcomp::host::{
+use frictcomp::session::{Limits, Options, SessionOptions};
+use frictcomp_host::decode;
+use frictcomp_host::{
     Alone, Axes, Disk, HostError, Input, Ledger, MachineOptions, Machines, Naming, OpenText,
     find_programs, run_alone,
 };
-use frictcomp::report::{TimelineFormat, TimelineOptions, command_line};
-use frictcomp::session::{Limits, Options, SessionOptions};
-use frictcomp::text::decode;
+use frictcomp_report::{TimelineFormat, TimelineOptions, command_line};
 
 /// The bound on executed blocks for all programs, so that a loop that does not end is seen.
 const MAX_BLOCKS: u64 = 5000;

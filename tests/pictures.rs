@@ -9,19 +9,19 @@ use std::process::{Command, Stdio};
 
 use roxmltree::Document;
 
-use frictcomp::circle::{FeedResult, Tuned, TunedAxis};
 use frictcomp::comp::State;
-use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::lists::{AxisType, FrictionList, TablePoint};
 use frictcomp::machine::AcceptedList;
-use frictcomp::report::pictures::{
+use frictcomp_physics::circle::{FeedResult, Tuned, TunedAxis};
+use frictcomp_physics::current::{AdditiveCurrent, Reading};
+use frictcomp_report::pictures::{
     AxisPlot, AxisSample, CurrentPlot, tuning, value_curve, value_curves,
 };
-use frictcomp::report::svg::{
+use frictcomp_report::svg::{
     Band, BandChart, BandRow, BandState, ChartAxis, Drawn, Frame, LineChart, Panel, PolarChart,
     PolarPanel, PolarSeries, Series, Standing,
 };
-use frictcomp::report::tune::TuneReport;
+use frictcomp_report::tune::TuneReport;
 
 fn list() -> FrictionList {
     let points = [

@@ -13,12 +13,12 @@ use std::fs;
 use std::path::Path;
 
 use frictcomp::diagnostic::Code;
-use frictcomp::host::read_axis;
-use frictcomp::identify::{IdentifyOptions, identify};
-use frictcomp::simulation::{
+use frictcomp_host::read_axis;
+use frictcomp_physics::simulation::{
     Drive, FrictionModel, POSITION_LOOP_S, Preset, SPEED_LOOP_S, STEP_S, Setpoint,
 };
-use frictcomp::trace::{ChannelSelection, Unit};
+use frictcomp_recordings::identify::{IdentifyOptions, identify};
+use frictcomp_recordings::trace::{ChannelSelection, Unit};
 
 const FRICTION: &str = "programs/demo/recordings/friction_x.csv";
 

@@ -1,13 +1,13 @@
 //! Chapter 5.3: what is told from the shapes of simulated circles. A plant without backlash never
 //! shows any, one with backlash always, and axes that do not match are no friction.
 
-use frictcomp::circle::{
+use frictcomp::text::SourceFile;
+use frictcomp_physics::circle::{
     Circle, CircleError, CircularTest, Comparison, Diagnosis, Direction, Finding, FoundAt, Job,
     Method, PlaneAxis, diagnose, diagnose_comparison,
 };
-use frictcomp::current::{Reading, Switched};
-use frictcomp::simulation::{FrictionModel, Plant, Preset};
-use frictcomp::text::SourceFile;
+use frictcomp_physics::current::{Reading, Switched};
+use frictcomp_physics::simulation::{FrictionModel, Plant, Preset};
 
 fn plant(text: &str) -> Plant {
     Plant::from_toml(SourceFile::new("p.toml", text)).expect("a plant")

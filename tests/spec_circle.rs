@@ -4,17 +4,17 @@
 
 use std::f64::consts::TAU;
 
-use frictcomp::circle::{
+use frictcomp::lists::{FrictionList, Points};
+use frictcomp::text::SourceFile;
+use frictcomp_physics::circle::{
     Circle, CircleError, CircularTest, Comparison, Direction, Figures, Finding, FoundAt,
     FreeParameter, Job, Lap, Method, PathFigures, PathShape, Ranges, Shaping, Task, Tuned,
     diagnose, diagnose_comparison, tune,
 };
-use frictcomp::current::{Reading, Switched};
-use frictcomp::lists::{FrictionList, Points};
-use frictcomp::simulation::{
+use frictcomp_physics::current::{Reading, Switched};
+use frictcomp_physics::simulation::{
     Drive, DriveParameters, FrictionModel, POSITION_LOOP_S, Plant, Preset, Setpoint,
 };
-use frictcomp::text::SourceFile;
 use proptest::prelude::{ProptestConfig, Strategy, proptest};
 
 fn circular_test(feed: f64) -> CircularTest {

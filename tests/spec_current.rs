@@ -1,11 +1,11 @@
 //! Chapter 4: the additive current, rule by rule, against values computed by hand.
 
 use frictcomp::comp::State;
-use frictcomp::current::{
+use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp_physics::current::{
     AdditiveCurrent, Below, Commanded, CommandedTrace, CyclesError, DeadBand, Delay, Followers,
     Reading, Resampling, Standstill, Start, Switched, TraceColumns, TraceOptions,
 };
-use frictcomp::lists::{FrictionList, TablePoint};
 
 /// 12 drive units at rest, falling to 10 at 1000 µm/s, then held.
 fn list() -> FrictionList {

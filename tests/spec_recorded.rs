@@ -7,7 +7,7 @@ mod recorder;
 
 use std::f64::consts::{PI, TAU};
 
-use frictcomp::circle::{
+use frictcomp_physics::circle::{
     CommandedCircle, Crossing, Direction, Figures, Finding, FoundAt, PathCentre, PathFigures,
     PathShape, PlaneAxis, RecordedCircle, RecordedError, RecordedTrace, Recording, diagnose,
 };

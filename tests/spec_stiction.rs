@@ -1,13 +1,13 @@
 //! Chapter 8: stiction compensation of a simulated drive.
 
-use frictcomp::circle::{
+use frictcomp::lists::Points;
+use frictcomp::text::SourceFile;
+use frictcomp_physics::circle::{
     Circle, CircularTest, Comparison, Direction, FreeParameter, Job, Method, Ranges, Shaping, Task,
     Tuned, tune,
 };
-use frictcomp::current::{Reading, Switched};
-use frictcomp::lists::Points;
-use frictcomp::simulation::{FrictionModel, Plant};
-use frictcomp::text::SourceFile;
+use frictcomp_physics::current::{Reading, Switched};
+use frictcomp_physics::simulation::{FrictionModel, Plant};
 
 /// The drive of the acceptance: 16.7 1/s, a speed loop of 30 Hz with 30 ms, the stiff contact.
 const DRIVE: &str = "Kv = 16.7\nKp = 245044.227\nTi = 0.03\n";

@@ -2,15 +2,15 @@
 
 #![allow(clippy::float_cmp)] // Where numbers are compared exactly, they are meant exactly.
 
-use frictcomp::circle::{
+use frictcomp::lists::Points;
+use frictcomp::text::SourceFile;
+use frictcomp_host::{Watch, tune as tune_on_all_processors};
+use frictcomp_physics::circle::{
     Circle, CircleError, CircularTest, Comparison, Direction, FeedResult, Job, Ranges, Shaping,
     Task, Tuned, TunedAxis, tune,
 };
-use frictcomp::current::{Reading, Switched};
-use frictcomp::host::{Watch, tune as tune_on_all_processors};
-use frictcomp::lists::Points;
-use frictcomp::simulation::{FrictionModel, Plant, Preset, plant_list};
-use frictcomp::text::SourceFile;
+use frictcomp_physics::current::{Reading, Switched};
+use frictcomp_physics::simulation::{FrictionModel, Plant, Preset, plant_list};
 
 fn task(plant: Plant, feeds: &[f64]) -> Task {
     let circle = |&feed_mm_per_min: &f64| Circle {

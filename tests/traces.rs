@@ -11,7 +11,7 @@
 #[path = "traces/layouts.rs"]
 mod layouts;
 
-use frictcomp::trace::{
+use frictcomp_recordings::trace::{
     ChannelQuantity, ChannelSelection, Choice, CncObject, Layout, Pick, SelectError, TraceProblem,
     TraceReader, TraceRecording, Unit,
 };

@@ -10,12 +10,12 @@
 
 use std::f64::consts::TAU;
 
-use frictcomp::current::{AdditiveCurrent, Reading};
-use frictcomp::identify::{Predictor, Timing, Track, Verified, verify, verify_followed};
 use frictcomp::lists::FrictionList;
-use frictcomp::simulation::{
+use frictcomp_physics::current::{AdditiveCurrent, Reading};
+use frictcomp_physics::simulation::{
     Drive, FrictionModel, POSITION_LOOP_S, Preset, SPEED_LOOP_S, STEP_S, Setpoint, plant_list,
 };
+use frictcomp_recordings::identify::{Predictor, Timing, Track, Verified, verify, verify_followed};
 
 /// The CNC cycle in s, and the time between two rows.
 const CYCLE_S: f64 = 0.001;

@@ -3,7 +3,7 @@
 
 use frictcomp::comp::KindSet;
 use frictcomp::machine::Configuration;
-use frictcomp::report::{Ndjson, View};
+use frictcomp_report::{Ndjson, View};
 use frictcomp::session::{Program, Session};
 use frictcomp::text::SourceFile;
 use frictcomp_fuzz::{Bench, Files, POLICIES};

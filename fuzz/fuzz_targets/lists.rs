@@ -2,7 +2,7 @@
 #![no_main]
 
 use frictcomp::machine::{Configuration, check_list};
-use frictcomp::report::lists::render_parameters;
+use frictcomp_report::lists::render_parameters;
 use frictcomp_fuzz::Files;
 use libfuzzer_sys::fuzz_target;
 

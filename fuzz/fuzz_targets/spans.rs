@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use frictcomp::diagnostic::Diagnostic;
-use frictcomp::report::{Listing, ListingFormat, Look, Paint, render};
+use frictcomp_report::{Listing, ListingFormat, Look, Paint, render};
 use frictcomp::session::{Session, StopPolicy};
 use frictcomp::timeline::{Record, Sink};
 use frictcomp_fuzz::{Bench, Files, Theme, machine, text_of};

@@ -1,7 +1,7 @@
 //! State files: any text is refused, or a session goes on from it and saves what it read back.
 #![no_main]
 
-use frictcomp::report::{Ndjson, View};
+use frictcomp_report::{Ndjson, View};
 use frictcomp::session::{SavedState, Session};
 use frictcomp_fuzz::{Bench, Files, POLICIES, machine};
 use libfuzzer_sys::fuzz_target;

@@ -2,7 +2,7 @@
 
 use std::io::sink;
 
-use frictcomp::report::{Csv, Ndjson, Positions, Report, Text, TextOptions, View};
+use frictcomp_report::{Csv, Ndjson, Positions, Report, Text, TextOptions, View};
 use frictcomp::session::{SavedState, Session};
 
 use crate::{Bench, Files, POLICIES, machine};

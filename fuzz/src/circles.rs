@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use frictcomp::circle::{
+use frictcomp_physics::circle::{
     Circle, CircleError, CircularTest, Comparison, Job, Lap, MIN_CYCLES, Method,
 };
-use frictcomp::current::Reading;
+use frictcomp_physics::current::Reading;
 use frictcomp::lists::{FrictionList, TablePoint};
-use frictcomp::simulation::{FrictionModel, Plant, STEP_S, plant_list};
+use frictcomp_physics::simulation::{FrictionModel, Plant, STEP_S, plant_list};
 use frictcomp::text::SourceFile;
 
 use crate::Dice;

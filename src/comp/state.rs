@@ -10,7 +10,7 @@ use super::kind::Kind;
 /// What a user sees of one kind on one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum State {
     /// Selected, configured and parameterised: it works.
     Active,

@@ -35,7 +35,7 @@ fn line_at(text: &str, offset: usize) -> &str {
 }
 
 /// How the value of a key is written, for a key that has one of another form.
-pub(crate) fn example(key: &str) -> Option<&'static str> {
+pub fn example(key: &str) -> Option<&'static str> {
     let (_, example) = EXAMPLES.iter().find(|(name, _)| *name == key)?;
     Some(example)
 }

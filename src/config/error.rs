@@ -15,20 +15,23 @@ pub struct ConfigError {
 }
 
 impl ConfigError {
-    pub(crate) fn new(source: &SourceFile, span: Span, message: impl Into<String>) -> Self {
+    /// An error about a part of a file.
+    pub fn new(source: &SourceFile, span: Span, message: impl Into<String>) -> Self {
         let place = source.place(span);
         Self {
             diagnostic: Box::new(Diagnostic::new(Code::Fc110, place, message)),
         }
     }
 
-    pub(crate) fn at<T>(given: &Given<T>, message: impl Into<String>) -> Self {
+    /// An error about a value.
+    pub fn at<T>(given: &Given<T>, message: impl Into<String>) -> Self {
         Self {
             diagnostic: Box::new(Diagnostic::new(Code::Fc110, given.place(), message)),
         }
     }
 
-    pub(crate) fn with_help(mut self, advice: impl Into<Advice>) -> Self {
+    /// The same with a line of help.
+    pub fn with_help(mut self, advice: impl Into<Advice>) -> Self {
         self.diagnostic.advice.push(advice.into());
         self
     }

@@ -20,7 +20,7 @@ const TABLES: [(&str, &Shape); 9] = [
 
 /// The keys of the table of a header, `[[axis]]`; `None` where the user chooses them, or there is no
 /// such table.
-pub(crate) fn keys(header: &str) -> Option<&'static [&'static str]> {
+pub fn keys(header: &str) -> Option<&'static [&'static str]> {
     let table = TABLES.iter().find(|(name, _)| *name == header);
     table.and_then(|(_, shape)| shape.keys)
 }

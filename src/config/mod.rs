@@ -1,25 +1,26 @@
-//! The files that users of frictcomp write, `frictcomp.toml` and plant files, as data with the
-//! place of every key. What the data mean for a machine or a plant is said in those rooms.
+//! The file that users of frictcomp write, `frictcomp.toml`, as data with the place of every key. What
+//! the data mean for a machine is said there. Packages of the same version read their own files with the
+//! same tables.
+
+// Without the feature, what only they see is as good as private.
+#![cfg_attr(not(feature = "unstable"), allow(unreachable_pub, dead_code))]
 
 mod advice;
 mod axis;
 mod error;
 mod file;
-#[cfg(feature = "lsp")]
 mod keys;
 mod machine;
 mod one_more_axis;
-mod plant;
-mod plant_keys;
 mod section;
 
-#[cfg(feature = "lsp")]
-pub(crate) use advice::example;
+#[cfg(feature = "unstable")]
+pub use advice::example;
 pub(crate) use axis::AxisTable;
 pub use error::ConfigError;
 pub(crate) use file::{ConfigFile, Variable};
-#[cfg(feature = "lsp")]
-pub(crate) use keys::keys;
+#[cfg(feature = "unstable")]
+pub use keys::keys;
 pub(crate) use machine::MachineTable;
-pub(crate) use plant::{DriveTable, PlantFile, StictionTable};
-pub(crate) use plant_keys::{Quantity, StictionKey};
+#[cfg(feature = "unstable")]
+pub use section::{Section, Shape};

@@ -12,15 +12,15 @@ use crate::syntax::SkipLevels;
 use crate::text::{SourceFile, Span};
 
 /// What a table is called and which keys it may have.
-pub(super) struct Shape {
+pub struct Shape {
     /// As the user writes it.
-    pub(super) name: &'static str,
+    pub name: &'static str,
     /// The keys; `None` when the user chooses them.
-    pub(super) keys: Option<&'static [&'static str]>,
+    pub keys: Option<&'static [&'static str]>,
 }
 
 /// One table whose keys are all known.
-pub(super) struct Section<'a> {
+pub struct Section<'a> {
     table: &'a DeTable<'a>,
     source: &'a Arc<SourceFile>,
     span: Span,
@@ -28,7 +28,10 @@ pub(super) struct Section<'a> {
 
 impl<'a> Section<'a> {
     /// A table after a look at its keys.
-    pub(super) fn new(
+    ///
+    /// # Errors
+    /// A key is not known, or stands twice.
+    pub fn new(
         table: &'a DeTable<'a>,
         source: &'a Arc<SourceFile>,
         shape: &Shape,
@@ -57,12 +60,12 @@ impl<'a> Section<'a> {
     }
 
     /// The place of the table itself.
-    pub(super) fn whole(&self) -> Given<()> {
+    pub fn whole(&self) -> Given<()> {
         Given::new((), self.source, self.span)
     }
 
     /// The place of a value.
-    pub(super) fn given(&self, key: &str) -> Option<Given<()>> {
+    pub fn given(&self, key: &str) -> Option<Given<()>> {
         let value = self.table.get(key)?;
         Some(Given::new((), self.source, span(value)))
     }
@@ -86,11 +89,10 @@ impl<'a> Section<'a> {
     }
 
     /// A table in this one.
-    pub(super) fn table(
-        &self,
-        key: &str,
-        shape: &Shape,
-    ) -> Result<Option<Section<'a>>, ConfigError> {
+    ///
+    /// # Errors
+    /// The key has no table, or one with an unknown key.
+    pub fn table(&self, key: &str, shape: &Shape) -> Result<Option<Section<'a>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -113,7 +115,10 @@ impl<'a> Section<'a> {
     }
 
     /// A text.
-    pub(super) fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
+    ///
+    /// # Errors
+    /// The key has no text.
+    pub fn string(&self, key: &str) -> Result<Option<Given<String>>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -173,7 +178,7 @@ impl<'a> Section<'a> {
 
     /// What stands where a number may stand; `None` without the key or for a value of another
     /// type.
-    pub(super) fn number(&self, key: &str) -> Option<Given<Written>> {
+    pub fn number(&self, key: &str) -> Option<Given<Written>> {
         let value = self.table.get(key)?;
         Some(self.place(value, self.written(value)?))
     }
@@ -194,7 +199,10 @@ impl<'a> Section<'a> {
     }
 
     /// A number above 0.
-    pub(super) fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
+    ///
+    /// # Errors
+    /// The key has no number above 0.
+    pub fn positive(&self, key: &str) -> Result<Option<f64>, ConfigError> {
         let Some(value) = self.table.get(key) else {
             return Ok(None);
         };
@@ -206,10 +214,10 @@ impl<'a> Section<'a> {
     }
 
     /// A list of pairs of numbers, `[[0, 12.0], [1800, 10.5]]`.
-    pub(super) fn number_pairs(
-        &self,
-        key: &str,
-    ) -> Result<Option<Vec<[Given<Written>; 2]>>, ConfigError> {
+    ///
+    /// # Errors
+    /// The key has something else.
+    pub fn number_pairs(&self, key: &str) -> Result<Option<Vec<[Given<Written>; 2]>>, ConfigError> {
         const WANTED: &str = "a list of pairs `[velocity, current]`";
         if !self.table.contains_key(key) {
             return Ok(None);

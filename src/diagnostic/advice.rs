@@ -9,7 +9,7 @@ use super::codes::Code;
 
 /// A bound of the dry run that a host may raise (R2.60).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Budget {
     /// Executed blocks.
     Blocks,
@@ -89,7 +89,7 @@ pub type Wording = fn(&Advice) -> Option<String>;
 
 impl Advice {
     /// The known words that may be meant, which are equally near.
-    pub(crate) fn did_you_mean(near: &[&str]) -> Self {
+    pub fn did_you_mean(near: &[&str]) -> Self {
         match near {
             [near] => Self::DidYouMean((*near).to_owned()),
             several => Self::Words(format!("did you mean `{}`?", several.join("` or `")).into()),

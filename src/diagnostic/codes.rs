@@ -40,7 +40,6 @@ macro_rules! codes {
             }
 
             /// The page that `frictcomp explain` shows.
-            #[cfg(feature = "report")]
             pub fn page(self) -> &'static str {
                 match self { $(Self::$name => include_str!(concat!("../../docs/codes/", $text, ".md")),)+ }
             }

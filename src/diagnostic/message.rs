@@ -119,7 +119,7 @@ impl Diagnostic {
     }
 
     /// The message without how often it applied: what makes it the same as another one (R17.3).
-    pub(crate) fn uncounted(&self) -> &str {
+    pub fn uncounted(&self) -> &str {
         if self.times == 1 {
             return &self.message;
         }

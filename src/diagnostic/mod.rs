@@ -20,10 +20,9 @@ pub use filter::CodeFilter;
 pub use fix::{Edit, Fix, Fixed, NamedFix, Safety, edited, edits};
 pub use levels::Levels;
 pub use message::{Diagnostic, Label};
-#[cfg(feature = "report")]
-pub(crate) use number::Rounded;
-pub(crate) use number::Shown;
+pub use number::Rounded;
+pub use number::Shown;
 pub use reached::ReachedFrom;
 pub use severity::Severity;
-pub(crate) use spelling::{did_you_mean, nearest};
+pub use spelling::{did_you_mean, nearest};
 pub use unknown_name::UnknownName;

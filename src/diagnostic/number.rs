@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// A number in a message: very large and very small ones with an exponent (R9.78).
-pub(crate) struct Shown(pub(crate) f64);
+pub struct Shown(pub f64);
 
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -18,10 +18,8 @@ impl fmt::Display for Shown {
 }
 
 /// A number with so many decimals; what is rounded to zero has no sign.
-#[cfg(feature = "report")]
-pub(crate) struct Rounded(pub(crate) f64, pub(crate) usize);
+pub struct Rounded(pub f64, pub usize);
 
-#[cfg(feature = "report")]
 impl fmt::Display for Rounded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = format!("{:.*}", self.1, self.0);
@@ -35,7 +33,6 @@ impl fmt::Display for Rounded {
 mod tests {
     use super::*;
 
-    #[cfg(feature = "report")]
     #[test]
     fn what_is_rounded_to_zero_has_no_sign() {
         assert_eq!(Rounded(-0.0004, 3).to_string(), "0.000");

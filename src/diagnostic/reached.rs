@@ -39,7 +39,7 @@ impl ReachedFrom {
     }
 
     /// Adds a program, unless it is named already.
-    pub(crate) fn add(&mut self, file: &Arc<str>) {
+    pub fn add(&mut self, file: &Arc<str>) {
         if self.named.contains(file) {
             return;
         }

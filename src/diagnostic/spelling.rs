@@ -8,16 +8,13 @@ const MAX_EQUALLY_NEAR: usize = 4;
 
 /// The nearest of several known words, close enough to be meant; the first one of several that are
 /// equally near. What offers a change asks [`nearest`].
-pub(crate) fn did_you_mean<'a>(
-    found: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn did_you_mean<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates(found, known).first().copied()
 }
 
 /// The words that are equally near, in their order: which one is meant is then not for a tool to say
 /// (R1.60). None where they are many.
-pub(crate) fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let mut near = candidates(found, known);
     near.truncate(if near.len() > MAX_EQUALLY_NEAR {
         0

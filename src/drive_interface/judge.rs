@@ -45,7 +45,7 @@ pub struct Evidence {
 /// What is known about a torque value of an axis.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(tag = "state", rename_all = "snake_case")]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Presence {
     /// The cyclic data hold it; what says so.
     Present {

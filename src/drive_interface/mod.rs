@@ -9,13 +9,9 @@ mod judge;
 mod network;
 mod settings;
 mod signal;
-#[cfg(feature = "host")]
-mod xml;
 
 pub use drive_type::DriveType;
 pub use judge::{DriveReport, Evidence, ListedDrive, Presence, SlaveOfAxis, check_drive};
 pub use network::{Device, Network, NetworkObject, Protocol, Slave};
 pub use settings::{DriveSettings, TorqueScale};
-pub use signal::Signal;
-#[cfg(feature = "host")]
-pub use xml::{XmlError, read_devices, read_network};
+pub use signal::{Signal, channel};

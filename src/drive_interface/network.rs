@@ -24,7 +24,7 @@ pub struct NetworkObject {
 
 /// How a device exchanges parameters, and so which numbers its process data go by.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Protocol {
     /// `CANopen` over `EtherCAT`: objects.
     #[default]

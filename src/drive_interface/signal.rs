@@ -55,12 +55,12 @@ impl Signal {
     }
 
     /// The axis of a device whose object this is, from 1.
-    pub(super) fn channel(self, index: u16) -> Option<u8> {
+    pub fn channel(self, index: u16) -> Option<u8> {
         channel(self.object(), index)
     }
 
     /// Whether this is its IDN, in any parameter set.
-    pub(super) fn is_idn(self, idn: u16) -> bool {
+    pub fn is_idn(self, idn: u16) -> bool {
         idn & IDN_OF_MANUFACTURER == 0 && idn & IDN_NUMBER == self.idn()
     }
 
@@ -100,7 +100,7 @@ pub(super) fn is_torque_command(reference: &str) -> bool {
 }
 
 /// The axis of a device, from 1, whose object `index` is where `first` is that of its first axis.
-pub(super) fn channel(first: u16, index: u16) -> Option<u8> {
+pub fn channel(first: u16, index: u16) -> Option<u8> {
     let above = index.checked_sub(first)?;
     let is_one = above % PER_CHANNEL == 0 && DRIVE_OBJECTS.contains(&index);
     is_one.then(|| u8::try_from(above / PER_CHANNEL + 1).ok())?

@@ -18,7 +18,7 @@ mod run;
 mod unknown;
 mod values;
 
-pub(crate) use coordinates::arc::SAME_PLACE;
+pub use coordinates::arc::{ArcShape, SAME_PLACE};
 pub use coordinates::axis_words::AxisWord;
 pub use coordinates::contouring::{Contouring, Joining};
 pub use coordinates::group::Group;

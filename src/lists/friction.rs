@@ -28,7 +28,7 @@ const UNDOCUMENTED: [&str; 10] = [
 
 /// One documented parameter of the structure, apart from the table (chapter 3.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Field {
     /// P-COMP-00041: 0 off, 3 on.
     Mode,

@@ -3,11 +3,11 @@
 
 /// A key of a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct KnownKey {
+pub struct KnownKey {
     /// The number in the parameter descriptions; empty where none is documented.
-    pub(crate) number: &'static str,
+    pub number: &'static str,
     /// The key with every index left empty: `frict_comp.table[].in`.
-    pub(crate) pattern: &'static str,
+    pub pattern: &'static str,
 }
 
 macro_rules! keys {
@@ -18,7 +18,7 @@ macro_rules! keys {
 
 /// Every key that is read, and those that others refer to (TF5200 Axis, Compensation, Channel and
 /// Start-up parameters).
-pub(crate) const KEYS: &[KnownKey] = keys! {
+pub const KEYS: &[KnownKey] = keys! {
     "P-AXIS-00016" "kopf.achs_nr"
     "P-AXIS-00297" "kopf.log_achs_name"
     "P-AXIS-00015" "kenngr.achs_mode"

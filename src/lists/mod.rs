@@ -6,6 +6,7 @@ mod check;
 mod dynamics;
 mod entry;
 mod friction;
+#[cfg_attr(not(feature = "unstable"), allow(unreachable_pub))]
 mod known;
 mod line;
 mod monitor;
@@ -26,8 +27,8 @@ pub use check::{Conditions, FrictionReading, Verdict};
 pub use dynamics::{DynamicsDraft, ListedDynamics};
 pub use entry::Entry;
 pub use friction::{Field, FrictionDraft, WrittenPoint};
-#[cfg(all(test, feature = "cli"))]
-pub(crate) use known::KEYS;
+#[cfg(feature = "unstable")]
+pub use known::{KEYS, KnownKey};
 pub use line::Entries;
 pub use monitor::Monitor;
 pub use parameter::{AxisType, Origin, Parameter, UnknownAxisType};

@@ -9,7 +9,7 @@ use super::value::Given;
 
 /// The type of an axis, P-AXIS-00018 (`kenngr.achs_typ`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum AxisType {
     /// Translatory, list value 1.
     #[default]
@@ -55,7 +55,7 @@ impl FromStr for AxisType {
 
 /// Where the value of a parameter came from.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Origin {
     /// No list sets it; the documented default holds.
     Default,

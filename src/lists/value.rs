@@ -118,7 +118,6 @@ impl<T> Given<T> {
     }
 
     /// What stands there, in the text of its file.
-    #[cfg(feature = "toml")]
     pub(crate) fn span(&self) -> Span {
         self.span
     }

@@ -31,7 +31,7 @@ impl Points {
     }
 
     /// The points as they are written. Velocities that fall together are one point (R3.20).
-    pub(crate) fn rounded(self, table: &[TablePoint]) -> Vec<TablePoint> {
+    pub fn rounded(self, table: &[TablePoint]) -> Vec<TablePoint> {
         if self == Self::Real {
             let written = |point: &TablePoint| TablePoint {
                 output: (point.output * DECIMALS).round() / DECIMALS,

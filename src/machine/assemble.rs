@@ -94,7 +94,6 @@ impl AxisDraft {
     }
 
     /// Lets another axis list override what is here.
-    #[cfg(feature = "toml")]
     pub(super) fn add_list(&mut self, list: AxisValues) {
         self.is_listed = true;
         if list.number.is_some() {

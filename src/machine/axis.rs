@@ -10,7 +10,7 @@ use crate::text::Place;
 
 /// Whether an axis has a friction value list that the control would take.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Parameterisation {
     /// No value list belongs to the axis.
     #[default]

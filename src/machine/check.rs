@@ -171,7 +171,6 @@ pub fn check_list(
 }
 
 /// Checks a `frictcomp.toml` with every list that it names.
-#[cfg(feature = "toml")]
 pub fn check_configuration(file: SourceFile, files: &mut dyn ListFiles) -> ListsReport {
     let name = file.name().clone();
     match Configuration::from_toml(file, files) {

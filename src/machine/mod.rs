@@ -7,7 +7,6 @@ mod configuration;
 mod described;
 mod description;
 mod files;
-#[cfg(feature = "toml")]
 mod from_toml;
 mod gantry;
 mod harmless;
@@ -21,7 +20,6 @@ mod value_list;
 
 pub use assemble::AxisReport;
 pub use axis::{Axis, Parameterisation};
-#[cfg(feature = "toml")]
 pub use check::check_configuration;
 pub use check::{AcceptedList, ListsReport, check_list};
 pub use configuration::Configuration;
@@ -33,6 +31,4 @@ pub(crate) use programs::canonical_word;
 pub use programs::{ConfiguredPrograms, Keeps};
 pub use setting::Setting;
 
-#[cfg(feature = "toml")]
-pub use crate::config::ConfigError;
 pub use crate::lists::{AxisType, ChannelSettings, FeedUnit, Origin, SlopeProfile};

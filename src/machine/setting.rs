@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// The value that the user gives to a variable that only the machine knows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Setting {
     /// A number.
     Number(f64),

@@ -42,7 +42,7 @@ use saved::{fingerprint, storable};
 
 /// How a session runs.
 #[derive(Debug, Clone, Default)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct SessionOptions {
     /// How its programs run.
     pub run: Options,

@@ -4,12 +4,18 @@ use super::ast::{Block, Flow, Item};
 
 /// A kind of control block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ControlBlock {
+pub enum ControlBlock {
+    /// `$IF`.
     If,
+    /// `$SWITCH`.
     Switch,
+    /// `$FOR`.
     For,
+    /// `$WHILE`.
     While,
+    /// `$DO`.
     Do,
+    /// `$REPEAT`.
     Repeat,
     /// `#RT WHILE`, which real time leaves (tf5261, 783727499).
     RealTime,
@@ -17,9 +23,12 @@ pub(crate) enum ControlBlock {
 
 /// What a statement is to its control block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
+pub enum Part {
+    /// It opens the block.
     Opener,
+    /// It begins another branch of the block.
     Branch,
+    /// It closes the block.
     Closer,
 }
 
@@ -56,7 +65,7 @@ impl ControlBlock {
 }
 
 /// The control block that an item of a block belongs to, and as what. `$IF c $GOTO N10` opens none.
-pub(crate) fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> {
+pub fn control_part(block: &Block, item: &Item) -> Option<(ControlBlock, Part)> {
     use ControlBlock::{Do, For, If, RealTime, Repeat, Switch, While};
     use Part::{Branch, Closer, Opener};
     let flow = match item {

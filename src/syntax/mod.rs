@@ -3,7 +3,7 @@
 //! This is the only place that knows pest. Parsing never fails: a block comes back with what was
 //! understood and with the faults of the rest. Nothing here knows a machine.
 
-// Without the feature, what only tests see is as good as private.
+// Without the feature, what only other packages of the same version see is as good as private.
 #![cfg_attr(not(feature = "unstable"), allow(unreachable_pub, dead_code))]
 
 pub(crate) mod allow;
@@ -26,12 +26,10 @@ mod known;
 mod lines;
 mod lower;
 mod mask;
-#[cfg(feature = "lsp")]
 mod names;
 mod parse;
 mod pieces;
 mod raw;
-#[cfg_attr(not(feature = "host"), allow(dead_code, reason = "a host looks ahead"))]
 mod scan;
 mod skip_levels;
 mod texts;
@@ -41,7 +39,10 @@ mod upper_case;
 pub(crate) use axes::is_axis_name;
 pub use axes::{AxisUse, axis_uses};
 pub use brackets::MAX_BRACKETS;
+#[cfg(not(feature = "unstable"))]
 pub(crate) use control_block::{ControlBlock, Part, control_part};
+#[cfg(feature = "unstable")]
+pub use control_block::{ControlBlock, Part, control_part};
 pub(crate) use dialect::{Foreign, foreign};
 pub use fault::Fault;
 pub use flow_scan::FlowScan;
@@ -55,29 +56,26 @@ pub use lines::BlockReader;
 #[cfg(not(feature = "unstable"))]
 pub(crate) use lines::BlockReader;
 pub use lines::FastPath;
-#[cfg(not(feature = "unstable"))]
-pub(crate) use parse::parse_block;
-#[cfg(feature = "unstable")]
-pub use parse::parse_block;
 pub use parse::parse_comp;
-pub(crate) use parse::{is_lone_m, parse_expression};
+#[cfg(not(feature = "unstable"))]
+pub(crate) use parse::{is_lone_m, parse_block, parse_expression};
+#[cfg(feature = "unstable")]
+pub use parse::{is_lone_m, parse_block, parse_expression};
 pub use raw::{Comments, MAX_LINE, Remark};
 #[cfg(not(feature = "unstable"))]
 pub(crate) use raw::{LostRemarks, RawBlock, Stretch};
 #[cfg(feature = "unstable")]
 pub use raw::{LostRemarks, RawBlock, Stretch};
 
-#[cfg(feature = "lsp")]
-pub(crate) use mask::code_of;
+#[cfg(feature = "unstable")]
+pub use mask::code_of;
 pub(crate) use mask::goes_on;
-#[cfg(feature = "lsp")]
-pub(crate) use names::{Named, Role, names_in};
-#[cfg(feature = "host")]
-pub(crate) use pieces::code_words;
-#[cfg(feature = "lsp")]
-pub(crate) use pieces::{PieceKind, kind_at};
-#[cfg(feature = "host")]
-pub(crate) use scan::{NamedAxes, Scan, SwitchedAxes};
+#[cfg(feature = "unstable")]
+pub use names::{NameInBlock, Named, Role, names_in};
+#[cfg(feature = "unstable")]
+pub use pieces::{PieceKind, code_words, kind_at};
+#[cfg(feature = "unstable")]
+pub use scan::{NamedAxes, Question, Scan, SwitchedAxes};
 pub use skip_levels::{NoSkipLevels, SkipLevels};
 pub(crate) use unread::not_known;
 

@@ -5,17 +5,18 @@ use crate::text::Span;
 
 /// What has a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Named {
+pub enum Named {
     /// A local subprogram.
     Program,
     /// `N100:` or `[NAME]`.
     Label,
+    /// A file that is called.
     File,
 }
 
 /// What a name does where it stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
+pub enum Role {
     /// What has the name is here.
     Definition,
     /// It is called, or jumped to.
@@ -24,16 +25,19 @@ pub(crate) enum Role {
 
 /// A name in a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct NameInBlock {
-    pub(crate) named: Named,
-    pub(crate) role: Role,
+pub struct NameInBlock {
+    /// What has the name.
+    pub named: Named,
+    /// What it does here.
+    pub role: Role,
     /// A number without leading zeros: `N30`.
-    pub(crate) name: String,
-    pub(crate) span: Span,
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
 }
 
 /// The names of a block, from left to right. What a variable holds has none.
-pub(crate) fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
+pub fn names_in(block: &Block, text: &str) -> Vec<NameInBlock> {
     let mut names = Names {
         text,
         found: Vec::new(),

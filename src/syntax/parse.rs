@@ -69,7 +69,7 @@ pub fn parse_block(text: &str) -> Block {
 
 /// Whether a block is nothing but an M word, `N90 M30 ; end`, `M 2`, `M=P1`, so that another block can
 /// stand before it (R1.59). A jump label is more: a jump to it would pass over the other block.
-pub(crate) fn is_lone_m(text: &str) -> bool {
+pub fn is_lone_m(text: &str) -> bool {
     let block = parse_block(text);
     let is_m = |word: &Word| word.address == Address::Letter(b'M');
     let is_label = block.number.is_some_and(|number| number.label);
@@ -83,7 +83,7 @@ pub(crate) fn is_lone_m(text: &str) -> bool {
 
 /// Parses a text that is one expression into an empty block; `None` where it is none, or nests too
 /// deeply.
-pub(crate) fn parse_expression(text: &str, block: &mut Block) -> Option<Operand> {
+pub fn parse_expression(text: &str, block: &mut Block) -> Option<Operand> {
     brackets(text).ok()?;
     lower_text(text, block)
 }

@@ -7,7 +7,8 @@ use super::texts::Texts;
 
 /// What a piece of a line is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PieceKind {
+pub enum PieceKind {
+    /// What the control reads.
     Code,
     /// `"…"`, with its quotes.
     Text,
@@ -69,8 +70,7 @@ pub(crate) fn pieces(line: &str) -> impl Iterator<Item = Piece> + '_ {
 }
 
 /// What a letter would be that is typed at a place of a line.
-#[cfg(feature = "lsp")]
-pub(crate) fn kind_at(line: &str, at: usize) -> PieceKind {
+pub fn kind_at(line: &str, at: usize) -> PieceKind {
     let (before, after) = line.split_at(at);
     let typed = format!("{before}A{after}");
     let found = pieces(&typed).find(|piece| piece.range.contains(&at));
@@ -95,8 +95,7 @@ pub(crate) fn code_stretches(line: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The words of a line that may name variables and parameters.
-#[cfg(feature = "host")]
-pub(crate) fn code_words(line: &str) -> impl Iterator<Item = &str> {
+pub fn code_words(line: &str) -> impl Iterator<Item = &str> {
     let is_part = |it: char| it.is_ascii_alphanumeric() || "_.@".contains(it);
     code_stretches(line).flat_map(move |code| code.split(move |it| !is_part(it)))
 }

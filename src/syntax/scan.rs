@@ -13,7 +13,7 @@ use super::parse::parse_block;
 const MAX_CONTINUED: usize = 64 * 1024;
 
 /// What is asked of a program.
-pub(crate) trait Question {
+pub trait Question {
     /// The first place of a text, from one on, at which a line may tell something.
     fn next(&mut self, text: &[u8], from: usize) -> Option<usize>;
 
@@ -23,8 +23,9 @@ pub(crate) trait Question {
 
 /// Finds the blocks that answer a question; knows continued blocks and `#COMMENT` regions.
 #[derive(Debug, Default)]
-pub(crate) struct Scan<Q> {
-    pub(crate) question: Q,
+pub struct Scan<Q> {
+    /// What is asked, with what was found.
+    pub question: Q,
     /// The lines of a block that goes on.
     open: String,
     /// Inside `#COMMENT BEGIN` … `#COMMENT END`.
@@ -32,7 +33,8 @@ pub(crate) struct Scan<Q> {
 }
 
 impl<Q: Question> Scan<Q> {
-    pub(crate) fn new(question: Q) -> Self {
+    /// A scan from the start of a program.
+    pub fn new(question: Q) -> Self {
         Self {
             question,
             open: String::new(),
@@ -41,7 +43,7 @@ impl<Q: Question> Scan<Q> {
     }
 
     /// Looks at the next lines, which are whole.
-    pub(crate) fn feed(&mut self, lines: &[u8]) {
+    pub fn feed(&mut self, lines: &[u8]) {
         let (mut marked, mut told) = (Some(0), Some(0));
         let mut from = 0;
         while from < lines.len() {
@@ -106,7 +108,7 @@ impl<Q: Question> Scan<Q> {
 
 /// The axes whose friction compensation a program switches. What a macro stands for counts.
 #[derive(Debug, Default)]
-pub(crate) struct SwitchedAxes(pub(crate) BTreeSet<String>);
+pub struct SwitchedAxes(pub BTreeSet<String>);
 
 impl Question for SwitchedAxes {
     /// `COMP`. Of its letters the last one is the rarest in programs.
@@ -130,7 +132,7 @@ impl Question for SwitchedAxes {
 
 /// Which axes a program names, of those that are asked for, and whether it calls a file (R2.74).
 #[derive(Debug, Default)]
-pub(crate) struct NamedAxes {
+pub struct NamedAxes {
     sought: Vec<Sought>,
     found: BTreeSet<String>,
     calls: Calls,
@@ -151,7 +153,8 @@ struct Calls {
 }
 
 impl NamedAxes {
-    pub(crate) fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+    /// Asks for these names.
+    pub fn new<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         let sought = |name: &str| Sought {
             name: name.to_owned(),
             next: None,
@@ -162,11 +165,13 @@ impl NamedAxes {
         }
     }
 
-    pub(crate) fn into_names(self) -> BTreeSet<String> {
+    /// The names that were found.
+    pub fn into_names(self) -> BTreeSet<String> {
         self.found
     }
 
-    pub(crate) fn calls_files(&self) -> bool {
+    /// Whether the program calls a file.
+    pub fn calls_files(&self) -> bool {
         self.calls.is_found
     }
 }

@@ -1,8 +1,6 @@
 //! Characters that nobody sees, or that change how their neighbours are read (R9.76).
 
-#[cfg(any(feature = "report", feature = "host"))]
 use std::borrow::Cow;
-#[cfg(any(feature = "report", feature = "host"))]
 use std::fmt::Write as _;
 
 use super::span::Span;
@@ -10,7 +8,7 @@ use super::span::Span;
 /// Whether a character is a control character or one that changes how its neighbours are read, or
 /// that nobody sees: C0, DEL, C1, bidirectional controls, separators of lines and paragraphs,
 /// characters without width, and what is no character.
-pub(crate) fn is_hidden(letter: char) -> bool {
+pub fn is_hidden(letter: char) -> bool {
     matches!(
         letter,
         '\0'..='\u{1f}'
@@ -44,7 +42,7 @@ const BIDIRECTIONAL: [(char, &str); 12] = [
 ];
 
 /// Where a text holds characters that change its direction, and a sentence that names them (R9.94).
-pub(crate) fn changed_direction(text: &str) -> Option<(Span, String)> {
+pub fn changed_direction(text: &str) -> Option<(Span, String)> {
     if text.is_ascii() {
         return None;
     }
@@ -65,8 +63,7 @@ pub(crate) fn changed_direction(text: &str) -> Option<(Span, String)> {
 
 /// A JSON document of another writer, in which hidden characters stand only within texts, with
 /// those escaped.
-#[cfg(any(feature = "report", feature = "host"))]
-pub(crate) fn shown_json(document: &str) -> Cow<'_, str> {
+pub fn shown_json(document: &str) -> Cow<'_, str> {
     let hidden = |letter: char| letter != '\n' && is_hidden(letter);
     if !document.contains(hidden) {
         return Cow::Borrowed(document);

@@ -16,7 +16,7 @@ pub struct PhysicalLine<'a> {
 }
 
 /// How many bytes the line end takes that a text begins with: LF, CRLF, CR, or none at the end.
-pub(crate) fn line_end(text: &[u8]) -> usize {
+pub fn line_end(text: &[u8]) -> usize {
     match text {
         [b'\r', b'\n', ..] => 2,
         [_, ..] => 1,

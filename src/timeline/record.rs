@@ -202,7 +202,7 @@ impl Summary<'_> {
 
 /// One record of a session.
 #[derive(Debug, Clone, Copy)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Record<'a> {
     /// The control started, or the state file was loaded.
     Session {

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use frictcomp::contour::{
+use frictcomp::machine::Machine;
+use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
+use frictcomp::text::SourceFile;
+use frictcomp::timeline::Sink;
+use frictcomp_physics::contour::{
     ContourOptions, ContourPoint, ContourReversal, ContourSink, MovingAxes, PerRun, ProgramContour,
     parameterise,
 };
-use frictcomp::machine::Machine;
-use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
-use frictcomp::simulation::Plant;
-use frictcomp::text::SourceFile;
-use frictcomp::timeline::Sink;
+use frictcomp_physics::simulation::Plant;
 
 /// The innermost and the outermost deviation of the three runs while a line was cut, in µm.
 #[derive(Debug, Clone, Copy)]

@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-use frictcomp::current::{AdditiveCurrent, Reading, Switched};
 use frictcomp::lists::FrictionList;
+use frictcomp_physics::current::{AdditiveCurrent, Reading, Switched};
 
 use super::driven::{SETTLING_S, widened};
 use super::shape::{Line, Piece, Shape};

@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use frictcomp::circle::{
+use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp_physics::circle::{
     Circle, CircularTest, Comparison, Direction, Figures, Method, PathFigures,
 };
-use frictcomp::contour::PerRun;
-use frictcomp::current::Reading;
-use frictcomp::lists::{FrictionList, TablePoint};
-use frictcomp::motion::Movement;
-use frictcomp::simulation::{FrictionModel, Plant, Preset, plant_list};
+use frictcomp_physics::contour::PerRun;
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::motion::Movement;
+use frictcomp_physics::simulation::{FrictionModel, Plant, Preset, plant_list};
 
 use super::driven::{Found, drive};
 use super::independent::{Compensation, Equations, Simulated, simulate};

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use frictcomp::drive_interface::TorqueScale;
 use frictcomp::machine::Machine;
-use frictcomp::simulation::Preset;
+use frictcomp_physics::simulation::Preset;
 use serde_json::Value;
 
 use super::driven::{Found, drive_on};

@@ -5,7 +5,7 @@ use frictcomp::comp::{Kind, KindSet};
 use frictcomp::diagnostic::Code;
 use frictcomp::lists::ListKind;
 use frictcomp::machine::{AxisSet, AxisType, Configuration, Origin, Parameterisation, check_list};
-use frictcomp::report::lists::render_parameters;
+use frictcomp_report::lists::render_parameters;
 
 use super::host::{Disk, codes, judge, meant, start};
 

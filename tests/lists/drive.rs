@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use frictcomp::current::{AdditiveCurrent, Reading};
 use frictcomp::drive_interface::{
     DriveReport, Evidence, Network, Presence, SlaveOfAxis, check_drive, read_devices, read_network,
 };
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::machine::{AxisReport, Parameterisation};
 use frictcomp::text::SourceFile;
+use frictcomp_physics::current::{AdditiveCurrent, Reading};
 
 use super::host::{judge, start};
 

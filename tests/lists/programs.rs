@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use frictcomp::machine::{Configuration, FeedUnit, ListFiles, NoList, check_list};
-use frictcomp::report::lists::render_parameters;
 use frictcomp::text::SourceFile;
+use frictcomp_report::lists::render_parameters;
 use insta::assert_snapshot;
 
 /// Lists in memory.

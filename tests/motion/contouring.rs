@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use frictcomp::motion::PlannerOptions;
+use frictcomp_physics::motion::PlannerOptions;
 
 use super::{Trace, assert_limits, trace, trace_of};
 

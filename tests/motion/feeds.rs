@@ -3,7 +3,7 @@
 use frictcomp::interpreter::Simplification;
 use frictcomp::lists::FeedUnit;
 use frictcomp::machine::Machine;
-use frictcomp::motion::PlannerOptions;
+use frictcomp_physics::motion::PlannerOptions;
 
 use super::{MACHINE, Trace, assert_limits, follow, trace};
 

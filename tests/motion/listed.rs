@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use frictcomp::lists::SlopeProfile;
 use frictcomp::machine::{Configuration, ListFiles, NoList};
-use frictcomp::motion::{AssumedLimits, AxisLimits, PlannerOptions};
 use frictcomp::text::SourceFile;
+use frictcomp_physics::motion::{AssumedLimits, AxisLimits, PlannerOptions};
 
 use super::follow;
 

@@ -15,13 +15,13 @@ use std::sync::Arc;
 
 use frictcomp::comp::AxisIndex;
 use frictcomp::machine::Machine;
-use frictcomp::motion::{
-    AxisLimits, Cause, PlannerOptions, Sample, SkippedMotion, TraceSink, TrajectoryPlanner,
-    Transitions,
-};
 use frictcomp::session::{Motions, NoFiles, Options, Program, Session, SessionOptions};
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
+use frictcomp_physics::motion::{
+    AxisLimits, Cause, PlannerOptions, Sample, SkippedMotion, TraceSink, TrajectoryPlanner,
+    Transitions,
+};
 
 /// The CNC cycle of these tests, in seconds.
 pub(crate) const CYCLE: f64 = 0.001;

@@ -1,7 +1,7 @@
 //! R5.1 and R5.4: where a trace begins, what it leaves out, and what each cycle belongs to.
 
 use frictcomp::machine::Machine;
-use frictcomp::motion::{Movement, PlannerOptions, PositionFrame};
+use frictcomp_physics::motion::{Movement, PlannerOptions, PositionFrame};
 
 use super::{MACHINE, Trace, follow, trace};
 

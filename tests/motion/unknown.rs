@@ -1,6 +1,6 @@
 //! R5.1 and R5.4: what is not known is left out and said.
 
-use frictcomp::motion::PlannerOptions;
+use frictcomp_physics::motion::PlannerOptions;
 
 use super::{MACHINE, trace, trace_of};
 

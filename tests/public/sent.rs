@@ -4,13 +4,13 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use frictcomp::current::CurrentCycle;
-use frictcomp::motion::{Cause, Sample, TraceSink};
 use frictcomp::{
     audit, circle, comp, contour, current, diagnostic, drive_interface, host, identify,
     interpreter, lists, lsp, machine, motion, report, session, simulation, stiction, syntax, text,
     timeline, trace, versions,
 };
+use frictcomp_physics::current::CurrentCycle;
+use frictcomp_physics::motion::{Cause, Sample, TraceSink};
 
 /// A sink of currents, for the types that are made over one.
 type Ignored = fn(&CurrentCycle<'_>) -> ControlFlow<()>;

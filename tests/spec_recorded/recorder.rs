@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use frictcomp::circle::{Direction, RecordedTrace};
+use frictcomp_physics::circle::{Direction, RecordedTrace};
 
 /// Noise from a generator of its own, the same each time.
 #[derive(Debug, Clone, Copy)]

@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use fastrand::Rng;
 use frictcomp::comp::KindSet;
 use frictcomp::machine::Machine;
-use frictcomp::report::{Ndjson, Report, View};
 use frictcomp::session::{
     NoFiles, Options, Program as Text, SavedState, Session, SessionOptions, StopPolicy,
 };
 use frictcomp::text::SourceFile;
 use frictcomp::timeline::{Record, Sink};
+use frictcomp_report::{Ndjson, Report, View};
 
 use super::model::{Model, Said};
 use super::program::{AXES, Program, machine};

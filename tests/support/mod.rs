@@ -55,7 +55,7 @@ impl Bench {
     pub(crate) fn on(toml: &str) -> Self {
         Self {
             machine: Machine::from_toml(toml).expect("the test's machine"),
-            options: SessionOptions::default().with_wording(Some(frictcomp::report::command_line)),
+            options: SessionOptions::default().with_wording(Some(frictcomp_report::command_line)),
             files: BTreeMap::new(),
             kinds: vec![Kind::Frict],
             handed: Handed::Whole,

@@ -216,8 +216,7 @@ impl From<State> for FrictcompState {
             State::Ineffective => Self::Ineffective,
             State::Inactive => Self::Inactive,
             State::Unconfigured => Self::Unconfigured,
-            // A state that C has no number for is one that it cannot rely on.
-            _ => Self::Unknown,
+            State::Unknown => Self::Unknown,
         }
     }
 }

@@ -7,8 +7,8 @@ use std::ptr::null;
 
 use frictcomp::comp::CompensationError;
 use frictcomp::diagnostic::Code;
-use frictcomp::host::HostError;
 use frictcomp::syntax::Fault;
+use frictcomp_host::HostError;
 use thiserror::Error;
 
 /// Whether a call did what it was asked for.

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use frictcomp::comp::AxisIndex;
 use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp::host::{ConfigurationChoice, Ledger, LoadedMachine, MachineOptions, Machines};
 use frictcomp::machine::Machine;
 use frictcomp::parse_comp;
+use frictcomp_host::{ConfigurationChoice, Ledger, LoadedMachine, MachineOptions, Machines};
 
 use crate::failure::{Failure, c_text};
 
@@ -111,7 +111,7 @@ pub(crate) fn line(said: &Diagnostic) -> String {
     let severity = match said.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
-        _ => "info",
+        Severity::Info => "info",
     };
     let (file, start) = (&said.place.file, said.place.start());
     format!("{file}:{start}: {severity}[{}] {}", said.code, said.message)

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use arrow_array::{ArrayRef, StringArray, UInt32Array};
 use frictcomp::audit::{AxisAudit, ProgramAudit};
-use frictcomp::host::{ArchiveAuditor, AuditOptions, Ledger, MachineOptions, Machines};
-use frictcomp::report::audit::{AuditReport, MachineAudit, records};
 use frictcomp::text::shown_path;
+use frictcomp_host::{ArchiveAuditor, AuditOptions, Ledger, MachineOptions, Machines};
+use frictcomp_report::audit::{AuditReport, MachineAudit, records};
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use serde_json::Value;

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use frictcomp::Severity;
-use frictcomp::host::{
+use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
+use frictcomp::timeline::{Record, Sink};
+use frictcomp_host::{
     Alone, Axes, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines, Naming,
     in_order, processors, run_alone,
 };
-use frictcomp::session::{Causes, Findings, Options, SessionOptions, StopPolicy};
-use frictcomp::timeline::{Record, Sink};
 use pyo3::prelude::*;
 
 use crate::failure::Failure;

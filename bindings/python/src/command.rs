@@ -7,5 +7,5 @@ use pyo3::prelude::*;
 /// Runs the command with its arguments, the name of the program first, and gives its exit status.
 #[pyfunction]
 pub(crate) fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
-    py.detach(|| frictcomp::cli::status(arguments))
+    py.detach(|| frictcomp_cli::status(arguments))
 }

@@ -5,16 +5,16 @@ use std::path::PathBuf;
 
 use frictcomp::Diagnostic;
 use frictcomp::comp::State;
-use frictcomp::current::{
+use frictcomp::session::{Motions, Options, SessionOptions};
+use frictcomp::timeline::{Record, Sink};
+use frictcomp_host::{
+    Alone, Axes, Ledger, LoadedMachine, MachineOptions, Naming, read_value_list, run_alone,
+};
+use frictcomp_physics::current::{
     CurrentCycle, CurrentOptions, CurrentSample, CurrentSink, ProgramCurrents, Reading,
     axes_to_follow,
 };
-use frictcomp::host::{
-    Alone, Axes, Ledger, LoadedMachine, MachineOptions, Naming, read_value_list, run_alone,
-};
-use frictcomp::motion::{PlannerOptions, check_cycle};
-use frictcomp::session::{Motions, Options, SessionOptions};
-use frictcomp::timeline::{Record, Sink};
+use frictcomp_physics::motion::{PlannerOptions, check_cycle};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::{PyImportError, PyKeyError};
 use pyo3::prelude::*;

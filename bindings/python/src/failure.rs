@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use frictcomp::Diagnostic;
-use frictcomp::circle::CircleError;
-use frictcomp::current::FollowError;
-use frictcomp::host::HostError;
-use frictcomp::identify::IdentifyError;
 use frictcomp::session::StateError;
 use frictcomp::text::shown_path;
+use frictcomp_host::HostError;
+use frictcomp_physics::circle::CircleError;
+use frictcomp_physics::current::FollowError;
+use frictcomp_recordings::identify::IdentifyError;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

@@ -3,15 +3,15 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use frictcomp::host::read_axis;
-use frictcomp::identify::{IdentifyOptions, Wanted, identify as find, identify_circles};
 use frictcomp::lists::FrictionList;
-use frictcomp::motion::check_cycle;
-use frictcomp::report::identify::{IdentifyReport, render_json};
-use frictcomp::report::on_circles::{self, OnCirclesReport};
-use frictcomp::report::value_lists::{IdentifiedFrom, render_identified};
 use frictcomp::text::shown_path;
-use frictcomp::trace::{ChannelSelection, Unit};
+use frictcomp_host::read_axis;
+use frictcomp_physics::motion::check_cycle;
+use frictcomp_recordings::identify::{IdentifyOptions, Wanted, identify as find, identify_circles};
+use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_report::identify::{IdentifyReport, render_json};
+use frictcomp_report::on_circles::{self, OnCirclesReport};
+use frictcomp_report::value_lists::{IdentifiedFrom, render_identified};
 use pyo3::prelude::*;
 
 use crate::failure::{Failure, refused};

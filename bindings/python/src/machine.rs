@@ -4,13 +4,13 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use frictcomp::host::{
-    ConfigurationChoice, Elsewhere, Input, Ledger, LoadedMachine, MachineOptions, Machines,
-    switched_axes,
-};
 use frictcomp::machine::{Machine, Setting};
 use frictcomp::session::undescribed;
 use frictcomp::text::shown_path;
+use frictcomp_host::{
+    ConfigurationChoice, Elsewhere, Input, Ledger, LoadedMachine, MachineOptions, Machines,
+    switched_axes,
+};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use frictcomp::host::{Disk, HostError, Input, Machines, OpenText, find_programs};
-use frictcomp::text::{decode, shown_path};
+use frictcomp::text::shown_path;
+use frictcomp_host::decode;
+use frictcomp_host::{Disk, HostError, Input, Machines, OpenText, find_programs};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString, PyTuple};

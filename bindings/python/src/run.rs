@@ -1,11 +1,11 @@
 //! `frictcomp.run`: programs one after the other in one session.
 
-use frictcomp::host::{
+use frictcomp::session::{Options, SessionOptions, StopPolicy};
+use frictcomp::{Diagnostic, Session};
+use frictcomp_host::{
     self, MachineOptions, Naming, Surroundings, expect_axes, open_session, run_programs,
     switched_axes,
 };
-use frictcomp::session::{Options, SessionOptions, StopPolicy};
-use frictcomp::{Diagnostic, Session};
 use pyo3::prelude::*;
 
 use crate::failure::Failure;
@@ -80,7 +80,7 @@ impl Job {
         };
         expect_axes(&mut session, &loaded, inputs);
         let said: Vec<Diagnostic> = loaded.errors().chain(&changed).cloned().collect();
-        let programs = host::Programs {
+        let programs = frictcomp_host::Programs {
             inputs,
             said: &said,
         };

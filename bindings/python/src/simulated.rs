@@ -4,24 +4,24 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use frictcomp::circle::{
-    Circle, CircularTest, CommandedCircle, FreeParameter, Method, PathCentre, PlaneAxis, Ranges,
-    Shaping, Task,
-};
 use frictcomp::comp::CncBuild;
-use frictcomp::current::Reading;
-use frictcomp::host::{
+use frictcomp::lists::{FrictionList, ListHead, Points};
+use frictcomp::text::shown_path;
+use frictcomp_host::{
     CircleChannels, Ledger, Watch, compare, find_plant, memory_for_simulation, read_circles,
     read_value_list, tune as search,
 };
-use frictcomp::lists::{FrictionList, ListHead, Points};
-use frictcomp::motion::check_cycle;
-use frictcomp::report::circle::{CircleReport, ListOrigin, render_json};
-use frictcomp::report::tune::{TuneReport, render_json as render_tune};
-use frictcomp::report::value_lists::render_tuned;
-use frictcomp::simulation::FrictionModel;
-use frictcomp::text::shown_path;
-use frictcomp::trace::ChannelSelection;
+use frictcomp_physics::circle::{
+    Circle, CircularTest, CommandedCircle, FreeParameter, Method, PathCentre, PlaneAxis, Ranges,
+    Shaping, Task,
+};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::motion::check_cycle;
+use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_recordings::trace::ChannelSelection;
+use frictcomp_report::circle::{CircleReport, ListOrigin, render_json};
+use frictcomp_report::tune::{TuneReport, render_json as render_tune};
+use frictcomp_report::value_lists::render_tuned;
 use pyo3::prelude::*;
 
 use crate::failure::{Failure, refused};

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use frictcomp::host::{Ledger, OutputFiles, StateFile};
 use frictcomp::session::SavedState;
+use frictcomp_host::{Ledger, OutputFiles, StateFile};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use frictcomp::host::{Progress, Watcher};
+use frictcomp_host::{Progress, Watcher};
 use pyo3::prelude::*;
 
 use crate::failure::Failure;

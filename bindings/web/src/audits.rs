@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use frictcomp::audit::AxisAudit;
-use frictcomp::host::{ArchiveAuditor, AuditOptions, Input, Ledger, Machines};
-use frictcomp::report::audit::{AuditReport, MachineAudit, Word};
-use frictcomp::report::html::render_audit;
 use frictcomp::session::Options;
+use frictcomp_host::{ArchiveAuditor, AuditOptions, Input, Ledger, Machines};
+use frictcomp_report::audit::{AuditReport, MachineAudit, Word};
+use frictcomp_report::html::render_audit;
 use serde::Serialize;
 
 use crate::dropped::{Dropped, Kind};

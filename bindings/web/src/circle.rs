@@ -2,15 +2,15 @@
 
 use std::str::FromStr;
 
-use frictcomp::circle::{Circle, CircularTest, Method};
-use frictcomp::current::Reading;
-use frictcomp::host::{Watch, compare};
 use frictcomp::machine::{Machine, Parameterisation};
-use frictcomp::report::circle::{CircleReport, ListOrigin, render_text};
-use frictcomp::report::html::render_circle;
-use frictcomp::report::pictures::circle;
-use frictcomp::report::svg::Frame;
-use frictcomp::simulation::{FrictionModel, Preset};
+use frictcomp_host::{Watch, compare};
+use frictcomp_physics::circle::{Circle, CircularTest, Method};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::{FrictionModel, Preset};
+use frictcomp_report::circle::{CircleReport, ListOrigin, render_text};
+use frictcomp_report::html::render_circle;
+use frictcomp_report::pictures::circle;
+use frictcomp_report::svg::Frame;
 use serde::{Deserialize, Serialize};
 
 use crate::dropped::Dropped;

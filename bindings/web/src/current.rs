@@ -3,17 +3,17 @@
 use std::ops::ControlFlow;
 
 use frictcomp::comp::State;
-use frictcomp::current::{
+use frictcomp::diagnostic::UnknownName;
+use frictcomp::machine::{Machine, Parameterisation};
+use frictcomp::session::{Motions, SessionOptions};
+use frictcomp_host::{Alone, Axes, Naming, run_alone};
+use frictcomp_physics::current::{
     CurrentCycle, CurrentOptions, CurrentSink, FollowError, ProgramCurrents, axes_to_follow,
 };
-use frictcomp::diagnostic::UnknownName;
-use frictcomp::host::{Alone, Axes, Naming, run_alone};
-use frictcomp::machine::{Machine, Parameterisation};
-use frictcomp::motion::{AssumedLimits, PlannerOptions, check_cycle};
-use frictcomp::report::assumed_limits;
-use frictcomp::report::pictures::{AxisPlot, AxisSample, CurrentPlot};
-use frictcomp::report::svg::Frame;
-use frictcomp::session::{Motions, SessionOptions};
+use frictcomp_physics::motion::{AssumedLimits, PlannerOptions, check_cycle};
+use frictcomp_report::assumed_limits;
+use frictcomp_report::pictures::{AxisPlot, AxisSample, CurrentPlot};
+use frictcomp_report::svg::Frame;
 use serde::Serialize;
 
 use crate::border::show_progress;
@@ -195,6 +195,6 @@ fn notes(
 fn refused(error: &FollowError) -> Refusal {
     match error {
         FollowError::NoAxis(unknown) => Refusal::unknown(error.to_string(), unknown),
-        _ => Refusal::new(error.to_string()),
+        FollowError::Assumed(_) => Refusal::new(error.to_string()),
     }
 }

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use frictcomp::host::{
+use frictcomp::lists::ListKind;
+use frictcomp::machine::{NoLists, check_list};
+use frictcomp::text::SourceFile;
+use frictcomp_host::decode;
+use frictcomp_host::{
     Disk, Input, Ledger, LoadedMachine, MachineOptions, Machines, OpenText, is_program,
     nearest_config,
 };
-use frictcomp::lists::ListKind;
-use frictcomp::machine::{NoLists, check_list};
-use frictcomp::text::{SourceFile, decode};
 use serde::Serialize;
 
 use crate::refusal::Refusal;
@@ -111,8 +112,10 @@ impl Dropped {
     /// where none was dropped, from the only start-up list.
     pub(crate) fn options(&mut self, folder: &Path, enable: &[String]) -> MachineOptions {
         let disk = self.disk();
-        let mut options = MachineOptions::default();
-        options.enable = enable.to_vec();
+        let mut options = MachineOptions {
+            enable: enable.to_vec(),
+            ..MachineOptions::default()
+        };
         if nearest_config(folder, &disk).is_none() {
             options.startup = self.only_startup();
         }

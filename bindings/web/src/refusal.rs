@@ -1,7 +1,7 @@
 //! Why a question has no answer.
 
 use frictcomp::diagnostic::{Diagnostic, UnknownName};
-use frictcomp::host::HostError;
+use frictcomp_host::HostError;
 use serde::Serialize;
 
 /// Why a question has no answer: a sentence, what to do, and what a configuration has to say.

@@ -7,12 +7,12 @@ use frictcomp::comp::KindSet;
 use frictcomp::comp::{Kind, State};
 use frictcomp::diagnostic::Wording;
 use frictcomp::diagnostic::{Diagnostic, Severity};
-use frictcomp::host::{Alone, Axes, Disk, LoadedMachine, Naming, run_alone};
-use frictcomp::report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
-use frictcomp::report::{TimelineFormat, TimelineOptions, command_line, feed_moves_text};
 use frictcomp::session::{Limits, Options, SessionOptions, StopPolicy};
 use frictcomp::text::LineSource;
 use frictcomp::timeline::EndedBy;
+use frictcomp_host::{Alone, Axes, Disk, LoadedMachine, Naming, run_alone};
+use frictcomp_report::html::{GivenForRun, RunDigest, RunInputs, Sources, render_run};
+use frictcomp_report::{TimelineFormat, TimelineOptions, command_line, feed_moves_text};
 use serde::{Deserialize, Serialize};
 
 use crate::bars::{Stretch, bar};

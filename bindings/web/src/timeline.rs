@@ -115,7 +115,6 @@ impl Sink for Timeline {
                     self.axes[axis.axis.get()].listed = true;
                 }
             }
-            _ => {}
         }
         ControlFlow::Continue(())
     }

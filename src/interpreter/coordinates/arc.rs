@@ -6,7 +6,7 @@ use super::motion::{Arc, Centre, Turn};
 
 /// Places closer than this, in mm or degrees, are one: the ends of a full circle, and the end of a
 /// motion and the start of the next.
-pub(crate) const SAME_PLACE: f64 = 1e-6;
+pub const SAME_PLACE: f64 = 1e-6;
 
 /// The part of the radius by which the centre of an arc may miss the places that its ends allow; it is
 /// moved then, as G165 does (PM/206551563).
@@ -17,15 +17,15 @@ const RADIUS_TOLERANCE: f64 = 1e-3;
 
 /// An arc in its plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ArcShape {
+pub struct ArcShape {
     /// The centre.
-    pub(crate) centre: [f64; 2],
+    pub centre: [f64; 2],
     /// The radius.
-    pub(crate) radius: f64,
+    pub radius: f64,
     /// The angle at which it starts, against the first axis.
-    pub(crate) start: f64,
+    pub start: f64,
     /// The angle that it runs through, positive against the clock.
-    pub(crate) sweep: f64,
+    pub sweep: f64,
 }
 
 impl Arc {
@@ -33,7 +33,7 @@ impl Arc {
     ///
     /// # Errors
     /// What keeps the ends and the centre from making an arc.
-    pub(crate) fn between(&self, places: [[f64; 2]; 2]) -> Result<ArcShape, &'static str> {
+    pub fn between(&self, places: [[f64; 2]; 2]) -> Result<ArcShape, &'static str> {
         let [start, end] = places;
         let chord = [end[0] - start[0], end[1] - start[1]];
         let distance = chord[0].hypot(chord[1]);

@@ -16,7 +16,7 @@ use crate::machine::ChannelSettings;
 
 /// Whether a position is one of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Frame {
     /// No transformation is active.
     Machine,

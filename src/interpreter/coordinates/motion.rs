@@ -20,7 +20,7 @@ pub enum Motions {
 
 /// What a block makes the machine do.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Motion {
     /// Axes move.
     Travel(Travel),
@@ -98,7 +98,7 @@ pub enum Centre {
 
 /// How fast the path is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum PathFeed {
     /// G94: in mm/min, or °/min where only rotary axes move.
     PerMinute(f64),

@@ -20,7 +20,7 @@ use crate::text::Place;
 
 /// Why a program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum EndedBy {
     /// M30.
     M30,
@@ -77,7 +77,7 @@ pub struct Note {
 
 /// Why a [`Note`] is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum NoteKind {
     /// A value that only the machine knows was read (R2.50).
     Unknown,
@@ -235,7 +235,7 @@ pub struct Ended<'a> {
 
 /// What the interpreter tells.
 #[derive(Debug, Clone, Copy)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Event<'a> {
     /// A program begins; its name stands after `%`.
     Started {

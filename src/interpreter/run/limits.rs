@@ -2,7 +2,7 @@
 
 /// Bounds on what a dry run may do (R2.60).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub struct Limits {
     /// Executed blocks of a session.
     pub blocks: u64,

@@ -7,7 +7,7 @@ use crate::syntax::{FastPath, SkipLevels};
 
 /// What happens at an error of the control (R9.20).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum StopPolicy {
     /// The first error stops the program and the session, as on the control.
     #[default]

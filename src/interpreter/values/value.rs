@@ -8,7 +8,7 @@ use crate::syntax::Fault;
 
 /// A value of an expression, parameter or variable.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
 pub enum Value {
     /// A number.
     Number(f64),

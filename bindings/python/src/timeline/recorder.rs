@@ -126,7 +126,6 @@ impl Sink for Recorder {
                 self.opaque = summary.opaque.clone();
                 self.is_assumed = summary.footing == Footing::Assumed;
             }
-            _ => {}
         }
         self.stop.flow()
     }

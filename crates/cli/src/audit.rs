@@ -1,0 +1,383 @@
+//! `frictcomp audit`: what the order of programs does.
+
+use std::collections::BTreeMap;
+use std::num::{NonZeroU64, NonZeroUsize};
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+
+use super::console::{Console, Printed};
+use super::execution::ExecutionArgs;
+use super::exit;
+use super::fail_on::{FailOn, of_axis};
+use super::failure::{Failure, shown};
+use super::failures::Failures;
+use super::html::Files;
+use super::machine::{MachineArgs, undescribed_remark};
+use super::mend::differences;
+use super::outputs::Outputs;
+use super::painted::difference;
+use super::settings;
+use super::severities::SeverityArgs;
+use frictcomp::audit::{Archive, MendedEnd, Selected, WhyMissed};
+use frictcomp::comp::{Kind, KindSet};
+use frictcomp::diagnostic::Severity;
+use frictcomp::session::StopPolicy;
+use frictcomp::text::shown_path;
+use frictcomp::timeline::SCHEMA;
+use frictcomp_host::{
+    ArchiveAuditor, AuditOptions, Input, Ledger, Machines, MendedProgram, find_programs, read_text,
+    write_mended,
+};
+use frictcomp_report::audit::{
+    AuditReport, Length, MachineAudit, records, render_csv, render_text, sequence_records,
+    step_line,
+};
+use frictcomp_report::html::render_audit;
+
+/// Show what the order of programs does: which ones leave an axis away from its start-up state, and which move it
+/// in the state that they find
+///
+/// Each program runs twice, once with every configured axis in its start-up state and once with every one away
+/// from it. This shows what it does after any other program.
+#[derive(Debug, Args)]
+pub(super) struct AuditArgs {
+    /// Programs and folders of programs
+    #[arg(value_name = "PATH", default_value = ".")]
+    paths: Vec<PathBuf>,
+    /// The kinds of compensation to look at; without a value all
+    #[arg(long, value_name = "KINDS", num_args = 0..=1, default_value = "FRICT")]
+    #[arg(default_missing_value = "all", value_parser = settings::parse_kinds)]
+    kinds: KindSet,
+    /// Show the blocks that end the hazards as a diff: in the programs that leave an axis away from
+    /// its start-up state, in those that inherit it, or in the smaller number of programs for each axis
+    #[arg(long, value_name = "PROGRAMS", conflicts_with = "sequence")]
+    fix: Option<Fix>,
+    /// Write the changes of `--fix` to the programs
+    #[arg(long, requires = "fix")]
+    write: bool,
+    /// Say what happens in this order: a file with one program on each line
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "html", "jobs"])]
+    sequence: Option<PathBuf>,
+    /// Show long tables and lists in full
+    #[arg(long)]
+    all: bool,
+    /// The number of programs to run at once; by default the number of processors
+    #[arg(long, short, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Write the result to this file
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write a report with the matrix of programs and axes to this HTML file
+    #[arg(long, value_name = "FILE", conflicts_with = "fix")]
+    html: Option<PathBuf>,
+    /// The lowest severity that gives exit status 1; hazards are warnings
+    #[arg(long, value_name = "SEVERITY", default_value = "error")]
+    fail_on: FailOn,
+    #[command(flatten)]
+    severities: SeverityArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// How often each program runs.
+const RUNS: NonZeroU64 = NonZeroU64::new(2).expect("a program runs twice");
+
+/// Which programs are changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Fix {
+    /// Those that leave an axis away from its start-up state: a command before the end
+    Leavers,
+    /// Those that inherit it: a command before the first motion
+    Inheritors,
+    /// The smaller number of programs for each axis
+    Smaller,
+}
+
+/// The format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A table and sentences
+    Text,
+    /// One document
+    Json,
+    /// One record per line
+    Ndjson,
+    /// One row per program, axis and kind
+    Csv,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &AuditArgs, console: Console) -> Result<u8, Failure> {
+    match &args.sequence {
+        Some(order) => args.follow(order, console),
+        None => args.audit(console),
+    }
+}
+
+impl AuditArgs {
+    fn audit(&self, console: Console) -> Result<u8, Failure> {
+        if self.fix.is_some() && !self.write && self.format != Format::Text {
+            return Err(Failure::new(
+                "`--fix` without `--write` shows a diff, which has no other format",
+            )
+            .with_help("leave `--format` out, or add `--write`"));
+        }
+        let ledger = Ledger::default();
+        let mut outputs = Outputs::new(&ledger, console);
+        let mut target = outputs.result(self.output.as_deref())?;
+        let mut html = outputs.optional("--html", self.html.as_deref())?;
+        let mut machines = self.machine.weighed(&self.severities, &ledger)?;
+        let found = find_programs(&self.paths, |folder| machines.extensions(folder));
+        if found.inputs.contains(&Input::Stdin) {
+            return Err(Failure::new(
+                "standard input can be read only once, and an audit runs each program twice",
+            )
+            .with_help("name a file"));
+        }
+        let mut failures = Failures::from(found.failures);
+        let auditor = self.auditor(found.inputs, (&mut machines, &ledger), &mut failures);
+        if auditor.programs().is_empty() {
+            return failures.status(console, exit::CLEAN);
+        }
+        outputs.check()?;
+        say_undescribed(&auditor, console);
+        let mut archives = failures.keep(auditor.audit());
+        if let Some(fix) = self.fix {
+            let changes = failures.keep(auditor.mend(&archives, fix.end()));
+            say_missed(&archives, &changes);
+            if !self.write {
+                let files = changes.iter().filter_map(|change| change.file.as_ref());
+                target.painted(&differences(files), difference)?;
+                Console::talk(&to_write(&changes));
+                outputs.finish()?;
+                let report = report(&auditor, archives);
+                return failures.status(console, self.status(report.has_warnings(), false));
+            }
+            write(&changes, console)?;
+            archives = failures.keep(auditor.audit());
+        }
+        let report = report(&auditor, archives);
+        let printed = target.text(&match self.format {
+            Format::Text if self.all => render_text(&report, Length::Whole),
+            Format::Text => render_text(&report, Length::Folded),
+            Format::Csv => render_csv(&report),
+            Format::Json => document(&records(&report)),
+            Format::Ndjson => lines(&records(&report)),
+        })?;
+        if let Some(html) = &mut html {
+            render_audit(&report, &mut Files, html).map_err(Failure::output)?;
+        } else if printed == Printed::Unread && failures.is_empty() {
+            return Ok(exit::CLEAN);
+        }
+        outputs.finish()?;
+        self.machine.say_unread(&ledger, console);
+        let errors = say_lists(&auditor, console);
+        let unknown = self.unknown_status(report.unknown(), console);
+        let status = self.status(report.has_warnings(), errors);
+        failures.status(console, status.max(unknown))
+    }
+
+    /// The programs that can run on their machines.
+    fn auditor(
+        &self,
+        inputs: Vec<Input>,
+        (machines, ledger): (&mut Machines, &Ledger),
+        failures: &mut Failures,
+    ) -> ArchiveAuditor {
+        for input in &inputs {
+            input.note(ledger);
+        }
+        machines.look_ahead(&inputs);
+        let run = self.execution.brief(StopPolicy::FirstError, RUNS);
+        let mut options = AuditOptions::new(run).with_kinds(self.kinds);
+        if let Some(jobs) = self.jobs {
+            options = options.with_workers(jobs);
+        }
+        failures.keep(ArchiveAuditor::new(inputs, machines, options))
+    }
+
+    /// The exit status of states that are not known, which are said where they count (R2.98).
+    fn unknown_status<'a>(
+        &self,
+        unknown: impl Iterator<Item = (&'a str, Kind)>,
+        console: Console,
+    ) -> u8 {
+        let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+        if let Some(remark) = self.fail_on.unknown_remark(&unknown) {
+            console.remark(&remark);
+        }
+        self.fail_on.unknown_status(&unknown)
+    }
+
+    fn status(&self, warnings: bool, errors: bool) -> u8 {
+        let mut counts = BTreeMap::new();
+        counts.insert(Severity::Warning, u64::from(warnings));
+        counts.insert(Severity::Error, u64::from(errors));
+        self.fail_on.status(&counts)
+    }
+
+    /// What happens in a given order.
+    fn follow(&self, order: &Path, console: Console) -> Result<u8, Failure> {
+        if self.format == Format::Csv {
+            return Err(Failure::new("`--sequence` has no `--format csv`")
+                .with_help("write `--format text`, `json` or `ndjson`"));
+        }
+        let ledger = Ledger::default();
+        let mut outputs = Outputs::new(&ledger, console);
+        let mut target = outputs.result(self.output.as_deref())?;
+        ledger.reads("sequence", order);
+        let inputs = programs_of(order)?;
+        let mut machines = self.machine.weighed(&self.severities, &ledger)?;
+        let mut failures = Failures::default();
+        let auditor = self.auditor(inputs, (&mut machines, &ledger), &mut failures);
+        outputs.check()?;
+        say_undescribed(&auditor, console);
+        let steps = failures.keep(auditor.follow());
+        target.text(&match self.format {
+            Format::Json => document(&sequence_records(&steps)),
+            Format::Ndjson => lines(&sequence_records(&steps)),
+            Format::Text | Format::Csv => steps
+                .iter()
+                .fold(String::new(), |text, step| text + &step_line(step) + "\n"),
+        })?;
+        outputs.finish()?;
+        self.machine.say_unread(&ledger, console);
+        let is_cut = steps.iter().any(|step| step.stopped.is_some());
+        let errors = say_lists(&auditor, console) || is_cut;
+        let mut axes = steps.iter().flat_map(|step| &step.axes);
+        let inherits = axes.any(|axis| axis.left_by.is_some());
+        let axes = steps.iter().flat_map(|step| &step.axes);
+        let unknown = axes.filter(|axis| axis.end == Selected::Unknown);
+        let unknown = unknown.map(|axis| (axis.axis.as_str(), axis.kind));
+        let unknown = self.unknown_status(unknown, console);
+        failures.status(console, self.status(inherits, errors).max(unknown))
+    }
+}
+
+impl Fix {
+    fn end(self) -> MendedEnd {
+        match self {
+            Self::Leavers => MendedEnd::Leavers,
+            Self::Inheritors => MendedEnd::Inheritors,
+            Self::Smaller => MendedEnd::Smaller,
+        }
+    }
+}
+
+fn report(auditor: &ArchiveAuditor, archives: Vec<Archive>) -> AuditReport {
+    let machines = auditor.machines().iter().zip(archives);
+    let machines = machines.map(|(loaded, archive)| {
+        let origin = loaded.origin.as_deref();
+        MachineAudit::new(origin.map(shown_path), archive)
+    });
+    AuditReport {
+        machines: machines.collect(),
+    }
+}
+
+/// Says above everything else that no machine is described (R1.37).
+fn say_undescribed(auditor: &ArchiveAuditor, console: Console) {
+    let programs = auditor.programs().iter();
+    let undescribed = programs.filter_map(|(input, machine)| {
+        let is_described = auditor.machines()[*machine].machine.is_described();
+        (!is_described).then_some(input)
+    });
+    if let Some(remark) = undescribed_remark(undescribed) {
+        console.remark(&remark);
+    }
+}
+
+/// Says what keeps the control from taking its lists, and whether anything does.
+fn say_lists(auditor: &ArchiveAuditor, console: Console) -> bool {
+    let machines = auditor.machines().iter();
+    let errors: Vec<_> = machines.flat_map(|it| it.errors().cloned()).collect();
+    console.show(&errors);
+    !errors.is_empty()
+}
+
+/// Says which programs are left to the user, and why (R10.8).
+fn say_missed(archives: &[Archive], changes: &[MendedProgram]) {
+    for change in changes {
+        let program = &archives[change.machine].programs()[change.program];
+        for missed in &change.missed {
+            let way_home = program.axes[missed.mending.at].way_home();
+            let why = match missed.why {
+                WhyMissed::ChangesMotion => {
+                    "a block that mends this would change the state in which axes move"
+                }
+                _ => "no single block mends this",
+            };
+            Console::talk(&format!(
+                "{}: {why}; write `{way_home}` wherever it is needed by hand",
+                program.file,
+            ));
+        }
+    }
+}
+
+/// What `--write` would do.
+fn to_write(changes: &[MendedProgram]) -> String {
+    let files = changes.iter().filter_map(|change| change.file.as_ref());
+    let blocks: usize = files.clone().map(|file| file.changes).sum();
+    match (blocks, files.count()) {
+        (0, _) => "nothing to write".to_owned(),
+        (blocks, programs) => format!(
+            "{} in {}; `--write` writes them",
+            counted(blocks, "block"),
+            counted(programs, "program")
+        ),
+    }
+}
+
+fn write(changes: &[MendedProgram], console: Console) -> Result<(), Failure> {
+    let files = changes.iter().filter_map(|change| change.file.as_ref());
+    write_mended(files.clone())?;
+    for file in files {
+        let blocks = counted(file.changes, "block");
+        console.remark(&format!("wrote `{}`: {blocks}", shown(&file.path)));
+    }
+    Ok(())
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}
+
+/// One program a line, from the folder of the list; empty lines and lines with `#` or `;` in front
+/// say nothing.
+fn programs_of(order: &Path) -> Result<Vec<Input>, Failure> {
+    let text = read_text(order)?;
+    let folder = order.parent().unwrap_or(Path::new(""));
+    let names = text.lines().map(str::trim);
+    let names = names.filter(|name| !name.is_empty() && !name.starts_with(['#', ';']));
+    let inputs: Vec<Input> = names.map(|name| Input::File(folder.join(name))).collect();
+    if inputs.is_empty() {
+        return Err(
+            Failure::new(format!("`{}` names no program", shown(order))).with_help(
+                "write the path of one program on each line, from the folder of this file",
+            ),
+        );
+    }
+    for input in &inputs {
+        input.probe()?;
+    }
+    Ok(inputs)
+}
+
+fn document(records: &[Value]) -> String {
+    format!("{:#}\n", json!({ "schema": SCHEMA, "records": records }))
+}
+
+fn lines(records: &[Value]) -> String {
+    records.iter().fold(String::new(), |lines, record| {
+        lines + &record.to_string() + "\n"
+    })
+}

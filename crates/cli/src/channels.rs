@@ -1,0 +1,69 @@
+//! The channels of a recorded trace on the command line.
+
+use clap::Args;
+
+use frictcomp_recordings::trace::{ChannelSelection, Unit};
+
+/// Which channels are the motion of an axis.
+#[derive(Debug, Clone, Default, Args)]
+pub(super) struct MotionChannels {
+    /// The channel of the times in a trace: its name, comment or CNC object
+    #[arg(long, value_name = "CHANNEL")]
+    time: Option<String>,
+    /// The channel of the positions
+    #[arg(long, value_name = "CHANNEL")]
+    position: Option<String>,
+    /// The channel of the velocities
+    #[arg(long, value_name = "CHANNEL")]
+    velocity: Option<String>,
+    /// The unit of a channel, where the file does not name it: `--unit SetVelo=mm/s`
+    #[arg(long, value_name = "CHANNEL=UNIT", value_parser = parse_unit)]
+    unit: Vec<(String, Unit)>,
+}
+
+impl MotionChannels {
+    /// What the user says about the channels.
+    pub(super) fn selection(&self) -> ChannelSelection {
+        ChannelSelection {
+            time: self.time.clone(),
+            position: self.position.clone(),
+            velocity: self.velocity.clone(),
+            units: self.unit.clone(),
+            ..ChannelSelection::default()
+        }
+    }
+}
+
+/// Which channels are the motion and the torque of one axis.
+#[derive(Debug, Clone, Default, Args)]
+pub(super) struct AxisChannels {
+    /// The axis, by its name, or by its number in CNC objects
+    #[arg(long, value_name = "AXIS")]
+    pub(super) axis: Option<String>,
+    /// The channel of the torque or the current, that of `dig_drv.act_torque`
+    #[arg(long, value_name = "CHANNEL")]
+    torque: Option<String>,
+    #[command(flatten)]
+    motion: MotionChannels,
+}
+
+impl AxisChannels {
+    /// What the user says about the channels.
+    pub(super) fn selection(&self) -> ChannelSelection {
+        ChannelSelection {
+            axis: self.axis.clone(),
+            torque: self.torque.clone(),
+            ..self.motion.selection()
+        }
+    }
+}
+
+/// `NAME=UNIT`; a name may contain `=`, a unit does not.
+pub(super) fn parse_unit(text: &str) -> Result<(String, Unit), String> {
+    let (name, unit) = text
+        .rsplit_once('=')
+        .ok_or_else(|| "write `CHANNEL=UNIT`, such as `SetVelo=mm/s`".to_owned())?;
+    let unit = Unit::parse(unit)
+        .ok_or_else(|| format!("`{unit}` is not a known unit; known are {}", Unit::NAMED))?;
+    Ok((name.trim().to_owned(), unit))
+}

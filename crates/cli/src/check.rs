@@ -1,0 +1,278 @@
+//! `frictcomp check`: every diagnostic of every program.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::console::{Console, Printed, Target};
+use super::execution::ExecutionArgs;
+use super::fail_on::of_axis;
+use super::failure::Failure;
+use super::failures::Failures;
+use super::listing::{Lister, ListingArgs, Uncompensated, of_records, passed_over, total};
+use super::machine::{MachineArgs, remark, undescribed_remark};
+use super::mend::{Bench, FixArgs};
+use super::notes::{self, Note};
+use super::outputs::Outputs;
+use frictcomp::diagnostic::Severity;
+use frictcomp::session::{Causes, Findings, NoteKind, Notes};
+use frictcomp::timeline::{Record, Sink};
+use frictcomp_host::{
+    Alone, Axes, HostError, Input, Ledger, LoadedMachine, Naming, find_programs, in_order,
+    processors, run_alone,
+};
+use frictcomp_report::{ListingFormat, command_line, wrap};
+
+/// Print all messages of all programs; each program runs from the start of the control
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// Programs and folders of programs; `-` is standard input
+    #[arg(value_name = "PATH", default_value = ".")]
+    paths: Vec<PathBuf>,
+    /// Instead of messages, list the values that the programs need from the machine, and where
+    #[arg(long, conflicts_with_all = ["opaque", "fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
+    unknowns: bool,
+    /// Instead of messages, list what was accepted and passed over, and where
+    #[arg(long, conflicts_with_all = ["fail_on", "jobs", "quiet", "statistics", "ignore", "select", "severity"])]
+    opaque: bool,
+    /// The number of programs to check at once; by default the number of processors
+    #[arg(long, short, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    #[command(flatten)]
+    fixes: FixArgs,
+    #[command(flatten)]
+    listing: ListingArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &CheckArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    let console = args.listing.console(console);
+    let mut machines = args.machine.weighed(&args.listing.severities, &ledger)?;
+    let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+    let mut failures = Failures::from(found.failures);
+    let inputs = found.inputs;
+    for input in &inputs {
+        input.note(&ledger);
+    }
+    machines.look_ahead(&inputs);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut target = outputs.result(args.listing.output.as_deref())?;
+    let mut bench = Bench {
+        inputs: &inputs,
+        machines: &mut machines,
+        execution: &args.execution,
+        workers: args.jobs,
+    };
+    if args.fixes.diff {
+        outputs.check()?;
+        let status = bench.diff(&mut target, console)?;
+        outputs.finish()?;
+        return failures.status(console, status);
+    }
+    if args.fixes.fix {
+        outputs.check()?;
+        failures.extend(bench.fix(console)?);
+    }
+    // Every list is known before anything runs.
+    let loaded = inputs.iter().map(|it| machines.for_folder(it.folder()));
+    let jobs: Vec<Job> = inputs.iter().zip(loaded.collect::<Vec<_>>()).collect();
+    outputs.check()?;
+    if let Some(kind) = args.notes() {
+        let format = of_records(args.listing.format, "this list")?;
+        notes::list(kind, format, target, |lines| {
+            for (input, loaded) in jobs {
+                if let Err(failure) = args.take_notes(kind, (input, loaded), lines) {
+                    failures.push(failure);
+                }
+            }
+        })?;
+        outputs.finish()?;
+        return failures.status(console, super::exit::CLEAN);
+    }
+    say_undescribed(args, &jobs, &mut target, console);
+    let mut listing = args.listing.lister(target)?;
+    args.check_all(jobs, &mut listing, &mut failures);
+    let printed = listing.finish()?;
+    if printed == Printed::Unread && failures.is_empty() {
+        return Ok(super::exit::CLEAN);
+    }
+    outputs.finish()?;
+    for remark in machines.loaded().filter_map(remark) {
+        console.remark(&remark);
+    }
+    args.machine.say_unread(&ledger, console);
+    if args.listing.format == ListingFormat::Text && listing.tally().files > 0 {
+        let passed_over = passed_over(found.passed_over);
+        console.remark(&(total(listing.tally()) + &passed_over));
+        listing.hint().iter().for_each(|hint| console.remark(hint));
+    }
+    if let Some(remark) = listing.unknown_remark() {
+        console.remark(&remark);
+    }
+    failures.status(console, listing.status())
+}
+
+/// Says above everything else that no machine is described (R1.37).
+fn say_undescribed(args: &CheckArgs, jobs: &[Job<'_>], target: &mut Target, console: Console) {
+    let undescribed = jobs.iter().filter_map(|(input, loaded)| {
+        let described = loaded.as_ref().map_or(true, |it| it.machine.is_described());
+        (!described).then_some(*input)
+    });
+    let Some(remark) = undescribed_remark(undescribed) else {
+        return;
+    };
+    if args.listing.format == ListingFormat::Text && !args.listing.quiet && !args.listing.statistics
+    {
+        // A writer that takes no more says so at the next line.
+        let _ = writeln!(target.writer, "{}\n", wrap(&remark, target.look.width, 0));
+    } else {
+        console.remark(&remark);
+    }
+}
+
+/// A program and the machine that it runs on.
+type Job<'a> = (&'a Input, Result<Arc<LoadedMachine>, HostError>);
+
+impl CheckArgs {
+    fn notes(&self) -> Option<NoteKind> {
+        match (self.unknowns, self.opaque) {
+            (true, _) => Some(NoteKind::Unknown),
+            (_, true) => Some(NoteKind::Opaque),
+            _ => None,
+        }
+    }
+
+    /// Runs a program and keeps what there is to note.
+    fn take_notes(
+        &self,
+        kind: NoteKind,
+        (input, loaded): Job<'_>,
+        lines: &mut BTreeSet<Note>,
+    ) -> Result<(), Failure> {
+        let loaded = loaded?;
+        let mut options = self.execution.check(&loaded);
+        options.run.notes = Notes::Taken;
+        let alone = Alone {
+            options,
+            naming: Naming::AsGiven,
+            axes: Axes::AsTheyOccur,
+        };
+        let session = run_alone(input, &loaded, alone, &mut Findings::default())?;
+        for (name, place) in session.notes(kind) {
+            lines.insert(Note {
+                name: name.to_owned(),
+                file: place.file.to_string(),
+                start: place.start(),
+            });
+        }
+        let more = session.notes_left_out();
+        if more > 0 {
+            let (name, listed) = (input.name(Naming::AsGiven), session.notes(kind).count());
+            Console::talk(&format!(
+                "{name}: {listed} places are listed; it occurred {more} more times"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Checks the programs, many at once, and lists what was found in their order.
+    fn check_all(&self, jobs: Vec<Job<'_>>, listing: &mut Lister<'_>, failures: &mut Failures) {
+        let mut listed: Vec<Option<PathBuf>> = Vec::new();
+        let mut causes = Causes::default();
+        let workers = self.jobs.unwrap_or_else(processors);
+        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
+        let check = |(input, loaded): Job<'_>| -> Result<_, HostError> {
+            let loaded = loaded?;
+            let found = check_file(input, &loaded, &self.execution)?;
+            Ok((loaded, found))
+        };
+        in_order(jobs.into_iter(), workers, check, |checked| {
+            let (loaded, found) = match checked {
+                Ok(checked) => checked,
+                Err(error) => {
+                    failures.push(Failure::from(error));
+                    return ControlFlow::Continue(());
+                }
+            };
+            if !listed.contains(&loaded.origin) {
+                listed.push(loaded.origin.clone());
+                for mut diagnostic in loaded.errors().cloned() {
+                    diagnostic.reword(Some(command_line));
+                    causes.say(diagnostic);
+                }
+            }
+            listing.file();
+            causes.add(found.findings);
+            for (axis, moves) in found.uncompensated {
+                listing.feed_moves(axis, &moves);
+            }
+            listing.unknown(found.unknown);
+            for (severity, more) in &found.unsaid {
+                listing.count(*severity, *more);
+            }
+            ControlFlow::Continue(())
+        });
+        // Only now it is known which programs reach a message.
+        let _ = causes
+            .diagnostics()
+            .iter()
+            .try_for_each(|said| listing.diagnostic(said));
+    }
+}
+
+/// What a program has to say.
+struct Found {
+    findings: Findings,
+    /// How many more messages there are, by severity (R2.85).
+    unsaid: BTreeMap<Severity, u64>,
+    /// Its feed moves without compensation, by axes.
+    uncompensated: Vec<(String, Uncompensated)>,
+    /// The states that are not known at its end or where their axis moves.
+    unknown: BTreeSet<String>,
+}
+
+/// Runs one program from the start of the control.
+fn check_file(
+    input: &Input,
+    loaded: &LoadedMachine,
+    execution: &ExecutionArgs,
+) -> Result<Found, HostError> {
+    let alone = Alone {
+        options: execution.check(loaded),
+        naming: Naming::AsGiven,
+        axes: Axes::AsTheyOccur,
+    };
+    let mut findings = Findings::default();
+    let mut uncompensated = Vec::new();
+    let mut sink = |record: &Record<'_>| {
+        if let Record::Summary(summary) = record {
+            let axes = summary.uncompensated();
+            uncompensated.extend(axes.map(|axis| {
+                let of = summary.state.machine.axis(axis.axis);
+                let moves = Uncompensated::of_program(of.axis_type, axis.feed_moves);
+                (of.name.clone(), moves)
+            }));
+        }
+        findings.record(record)
+    };
+    let session = run_alone(input, loaded, alone, &mut sink)?;
+    let unsaid = findings.unsaid(session.counts());
+    let unknown = session.unknown();
+    let unknown = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+    Ok(Found {
+        findings,
+        unsaid,
+        uncompensated,
+        unknown,
+    })
+}

@@ -1,0 +1,241 @@
+//! `frictcomp circle`: the circular test, simulated or recorded.
+
+use std::convert::Infallible;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+
+use super::channels::parse_unit;
+use super::console::Console;
+use super::cycle::CycleArgs;
+use super::exit;
+use super::failure::Failure;
+use super::machine::value_list;
+use super::outputs::{Outputs, write_text};
+use super::progress;
+use super::result::ResultArgs;
+use super::values;
+use frictcomp::lists::FrictionList;
+use frictcomp::text::shown_path;
+use frictcomp_host::{
+    CircleChannels, Ledger, compare, find_plant, memory_for_simulation, read_circles,
+};
+use frictcomp_physics::circle::{
+    Circle, CircularTest, CommandedCircle, Method, PathCentre, PlaneAxis,
+};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::FrictionModel;
+use frictcomp_recordings::trace::{ChannelSelection, Unit};
+use frictcomp_report::circle::{CircleReport, ListOrigin, render_csv, render_json, render_text};
+use frictcomp_report::fitted;
+use frictcomp_report::html::render_circle;
+use frictcomp_report::pictures::circle;
+use frictcomp_report::svg::Frame;
+
+/// Drive a circle with two simulated axes, with friction compensation off and on
+///
+/// Prints the figures of ISO 230-4, the glitch at each quadrant, and what they suggest. `--trace`
+/// evaluates a recorded circle instead: an export of TwinCAT Scope, a SINUMERIK trace or a CSV file,
+/// with the columns `x` and `y` in mm (or `x_um` and `y_um` in µm) or the channels that `--x` and
+/// `--y` name. Give two files for both directions.
+#[derive(Debug, Args)]
+pub(super) struct CircleArgs {
+    /// Radius in mm; for recorded circles the commanded radius
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    radius: Option<f64>,
+    /// Feed in mm/min, by default 1000; for recorded circles the commanded feed, by default that of
+    /// the column `t` in s
+    #[arg(long, value_name = "MM/MIN", allow_negative_numbers = true)]
+    feed: Option<f64>,
+    /// The machine: `stiff`, `mid`, `soft`, or a TOML file
+    #[arg(long, value_name = "PLANT", default_value = "stiff")]
+    plant: String,
+    /// The friction model
+    #[arg(long, default_value = "lugre", value_parser = values::friction_model())]
+    model: FrictionModel,
+    /// The compensation value list of both axes, or `X=LIST` and `Y=LIST`; by default the stiction
+    /// compensation of the plant if it has one, or else its friction curve
+    #[arg(long, value_name = "LIST")]
+    value_list: Vec<AxisList>,
+    #[command(flatten)]
+    cycle: CycleArgs,
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
+    reading: Reading,
+    /// A recorded circle instead of a simulated one; give it twice for both directions
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["plant", "model", "value_list", "cycle_time_ms", "cycle_time", "reading"])]
+    trace: Vec<PathBuf>,
+    /// About which centre G(b) and H compare both directions: `common`, the mean of both
+    /// least-squares centres, or `own`
+    #[arg(long, value_name = "CENTRE", default_value_t)]
+    centre: PathCentre,
+    /// The channel of the first axis in a recorded circle: its name, comment or CNC object
+    #[arg(long = "x", value_name = "CHANNEL", requires = "trace")]
+    x_channel: Option<String>,
+    /// The channel of the second axis
+    #[arg(long = "y", value_name = "CHANNEL", requires = "trace")]
+    y_channel: Option<String>,
+    /// The unit of a channel, where the file does not name it: `--unit ActPosX=mm`
+    #[arg(long, value_name = "CHANNEL=UNIT", requires = "trace", value_parser = parse_unit)]
+    unit: Vec<(String, Unit)>,
+    #[command(flatten)]
+    result: ResultArgs<Format>,
+    /// Draw the circle with magnified deviation, compensation off and on, to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write an HTML report with the picture and the figures to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+}
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// Tables for people.
+    #[default]
+    Text,
+    /// One JSON document.
+    Json,
+    /// The radial deviation every 0.1°.
+    Csv,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &CircleArgs, console: Console) -> Result<u8, Failure> {
+    memory_for_simulation()?;
+    let ledger = Ledger::default();
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.result.output.as_deref())?;
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
+    let report = if args.trace.is_empty() {
+        let (test, origin) = simulation(args, &ledger)?;
+        outputs.check()?;
+        let comparison = compare(&test, &progress::watch())?.about(args.centre);
+        CircleReport::simulated(test, comparison, origin)
+    } else {
+        args.trace
+            .iter()
+            .for_each(|path| ledger.reads("trace", path));
+        outputs.check()?;
+        let commanded = CommandedCircle {
+            radius_mm: args.radius,
+            feed_mm_per_min: args.feed,
+        };
+        let recording = read_circles(&args.trace, &channels(args), commanded, args.centre)?;
+        CircleReport::recorded(recording)
+    };
+    let text = match args.result.format {
+        Format::Text => fitted(&render_text(&report), result.look.width),
+        Format::Json => render_json(&report),
+        Format::Csv => render_csv(&report),
+    };
+    if let Some(mut svg) = svg {
+        write_text(&mut svg, &circle(&report).render(Frame::Alone))?;
+    }
+    if let Some(mut html) = html {
+        render_circle(&report, &mut html).map_err(Failure::output)?;
+    }
+    result.text(&text)?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}
+
+/// Which channels of a recorded circle are its positions.
+fn channels(args: &CircleArgs) -> CircleChannels {
+    CircleChannels {
+        names: [args.x_channel.clone(), args.y_channel.clone()],
+        selection: ChannelSelection {
+            units: args.unit.clone(),
+            ..ChannelSelection::default()
+        },
+    }
+}
+
+/// What is simulated, and where the value lists come from.
+fn simulation(args: &CircleArgs, ledger: &Ledger) -> Result<(CircularTest, ListOrigin), Failure> {
+    let plant = find_plant(&args.plant, ledger)?;
+    let (compensation, origin) = match &args.value_list[..] {
+        [] => (Method::of_plant(&plant), ListOrigin::Plant),
+        given => {
+            let (lists, origin) = given_lists(given, ledger)?;
+            (lists.map(|list| Some(list.into())), origin)
+        }
+    };
+    let test = CircularTest {
+        circle: Circle {
+            radius_mm: args.radius.unwrap_or(Circle::default().radius_mm),
+            feed_mm_per_min: args.feed.unwrap_or(Circle::default().feed_mm_per_min),
+            cycle_time_s: args
+                .cycle
+                .seconds()?
+                .unwrap_or(Circle::default().cycle_time_s),
+        },
+        plant,
+        model: args.model,
+        compensation,
+        reading: args.reading,
+    };
+    Ok((test, origin))
+}
+
+/// `v.lis`, or `X=v.lis`.
+#[derive(Debug, Clone)]
+struct AxisList {
+    axis: Option<PlaneAxis>,
+    path: PathBuf,
+}
+
+impl FromStr for AxisList {
+    type Err = Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let named = PlaneAxis::ALL.into_iter().find_map(|axis| {
+            let path = text.strip_prefix(axis.as_str())?.strip_prefix('=')?;
+            Some((axis, path))
+        });
+        Ok(match named {
+            Some((axis, path)) => Self {
+                axis: Some(axis),
+                path: path.into(),
+            },
+            None => Self {
+                axis: None,
+                path: text.into(),
+            },
+        })
+    }
+}
+
+/// The lists that were given for both axes, or for each.
+fn given_lists(
+    given: &[AxisList],
+    ledger: &Ledger,
+) -> Result<([FrictionList; 2], ListOrigin), Failure> {
+    let name = |list: &AxisList| shown_path(&list.path);
+    if let [both @ AxisList { axis: None, .. }] = given {
+        let list = value_list(&both.path, ledger)?;
+        return Ok(([list.clone(), list], ListOrigin::File(name(both))));
+    }
+    let of = |axis: PlaneAxis| {
+        let mut lists = given.iter().filter(|list| list.axis == Some(axis));
+        lists.next().filter(|_| lists.next().is_none())
+    };
+    match (of(PlaneAxis::X), of(PlaneAxis::Y)) {
+        (Some(x), Some(y)) if given.len() == 2 => Ok((
+            [value_list(&x.path, ledger)?, value_list(&y.path, ledger)?],
+            ListOrigin::EachAxis([name(x), name(y)]),
+        )),
+        _ => {
+            let message = "`--value-list` takes one list for both axes, or one for each";
+            let help = "give `--value-list X=a.lis --value-list Y=b.lis`";
+            Err(Failure::new(message).with_help(help))
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! `frictcomp config show`: which configuration counts and what it makes of the machine.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::console::Console;
+use super::exit;
+use super::failure::{Failure, shown};
+use super::machine::{MachineArgs, remark};
+use super::painted::parts;
+use frictcomp::comp::{AxisIndex, Kind};
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::machine::{AxisSet, AxisType, Origin, Parameterisation};
+use frictcomp_host::{CONFIG_NAME, Ledger, LoadedMachine};
+use frictcomp_report::lists::render_parameters;
+use frictcomp_report::visible_line;
+
+/// Show the configuration of the machine
+#[derive(Debug, Subcommand)]
+pub(super) enum ConfigCommand {
+    /// Print the machine that a program in a folder would run on
+    Show(ShowArgs),
+}
+
+/// What `config show` is asked.
+#[derive(Debug, Args)]
+pub(super) struct ShowArgs {
+    /// The folder of the program
+    #[arg(value_name = "FOLDER", default_value = ".")]
+    folder: PathBuf,
+    #[command(flatten)]
+    machine: MachineArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(command: &ConfigCommand, console: Console) -> Result<u8, Failure> {
+    let ConfigCommand::Show(args) = command;
+    let mut machines = args.machine.machines(&Ledger::default());
+    let loaded = machines.for_folder(&args.folder)?;
+    let mut output = String::new();
+    append_machine(&mut output, &loaded);
+    if !loaded.programs.is_empty() {
+        output.push('\n');
+        let width = console.stdout().look.width;
+        render_parameters(&[], &loaded.programs, width, &mut output)
+            .map_err(|_| Failure::new("the table of the programs cannot be written"))?;
+    }
+    console.print_painted(&console.fitted(&output), parts)?;
+    let errors: Vec<Diagnostic> = loaded.errors().cloned().collect();
+    console.show(&errors);
+    if let Some(remark) = remark(&loaded) {
+        Console::talk(&remark);
+    }
+    Ok(if errors.is_empty() {
+        exit::CLEAN
+    } else {
+        exit::FOUND
+    })
+}
+
+fn append_machine(output: &mut String, loaded: &LoadedMachine) {
+    let machine = &loaded.machine;
+    let _ = match (&loaded.origin, machine.axis_set) {
+        (Some(path), _) => writeln!(output, "configuration  {}", shown(path)),
+        (None, _) => writeln!(
+            output,
+            "configuration  none: no {CONFIG_NAME} in this folder or above"
+        ),
+    };
+    let (read, missing) = loaded.lists;
+    if read + missing > 0 {
+        let _ = writeln!(output, "lists          {read} read, {missing} missing");
+    }
+    if let Some(build) = machine.build {
+        let _ = writeln!(output, "CNC build      {build}");
+    }
+    if let Some(levels) = machine.skip {
+        let _ = writeln!(output, "skip levels    {levels}");
+    }
+    if let Some(cycle) = machine.cycle_time_ms {
+        let _ = writeln!(output, "cycle time     {cycle} ms");
+    }
+    for folder in &loaded.reach.program_dirs {
+        let _ = writeln!(output, "programs in    {}", shown(folder));
+    }
+    let harmless: Vec<String> = machine.harmless.words().collect();
+    if !harmless.is_empty() {
+        let _ = writeln!(output, "harmless       {}", harmless.join(", "));
+    }
+    let _ = writeln!(
+        output,
+        "\naxis      type  at start      P-AXIS-00522  value list"
+    );
+    let comp = machine.compensation();
+    for (position, axis) in machine.axes.iter().enumerate() {
+        let state = comp.state(AxisIndex::new(position), Kind::Frict);
+        let kind = match axis.axis_type {
+            AxisType::Linear => "T",
+            AxisType::Rotary => "R",
+            AxisType::Spindle => "S",
+        };
+        let value = u8::from(axis.configured.contains(Kind::Frict));
+        let origin = match &axis.frict_comp_origin {
+            Origin::Default => "default".to_owned(),
+            Origin::Assumed => "assumed".to_owned(),
+            Origin::File { file, line } => visible_line(&format!("{file}:{line}")).into_owned(),
+        };
+        let list = match &axis.friction {
+            Parameterisation::Missing => "none".to_owned(),
+            Parameterisation::Off => "mode 0, off".to_owned(),
+            Parameterisation::Rejected { file, code } => {
+                format!("{} rejected, {code}", visible_line(file))
+            }
+            Parameterisation::Assumed => "assumed".to_owned(),
+            Parameterisation::Accepted(list) => format!("{} points", list.table.len()),
+        };
+        let _ = writeln!(
+            output,
+            "{:<8}  {kind:<4}  {:<12}  {:<12}  {list}",
+            axis.name,
+            state.as_str(),
+            format!("{value} {origin}"),
+        );
+    }
+    if machine.axis_set == AxisSet::AsTheyOccur {
+        output.push_str("\nWithout a configuration these axes are taken as they occur.\n");
+    }
+}

@@ -1,0 +1,293 @@
+//! Where results and messages go: results to stdout, messages to stderr (R9.27).
+
+use std::io::{self, IsTerminal, Write};
+
+use anstream::{AutoStream, ColorChoice};
+use clap::ValueEnum;
+
+use super::code_page::{CodePage, Encoded};
+use super::failure::Failure;
+use super::painted::painted;
+use super::progress::{OverProgress, clear};
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp_host::Replaces;
+use frictcomp_report::{Look, Paint, command_line, fitted, leading, render, visible, wrap};
+
+/// The width of text where neither the user nor a terminal nor `COLUMNS` says one (R9.72).
+const FALLBACK_WIDTH: usize = 100;
+
+/// Widths that text can be laid out for.
+pub(super) const WIDTHS: std::ops::RangeInclusive<usize> = 20..=1000;
+
+/// When output is coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Color {
+    /// On a terminal, unless `NO_COLOR` is set.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// The user's terminal, or what replaces it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Console {
+    color: Color,
+    /// What `--width` says.
+    width: Option<usize>,
+    remarks: Remarks,
+    written: Written,
+    /// What `--force` lets every output take the place of.
+    forced: Option<Replaces>,
+}
+
+/// What goes to standard output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Written {
+    /// Text for people.
+    Text,
+    /// Records for programs, which are UTF-8 everywhere.
+    Records,
+}
+
+/// What becomes of remarks beside the results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Remarks {
+    Said,
+    Kept,
+}
+
+/// A place for data and how text looks there.
+pub(super) struct Target {
+    pub(super) writer: Box<dyn Write + Send>,
+    pub(super) look: Look,
+}
+
+/// Whether the output was read to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Printed {
+    /// It went out.
+    Read,
+    /// The pipe was closed.
+    Unread,
+}
+
+impl Target {
+    /// Writes a text; a closed pipe is no failure.
+    pub(super) fn text(&mut self, text: &str) -> Result<Printed, Failure> {
+        let written = self.writer.write_all(text.as_bytes());
+        match written.and_then(|()| self.writer.flush()) {
+            Ok(()) => Ok(Printed::Read),
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Printed::Unread),
+            Err(error) => Err(Failure::output(error)),
+        }
+    }
+
+    /// Writes a text, with lines in the styles that `style` gives them.
+    pub(super) fn painted(
+        &mut self,
+        text: &str,
+        style: fn(&str) -> anstyle::Style,
+    ) -> Result<Printed, Failure> {
+        self.text(&painted(&visible(text), self.look, style))
+    }
+}
+
+impl Console {
+    pub(super) fn new(color: Color, width: Option<usize>) -> Self {
+        Self {
+            color,
+            width,
+            remarks: Remarks::Said,
+            written: Written::Text,
+            forced: None,
+        }
+    }
+
+    /// The same console, with what `--force` says.
+    pub(super) fn forcing(self, forced: Option<Replaces>) -> Self {
+        Self { forced, ..self }
+    }
+
+    /// What an output may take the place of.
+    pub(super) fn replaces(self, replaces: Replaces) -> Replaces {
+        self.forced.unwrap_or(replaces)
+    }
+
+    /// The same console, to whose standard output this goes.
+    pub(super) fn writing(self, written: Written) -> Self {
+        Self { written, ..self }
+    }
+
+    /// The columns that text may use: what the user says, else the terminal, else `COLUMNS`, else
+    /// 100 (R9.72).
+    fn width(self, terminal: Option<(terminal_size::Width, terminal_size::Height)>) -> usize {
+        let terminal = terminal.map(|(width, _)| usize::from(width.0));
+        self.width.unwrap_or_else(|| {
+            terminal
+                .or_else(columns)
+                .unwrap_or(FALLBACK_WIDTH)
+                .clamp(*WIDTHS.start(), *WIDTHS.end())
+        })
+    }
+
+    /// The same console, which says nothing beside the results and failures.
+    pub(super) fn quiet(self) -> Self {
+        Self {
+            remarks: Remarks::Kept,
+            ..self
+        }
+    }
+
+    /// How text looks in a file.
+    pub(super) fn file_look(self) -> Look {
+        let paint = match self.color {
+            Color::Always => Paint::Styled,
+            Color::Auto | Color::Never => Paint::Plain,
+        };
+        Look {
+            paint,
+            width: self.width(None),
+        }
+    }
+
+    /// Standard output.
+    pub(super) fn stdout(self) -> Target {
+        let stdout = io::stdout();
+        let choice = self.choice(AutoStream::choice(&stdout));
+        let width = self.width(terminal_size::terminal_size_of(&stdout));
+        Target {
+            look: Look {
+                paint: paint(choice),
+                width,
+            },
+            // Old Windows consoles need their own calls; elsewhere nothing stands between.
+            writer: match (self.code_page(&stdout), paint(choice)) {
+                (Some(page), _) => Box::new(Encoded::new(stdout, page)),
+                (None, Paint::Styled) => Box::new(OverProgress(AutoStream::new(stdout, choice))),
+                (None, Paint::Plain) if stdout.is_terminal() => Box::new(OverProgress(stdout)),
+                (None, Paint::Plain) => Box::new(stdout),
+            },
+        }
+    }
+
+    /// The code page of the text that goes to standard output, where that is not UTF-8.
+    fn code_page(self, stdout: &io::Stdout) -> Option<CodePage> {
+        match self.written {
+            Written::Text => CodePage::behind(stdout),
+            Written::Records => None,
+        }
+    }
+
+    /// Writes a text to stdout, with pictures for what cannot be seen (R9.76); a closed pipe is no
+    /// failure.
+    pub(super) fn print(self, text: &str) -> Result<Printed, Failure> {
+        self.stdout().text(&visible(text))
+    }
+
+    /// A text for people whose lines have room on stdout (R9.72).
+    pub(super) fn fitted(self, text: &str) -> String {
+        let width = self.width(terminal_size::terminal_size_of(io::stdout()));
+        fitted(&visible(text), width)
+    }
+
+    /// Writes a text to stdout, with lines in the styles that `style` gives them.
+    pub(super) fn print_painted(
+        self,
+        text: &str,
+        style: fn(&str) -> anstyle::Style,
+    ) -> Result<Printed, Failure> {
+        self.stdout().painted(text, style)
+    }
+
+    /// Says a line on stderr. When nobody listens, nothing is lost.
+    pub(super) fn talk(line: &str) {
+        clear();
+        let _ = writeln!(stderr(ColorChoice::Never), "{}", leading(line));
+    }
+
+    /// Says a line on stderr, unless the user wants only what counts.
+    pub(super) fn remark(self, line: &str) {
+        if self.remarks == Remarks::Said {
+            Self::talk(line);
+        }
+    }
+
+    /// Shows diagnostics on stderr.
+    pub(super) fn show(self, diagnostics: &[Diagnostic]) {
+        let stderr = io::stderr();
+        let choice = self.choice(AutoStream::choice(&stderr));
+        let look = Look {
+            paint: paint(choice),
+            width: self.width(terminal_size::terminal_size_of(&stderr)),
+        };
+        let mut writer = self::stderr(choice);
+        for diagnostic in diagnostics {
+            let mut diagnostic = diagnostic.clone();
+            diagnostic.reword(Some(command_line));
+            let _ = writeln!(writer, "{}", render(&diagnostic, look));
+        }
+    }
+
+    /// Says on stderr why the tool could not do its work.
+    pub(super) fn explain(self, failure: &Failure) {
+        self.show(&failure.diagnostics);
+        let stderr = io::stderr();
+        let choice = self.choice(AutoStream::choice(&stderr));
+        let look = Look {
+            paint: paint(choice),
+            width: self.width(terminal_size::terminal_size_of(&stderr)),
+        };
+        let mut writer = self::stderr(choice);
+        let (bold, plain) = match look.paint {
+            Paint::Plain => (anstyle::Style::new(), anstyle::Style::new()),
+            Paint::Styled => (
+                anstyle::AnsiColor::Red.on_default().bold(),
+                anstyle::AnsiColor::Cyan.on_default(),
+            ),
+        };
+        let message = wrap(&failure.message, look.width, 7).replace('\n', "\n       ");
+        let _ = writeln!(writer, "{bold}error{bold:#}: {message}");
+        for help in &failure.help {
+            let help = wrap(help, look.width, 6).replace('\n', "\n      ");
+            let _ = writeln!(writer, "{plain}help{plain:#}: {help}");
+        }
+    }
+
+    fn choice(self, automatic: ColorChoice) -> ColorChoice {
+        match self.color {
+            Color::Auto => automatic,
+            Color::Always => ColorChoice::Always,
+            Color::Never => ColorChoice::Never,
+        }
+    }
+}
+
+/// Standard error, in the characters of those who read it.
+fn stderr(choice: ColorChoice) -> Box<dyn Write> {
+    let stderr = io::stderr();
+    match (CodePage::behind(&stderr), paint(choice)) {
+        (Some(page), _) => Box::new(Encoded::new(stderr.lock(), page)),
+        (None, Paint::Plain) => Box::new(stderr.lock()),
+        (None, Paint::Styled) => Box::new(AutoStream::new(stderr.lock(), choice)),
+    }
+}
+
+/// The width that the environment gives.
+fn columns() -> Option<usize> {
+    std::env::var("COLUMNS")
+        .ok()?
+        .trim()
+        .parse()
+        .ok()
+        .filter(|&columns| columns > 0)
+}
+
+fn paint(choice: ColorChoice) -> Paint {
+    match choice {
+        ColorChoice::Never => Paint::Plain,
+        ColorChoice::Auto | ColorChoice::Always | ColorChoice::AlwaysAnsi => Paint::Styled,
+    }
+}

@@ -1,0 +1,246 @@
+//! `frictcomp contour`: where on the part compensation is missing.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::console::{Console, Target};
+use super::execution::ExecutionArgs;
+use super::exit;
+use super::failure::Failure;
+use super::html::Files;
+use super::machine::{MachineArgs, remark};
+use super::outputs::{Outputs, write_text};
+use super::result::ResultArgs;
+use super::simulated::SimulationArgs;
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp_host::{
+    Input, Ledger, LoadedMachine, Naming, NoDrivenContour, OutputFile, drive_contour,
+};
+use frictcomp_physics::contour::{ContourLimits, ContourOptions, ProgramContour};
+use frictcomp_report::contour::{
+    ContourRecorder, ContourSubject, contour_remarks, document, exceeded, render_text,
+    summary_record,
+};
+use frictcomp_report::html::render_contour;
+use frictcomp_report::pictures::ContourPicture;
+use frictcomp_report::svg::Frame;
+
+/// Show where on the part compensation is missing: drive the path of a program with simulated axes
+///
+/// The path is driven three times: with friction compensation as the program switches it, with all
+/// of it on, and with all of it off. Each reversal of an axis is listed with its glitch.
+#[derive(Debug, Args)]
+pub(super) struct ContourArgs {
+    /// The program
+    #[arg(value_name = "PROGRAM")]
+    program: PathBuf,
+    #[command(flatten)]
+    simulation: SimulationArgs,
+    #[command(flatten)]
+    result: ResultArgs<Format>,
+    /// Draw the path with its magnified deviation, and the deviation over time, to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write an HTML report with the picture, the figures and the reversals to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Exit with status 1 if a cutting move deviates by more, in µm, or if the contour is not judged
+    #[arg(long, value_name = "UM")]
+    fail_above: Option<f64>,
+    /// Exit with status 1 if missing compensation costs more, in µm, or if the contour is not judged:
+    /// the deviation as programmed less the one with all of it on
+    #[arg(long, value_name = "UM")]
+    fail_above_due: Option<f64>,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// A format of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// Figures and sentences for people.
+    #[default]
+    Text,
+    /// One JSON document with every reversal and block.
+    Json,
+    /// One line a reversal, then the figures.
+    Ndjson,
+    /// One row a reversal.
+    Csv,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ContourArgs, console: Console) -> Result<u8, Failure> {
+    let input = args.input()?;
+    let limits = args.limits()?;
+    let ledger = Ledger::default();
+    input.note(&ledger);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.result.output.as_deref())?;
+    let mut pictures = Pictures {
+        svg: outputs.optional("--svg", args.svg.as_deref())?,
+        html: outputs.optional("--html", args.html.as_deref())?,
+    };
+    let mut machines = args.machine.machines(&ledger);
+    machines.look_ahead(std::slice::from_ref(&input));
+    let loaded = machines.for_folder(input.folder())?;
+    if let Some(remark) = remark(&loaded) {
+        Console::talk(&remark);
+    }
+    let simulation = &args.simulation;
+    let setup = simulation.setup((&loaded, Naming::AsGiven), &args.execution, &ledger)?;
+    outputs.check()?;
+    let target = &mut result;
+    let mut contour = drive_contour(&input, &loaded, &setup, |options| {
+        args.recorder(options, (target, &pictures))
+    })?;
+    check(&mut contour)?;
+    let subject = ContourSubject {
+        program: input.name(Naming::AsGiven),
+        plant: simulation.plant().to_owned(),
+    };
+    pictures.draw(&mut contour, &subject)?;
+    let text = match args.result.format {
+        Format::Text => render_text(&mut contour, &subject),
+        Format::Json => document(&mut contour, &limits),
+        Format::Ndjson => {
+            let mut record = summary_record(&contour, &limits);
+            record["record"] = "summary".into();
+            format!("{record}\n")
+        }
+        Format::Csv => String::new(),
+    };
+    let said = said(&contour, &loaded);
+    let has_moved = contour.machine_time_s() > 0.0;
+    // A row has no place for what holds for the whole program.
+    let remarks = match args.result.format {
+        Format::Csv => contour_remarks(&contour),
+        _ => Vec::new(),
+    };
+    let exceeded = exceeded(&contour, &limits);
+    drop(contour);
+    result.text(&text)?;
+    outputs.finish()?;
+    console.show(&said);
+    if !has_moved {
+        Console::talk(
+            "no motion was driven: program absolute positions and F first, or say with `--start \
+             X0,Y0` where the axes stand",
+        );
+    }
+    remarks
+        .iter()
+        .chain(&exceeded)
+        .for_each(|line| Console::talk(line));
+    args.machine.say_unread(&ledger, console);
+    let failed = said.iter().any(|said| said.severity == Severity::Error);
+    Ok(if failed || !exceeded.is_empty() {
+        exit::FOUND
+    } else {
+        exit::CLEAN
+    })
+}
+
+/// What ends a contour before the program ends.
+fn check(contour: &mut ProgramContour<ContourRecorder<'_>>) -> Result<(), Failure> {
+    match contour.sink().take_error() {
+        Some(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::output(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The pictures that are asked for.
+struct Pictures {
+    svg: Option<OutputFile>,
+    html: Option<OutputFile>,
+}
+
+impl Pictures {
+    fn draw(
+        &mut self,
+        contour: &mut ProgramContour<ContourRecorder<'_>>,
+        subject: &ContourSubject,
+    ) -> Result<(), Failure> {
+        let Some(picture) = contour.sink().take_picture() else {
+            return Ok(());
+        };
+        if let Some(svg) = &mut self.svg {
+            let chart = picture.clone().chart(&subject.heading(contour));
+            write_text(svg, &chart.render(Frame::Alone))?;
+        }
+        if let Some(html) = &mut self.html {
+            render_contour((contour, subject), picture, &mut Files, html)
+                .map_err(Failure::output)?;
+        }
+        Ok(())
+    }
+}
+
+impl ContourArgs {
+    fn input(&self) -> Result<Input, Failure> {
+        let input = Input::new(&self.program);
+        if input == Input::Stdin {
+            return Err(NoDrivenContour::OnlyOnce.into());
+        }
+        input.probe()?;
+        Ok(input)
+    }
+
+    fn limits(&self) -> Result<ContourLimits, Failure> {
+        let options = [
+            ("--fail-above", self.fail_above),
+            ("--fail-above-due", self.fail_above_due),
+        ];
+        for (option, limit) in options {
+            if limit.is_some_and(|limit| limit < 0.0 || limit.is_nan()) {
+                return Err(Failure::new(format!(
+                    "`{option}` is a limit in µm, 0 or more"
+                )));
+            }
+        }
+        Ok(ContourLimits {
+            deviation_um: self.fail_above,
+            due_um: self.fail_above_due,
+        })
+    }
+
+    /// What is kept or written while the contour is made.
+    fn recorder<'a>(
+        &self,
+        options: &ContourOptions,
+        (result, pictures): (&'a mut Target, &Pictures),
+    ) -> ContourRecorder<'a> {
+        let names: Vec<String> = options.axes.iter().map(|axis| axis.name.clone()).collect();
+        let plane = [names[0].clone(), names[1].clone()];
+        let mut recorder = ContourRecorder::new(names);
+        recorder = match self.result.format {
+            Format::Text if pictures.html.is_none() => recorder,
+            Format::Text | Format::Json => recorder.keeping_all(),
+            Format::Ndjson => recorder.writing_ndjson(&mut result.writer),
+            Format::Csv => recorder.writing_csv(&mut result.writer),
+        };
+        if pictures.svg.is_some() || pictures.html.is_some() {
+            recorder = recorder.drawing(ContourPicture::new(plane));
+        }
+        recorder
+    }
+}
+
+/// What there is to say: errors of the program, remarks on the trace.
+fn said(contour: &ProgramContour<ContourRecorder<'_>>, loaded: &LoadedMachine) -> Vec<Diagnostic> {
+    let (errors, remarks) = contour.diagnostics();
+    let mut said = errors.to_vec();
+    for remark in remarks {
+        if let Some(severity) = loaded.levels.severity(remark.code) {
+            let mut remark = remark.clone();
+            remark.severity = severity;
+            said.push(remark);
+        }
+    }
+    said
+}

@@ -1,0 +1,158 @@
+//! The arguments of `frictcomp current`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::super::channels::MotionChannels;
+use super::super::cycle::CycleArgs;
+use super::super::execution::ExecutionArgs;
+use super::super::failure::Failure;
+use super::super::machine::MachineArgs;
+use super::super::start::StartArgs;
+use frictcomp_physics::current::{DeadBand, Reading, Resampling, TraceOptions};
+use frictcomp_physics::motion::PlannerOptions;
+
+/// Compute the additive current of a program or a recorded trace, cycle by cycle
+///
+/// A program runs as in `run`, and its path is followed in CNC cycles; the current of each axis
+/// depends on its compensation state. A trace is an export of TwinCAT Scope, a SINUMERIK trace or a
+/// CSV file with a header: `t` in s, `x` in 0.1 µm or 0.0001°, `v` in µm/s or 0.001°/s, or the
+/// channels that are named; one row per CNC cycle. Either `x` or `v` may be missing. A
+/// column `comp` with `on` and `off` switches compensation as COMP would.
+#[derive(Debug, Args)]
+pub(crate) struct CurrentArgs {
+    /// The program, `-` for standard input
+    #[arg(
+        required_unless_present = "trace",
+        conflicts_with_all = ["trace", "time", "position", "velocity", "unit"],
+        requires = "axes"
+    )]
+    pub(super) program: Option<PathBuf>,
+    /// The axes of the program to compute the current for
+    #[arg(
+        long = "axis",
+        value_name = "AXIS",
+        value_delimiter = ',',
+        conflicts_with = "trace"
+    )]
+    pub(super) axes: Vec<String>,
+    /// A recorded commanded trace instead of a program
+    #[arg(long, value_name = "FILE", requires = "value_list")]
+    #[arg(conflicts_with_all = OF_PROGRAMS)]
+    pub(super) trace: Option<PathBuf>,
+    /// The compensation value list; for a program, replaces the one in the configuration
+    #[arg(long, value_name = "LIST")]
+    pub(super) value_list: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) channels: MotionChannels,
+    #[command(flatten)]
+    pub(super) cycle: CycleArgs,
+    /// Turn the rows of a trace into CNC cycles; without this option, times that do not increase by
+    /// one cycle are refused
+    #[arg(long, requires = "trace")]
+    pub(super) resample: bool,
+    /// Treat velocities of a trace up to V, in µm/s or 0.001°/s, as standstill; by default only those
+    /// that toggle around zero
+    #[arg(long, value_name = "V", requires = "trace", value_parser = parse_dead_band)]
+    #[arg(allow_negative_numbers = true)]
+    pub(super) dead_band: Option<DeadBand>,
+    /// Where the documents leave something open: `standstill=zero`, `below=origin`,
+    /// `delay=reversal`, `start=every`, with commas between them
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
+    pub(super) reading: Reading,
+    /// The format of the result
+    #[arg(long, default_value = "csv")]
+    pub(super) format: Format,
+    /// Additional columns for a program
+    #[arg(
+        long,
+        value_name = "COLUMNS",
+        value_delimiter = ',',
+        conflicts_with = "trace"
+    )]
+    pub(super) columns: Vec<Column>,
+    /// End the trace of a program after N CNC cycles
+    #[arg(long, value_name = "N", default_value_t = PlannerOptions::default().max_cycles)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) max_cycles: u64,
+    /// Draw currents, velocities, weights and compensation states over time to this SVG file
+    #[arg(long, alias = "plot", value_name = "FILE")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write the result to this file
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) machine: MachineArgs,
+    #[command(flatten)]
+    pub(super) start: StartArgs,
+    #[command(flatten)]
+    pub(super) execution: ExecutionArgs,
+}
+
+/// Options that have no effect on a trace (R9.71).
+const OF_PROGRAMS: [&str; 15] = [
+    "max_cycles",
+    "start",
+    "config",
+    "isolated",
+    "startup",
+    "enable",
+    "settings",
+    "allow_outside",
+    "skip",
+    "max_blocks",
+    "max_calls",
+    "max_nesting",
+    "max_macros",
+    "max_work",
+    "max_values",
+];
+
+impl CurrentArgs {
+    /// How the rows of a trace become cycles.
+    pub(super) fn trace_options(&self) -> Result<TraceOptions, Failure> {
+        let resampling = if self.resample {
+            Resampling::Done
+        } else {
+            Resampling::Refused
+        };
+        Ok(TraceOptions::default()
+            .with_cycle_s(self.cycle.seconds()?)
+            .with_resampling(resampling)
+            .with_dead_band(self.dead_band.unwrap_or_default()))
+    }
+}
+
+/// A velocity from 0 on.
+fn parse_dead_band(text: &str) -> Result<DeadBand, String> {
+    let limit = text.trim().parse().ok();
+    let limit = limit.filter(|limit: &f64| limit.is_finite() && *limit >= 0.0);
+    limit
+        .map(DeadBand::Below)
+        .ok_or_else(|| "a dead band is a velocity from 0 on, in µm/s or 0.001°/s".to_owned())
+}
+
+/// A format of the currents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Format {
+    /// One row per cycle.
+    #[default]
+    Csv,
+}
+
+/// Columns that the currents of a program have only where they are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Column {
+    /// The compensation state.
+    Comp,
+    /// The line of the block being executed.
+    Line,
+    /// What the control does beyond the trace, such as `G261` (FC907).
+    Simplified,
+}

@@ -1,0 +1,81 @@
+//! What both forms of the command draw and say.
+
+use std::path::Path;
+
+use super::super::console::Console;
+use super::super::failure::Failure;
+use super::super::outputs::{Outputs, write_text};
+use frictcomp::lists::FrictionList;
+use frictcomp_host::OutputFile;
+use frictcomp_physics::current::{Reading, Standstill};
+use frictcomp_report::pictures::{AxisPlot, CurrentPlot};
+use frictcomp_report::svg::Frame;
+
+/// A picture that is drawn while the cycles come in, and the file that it goes into.
+pub(super) struct Plot {
+    file: OutputFile,
+    pub(super) traces: CurrentPlot,
+}
+
+impl Plot {
+    /// The picture that the user asked for.
+    pub(super) fn create(
+        path: Option<&Path>,
+        outputs: &mut Outputs,
+        axes: Vec<AxisPlot>,
+    ) -> Result<Option<Self>, Failure> {
+        let file = outputs.optional("--svg", path)?;
+        Ok(file.map(|file| Self {
+            file,
+            traces: CurrentPlot::new(axes),
+        }))
+    }
+
+    /// Writes the picture.
+    pub(super) fn finish(mut self) -> Result<(), Failure> {
+        write_text(&mut self.file, &self.traces.chart().render(Frame::Alone))
+    }
+}
+
+/// `1 cycle`, `2 cycles`.
+fn counted(cycles: u64) -> String {
+    match cycles {
+        1 => "1 cycle".to_owned(),
+        more => format!("{more} cycles"),
+    }
+}
+
+/// Says where it matters what is added at standstill (C11).
+pub(super) fn say_at_rest(axis: &str, reading: Reading, cycles: u64) {
+    if cycles == 0 {
+        return;
+    }
+    let (now, other) = match reading.standstill {
+        Standstill::Zero => ("0", "with `--reading standstill=hold` it is held"),
+        _ => ("held", "with `--reading standstill=zero` it is 0"),
+    };
+    Console::talk(&format!(
+        "C11: in {} at standstill the current{axis} is {now}; {other}",
+        counted(cycles)
+    ));
+}
+
+/// Says on which reading of the documents the sign of the currents depends (C12).
+pub(super) fn say_sign(list: &FrictionList) {
+    if list.table.iter().any(|point| point.output != 0.0) {
+        Console::talk(
+            "C12: `out` is taken to have the sign of the torque at positive velocity; check the \
+             sign on the machine first, `frictcomp explain P-COMP-00047` says how",
+        );
+    }
+}
+
+/// Says which outputs were cut to 16 bit.
+pub(super) fn say_saturated(axis: &str, cycles: u64) {
+    if cycles > 0 {
+        Console::talk(&format!(
+            "FC137: the current of {}{axis} exceeds 16 bits and was limited",
+            counted(cycles)
+        ));
+    }
+}

@@ -1,0 +1,191 @@
+//! The current of the axes of a program.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::super::console::Console;
+use super::super::exit;
+use super::super::failure::Failure;
+use super::super::machine::{remark, value_list};
+use super::super::outputs::Outputs;
+use super::args::CurrentArgs;
+use super::plot::{Plot, say_at_rest, say_saturated, say_sign};
+use super::table::{Table, TableOptions};
+use frictcomp::comp::{AxisIndex, State};
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::drive_interface::TorqueScale;
+use frictcomp::machine::Parameterisation;
+use frictcomp::session::{Motions, StopPolicy};
+use frictcomp_host::{Alone, Axes, Input, Ledger, LoadedMachine, Naming, run_alone};
+use frictcomp_physics::current::{CurrentOptions, ProgramCurrents, axes_to_follow};
+use frictcomp_physics::motion::{AssumedLimits, PlannerOptions, check_cycle};
+use frictcomp_report::assumed_limits;
+use frictcomp_report::pictures::AxisPlot;
+
+/// Runs a program and writes the currents of its axes.
+pub(super) fn run(program: &Path, args: &CurrentArgs, console: Console) -> Result<u8, Failure> {
+    let input = Input::new(program);
+    input.probe()?;
+    let ledger = Ledger::default();
+    input.note(&ledger);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut machines = args.machine.machines(&ledger);
+    machines.look_ahead(std::slice::from_ref(&input));
+    let mut loaded = machines.for_folder(input.folder())?.as_ref().clone();
+    if let Some(remark) = remark(&loaded) {
+        Console::talk(&remark);
+    }
+    let list = args.value_list.as_deref();
+    let list = list.map(|path| value_list(path, &ledger)).transpose()?;
+    let followed = axes_to_follow(&args.axes, &mut loaded.machine, list.as_ref())?;
+    let options = options(args, &loaded)?;
+    let assumed = loaded.machine.axes.iter().filter_map(AssumedLimits::of);
+    for line in assumed_limits(&assumed.collect::<Vec<_>>()) {
+        Console::talk(&line);
+    }
+    say_scaling(&loaded);
+    let result = outputs.result(args.output.as_deref())?;
+    let plot = Plot::create(
+        args.svg.as_deref(),
+        &mut outputs,
+        plotted(&loaded, &followed),
+    )?;
+    outputs.check()?;
+    let name = |axis: &AxisIndex| loaded.machine.axis(*axis).name.clone();
+    let names: Vec<String> = followed.iter().map(name).collect();
+    let table = TableOptions {
+        names: &names,
+        columns: &args.columns,
+        program: input.name(Naming::AsGiven),
+        watch: Arc::clone(&loaded.watch),
+    };
+    let table = Table::new(result.writer, table, plot);
+    let mut currents = ProgramCurrents::new(&loaded.machine, &followed, options, table);
+    let mut session = args.execution.options(&loaded, StopPolicy::FirstError);
+    session.run.motions = Motions::Taken;
+    session.start = args.start.positions(&loaded.machine)?;
+    let alone = Alone {
+        options: session,
+        naming: Naming::AsGiven,
+        axes: Axes::AsTheyOccur,
+    };
+    run_alone(&input, &loaded, alone, &mut currents)?;
+    currents.finish();
+    let cycles = currents.cycles();
+    let table = currents.sink();
+    if let Some(plot) = table.take_plot()
+        && cycles > 0
+    {
+        plot.finish()?;
+    }
+    match table.finish() {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(exit::CLEAN),
+        written => written.map_err(Failure::output)?,
+    }
+    outputs.finish()?;
+    let (errors, remarks) = currents.diagnostics();
+    let mut said = errors.to_vec();
+    said.extend(levelled(remarks, &loaded));
+    console.show(&said);
+    if cycles == 0 {
+        Console::talk(&nothing(&names));
+    }
+    say_left_out(currents.left_out());
+    say_table(&names, currents.sink());
+    Console::talk(&format!("reading: {}", args.reading));
+    for (name, cycles) in names.iter().zip(currents.saturated()) {
+        say_saturated(&format!(" of axis {name}"), cycles);
+    }
+    for (name, cycles) in names.iter().zip(currents.at_rest()) {
+        say_at_rest(&format!(" of axis {name}"), args.reading, cycles);
+    }
+    let lists = followed
+        .iter()
+        .map(|axis| &loaded.machine.axis(*axis).friction);
+    let mut lists = lists.filter_map(|friction| match friction {
+        Parameterisation::Accepted(list) if cycles > 0 => Some(list),
+        _ => None,
+    });
+    if let Some(list) = lists.next() {
+        say_sign(list);
+    }
+    args.machine.say_unread(&ledger, console);
+    let failed = said.iter().any(|said| said.severity == Severity::Error);
+    Ok(if failed { exit::FOUND } else { exit::CLEAN })
+}
+
+/// The cycle of the command line, else that of the machine.
+fn options(args: &CurrentArgs, loaded: &LoadedMachine) -> Result<CurrentOptions, Failure> {
+    let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
+    let cycle = args.cycle.seconds()?.or(of_machine);
+    let planner = PlannerOptions {
+        cycle_s: check_cycle(cycle.unwrap_or(PlannerOptions::default().cycle_s))?,
+        max_cycles: args.max_cycles,
+    };
+    Ok(CurrentOptions::from(planner).with_reading(args.reading))
+}
+
+/// By what the outputs are multiplied on their way to the drives, where it is not 1 (R7.8).
+fn say_scaling(loaded: &LoadedMachine) {
+    for axis in &loaded.machine.axes {
+        let scale = axis.torque_scale;
+        if scale != TorqueScale::default() {
+            let (name, above, below) = (&axis.name, scale.numerator, scale.denominator);
+            Console::talk(&format!("{name}: `output` is scaled by {above}/{below}"));
+        }
+    }
+}
+
+/// The axes of the picture.
+fn plotted(loaded: &LoadedMachine, followed: &[AxisIndex]) -> Vec<AxisPlot> {
+    let axes = followed.iter().map(|axis| loaded.machine.axis(*axis));
+    axes.map(|axis| AxisPlot::new(&axis.name, Some(axis.axis_type)))
+        .collect()
+}
+
+/// The diagnostics with the severities of the user.
+fn levelled(diagnostics: &[Diagnostic], loaded: &LoadedMachine) -> Vec<Diagnostic> {
+    let levelled = diagnostics.iter().filter_map(|said| {
+        let severity = loaded.levels.severity(said.code)?;
+        Some(Diagnostic {
+            severity,
+            ..said.clone()
+        })
+    });
+    levelled.collect()
+}
+
+/// Says how many motions are not in the trace.
+fn say_left_out(motions: u64) {
+    match motions {
+        0 => {}
+        1 => Console::talk("1 motion is left out of the trace"),
+        more => Console::talk(&format!("{more} motions are left out of the trace")),
+    }
+}
+
+fn nothing(names: &[String]) -> String {
+    let names = names.join(", ");
+    format!(
+        "no cycle: there is no motion whose start and end are known; program absolute \
+         positions for {names} and the axes that move with it first"
+    )
+}
+
+/// Says where the trace begins, and where an axis has no current.
+fn say_table(names: &[String], table: &Table) {
+    for (at, (time, line)) in table.begins().iter().enumerate() {
+        let anew = if at == 0 { "begins" } else { "restarts" };
+        Console::talk(&format!("the trace {anew} with line {line}, at {time} s"));
+    }
+    for (name, states) in names.iter().zip(table.seen()) {
+        for state in states {
+            let word = state.as_str();
+            let what = match state {
+                State::Unknown => "its current is left empty",
+                _ => "its current is 0",
+            };
+            Console::talk(&format!("{name}: while its state is `{word}`, {what}"));
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! The currents of a program as CSV, on their way out.
+
+use std::io::{self, BufWriter, Write};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::args::Column;
+use super::plot::Plot;
+use frictcomp::comp::State;
+use frictcomp_host::{Done, LineTracker, Reached, Watch};
+use frictcomp_physics::current::{CurrentCycle, CurrentSample, CurrentSink};
+use frictcomp_physics::motion::Simplification;
+use frictcomp_report::pictures::AxisSample;
+
+/// Cycles between two looks at the clock.
+const STEP: u64 = 1 << 16;
+
+/// What a table shows, and of what.
+pub(super) struct TableOptions<'a> {
+    pub(super) names: &'a [String],
+    pub(super) columns: &'a [Column],
+    /// The program as it is named in records.
+    pub(super) program: String,
+    pub(super) watch: Arc<Watch>,
+}
+
+/// The rows of the result on their way out.
+pub(super) struct Table {
+    columns: Vec<Column>,
+    writer: BufWriter<Box<dyn Write + Send>>,
+    written: io::Result<()>,
+    cycles: u64,
+    watch: Arc<Watch>,
+    program: String,
+    tracker: LineTracker,
+    /// When and at which line the trace begins, and begins anew.
+    begins: Vec<(f64, u32)>,
+    /// The states that each axis was in, other than active.
+    seen: Vec<Vec<State>>,
+    plot: Option<Plot>,
+    /// The block that is followed: program and executed block.
+    block: Option<(u32, u64)>,
+}
+
+impl Table {
+    /// A table with its header.
+    pub(super) fn new(
+        writer: Box<dyn Write + Send>,
+        options: TableOptions<'_>,
+        plot: Option<Plot>,
+    ) -> Self {
+        let mut table = Self {
+            columns: options.columns.to_vec(),
+            writer: BufWriter::new(writer),
+            written: Ok(()),
+            cycles: 0,
+            watch: options.watch,
+            program: options.program,
+            tracker: LineTracker::default(),
+            begins: Vec::new(),
+            seen: vec![Vec::new(); options.names.len()],
+            plot,
+            block: None,
+        };
+        table.header(options.names);
+        table
+    }
+
+    /// When and at which line the trace begins, and begins anew.
+    pub(super) fn begins(&self) -> &[(f64, u32)] {
+        &self.begins
+    }
+
+    /// The states that each axis was in, other than active.
+    pub(super) fn seen(&self) -> &[Vec<State>] {
+        &self.seen
+    }
+
+    /// The picture of what went out.
+    pub(super) fn take_plot(&mut self) -> Option<Plot> {
+        self.plot.take()
+    }
+
+    /// Writes what is left, or says why a row could not be written.
+    pub(super) fn finish(&mut self) -> io::Result<()> {
+        std::mem::replace(&mut self.written, Ok(()))?;
+        self.writer.flush()
+    }
+
+    /// `t,x,v,…` for one axis, `t,x.X,v.X,…` for several.
+    fn header(&mut self, names: &[String]) {
+        let mut header = vec!["t".to_owned()];
+        for name in names {
+            let suffix = match names.len() {
+                1 => String::new(),
+                _ => format!(".{name}"),
+            };
+            let comp = self.columns.contains(&Column::Comp).then_some("comp");
+            let columns = ["x", "v", "w_before", "w_after", "current", "output"];
+            for column in columns.into_iter().chain(comp) {
+                header.push(format!("{column}{suffix}"));
+            }
+        }
+        for (column, name) in [(Column::Line, "line"), (Column::Simplified, "simplified")] {
+            if self.columns.contains(&column) {
+                header.push(name.to_owned());
+            }
+        }
+        self.written = writeln!(self.writer, "{}", header.join(","));
+    }
+}
+
+impl CurrentSink for Table {
+    fn begin(&mut self, time_s: f64, line: u32) {
+        if let Some(plot) = &mut self.plot {
+            plot.traces.interrupt();
+        }
+        self.begins.push((time_s, line));
+    }
+
+    fn cycle(&mut self, cycle: &CurrentCycle<'_>) -> ControlFlow<()> {
+        self.cycles += 1;
+        let passes = self.tracker.reach(cycle.cause.line);
+        if self.cycles.is_multiple_of(STEP) {
+            let reached = Reached {
+                file: &self.program,
+                line: cycle.cause.line,
+            };
+            self.watch
+                .show_program(Done::Cycles(self.cycles), reached, passes);
+        }
+        for (seen, axis) in self.seen.iter_mut().zip(cycle.axes) {
+            let state = axis.commanded.friction;
+            if state != State::Active && !seen.contains(&state) {
+                seen.push(state);
+            }
+        }
+        if self.written.is_ok() {
+            self.written = write_row(&mut self.writer, &self.columns, cycle);
+        }
+        if let Some(plot) = &mut self.plot {
+            let (cause, block) = (cycle.cause, (cycle.cause.program, cycle.cause.seq));
+            if self.block.replace(block) != Some(block) {
+                plot.traces.block(cycle.time_s, cause.number, cause.line);
+            }
+            let axes = cycle.axes.iter();
+            plot.traces.push(
+                cycle.time_s,
+                axes.map(|it| AxisSample {
+                    velocity: it.commanded.velocity_units,
+                    state: it.commanded.friction,
+                    added: &it.added,
+                }),
+            );
+        }
+        match self.written {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        }
+    }
+}
+
+fn write_row(
+    writer: &mut impl Write,
+    columns: &[Column],
+    cycle: &CurrentCycle<'_>,
+) -> io::Result<()> {
+    write!(writer, "{}", cycle.time_s)?;
+    for CurrentSample { commanded, added } in cycle.axes {
+        let (x, v) = (commanded.position_units, commanded.velocity_units);
+        write!(writer, ",{x},{v},{},{}", added.w_before, added.w_after)?;
+        match commanded.friction {
+            // It is not known.
+            State::Unknown => write!(writer, ",,")?,
+            _ => write!(writer, ",{},{}", added.current_units, added.output)?,
+        }
+        if columns.contains(&Column::Comp) {
+            write!(writer, ",{}", commanded.friction.as_str())?;
+        }
+    }
+    if columns.contains(&Column::Line) {
+        write!(writer, ",{}", cycle.cause.line)?;
+    }
+    if columns.contains(&Column::Simplified) {
+        let names = cycle.cause.simplified.iter().map(Simplification::name);
+        write!(writer, ",{}", names.collect::<Vec<_>>().join(" "))?;
+    }
+    writeln!(writer)
+}

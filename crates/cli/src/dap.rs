@@ -1,0 +1,27 @@
+//! `frictcomp dap`: the debug adapter.
+
+use std::io::{self, BufReader};
+
+use clap::Args;
+
+use super::exit;
+use super::failure::Failure;
+use frictcomp_editor::dap::serve;
+
+/// Serve an editor over the Debug Adapter Protocol, on standard input and output
+///
+/// An editor starts it to step through a program block by block, with breakpoints on lines and on
+/// changes of states; `docs/editors.md` has the settings of editors.
+#[derive(Debug, Args)]
+pub(super) struct DapArgs {
+    /// Talk over standard input and output, which is the only way: some editors say so
+    #[arg(long)]
+    stdio: bool,
+}
+
+/// Runs the command.
+pub(super) fn run(_: &DapArgs) -> Result<u8, Failure> {
+    serve(BufReader::new(io::stdin()), io::stdout())
+        .map_err(|error| Failure::new(format!("the connection to the editor broke: {error}")))?;
+    Ok(exit::CLEAN)
+}

@@ -1,0 +1,182 @@
+//! `frictcomp diff`: which blocks change the compensation state between two versions.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::console::{Console, Printed};
+use super::execution::ExecutionArgs;
+use super::exit;
+use super::failure::Failure;
+use super::machine::{MachineArgs, undescribed_remark};
+use super::outputs::Outputs;
+use super::painted::difference;
+use super::result::{Format, ResultArgs};
+use super::settings;
+use super::simulated::{SimulationArgs, Tolerance};
+use frictcomp::comp::KindSet;
+use frictcomp::session::StopPolicy;
+use frictcomp::text::shown_path;
+use frictcomp_host::{
+    Alone, Axes, Input, Ledger, LoadedMachine, MachineOfVersions, MachineOwner, Naming,
+    drive_contour, run_alone, switched_axes,
+};
+use frictcomp_physics::compare::{
+    Agreement, ContourAgreement, ContourComparison, Version, VersionComparison, VersionContour,
+};
+use frictcomp_physics::contour::BlockDeviations;
+use frictcomp_report::fitted;
+use frictcomp_report::html::render_versions;
+use frictcomp_report::versions::{ContoursReport, VersionsReport, render_json, render_text};
+
+/// Show which compensation changes differ between two versions of a program
+///
+/// The exit status is 0 if both versions change the states in the same way, and 1 if a block changes
+/// a state in only one of them, or if a version is not known as a whole: an error stops it, a state
+/// depends on what only the machine knows, or no machine is described. With `--contour` it is 1, too,
+/// if a block of the new version deviates more, or if a motion could not be driven.
+#[derive(Debug, Args)]
+pub(super) struct DiffArgs {
+    /// The old version
+    #[arg(value_name = "OLD")]
+    old: PathBuf,
+    /// The new version
+    #[arg(value_name = "NEW")]
+    new: PathBuf,
+    /// The kinds of compensation to compare: `FRICT,LEAD` or `all`
+    #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
+    kinds: KindSet,
+    /// Compare the contours, too: where the simulated axes leave the path farther in the new version
+    #[arg(long)]
+    contour: bool,
+    /// What a block may deviate more in the new version, in µm; by default 0.5
+    #[arg(long, value_name = "UM")]
+    tolerance: Option<Tolerance>,
+    #[command(flatten)]
+    simulation: SimulationArgs,
+    #[command(flatten)]
+    result: ResultArgs,
+    /// Also write an HTML report with the changes of both versions to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &DiffArgs, console: Console) -> Result<u8, Failure> {
+    if !args.contour {
+        Tolerance::refuse_without_contour(args.tolerance)?;
+        args.simulation.refuse_without_contour()?;
+    }
+    let ledger = Ledger::default();
+    let inputs = [&args.old, &args.new].map(|path| Input::new(path));
+    for input in &inputs {
+        input.probe()?;
+        input.note(&ledger);
+    }
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.result.output.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
+    let mut machines = args.machine.machines(&ledger);
+    let machine = machines.for_versions(&inputs)?;
+    outputs.check()?;
+    if let Some(remark) = remark(&machine) {
+        console.remark(&remark);
+    }
+    let [old, new] = &inputs;
+    let comparison = VersionComparison::new(
+        version(args, old, &machine.old)?,
+        version(args, new, &machine.new)?,
+    );
+    let contours = if args.contour {
+        Some(contours(args, &inputs, (&machine, &ledger))?)
+    } else {
+        None
+    };
+    let is_described = machine.new.machine.is_described();
+    let report = VersionsReport {
+        old: shown_path(&args.old),
+        new: shown_path(&args.new),
+        remark: (!is_described)
+            .then(|| undescribed_remark(&inputs))
+            .flatten(),
+        comparison,
+        contours,
+    };
+    let printed = match args.result.format {
+        Format::Text => {
+            let text = fitted(&render_text(&report), result.look.width);
+            result.painted(&text, difference)?
+        }
+        Format::Json => result.text(&render_json(&report))?,
+    };
+    let written = html.is_some();
+    if let Some(mut html) = html {
+        render_versions(&report, &mut html).map_err(Failure::output)?;
+    }
+    outputs.finish()?;
+    let contours = report.contours.as_ref().map(|it| it.comparison.agreement());
+    Ok(match (report.comparison.agreement(), contours) {
+        _ if printed == Printed::Unread && !written => exit::CLEAN,
+        (Agreement::Same, None | Some(ContourAgreement::NoMore)) => exit::CLEAN,
+        _ => exit::FOUND,
+    })
+}
+
+/// Whose machine both versions run on, where that is no matter of course (R17.4).
+fn remark(machine: &MachineOfVersions) -> Option<String> {
+    let taken = shown_path(machine.new.origin.as_ref()?);
+    match &machine.owner {
+        MachineOwner::NewNotOld(path) => {
+            let passed_over = shown_path(path);
+            Some(format!(
+                "both versions run on the machine of `{taken}`, not on that of `{passed_over}`"
+            ))
+        }
+        MachineOwner::CurrentFolder => Some(format!(
+            "both versions run on the machine of `{taken}`, that of the current folder"
+        )),
+        _ => None,
+    }
+}
+
+/// The contours of both versions.
+fn contours(
+    args: &DiffArgs,
+    inputs: &[Input; 2],
+    (machine, ledger): (&MachineOfVersions, &Ledger),
+) -> Result<ContoursReport, Failure> {
+    let mut plane = Default::default();
+    let mut contour = |input, loaded| -> Result<VersionContour, Failure> {
+        let of = (loaded, Naming::AsGiven);
+        let setup = args.simulation.setup(of, &args.execution, ledger)?;
+        let contour = drive_contour(input, loaded, &setup, |_| BlockDeviations::default())?;
+        plane = setup.plane;
+        Ok(contour.into())
+    };
+    let [old, new] = inputs;
+    let (old, new) = (contour(old, &machine.old)?, contour(new, &machine.new)?);
+    Ok(ContoursReport {
+        comparison: ContourComparison::new(old, new, args.tolerance.unwrap_or_default().um()),
+        plane,
+        plant: args.simulation.plant().to_owned(),
+    })
+}
+
+/// What a version switches.
+fn version(args: &DiffArgs, input: &Input, loaded: &LoadedMachine) -> Result<Version, Failure> {
+    let alone = Alone {
+        options: args.execution.options(loaded, StopPolicy::FirstError),
+        naming: Naming::AsGiven,
+        axes: Axes::AsTheyOccur,
+    };
+    let mut version = Version::new(args.kinds);
+    run_alone(input, loaded, alone, &mut version)?;
+    if !loaded.machine.is_described() && !switched_axes([input]).is_empty() {
+        version.rests_on_no_machine();
+    }
+    Ok(version)
+}

@@ -1,0 +1,101 @@
+//! `frictcomp explain`: the page of a code, a parameter, a rule or another word.
+
+use std::borrow::Cow;
+
+use clap::Args;
+
+use super::console::Console;
+use super::exit;
+use super::failure::Failure;
+use super::painted::page as titles;
+use super::vocabulary;
+use frictcomp::diagnostic::{Code, did_you_mean};
+use frictcomp::documents::PARAMETER_PAGES;
+
+/// Explain a message, a parameter, a rule or another word
+#[derive(Debug, Args)]
+pub(super) struct ExplainArgs {
+    /// A code, parameter, rule or word, such as `FC201`, `70495`, `P-COMP-00043`,
+    /// `frict_comp.mode`, `R1.27`, `C12`, `COMP`, `V.A.FRICT_COMP_ACTIVE`, `60B2` or `MP1511`
+    #[arg(value_name = "WORD")]
+    code: String,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ExplainArgs, console: Console) -> Result<u8, Failure> {
+    let page = find(args.code.trim()).ok_or_else(|| unknown(&args.code))?;
+    let text = format!("{}\n", page.trim_end());
+    console.print_painted(&text, titles)?;
+    Ok(exit::CLEAN)
+}
+
+/// The page of a code, of a parameter's number or of its key, of a rule or of a word.
+fn find(text: &str) -> Option<Cow<'static, str>> {
+    let number = text.bytes().all(|byte| byte.is_ascii_digit());
+    let bare = number.then(|| format!("FC{text}"));
+    let code = text.parse::<Code>().ok();
+    if let Some(code) = code.or_else(|| bare?.parse().ok()) {
+        return Some(code.page().into());
+    }
+    let key = general_key(text);
+    PARAMETER_PAGES
+        .iter()
+        .find(|parameter| {
+            parameter.number.eq_ignore_ascii_case(text) || parameter.key.eq_ignore_ascii_case(&key)
+        })
+        .map(|parameter| parameter.page.into())
+        .or_else(|| vocabulary::find(text).map(Cow::Owned))
+}
+
+/// `frict_comp.table[3].in` is `frict_comp.table[i].in`.
+fn general_key(text: &str) -> String {
+    let Some((before, rest)) = text.split_once('[') else {
+        return text.to_owned();
+    };
+    match rest.split_once(']') {
+        Some((index, behind)) if index.bytes().all(|byte| byte.is_ascii_digit()) => {
+            format!("{before}[i]{behind}")
+        }
+        _ => text.to_owned(),
+    }
+}
+
+fn unknown(text: &str) -> Failure {
+    let codes = Code::ALL.iter().map(|code| code.as_str());
+    let parameters = PARAMETER_PAGES
+        .iter()
+        .flat_map(|parameter| [parameter.number, parameter.key]);
+    let failure = Failure::new(format!("there is no page about `{text}`"));
+    match did_you_mean(text, codes.chain(parameters).chain(vocabulary::words())) {
+        Some(near) => failure.with_help(format!("did you mean `{near}`?")),
+        None => failure.with_help("`frictcomp codes` lists every code"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_are_found_by_every_name() {
+        for name in [
+            "P-ERR-70495",
+            "70495",
+            "fc201",
+            "P-COMP-00043",
+            "p-axis-00522",
+            "frict_comp.mode",
+            "frict_comp.table[7].in",
+            "frict_comp.table[i].out",
+            "139",
+            "R1.27",
+            "COMP",
+        ] {
+            assert!(find(name).is_some(), "{name}");
+        }
+        assert!(find("P-ERR-1").is_none());
+        assert!(find("1").is_none() && find("").is_none());
+        assert_eq!(unknown("FC20l").help, ["did you mean `FC201`?"]);
+        assert_eq!(unknown("FRIKT").help, ["did you mean `FRICT`?"]);
+    }
+}

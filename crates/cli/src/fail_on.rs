@@ -1,0 +1,97 @@
+//! The severity from which on a command fails.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use clap::ValueEnum;
+
+use frictcomp::comp::Kind;
+use frictcomp::diagnostic::Severity;
+
+/// From which severity on the exit status is 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum FailOn {
+    /// An error of the control or of a list.
+    #[default]
+    Error,
+    /// A warning or an error.
+    Warning,
+    /// Any message.
+    Info,
+    /// An error, or a state that is not known at a program's end or where its axis moves.
+    Unknown,
+    /// Nothing.
+    Never,
+}
+
+impl FailOn {
+    /// Whether something of this severity gives the status 1.
+    pub(super) fn counts(self, severity: Severity) -> bool {
+        self.least().is_some_and(|least| severity >= least)
+    }
+
+    fn least(self) -> Option<Severity> {
+        match self {
+            Self::Error | Self::Unknown => Some(Severity::Error),
+            Self::Warning => Some(Severity::Warning),
+            Self::Info => Some(Severity::Info),
+            Self::Never => None,
+        }
+    }
+
+    /// The exit status with states that are not known, and how they are named (R2.98).
+    pub(super) fn unknown_status(self, unknown: &BTreeSet<String>) -> u8 {
+        if self == Self::Unknown && !unknown.is_empty() {
+            super::exit::FOUND
+        } else {
+            super::exit::CLEAN
+        }
+    }
+
+    /// What is said about states that are not known, where they give the status 1.
+    pub(super) fn unknown_remark(self, unknown: &BTreeSet<String>) -> Option<String> {
+        let named: Vec<&str> = unknown.iter().map(String::as_str).collect();
+        let named = named.join(", ");
+        (self.unknown_status(unknown) != super::exit::CLEAN)
+            .then(|| format!("not known at the end of a program or where the axis moves: {named}"))
+    }
+
+    /// The exit status for how many diagnostics were said at each severity (R9.26).
+    pub(super) fn status(self, counts: &BTreeMap<Severity, u64>) -> u8 {
+        let mut said = counts.iter().filter(|(_, count)| **count > 0);
+        if said.any(|(severity, _)| self.counts(*severity)) {
+            super::exit::FOUND
+        } else {
+            super::exit::CLEAN
+        }
+    }
+}
+
+/// How a kind of an axis is named where its state is not known.
+pub(super) fn of_axis(axis: &str, kind: Kind) -> String {
+    format!("`{kind}` of `{axis}`")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_status_follows_the_severity_that_counts() {
+        // R9.26
+        let mut counts = BTreeMap::new();
+        assert_eq!(FailOn::Info.status(&counts), 0);
+        counts.insert(Severity::Warning, 1);
+        assert_eq!(FailOn::Error.status(&counts), 0);
+        assert_eq!(FailOn::Warning.status(&counts), 1);
+        assert_eq!(FailOn::Info.status(&counts), 1);
+        counts.insert(Severity::Error, 1);
+        assert_eq!(FailOn::Error.status(&counts), 1);
+        assert_eq!(FailOn::Never.status(&counts), 0);
+        // R2.98
+        let unknown = BTreeSet::from(["FRICT of X".to_owned()]);
+        assert_eq!(FailOn::Unknown.status(&counts), 1);
+        assert_eq!(FailOn::Unknown.unknown_status(&unknown), 1);
+        assert_eq!(FailOn::Error.unknown_status(&unknown), 0);
+        assert_eq!(FailOn::Unknown.unknown_status(&BTreeSet::new()), 0);
+    }
+}

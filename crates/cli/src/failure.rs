@@ -1,0 +1,156 @@
+//! Why the tool could not do its work.
+
+use std::io;
+use std::path::Path;
+
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::text::shown_path;
+use frictcomp_host::{HostError, TraceError};
+use frictcomp_physics::circle::{CircleError, RecordedError};
+use frictcomp_physics::current::FollowError;
+use frictcomp_physics::motion::CycleError;
+use frictcomp_report::visible_line;
+
+/// A path as it is shown in a text of several lines (R9.76).
+pub(super) fn shown(path: &Path) -> String {
+    visible_line(&shown_path(path)).into_owned()
+}
+
+/// One clear sentence, what to do, and where the reason is in the user's file.
+#[derive(Debug, Default)]
+pub(super) struct Failure {
+    /// One sentence in lower case.
+    pub(super) message: String,
+    /// What to do.
+    pub(super) help: Vec<String>,
+    /// The lines of a configuration or list that are the reason.
+    pub(super) diagnostics: Vec<Diagnostic>,
+}
+
+impl Failure {
+    /// A failure without advice.
+    pub(super) fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            ..Self::default()
+        }
+    }
+
+    /// The same with one more piece of advice.
+    pub(super) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help.push(help.into());
+        self
+    }
+
+    /// A file that cannot be written.
+    pub(super) fn writing(path: &Path, error: io::Error) -> Self {
+        HostError::write(path, error).into()
+    }
+
+    /// Output that cannot be written.
+    pub(super) fn output(error: io::Error) -> Self {
+        HostError::Output(error).into()
+    }
+}
+
+impl From<HostError> for Failure {
+    fn from(error: HostError) -> Self {
+        Self {
+            message: error.to_string(),
+            help: circle_option(&error)
+                .map(str::to_owned)
+                .or_else(|| error.help())
+                .or_else(|| options_for(&error))
+                .into_iter()
+                .collect(),
+            diagnostics: error.diagnostics().to_vec(),
+        }
+    }
+}
+
+/// What to do on the command line, where the host has no advice of its own.
+fn options_for(error: &HostError) -> Option<String> {
+    let help = match error {
+        HostError::ReplacesSource { .. } => "name another file, or use `--force` to replace it",
+        HostError::FolderAsProgram(folder) => {
+            return Some(format!(
+                "name its programs, or use `frictcomp check {}`, which searches folders",
+                shown_path(folder)
+            ));
+        }
+        HostError::NotAStartupList { path, .. } if frictcomp_host::is_configuration(path) => {
+            "`--config` takes a `frictcomp.toml`"
+        }
+        HostError::NotAStartupList { .. } => {
+            "`--startup` takes the list that names all others, `hochlauf.lis`"
+        }
+        HostError::Trace(TraceError::Cycles { .. } | TraceError::SeveralClocks(_)) => {
+            "record one row per CNC cycle, give the cycle with `--cycle-time-ms`, or make cycles of \
+             the rows with `--resample`"
+        }
+        HostError::SeveralStartupLists(_) => "say with `--startup LIST` which one the machine has",
+        HostError::AlreadyThere(path) if frictcomp_host::is_configuration(path) => {
+            "`frictcomp config show` shows the machine that it describes"
+        }
+        HostError::AxisName(_) => "write `--enable X,Y`",
+        HostError::NoPlant(_) => {
+            return Some(format!(
+                "there are {}, and files: `--plant FILE.toml`",
+                frictcomp_physics::simulation::Preset::names()
+            ));
+        }
+        _ => return None,
+    };
+    Some(help.to_owned())
+}
+
+/// The option that gives what is wrong about a recorded circle.
+fn circle_option(error: &HostError) -> Option<&'static str> {
+    let HostError::Trace(TraceError::Circle { reason, .. } | TraceError::Circles(reason)) = error
+    else {
+        return None;
+    };
+    match reason {
+        RecordedError::Radius { .. } => Some("check `--radius` and the unit of the columns"),
+        RecordedError::CommandedRadius(_) => Some("write the commanded radius, `--radius 100`"),
+        RecordedError::CommandedFeed(_) => Some("write the commanded feed, `--feed 1000`"),
+        RecordedError::Apart { .. } => Some(
+            "record both directions with the same zero point, or compare the shapes alone with \
+             `--centre own`",
+        ),
+        _ => None,
+    }
+}
+
+impl From<CircleError> for Failure {
+    fn from(error: CircleError) -> Self {
+        Self::new(error.to_string()).with_help(match error {
+            CircleError::Radius(_) => "write the radius in mm, `--radius 100`",
+            CircleError::CycleTime(_) => "write the milliseconds of a cycle, `--cycle-time-ms 1`",
+            _ => error.help(),
+        })
+    }
+}
+
+impl From<CycleError> for Failure {
+    fn from(error: CycleError) -> Self {
+        Self::new(error.to_string())
+            .with_help("write the milliseconds of a cycle, `--cycle-time-ms 1`")
+    }
+}
+
+impl From<FollowError> for Failure {
+    fn from(error: FollowError) -> Self {
+        let help = match &error {
+            FollowError::NoAxis(unknown) => unknown.help("its axes are"),
+            FollowError::Assumed(_) => {
+                Some("name its compensation value list with `--value-list`".to_owned())
+            }
+        };
+        Self {
+            message: error.to_string(),
+            help: help.into_iter().collect(),
+            diagnostics: Vec::new(),
+        }
+    }
+}

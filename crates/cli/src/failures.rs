@@ -1,0 +1,53 @@
+//! What could not be done of several things; the rest is done all the same (R9.77).
+
+use super::console::Console;
+use super::failure::Failure;
+use frictcomp_host::HostError;
+
+/// What could not be done of several things.
+#[derive(Debug, Default)]
+pub(super) struct Failures(Vec<Failure>);
+
+impl From<Vec<HostError>> for Failures {
+    fn from(errors: Vec<HostError>) -> Self {
+        Self(errors.into_iter().map(Failure::from).collect())
+    }
+}
+
+impl Failures {
+    /// One more. One reason may stop many programs and is said once.
+    pub(super) fn push(&mut self, failure: Failure) {
+        if self.0.iter().all(|it| it.message != failure.message) {
+            self.0.push(failure);
+        }
+    }
+
+    /// Those of another part of the work.
+    pub(super) fn extend(&mut self, others: Self) {
+        others.0.into_iter().for_each(|it| self.push(it));
+    }
+
+    /// What could be done, without the rest, which is kept.
+    pub(super) fn keep<T>(&mut self, (done, errors): (T, Vec<HostError>)) -> T {
+        for error in errors {
+            self.push(error.into());
+        }
+        done
+    }
+
+    /// Whether everything was done.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Says what could not be done: the status of a command that could do the rest.
+    pub(super) fn status(mut self, console: Console, done: u8) -> Result<u8, Failure> {
+        let Some(last) = self.0.pop() else {
+            return Ok(done);
+        };
+        for failure in &self.0 {
+            console.explain(failure);
+        }
+        Err(last)
+    }
+}

@@ -1,0 +1,257 @@
+//! `frictcomp golden`: each program's timeline, or contour, against the one that was agreed on.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::console::{Console, Printed};
+use super::execution::ExecutionArgs;
+use super::exit;
+use super::failure::{Failure, shown};
+use super::failures::Failures;
+use super::listing::passed_over;
+use super::machine::MachineArgs;
+use super::painted::difference;
+use super::severities::SeverityArgs;
+use super::simulated::{SimulationArgs, Tolerance};
+use frictcomp::session::StopPolicy;
+use frictcomp::text::shown_path;
+use frictcomp_host::{
+    AgreedDrift, AgreedFile, AgreedKind, AgreedResults, Alone, Axes, HostError, Input, Ledger,
+    LoadedMachine, Machines, Naming, drive_contour, find_programs, run_alone,
+};
+use frictcomp_physics::contour::BlockDeviations;
+use frictcomp_report::contour::{AgreedContour, render_agreed};
+use frictcomp_report::{Report, Text, TextChange, TextOptions, render_unified};
+
+const TIMELINE: AgreedKind = AgreedKind {
+    extension: "timeline",
+    writer: "golden --update",
+    tolerance_um: 0.0,
+};
+
+/// Compare each program's timeline with the `.timeline` file beside it
+///
+/// With `--contour` it is the contour that is compared, with the `.contour` file beside the program: the
+/// deviation of each block and the glitches of its reversals. A figure that changes by no more than the
+/// tolerance is as agreed.
+#[derive(Debug, Args)]
+pub(super) struct GoldenArgs {
+    /// Programs and folders of programs
+    #[arg(value_name = "PATH", default_value = ".")]
+    paths: Vec<PathBuf>,
+    /// Write the timelines, or contours, instead of comparing them
+    #[arg(long)]
+    update: bool,
+    /// Compare contours in place of timelines
+    #[arg(long)]
+    contour: bool,
+    /// What a figure of a contour may change, in µm; by default 0.5
+    #[arg(long, value_name = "UM")]
+    tolerance: Option<Tolerance>,
+    #[command(flatten)]
+    simulation: SimulationArgs,
+    /// Print only the differences
+    #[arg(long, short)]
+    quiet: bool,
+    #[command(flatten)]
+    severities: SeverityArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// The programs of one call, what they run on, and what was agreed on.
+struct Bench<'a> {
+    args: &'a GoldenArgs,
+    machines: Machines,
+    ledger: Ledger,
+    agreed: AgreedResults,
+    files: Vec<AgreedFile>,
+    /// What to say of files that are no programs.
+    passed_over: String,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &GoldenArgs, console: Console) -> Result<u8, Failure> {
+    if !args.contour {
+        Tolerance::refuse_without_contour(args.tolerance)?;
+        args.simulation.refuse_without_contour()?;
+    }
+    let ledger = Ledger::default();
+    let console = if args.quiet { console.quiet() } else { console };
+    let mut machines = args.machine.weighed(&args.severities, &ledger)?;
+    let found = find_programs(&args.paths, |folder| machines.extensions(folder));
+    let mut failures = Failures::from(found.failures);
+    let agreed = AgreedResults::of(args.kind(), &args.paths);
+    let mut files = Vec::new();
+    for input in &found.inputs {
+        input.note(&ledger);
+        match agreed.beside(input) {
+            Ok(file) => files.push(file),
+            Err(error) => failures.push(error.into()),
+        }
+    }
+    let programs: Vec<Input> = files.iter().map(|it| it.program.clone()).collect();
+    machines.look_ahead(&programs);
+    let bench = Bench {
+        args,
+        machines,
+        ledger,
+        agreed,
+        files,
+        passed_over: passed_over(found.passed_over),
+    };
+    let status = if args.update {
+        bench.update(console, &mut failures)?
+    } else {
+        bench.compare(console, &mut failures)?
+    };
+    failures.status(console, status)
+}
+
+impl Bench<'_> {
+    fn compare(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+        let (mut drifted, mut missing) = (0_u64, 0_u64);
+        let mut output = String::new();
+        for file in &self.files {
+            let now = result(&file.program, (self.args, &mut self.machines), &self.ledger);
+            let name = shown(&file.path);
+            match now.and_then(|now| Ok(self.agreed.compare(file, now)?)) {
+                Ok(AgreedDrift::AsAgreed) => {}
+                Ok(AgreedDrift::Missing { .. }) => {
+                    missing += 1;
+                    let line = console.fitted(&format!("{name} is missing\n"));
+                    let _ = writeln!(output, "{line}");
+                }
+                Ok(AgreedDrift::Drifted { before, now }) => {
+                    drifted += 1;
+                    let (agreed, found) = (format!("{name} (agreed)"), format!("{name} (now)"));
+                    let change = TextChange {
+                        before: (&agreed, &before),
+                        after: (&found, &now),
+                    };
+                    let _ = writeln!(output, "{}", render_unified(change));
+                }
+                Err(failure) => failures.push(failure),
+            }
+        }
+        if let Printed::Unread = console.print_painted(&output, difference)? {
+            return Ok(exit::CLEAN);
+        }
+        let all = self.args.counted(self.files.len());
+        if drifted + missing > 0 {
+            let counts = [(drifted, "drifted"), (missing, "missing")];
+            let parts = counts.iter().filter(|(count, _)| *count > 0);
+            let parts: Vec<String> = parts.map(|(n, word)| format!("{n} {word}")).collect();
+            let parts = parts.join(", ");
+            Console::talk(&format!("of {all} {parts} (`--update` writes them)"));
+            return Ok(exit::FOUND);
+        }
+        if failures.is_empty() {
+            console.remark(&format!("{all} as agreed{}", self.passed_over));
+        }
+        Ok(exit::CLEAN)
+    }
+
+    fn update(mut self, console: Console, failures: &mut Failures) -> Result<u8, Failure> {
+        let mut written = 0;
+        let (args, ledger) = (self.args, &self.ledger);
+        let now = |program: &Input| result(program, (args, &mut self.machines), ledger);
+        for updated in self.agreed.update::<Failure>(&self.files, ledger, now)? {
+            for path in &updated.written {
+                console.remark(&format!("wrote `{}`", shown_path(path)));
+            }
+            if updated.failures.is_empty() {
+                written += updated.written.len();
+                continue;
+            }
+            let (folder, count) = (shown_path(updated.folder), args.counted(updated.files));
+            for failure in updated.failures {
+                failures.push(failure);
+            }
+            Console::talk(&match updated.written.len() {
+                0 => format!("left out `{folder}`: nothing of its {count} was written"),
+                some => format!("`{folder}`: {some} of its {count} written"),
+            });
+            written += updated.written.len();
+        }
+        let all = self.args.counted(self.files.len());
+        console.remark(&format!("{written} of {all} written{}", self.passed_over));
+        Ok(exit::CLEAN)
+    }
+}
+
+impl GoldenArgs {
+    fn kind(&self) -> AgreedKind {
+        if !self.contour {
+            return TIMELINE;
+        }
+        AgreedKind {
+            extension: "contour",
+            writer: "golden --contour --update",
+            tolerance_um: self.tolerance.unwrap_or_default().um(),
+        }
+    }
+
+    fn counted(&self, count: usize) -> String {
+        let kind = self.kind().extension;
+        match count {
+            1 => format!("1 {kind}"),
+            _ => format!("{count} {kind}s"),
+        }
+    }
+}
+
+/// What is agreed on of one program.
+fn result(
+    program: &Input,
+    (args, machines): (&GoldenArgs, &mut Machines),
+    ledger: &Ledger,
+) -> Result<String, Failure> {
+    let loaded = machines.for_folder(program.folder())?;
+    if args.contour {
+        contour(program, (args, &loaded), ledger)
+    } else {
+        Ok(timeline(program, &loaded, &args.execution)?)
+    }
+}
+
+/// The contour of one program, the same in every folder.
+fn contour(
+    program: &Input,
+    (args, loaded): (&GoldenArgs, &LoadedMachine),
+    ledger: &Ledger,
+) -> Result<String, Failure> {
+    let simulation = &args.simulation;
+    let of = (loaded, Naming::FileName);
+    let setup = simulation.setup(of, &args.execution, ledger)?;
+    let mut contour = drive_contour(program, loaded, &setup, |_| BlockDeviations::default())?;
+    let subject = AgreedContour {
+        program: program.name(Naming::FileName),
+        plant: simulation.plant().to_owned(),
+        start: simulation.start.given().to_vec(),
+    };
+    Ok(render_agreed(&mut contour, &subject))
+}
+
+/// The timeline of one program, the same on every machine and in every folder.
+fn timeline(
+    program: &Input,
+    loaded: &LoadedMachine,
+    execution: &ExecutionArgs,
+) -> Result<String, HostError> {
+    let mut bytes = Vec::new();
+    let mut report = Text::new(&mut bytes, TextOptions::default());
+    let alone = Alone {
+        options: execution.options(loaded, StopPolicy::FirstError),
+        naming: Naming::FileName,
+        axes: Axes::Ahead,
+    };
+    run_alone(program, loaded, alone, &mut report)?;
+    report.finish().map_err(HostError::Output)?;
+    drop(report);
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

@@ -1,0 +1,57 @@
+//! `frictcomp init`: a configuration to begin with (R9.73).
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::console::Console;
+use super::exit;
+use super::failure::Failure;
+use frictcomp::machine::Outline;
+use frictcomp::text::shown_path;
+use frictcomp_host::{CONFIG_NAME, HostError, outline_of, write_new};
+use frictcomp_report::configuration::render_configuration;
+
+/// Write a commented `frictcomp.toml` to start from
+///
+/// Describes the machine from the control's start-up list if one is given or found in the folder,
+/// otherwise from the axes that the programs in the folder use. An existing file is not changed.
+#[derive(Debug, Args)]
+pub(super) struct InitArgs {
+    /// The folder with the programs
+    #[arg(value_name = "FOLDER", default_value = ".")]
+    folder: PathBuf,
+    /// The start-up list of the machine, such as `hochlauf.lis`
+    #[arg(long, value_name = "LIST")]
+    startup: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &InitArgs) -> Result<u8, Failure> {
+    let target = args.folder.join(CONFIG_NAME);
+    if target.symlink_metadata().is_ok() {
+        return Err(HostError::AlreadyThere(target).into());
+    }
+    let outline = outline_of(&args.folder, args.startup.as_deref())?;
+    write_new(&target, &render_configuration(&outline))?;
+    Console::talk(&format!(
+        "wrote `{}`: {}",
+        shown_path(&target),
+        told(&outline)
+    ));
+    Console::talk("next: `frictcomp config show` shows the machine that it describes");
+    Ok(exit::CLEAN)
+}
+
+/// What was found out, in a few words.
+fn told(outline: &Outline) -> String {
+    if let Outline::Startup(path) = outline {
+        return format!("the machine of `{path}`");
+    }
+    let names: Vec<&str> = outline.axes().iter().map(|(name, _)| *name).collect();
+    if names.is_empty() {
+        return "there is no start-up list and no program; fill in the axes".to_owned();
+    }
+    let names = names.join(", ");
+    format!("no start-up list was found; the programs use {names}")
+}

@@ -1,0 +1,255 @@
+//! The command line: files, arguments, exit status. One file a command.
+
+mod audit;
+mod channels;
+mod check;
+mod circle;
+mod code_page;
+mod codes;
+mod completions;
+mod config;
+mod console;
+mod contour;
+mod current;
+mod cycle;
+mod dap;
+mod diff;
+mod drive;
+mod examples;
+mod execution;
+mod exit;
+mod explain;
+mod fail_on;
+mod failure;
+mod failures;
+mod golden;
+mod html;
+mod identify;
+mod init;
+mod listing;
+mod lists;
+mod lsp;
+mod machine;
+mod man;
+mod mend;
+mod named_lists;
+mod notes;
+mod outputs;
+mod painted;
+mod progress;
+mod quiet;
+mod result;
+mod run;
+mod settings;
+mod severities;
+mod simulated;
+mod sole_file;
+mod start;
+mod stiction;
+mod trace;
+mod tune;
+mod values;
+mod verify;
+mod vocabulary;
+mod wildcards;
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use code_page::{CodePage, Encoded};
+use console::{Color, Console, Written};
+use failure::Failure;
+use sole_file::Meant;
+
+use frictcomp::syntax::bound_reading;
+use frictcomp_host::{Replaces, clean_up_when_stopped, survive_file_size_limit};
+use frictcomp_report::{visible, visible_line};
+
+/// Dry-run ISG and TwinCAT CNC programs and show, block by block, which axes have friction
+/// compensation active.
+#[derive(Debug, Parser)]
+#[command(name = "frictcomp", version, max_term_width = 100)]
+struct Arguments {
+    /// When to colour the output
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(help_heading = "Terminal")]
+    color: Color,
+    /// Width of text in columns; by default that of the terminal, else `COLUMNS`, else 100
+    #[arg(long, global = true, value_name = "N", value_parser = settings::parse_width)]
+    #[arg(help_heading = "Terminal")]
+    width: Option<usize>,
+    /// Let an output take the place of a program, a list or frictcomp.toml
+    #[arg(long, global = true, help_heading = "Terminal")]
+    force: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::RunArgs),
+    Check(check::CheckArgs),
+    Audit(audit::AuditArgs),
+    Golden(golden::GoldenArgs),
+    Diff(diff::DiffArgs),
+    Lists(lists::ListsArgs),
+    Drive(drive::DriveArgs),
+    Current(current::CurrentArgs),
+    Circle(circle::CircleArgs),
+    Contour(contour::ContourArgs),
+    Tune(tune::TuneArgs),
+    Stiction(stiction::StictionArgs),
+    Trace(trace::TraceArgs),
+    Identify(identify::IdentifyArgs),
+    Verify(verify::VerifyArgs),
+    Explain(explain::ExplainArgs),
+    Codes(codes::CodesArgs),
+    Lsp(lsp::LspArgs),
+    Dap(dap::DapArgs),
+    Init(init::InitArgs),
+    #[command(subcommand)]
+    Config(config::ConfigCommand),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
+}
+
+/// Runs the tool with its arguments, the name of the program first.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    ExitCode::from(status(arguments))
+}
+
+/// Runs the tool and gives its exit status, for a process that goes on after it.
+pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let mut arguments: Vec<OsString> = arguments.into_iter().collect();
+    if cfg!(windows) {
+        arguments = wildcards::expanded(arguments);
+    }
+    let is_command = |word: &str| description().find_subcommand(word).is_some();
+    let (arguments, report) = Meant::new(arguments, is_command).split();
+    let status = status_of(arguments);
+    Meant::finish(report, status);
+    status
+}
+
+fn status_of(arguments: Vec<OsString>) -> u8 {
+    let hidden = hidden(&arguments);
+    let parsed = description().try_get_matches_from(arguments);
+    let parsed = parsed.and_then(|matches| {
+        let arguments = Arguments::from_arg_matches(&matches)?;
+        Ok((arguments, written(&matches)))
+    });
+    let (arguments, written) = match parsed {
+        Ok(parsed) => parsed,
+        Err(error) => return say_usage(&error, &hidden),
+    };
+    bound_reading();
+    survive_file_size_limit();
+    clean_up_when_stopped(exit::FAILED);
+    let forced = arguments.force.then_some(Replaces::Anything);
+    let console = Console::new(arguments.color, arguments.width);
+    let console = console.writing(written).forcing(forced);
+    dispatch(&arguments.command, console).unwrap_or_else(|failure| {
+        console.explain(&failure);
+        exit::FAILED
+    })
+}
+
+/// What a command writes, as its `--format` says.
+fn written(matches: &ArgMatches) -> Written {
+    let Some((_, command)) = matches.subcommand() else {
+        let format = matches.try_get_raw("format").ok().flatten();
+        let format = format.and_then(|mut given| given.next()?.to_str());
+        return match format {
+            None | Some("text" | "concise") => Written::Text,
+            Some(_) => Written::Records,
+        };
+    };
+    written(command)
+}
+
+/// The arguments that hold what cannot be seen, each with what is shown in its place (R9.76).
+fn hidden(arguments: &[OsString]) -> Vec<(String, String)> {
+    let texts = arguments.iter().map(|argument| argument.to_string_lossy());
+    let pairs = texts.map(|text| (text.clone().into_owned(), visible_line(&text).into_owned()));
+    pairs.filter(|(text, shown)| text != shown).collect()
+}
+
+/// Prints help, the version, or what is wrong with the arguments.
+fn say_usage(error: &clap::Error, hidden: &[(String, String)]) -> u8 {
+    let page = if error.use_stderr() {
+        CodePage::behind(&std::io::stderr())
+    } else {
+        CodePage::behind(&std::io::stdout())
+    };
+    if error.use_stderr() && hidden.is_empty() && page.is_none() {
+        let _ = error.print();
+        return exit::FAILED;
+    }
+    if error.use_stderr() {
+        let mut text = error.render().to_string();
+        for (argument, shown) in hidden {
+            text = text.replace(argument, shown);
+        }
+        // A part of an argument, as of `--set=...`, may stand there by itself.
+        visible(&text).lines().for_each(Console::talk);
+        return exit::FAILED;
+    }
+    let printed = match page {
+        Some(page) => {
+            let text = error.render().to_string();
+            Encoded::new(std::io::stdout(), page).write_all(text.as_bytes())
+        }
+        None => error.print(),
+    };
+    match printed.and_then(|()| std::io::stdout().flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Console::new(Color::Auto, None).explain(&Failure::output(error));
+            exit::FAILED
+        }
+        _ => exit::CLEAN,
+    }
+}
+
+fn dispatch(command: &Command, console: Console) -> Result<u8, Failure> {
+    match command {
+        Command::Run(args) => run::run(args, console),
+        Command::Check(args) => check::run(args, console),
+        Command::Audit(args) => audit::run(args, console),
+        Command::Golden(args) => golden::run(args, console),
+        Command::Diff(args) => diff::run(args, console),
+        Command::Lists(args) => lists::run(args, console),
+        Command::Drive(args) => drive::run(args, console),
+        Command::Current(args) => current::run(args, console),
+        Command::Circle(args) => circle::run(args, console),
+        Command::Contour(args) => contour::run(args, console),
+        Command::Tune(args) => tune::run(args, console),
+        Command::Stiction(args) => stiction::run(args, console),
+        Command::Trace(args) => trace::run(args, console),
+        Command::Identify(args) => identify::run(args, console),
+        Command::Verify(args) => verify::run(args, console),
+        Command::Explain(args) => explain::run(args, console),
+        Command::Codes(args) => codes::run(args, console),
+        Command::Lsp(args) => lsp::run(args),
+        Command::Dap(args) => dap::run(args),
+        Command::Init(args) => init::run(args),
+        Command::Config(command) => config::run(command, console),
+        Command::Completions(args) => completions::run(args, description(), console),
+        Command::Man(args) => man::run(args, description(), console),
+    }
+}
+
+/// The description of the command line, for completions and the manual page.
+fn description() -> clap::Command {
+    examples::with_examples(Arguments::command())
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_description_holds_together() {
+        super::description().debug_assert();
+    }
+}

@@ -1,0 +1,309 @@
+//! Diagnostics as `check` and `lists` list them: which of them, and in which form.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::console::{Console, Printed, Target};
+use super::fail_on::FailOn;
+use super::failure::Failure;
+use super::severities::SeverityArgs;
+use super::values;
+use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+use frictcomp::drive_interface::DriveReport;
+use frictcomp::lists::{AxisType, Origin, Parameter};
+use frictcomp::machine::AxisReport;
+use frictcomp::timeline::{FeedMoves, SCHEMA};
+use frictcomp_report::drives::drive_record;
+use frictcomp_report::{Listing, ListingFormat, Tally, feed_moves_text};
+
+/// How diagnostics are listed.
+#[derive(Debug, Clone, Args)]
+pub(super) struct ListingArgs {
+    /// The format of the messages
+    #[arg(long, default_value = "text", value_parser = values::listing_format())]
+    pub(super) format: ListingFormat,
+    /// Write the messages to this file
+    #[arg(long, short, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// The lowest severity that gives exit status 1
+    #[arg(long, value_name = "SEVERITY", default_value = "error")]
+    pub(super) fail_on: FailOn,
+    /// Print only the messages that count for the exit status
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+    /// Count the messages by code instead of listing them
+    #[arg(long)]
+    pub(super) statistics: bool,
+    #[command(flatten)]
+    pub(super) severities: SeverityArgs,
+}
+
+/// Refuses the formats that are for diagnostics only.
+pub(super) fn of_records(format: ListingFormat, what: &str) -> Result<ListingFormat, Failure> {
+    if format.is_for_diagnostics() {
+        return Err(Failure::new(format!(
+            "`--format github` and `sarif` are for diagnostics, not for {what}"
+        ))
+        .with_help("write `--format text`, `concise`, `json` or `ndjson`"));
+    }
+    Ok(format)
+}
+
+/// Records as text lines, NDJSON or one document.
+pub(super) fn records(format: ListingFormat, text: &str, records: &[Value]) -> String {
+    match format {
+        ListingFormat::Json => format!("{:#}\n", json!({ "schema": SCHEMA, "records": records })),
+        ListingFormat::Ndjson => records
+            .iter()
+            .fold(String::new(), |lines, it| lines + &it.to_string() + "\n"),
+        _ => text.to_owned(),
+    }
+}
+
+impl ListingArgs {
+    /// A console that says as much as the user wants.
+    pub(super) fn console(&self, console: Console) -> Console {
+        if self.quiet { console.quiet() } else { console }
+    }
+
+    /// Begins the list.
+    pub(super) fn lister(&self, target: Target) -> Result<Lister<'_>, Failure> {
+        let (format, look) = (self.format, target.look);
+        let (writer, counted): (Box<dyn Write + Send>, _) = if self.statistics {
+            of_records(self.format, "statistics")?;
+            (Box::new(io::sink()), Some(target))
+        } else {
+            (target.writer, None)
+        };
+        Ok(Lister {
+            args: self,
+            listing: Listing::new(writer, format, look),
+            counted,
+            counts: BTreeMap::new(),
+            uncompensated: BTreeMap::new(),
+            unknown: BTreeSet::new(),
+        })
+    }
+}
+
+/// A list on its way out.
+pub(super) struct Lister<'a> {
+    args: &'a ListingArgs,
+    listing: Listing<Box<dyn Write + Send>>,
+    /// Where the counts go, in place of the list.
+    counted: Option<Target>,
+    counts: BTreeMap<(Code, Severity), u64>,
+    /// Feed moves without compensation, by the names of the axes.
+    uncompensated: BTreeMap<String, Uncompensated>,
+    /// States that are not known.
+    unknown: BTreeSet<String>,
+}
+
+/// The feed moves of an axis without compensation, in all programs (R13.12).
+#[derive(Debug, Clone, Default)]
+pub(super) struct Uncompensated {
+    pub(super) axis_type: AxisType,
+    pub(super) moves: FeedMoves,
+    programs: u64,
+}
+
+impl Uncompensated {
+    /// Those of one program.
+    pub(super) fn of_program(axis_type: AxisType, moves: FeedMoves) -> Self {
+        Self {
+            axis_type,
+            moves,
+            programs: 1,
+        }
+    }
+}
+
+impl Lister<'_> {
+    /// Counts a file that was looked at.
+    pub(super) fn file(&mut self) {
+        self.listing.file();
+    }
+
+    /// Lists a diagnostic. `Break` when the writer takes no more.
+    pub(super) fn diagnostic(&mut self, said: &Diagnostic) -> ControlFlow<()> {
+        if self.args.quiet && !self.args.fail_on.counts(said.severity) {
+            return ControlFlow::Continue(());
+        }
+        *self.counts.entry((said.code, said.severity)).or_default() += 1;
+        self.listing.diagnostic(said)
+    }
+
+    /// Adds the feed moves of an axis in a program.
+    pub(super) fn feed_moves(&mut self, axis: String, of_program: &Uncompensated) {
+        let axis = self.uncompensated.entry(axis).or_default();
+        axis.axis_type = of_program.axis_type;
+        axis.moves.append(&of_program.moves);
+        axis.programs += of_program.programs;
+    }
+
+    /// Takes states that are not known.
+    pub(super) fn unknown(&mut self, states: BTreeSet<String>) {
+        self.unknown.extend(states);
+    }
+
+    /// What is said about them, where they count for the exit status.
+    pub(super) fn unknown_remark(&self) -> Option<String> {
+        self.args.fail_on.unknown_remark(&self.unknown)
+    }
+
+    /// Counts diagnostics that are too many to be listed (R2.85).
+    pub(super) fn count(&mut self, severity: Severity, more: u64) {
+        if !self.args.quiet || self.args.fail_on.counts(severity) {
+            self.listing.count(severity, more);
+        }
+    }
+
+    /// Lists effective parameters, where the format has records.
+    pub(super) fn parameters(&mut self, reports: &[AxisReport]) {
+        for report in reports {
+            for row in &report.parameters {
+                self.listing.record(&parameter(report, row));
+            }
+        }
+    }
+
+    /// Lists what is known about drives, where the format has records.
+    pub(super) fn drives(&mut self, reports: &[DriveReport]) {
+        for report in reports {
+            self.listing.record(&drive_record(report));
+        }
+    }
+
+    /// Writes the end of the list.
+    pub(super) fn finish(&mut self) -> Result<Printed, Failure> {
+        self.listing.finish().map_err(Failure::output)?;
+        if let Some(target) = &mut self.counted {
+            let (format, counts) = (self.args.format, &self.counts);
+            let rows = counts
+                .iter()
+                .map(|((code, severity), count)| row(*code, *severity, *count));
+            let costs = self.uncompensated.iter();
+            let costs = costs.filter_map(|(axis, of)| cost(axis, of));
+            let text: String = rows.chain(costs).collect();
+            let values = counts.iter();
+            let values = values.map(|((code, severity), count)| record(*code, *severity, *count));
+            let costs = self.uncompensated.iter();
+            let costs = costs.map(|(axis, of)| cost_record(axis, of));
+            let values: Vec<Value> = values.chain(costs).collect();
+            return target.text(&records(format, &text, &values));
+        }
+        Ok(if self.listing.is_closed() {
+            Printed::Unread
+        } else {
+            Printed::Read
+        })
+    }
+
+    /// What the list adds up to.
+    pub(super) fn tally(&self) -> &Tally {
+        self.listing.tally()
+    }
+
+    /// The exit status that the list gives.
+    pub(super) fn status(&self) -> u8 {
+        let status = self.args.fail_on.status(&self.tally().counts);
+        status.max(self.args.fail_on.unknown_status(&self.unknown))
+    }
+
+    /// How to read more about what was said, once (R9.79).
+    pub(super) fn hint(&self) -> Option<String> {
+        let codes = self.counts.keys();
+        let most_severe =
+            codes.max_by_key(|(code, severity)| (*severity, std::cmp::Reverse(*code)));
+        most_severe.map(|(code, _)| explain(*code))
+    }
+}
+
+/// Where a code is explained (R9.79).
+pub(super) fn explain(code: Code) -> String {
+    format!("`frictcomp explain {code}` says more about {code}")
+}
+
+fn row(code: Code, severity: Severity, count: u64) -> String {
+    let (word, title) = (severity.as_str(), code.title());
+    format!("{count:>7}  {word:<7}  {:<12}  {title}\n", code.as_str())
+}
+
+fn parameter(report: &AxisReport, row: &Parameter) -> Value {
+    let (file, line) = match &row.origin {
+        Origin::File { file, line } => (Some(&**file), Some(*line)),
+        Origin::Default | Origin::Assumed => (None, None),
+    };
+    json!({
+        "record": "parameter",
+        "axis": report.axis,
+        "number": row.number,
+        "key": row.key,
+        "value": row.value,
+        "unit": row.unit,
+        "origin": match &row.origin {
+            Origin::Default => "default",
+            Origin::Assumed => "assumed",
+            Origin::File { .. } => "file",
+        },
+        "file": file,
+        "line": line,
+    })
+}
+
+fn record(code: Code, severity: Severity, count: u64) -> Value {
+    json!({
+        "record": "statistic",
+        "code": code.as_str(),
+        "severity": severity.as_str(),
+        "count": count,
+        "title": code.title(),
+    })
+}
+
+/// What the programs cut with an axis without compensation.
+fn cost(axis: &str, of: &Uncompensated) -> Option<String> {
+    let text = feed_moves_text(&of.moves, of.axis_type)?;
+    let plural = if of.programs == 1 { "" } else { "s" };
+    Some(format!(
+        "{axis}{text}, in {} program{plural}\n",
+        of.programs
+    ))
+}
+
+fn cost_record(axis: &str, of: &Uncompensated) -> Value {
+    let mut record = json!({ "record": "uncompensated", "axis": axis, "programs": of.programs });
+    if let (Value::Object(record), Value::Object(moves)) = (&mut record, json!(of.moves)) {
+        record.extend(moves);
+    }
+    record
+}
+
+/// What to say of files that are no programs.
+pub(super) fn passed_over(files: u64) -> String {
+    match files {
+        0 => String::new(),
+        1 => "; 1 other file passed over".to_owned(),
+        several => format!("; {several} other files passed over"),
+    }
+}
+
+/// What was found, in one line.
+pub(super) fn total(tally: &Tally) -> String {
+    let count = |number: u64, noun: &str| {
+        let plural = if number == 1 { "" } else { "s" };
+        format!("{number} {noun}{plural}")
+    };
+    format!(
+        "{} checked: {}, {}, {}",
+        count(tally.files, "file"),
+        count(tally.of(Severity::Error), "error"),
+        count(tally.of(Severity::Warning), "warning"),
+        count(tally.of(Severity::Info), "info"),
+    )
+}

@@ -1,0 +1,154 @@
+//! `frictcomp lists`: axis, value, channel and start-up lists.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::console::{Console, Printed};
+use super::exit;
+use super::failure::Failure;
+use super::failures::Failures;
+use super::listing::{ListingArgs, total};
+use super::named_lists::NamedLists;
+use super::outputs::{Outputs, write_text};
+use super::painted::parts;
+use frictcomp::diagnostic::{Code, Severity};
+use frictcomp::machine::{AcceptedList, ListsReport};
+use frictcomp_host::Ledger;
+use frictcomp_report::lists::render_parameters;
+use frictcomp_report::pictures::value_curves;
+use frictcomp_report::svg::Frame;
+use frictcomp_report::{ListingFormat, command_line};
+
+/// Read and check axis, value, channel and start-up lists
+///
+/// A start-up list or a `frictcomp.toml` is checked together with every list that it names, any
+/// other list by itself.
+#[derive(Debug, Args)]
+pub(super) struct ListsArgs {
+    #[command(flatten)]
+    lists: NamedLists,
+    /// Print the effective parameters of every axis and where each comes from
+    #[arg(long)]
+    show: bool,
+    /// Draw the value lists that the control would accept to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Treat values outside the documented range (FC132) as errors
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    listing: ListingArgs,
+}
+
+impl ListsArgs {
+    /// Says which options have no effect with the others (R9.71).
+    fn check_options(&self) -> Result<(), Failure> {
+        let format = self.listing.format;
+        if self.show
+            && !matches!(
+                format,
+                ListingFormat::Text | ListingFormat::Json | ListingFormat::Ndjson
+            )
+        {
+            return Err(Failure::new("`--show` has no effect with this `--format`")
+                .with_help("write `--format text`, `json` or `ndjson`"));
+        }
+        Ok(())
+    }
+}
+
+/// The curves of all accepted value lists.
+fn draw(reports: &[ListsReport]) -> Result<String, Failure> {
+    let accepted: Vec<&AcceptedList> = reports.iter().flat_map(|it| &it.accepted).collect();
+    if accepted.is_empty() {
+        return Err(Failure::new(
+            "there is no value list to draw: the control would accept none of them",
+        )
+        .with_help("leave `--svg` out to see why"));
+    }
+    Ok(value_curves(&accepted).render(Frame::Alone))
+}
+
+/// What to say of lists that are named and are not there.
+fn lacking(missing: usize) -> String {
+    match missing {
+        0 => String::new(),
+        1 => ", 1 list is missing".to_owned(),
+        several => format!(", {several} lists are missing"),
+    }
+}
+
+/// Runs the command.
+pub(super) fn run(args: &ListsArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    let console = args.listing.console(console);
+    args.check_options()?;
+    let codes = args.listing.severities.filter()?;
+    let files = args.lists.files()?;
+    let grounds = args.lists.grounds(&files);
+    let mut outputs = Outputs::new(&ledger, console);
+    let target = outputs.result(args.listing.output.as_deref())?;
+    let mut reports = Vec::new();
+    let mut failures = Failures::default();
+    for path in &files {
+        ledger.reads("list", path);
+        let mut report = match args.lists.check(path) {
+            Ok(report) => report,
+            Err(failure) => {
+                failures.push(failure);
+                continue;
+            }
+        };
+        grounds.conceal(&mut report.diagnostics);
+        codes.sift(&mut report.diagnostics);
+        for diagnostic in &mut report.diagnostics {
+            diagnostic.reword(Some(command_line));
+            if args.strict && diagnostic.code == Code::Fc132 {
+                diagnostic.severity = Severity::Error;
+            }
+        }
+        for file in &report.files {
+            ledger.reads("list", Path::new(&**file));
+        }
+        reports.push(report);
+    }
+    outputs.check()?;
+    let width = console.stdout().look.width;
+    let mut table = String::new();
+    if args.show && args.listing.format == ListingFormat::Text {
+        for report in &reports {
+            render_parameters(&report.reports, &report.programs, width, &mut table)
+                .map_err(|_| Failure::new("the table of the parameters cannot be written"))?;
+        }
+    }
+    if let Some(path) = &args.svg {
+        write_text(&mut outputs.file("--svg", path)?, &draw(&reports)?)?;
+    }
+    let mut listing = args.listing.lister(target)?;
+    for report in &reports {
+        for _ in &report.files {
+            listing.file();
+        }
+        for diagnostic in &report.diagnostics {
+            if listing.diagnostic(diagnostic).is_break() {
+                break;
+            }
+        }
+        if args.show {
+            listing.parameters(&report.reports);
+        }
+    }
+    let printed = listing.finish()?;
+    if printed == Printed::Unread && failures.is_empty() {
+        return Ok(exit::CLEAN);
+    }
+    console.print_painted(&table, parts)?;
+    outputs.finish()?;
+    if args.listing.format == ListingFormat::Text && listing.tally().files > 0 {
+        let missing = reports.iter().map(|report| report.missing).sum();
+        console.remark(&(total(listing.tally()) + &lacking(missing)));
+        listing.hint().iter().for_each(|hint| console.remark(hint));
+    }
+    failures.status(console, listing.status())
+}

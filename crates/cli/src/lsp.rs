@@ -1,0 +1,29 @@
+//! `frictcomp lsp`: the language server.
+
+use clap::Args;
+
+use super::exit;
+use super::failure::Failure;
+use frictcomp_editor::lsp::{Farewell, serve_stdio};
+
+/// Serve an editor over the Language Server Protocol, on standard input and output
+///
+/// An editor starts it. It shows messages, states and fixes while one types; `docs/editors.md` has
+/// the settings of editors.
+#[derive(Debug, Args)]
+pub(super) struct LspArgs {
+    /// Talk over standard input and output, which is the only way: some editors say so
+    #[arg(long)]
+    stdio: bool,
+}
+
+/// Runs the command.
+pub(super) fn run(_: &LspArgs) -> Result<u8, Failure> {
+    let farewell =
+        serve_stdio().map_err(|error| Failure::new(format!("the server cannot start: {error}")))?;
+    Ok(match farewell {
+        Farewell::Proper => exit::CLEAN,
+        // The protocol wants 1 where a client ends the server without having asked for its end.
+        Farewell::Abrupt => exit::FOUND,
+    })
+}

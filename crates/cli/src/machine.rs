@@ -1,0 +1,148 @@
+//! The machine on the command line.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::console::Console;
+use super::failure::Failure;
+use super::progress::Terminal;
+use super::settings::{self, SetVariable};
+use super::severities::SeverityArgs;
+use frictcomp::diagnostic::{CodeFilter, Severity};
+use frictcomp::lists::FrictionList;
+use frictcomp::machine::Machine;
+use frictcomp::session::undescribed;
+use frictcomp::text::shown_path;
+use frictcomp_host::{
+    ConfigurationChoice, Elsewhere, Input, Ledger, LoadedMachine, MachineOptions, Machines,
+    read_value_list, switched_axes, unread_variables,
+};
+use frictcomp_report::command_line;
+
+/// The machine, as the user gives it on the command line.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Machine")]
+pub(super) struct MachineArgs {
+    /// Use this configuration instead of the nearest `frictcomp.toml`
+    #[arg(long, value_name = "FILE", conflicts_with = "isolated")]
+    config: Option<PathBuf>,
+    /// Ignore any `frictcomp.toml`
+    #[arg(long)]
+    isolated: bool,
+    /// Take the axes from this start-up list instead of the configuration
+    #[arg(long, value_name = "LIST")]
+    startup: Option<PathBuf>,
+    /// Assume P-AXIS-00522 = 1 and an accepted value list for these axes
+    #[arg(long, value_name = "AXES", value_delimiter = ',')]
+    pub(super) enable: Vec<String>,
+    /// Call programs in any folder, and show the text of lists in any folder
+    #[arg(long)]
+    allow_outside: bool,
+    /// Set a variable that only the machine knows
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = settings::parse_setting)]
+    settings: Vec<SetVariable>,
+}
+
+impl MachineArgs {
+    /// The machines of the programs of a command.
+    pub(super) fn machines(&self, ledger: &Ledger) -> Machines {
+        self.with_codes(CodeFilter::default(), ledger)
+    }
+
+    /// The same, with changed severities.
+    pub(super) fn weighed(
+        &self,
+        severities: &SeverityArgs,
+        ledger: &Ledger,
+    ) -> Result<Machines, Failure> {
+        Ok(self.with_codes(severities.filter()?, ledger))
+    }
+
+    fn with_codes(&self, codes: CodeFilter, ledger: &Ledger) -> Machines {
+        let given = self.settings.iter();
+        let given = given.map(|set| (set.name.clone(), set.value.clone()));
+        let options = MachineOptions {
+            configuration: match &self.config {
+                Some(path) => ConfigurationChoice::File(path.clone()),
+                None if self.isolated => ConfigurationChoice::Isolated,
+                None => ConfigurationChoice::Nearest,
+            },
+            startup: self.startup.clone(),
+            enable: self.enable.clone(),
+            elsewhere: elsewhere(self.allow_outside),
+            settings: given.collect(),
+            codes,
+        };
+        let machines = Machines::new(options, ledger);
+        match Terminal::watched() {
+            Some(terminal) => machines.watched_by(Arc::new(terminal)),
+            None => machines,
+        }
+    }
+
+    /// Says which `--set` names nothing in the programs that were read (R9.74).
+    pub(super) fn say_unread(&self, ledger: &Ledger, console: Console) {
+        let names = self.settings.iter().map(|set| set.name.as_str());
+        for variable in unread_variables(names, ledger) {
+            let near = variable.near;
+            let meant = near.map_or(String::new(), |near| format!(", did you mean `{near}`?"));
+            let name = variable.name;
+            console.remark(&format!("`--set {name}`: no program reads it{meant}"));
+        }
+    }
+}
+
+/// What `--allow-outside` says.
+pub(super) fn elsewhere(is_allowed: bool) -> Elsewhere {
+    if is_allowed {
+        Elsewhere::Allowed
+    } else {
+        Elsewhere::Kept
+    }
+}
+
+/// One line about what `lists` would say beyond the errors.
+pub(super) fn remark(loaded: &LoadedMachine) -> Option<String> {
+    let mut parts = Vec::new();
+    for (severity, noun) in [(Severity::Warning, "warning"), (Severity::Info, "info")] {
+        let said = loaded.diagnostics.iter();
+        match said.filter(|said| said.severity == severity).count() {
+            0 => {}
+            1 => parts.push(format!("1 {noun}")),
+            several => parts.push(format!("{several} {noun}s")),
+        }
+    }
+    let origin = shown_path(loaded.origin.as_ref()?);
+    (!parts.is_empty()).then(|| {
+        let parts = parts.join(", ");
+        format!("lists: {parts} (`frictcomp lists {origin}` shows them)")
+    })
+}
+
+/// The sentence above what is said about programs that run without a described machine, where any of
+/// them switches friction compensation (R1.37).
+pub(super) fn undescribed_remark<'a>(
+    inputs: impl IntoIterator<Item = &'a Input>,
+) -> Option<String> {
+    let axes = switched_axes(inputs);
+    if axes.is_empty() {
+        return None;
+    }
+    let advice = undescribed(&Machine::unconfigured(), &axes)?;
+    Some(advice.in_words(Some(command_line)))
+}
+
+/// The values that a list would give the control.
+pub(super) fn value_list(path: &Path, ledger: &Ledger) -> Result<FrictionList, Failure> {
+    let read = read_value_list(path, ledger)?;
+    let count = read.diagnostics.len();
+    if count > 0 {
+        let name = shown_path(path);
+        Console::talk(&format!(
+            "lists: {count} remarks (`frictcomp lists {name}` shows them)"
+        ));
+    }
+    Ok(read.list)
+}

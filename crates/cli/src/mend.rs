@@ -1,0 +1,189 @@
+//! What `check --fix` changes and `check --diff` shows (R9.82).
+
+use std::fmt::Write as _;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::console::{Console, Printed, Target};
+use super::execution::ExecutionArgs;
+use super::exit;
+use super::failure::{Failure, shown};
+use super::failures::Failures;
+use super::painted::difference;
+use frictcomp::session::{ProposedFixes, SafeFixes};
+use frictcomp::text::shown_path;
+use frictcomp_host::{
+    Alone, Axes, HostError, Input, LoadedMachine, Machines, MendedFile, Naming, in_order, mend,
+    processors, run_alone, write_mended,
+};
+use frictcomp_report::{TextChange, render_unified};
+
+/// How often a change may call for another one.
+const MOST_PASSES: usize = 10;
+
+/// Which changes of the programs are applied or shown.
+#[derive(Debug, Clone, Args)]
+pub(super) struct FixArgs {
+    /// Apply the changes that do not affect what the machine does, then print the remaining messages
+    #[arg(long, conflicts_with_all = ["unknowns", "opaque"])]
+    pub(super) fix: bool,
+    /// Instead of messages, show the changes that `--fix` would apply, as a unified diff
+    #[arg(long, conflicts_with_all = ["fix", "unknowns", "opaque", "format", "statistics", "fail_on"])]
+    pub(super) diff: bool,
+}
+
+/// Programs, and how they are run.
+pub(super) struct Bench<'a> {
+    pub(super) inputs: &'a [Input],
+    pub(super) machines: &'a mut Machines,
+    pub(super) execution: &'a ExecutionArgs,
+    pub(super) workers: Option<NonZeroUsize>,
+}
+
+impl Bench<'_> {
+    /// Makes the safe changes of the programs, each file as a whole.
+    pub(super) fn fix(&mut self, console: Console) -> Result<Failures, Failure> {
+        self.only_files("--fix")?;
+        for _ in 0..MOST_PASSES {
+            let mut failures = Failures::default();
+            let mended = self.mended(&mut failures);
+            if mended.is_empty() {
+                return Ok(failures);
+            }
+            for file in mended {
+                let (path, count) = (shown(&file.path), changes(file.changes));
+                match write_mended([&file]) {
+                    Ok(()) => console.remark(&format!("fixed `{path}`: {count}")),
+                    Err(error) => failures.push(error.into()),
+                }
+            }
+            if !failures.is_empty() {
+                return Ok(failures);
+            }
+        }
+        Ok(Failures::default())
+    }
+
+    /// Shows the safe changes of the programs.
+    pub(super) fn diff(&mut self, target: &mut Target, console: Console) -> Result<u8, Failure> {
+        self.only_files("--diff")?;
+        let mut failures = Failures::default();
+        let mended = self.mended(&mut failures);
+        if target.painted(&differences(&mended), difference)? == Printed::Unread {
+            return Ok(exit::CLEAN);
+        }
+        if mended.is_empty() {
+            return failures.status(console, exit::CLEAN);
+        }
+        let count = mended.iter().map(|file| file.changes).sum();
+        let files = match mended.len() {
+            1 => "1 file".to_owned(),
+            count => format!("{count} files"),
+        };
+        console.remark(&format!(
+            "{} in {files} (`--fix` applies them)",
+            changes(count)
+        ));
+        failures.status(console, exit::FOUND)
+    }
+
+    /// Refuses what can be read only once and not be replaced: standard input, pipes, devices.
+    fn only_files(&self, option: &str) -> Result<(), Failure> {
+        let name = |input: &Input| match input {
+            Input::Stdin => Some("standard input".to_owned()),
+            Input::File(path) if path.exists() && !path.is_file() => {
+                Some(format!("`{}`", shown_path(path)))
+            }
+            Input::File(_) | Input::Open(_) => None,
+        };
+        match self.inputs.iter().find_map(name) {
+            Some(name) => Err(Failure::new(format!("`{option}` cannot change {name}"))
+                .with_help("name a regular file")),
+            None => Ok(()),
+        }
+    }
+
+    /// What the safe changes make of the programs. What a program calls stays as it is, unless it is
+    /// one of the programs itself.
+    fn mended(&mut self, failures: &mut Failures) -> Vec<MendedFile> {
+        let mut found = Vec::new();
+        for (name, fixes) in self.safe_fixes(failures).of_files() {
+            let Some(path) = self.path(&name) else {
+                continue;
+            };
+            match mend(path, &fixes) {
+                Ok(mended) => found.extend(mended),
+                Err(error) => failures.push(error.into()),
+            }
+        }
+        found
+    }
+
+    fn path(&self, name: &str) -> Option<&Path> {
+        self.inputs.iter().find_map(|input| match input {
+            Input::File(path) if input.name(Naming::AsGiven) == name => Some(path.as_path()),
+            _ => None,
+        })
+    }
+
+    /// The safe changes that hold for every run.
+    fn safe_fixes(&mut self, failures: &mut Failures) -> SafeFixes {
+        let inputs = self.inputs.iter();
+        let loaded = inputs.map(|input| (input, self.machines.for_folder(input.folder())));
+        let jobs: Vec<_> = loaded.collect();
+        let workers = self.workers.unwrap_or_else(processors);
+        let workers = workers.min(NonZeroUsize::new(jobs.len()).unwrap_or(NonZeroUsize::MIN));
+        let execution = self.execution;
+        let mut fixes = SafeFixes::default();
+        let run = |(input, loaded): (&Input, Result<Arc<LoadedMachine>, HostError>)| {
+            let loaded = loaded?;
+            let alone = Alone {
+                options: execution.check(&loaded),
+                naming: Naming::AsGiven,
+                axes: Axes::AsTheyOccur,
+            };
+            let mut proposed = ProposedFixes::default();
+            run_alone(input, &loaded, alone, &mut proposed)?;
+            Ok::<_, HostError>(proposed)
+        };
+        in_order(jobs.into_iter(), workers, run, |proposed| {
+            match proposed {
+                Ok(proposed) => fixes.add(proposed),
+                Err(error) => failures.push(Failure::from(error)),
+            }
+            ControlFlow::Continue(())
+        });
+        fixes
+    }
+}
+
+fn changes(count: usize) -> String {
+    match count {
+        1 => "1 change".to_owned(),
+        _ => format!("{count} changes"),
+    }
+}
+
+/// What changes make of files, as a unified diff.
+pub(super) fn differences<'a>(files: impl IntoIterator<Item = &'a MendedFile>) -> String {
+    let mut output = String::new();
+    for file in files {
+        let name = shown(&file.path);
+        let [before, after] = [&file.before, &file.after].map(|text| with_line_feeds(text));
+        let change = TextChange {
+            before: (&name, &before),
+            after: (&name, &after),
+        };
+        let _ = write!(output, "{}", render_unified(change));
+    }
+    output
+}
+
+/// A text whose lines end as those of a difference do.
+fn with_line_feeds(text: &str) -> String {
+    text.replace("\r\n", "\n").replace('\r', "\n")
+}

@@ -1,0 +1,66 @@
+//! The lists that `lists` and `drive` are given, and how they are read.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::failure::Failure;
+use super::machine::elsewhere;
+use frictcomp::comp::CncBuild;
+use frictcomp::machine::ListsReport;
+use frictcomp::text::shown_path;
+use frictcomp_host::{
+    CONFIG_NAME, Disk, Grounds, check_list_file, is_configuration, nearest_config,
+};
+
+/// The lists of a command.
+#[derive(Debug, Args)]
+pub(super) struct NamedLists {
+    /// The lists, or the `frictcomp.toml` that names them; by default the nearest `frictcomp.toml`
+    /// in the current folder or above
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// The CNC build that the lists are for, such as `3.1.3132.0`
+    #[arg(long, value_name = "BUILD")]
+    cnc_build: Option<CncBuild>,
+    /// Also show the text of lists outside the current folder and the folders of the files named
+    #[arg(long)]
+    allow_outside: bool,
+}
+
+impl NamedLists {
+    /// The files that are checked (R9.72).
+    pub(super) fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+        if !self.files.is_empty() {
+            return Ok(self.files.clone());
+        }
+        let nearest = nearest_config(Path::new(""), &Disk::default());
+        let failure = || {
+            Failure::new(format!("there is no {CONFIG_NAME} in this folder or above"))
+                .with_help("name the lists, `frictcomp lists hochlauf.lis`")
+        };
+        nearest.map(|path| vec![path]).ok_or_else(failure)
+    }
+
+    /// The folders whose lists are shown: the current one and those of the files.
+    pub(super) fn grounds(&self, files: &[PathBuf]) -> Grounds {
+        let named = files.iter().filter_map(|path| path.parent());
+        let real: Vec<PathBuf> = files.iter().flat_map(|path| path.canonicalize()).collect();
+        let real = real.iter().filter_map(|path| path.parent());
+        let grounds = Grounds::new(elsewhere(self.allow_outside)).with(Path::new(""));
+        named.chain(real).fold(grounds, Grounds::with)
+    }
+
+    /// Checks a list, or every list that a configuration names.
+    pub(super) fn check(&self, path: &Path) -> Result<ListsReport, Failure> {
+        let report = check_list_file(path, self.cnc_build, &Disk::default())?;
+        if self.cnc_build.is_some() && is_configuration(path) {
+            let message = format!(
+                "the build of `{}` is given in the file itself",
+                shown_path(path)
+            );
+            return Err(Failure::new(message).with_help("leave `--cnc-build` out"));
+        }
+        Ok(report)
+    }
+}

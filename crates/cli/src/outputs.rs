@@ -1,0 +1,151 @@
+//! What a command writes: results to standard output or to files, which take their place at the end
+//! (R9.70).
+
+use std::io::Write;
+use std::path::Path;
+
+use super::console::{Console, Target};
+use super::failure::Failure;
+use frictcomp::session::SavedState;
+use frictcomp::text::shown_path;
+use frictcomp_host::{Ledger, OutputFile, OutputFiles, Replaces, StateFile};
+
+/// The name that stands for standard output.
+const STDOUT: &str = "-";
+
+/// The results of a command. Dropped before [`finish`](Self::finish), no file was written.
+pub(super) struct Outputs {
+    files: OutputFiles,
+    console: Console,
+    /// The option or result that goes to standard output.
+    printing: Option<&'static str>,
+}
+
+impl Outputs {
+    /// No output yet.
+    pub(super) fn new(ledger: &Ledger, console: Console) -> Self {
+        Self {
+            files: OutputFiles::new(ledger),
+            console,
+            printing: None,
+        }
+    }
+
+    /// The place of the main result: the file after `--output`, or standard output.
+    pub(super) fn result(&mut self, path: Option<&Path>) -> Result<Target, Failure> {
+        match path {
+            None => {
+                self.print("the result")?;
+                Ok(self.console.stdout())
+            }
+            Some(path) if is_stdout(path) => {
+                self.print("--output -")?;
+                Ok(self.console.stdout())
+            }
+            Some(path) => Ok(Target {
+                writer: Box::new(self.create("--output", path, Replaces::Results)?),
+                look: self.console.file_look(),
+            }),
+        }
+    }
+
+    /// The file that an option names; `-` is standard output.
+    pub(super) fn file(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+    ) -> Result<OutputFile, Failure> {
+        self.place(option, path, Replaces::Results)
+    }
+
+    /// The file of a value list.
+    pub(super) fn list(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+    ) -> Result<OutputFile, Failure> {
+        self.place(option, path, Replaces::Lists)
+    }
+
+    fn place(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+        replaces: Replaces,
+    ) -> Result<OutputFile, Failure> {
+        if !is_stdout(path) {
+            return self.create(option, path, replaces);
+        }
+        self.print(option)?;
+        Ok(OutputFile::open(path, self.console.stdout().writer))
+    }
+
+    fn create(
+        &mut self,
+        option: &'static str,
+        path: &Path,
+        replaces: Replaces,
+    ) -> Result<OutputFile, Failure> {
+        let replaces = self.console.replaces(replaces);
+        Ok(self.files.create(option, path, replaces)?)
+    }
+
+    /// The same, where the option is given.
+    pub(super) fn optional(
+        &mut self,
+        option: &'static str,
+        path: Option<&Path>,
+    ) -> Result<Option<OutputFile>, Failure> {
+        path.map(|path| self.file(option, path)).transpose()
+    }
+
+    /// Notes a file that will be written, before it is known with what.
+    pub(super) fn claim(&mut self, option: &'static str, path: &Path) {
+        let replaces = self.console.replaces(Replaces::Results);
+        self.files.claim(option, path, replaces);
+    }
+
+    /// Notes the files that hold the state and its lock.
+    pub(super) fn claim_state(&mut self, path: &Path) {
+        self.claim("--state", path);
+        self.claim("the lock of --state", &StateFile::lock_path(path));
+    }
+
+    /// Saves the state when the other files take their place.
+    pub(super) fn save(&mut self, file: &StateFile, state: &SavedState) -> Result<(), Failure> {
+        Ok(file.save(state, &mut self.files)?)
+    }
+
+    /// Says who writes to standard output; there is one.
+    pub(super) fn print(&mut self, who: &'static str) -> Result<(), Failure> {
+        if let Some(other) = self.printing.replace(who) {
+            return Err(Failure::new(format!(
+                "{other} and `{who}` would both go to standard output"
+            ))
+            .with_help("name a file for one of them"));
+        }
+        Ok(())
+    }
+
+    /// The inputs are known: says which output would destroy one, before anything runs.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        Ok(self.files.check()?)
+    }
+
+    /// Everything is written: every file takes its place, and is named on stderr.
+    pub(super) fn finish(self) -> Result<(), Failure> {
+        let console = self.console;
+        let placed = |path: &Path| console.remark(&format!("wrote `{}`", shown_path(path)));
+        Ok(self.files.finish(placed)?)
+    }
+}
+
+/// Writes a text to a file.
+pub(super) fn write_text(file: &mut OutputFile, text: &str) -> Result<(), Failure> {
+    let written = file.write_all(text.as_bytes());
+    written.map_err(Failure::output)
+}
+
+fn is_stdout(path: &Path) -> bool {
+    path == Path::new(STDOUT) || (cfg!(unix) && path == Path::new("/dev/stdout"))
+}

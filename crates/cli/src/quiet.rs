@@ -1,0 +1,63 @@
+//! `run --quiet`: what counts for the exit status, and nothing else (R9.72).
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use super::console::Target;
+use super::fail_on::FailOn;
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::timeline::{Record, Sink};
+use frictcomp_report::{Listing, ListingFormat, Report};
+
+/// Lists the diagnostics that give the exit status.
+pub(super) struct Quiet {
+    listing: Listing<Box<dyn Write + Send>>,
+    fail_on: FailOn,
+}
+
+impl Quiet {
+    /// A list of what is at or above a severity.
+    pub(super) fn new(target: Target, fail_on: FailOn) -> Self {
+        Self {
+            listing: Listing::new(target.writer, ListingFormat::Text, target.look),
+            fail_on,
+        }
+    }
+
+    fn say<'a>(&mut self, said: impl IntoIterator<Item = &'a Diagnostic>) -> ControlFlow<()> {
+        let counts = said
+            .into_iter()
+            .filter(|it| self.fail_on.counts(it.severity));
+        for diagnostic in counts {
+            self.listing.diagnostic(diagnostic)?;
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Sink for Quiet {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Machine(said) => self.say([*said]),
+            Record::Block(row) => self.say(row.diagnostics),
+            Record::End(end) => self.say(end.notes.iter().map(|note| &note.diagnostic)),
+            Record::Session { .. } | Record::Program { .. } | Record::Summary(_) => {
+                ControlFlow::Continue(())
+            }
+        }
+    }
+}
+
+impl Report for Quiet {
+    fn flush(&mut self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.listing.finish()
+    }
+
+    fn is_closed(&self) -> bool {
+        self.listing.is_closed()
+    }
+}

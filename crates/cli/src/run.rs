@@ -1,0 +1,290 @@
+//! `frictcomp run`: programs one after the other in one session of the control.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::console::{Console, Target};
+use super::execution::ExecutionArgs;
+use super::fail_on::{FailOn, of_axis};
+use super::failure::Failure;
+use super::html::HtmlFile;
+use super::listing::explain;
+use super::machine::{MachineArgs, remark};
+use super::outputs::Outputs;
+use super::quiet::Quiet;
+use super::settings;
+use super::severities::SeverityArgs;
+use super::start::StartArgs;
+use super::values;
+use frictcomp::comp::KindSet;
+use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+use frictcomp::session::{Session, StopPolicy, undescribed};
+use frictcomp_host::{
+    Input, Ledger, LoadedMachine, Naming, Played, Programs, StateFile, Surroundings, expect_axes,
+    open_session, run_programs, switched_axes,
+};
+use frictcomp_report::html::GivenForRun;
+use frictcomp_report::{
+    Blocks, Listeners, Positions, Report, Runs, SharedReport, TextOptions, TimelineFormat,
+    TimelineOptions, View, command_line, concise_line,
+};
+
+/// Run programs one after the other in one session of the control and print the timeline
+///
+/// Each program starts with the state that the one before it leaves.
+#[derive(Debug, Args)]
+// Each is a switch of its own on the command line.
+#[allow(clippy::struct_excessive_bools)]
+pub(super) struct RunArgs {
+    /// The programs, `-` for standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Start with the state saved in this file, and save the state to it at the end
+    #[arg(long, value_name = "FILE")]
+    state: Option<PathBuf>,
+    /// Treat a failing command as if it were not there, and continue
+    #[arg(long)]
+    keep_going: bool,
+    /// Print only blocks with a change or a message
+    #[arg(long, visible_alias = "changes-only", conflicts_with = "full")]
+    changes: bool,
+    /// Show all blocks; do not fold those without a change
+    #[arg(long)]
+    full: bool,
+    /// Print only the messages that count for the exit status
+    #[arg(long, short, conflicts_with_all = ["changes", "full", "format", "columns"])]
+    quiet: bool,
+    /// The kinds of compensation to show: `FRICT,LEAD` or `all`
+    #[arg(long, value_name = "KINDS", default_value = "FRICT", value_parser = settings::parse_kinds)]
+    kinds: KindSet,
+    /// The format of the timeline
+    #[arg(long, default_value = "text", value_parser = values::timeline_format())]
+    format: TimelineFormat,
+    /// Additional columns for the CSV timeline
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    columns: Vec<Column>,
+    /// Write the timeline to this file
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Also write an HTML report with charts and the annotated source to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// The lowest severity that gives exit status 1
+    #[arg(long, value_name = "SEVERITY", default_value = "error")]
+    fail_on: FailOn,
+    #[command(flatten)]
+    severities: SeverityArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    start: StartArgs,
+    #[command(flatten)]
+    execution: ExecutionArgs,
+}
+
+/// Columns that a CSV timeline has only where they are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Column {
+    /// The position of each axis after the block.
+    Position,
+}
+
+impl RunArgs {
+    fn report(&self, target: Target) -> Box<dyn Report> {
+        if self.quiet {
+            return Box::new(Quiet::new(target, self.fail_on));
+        }
+        let blocks = if self.changes {
+            Blocks::Changed
+        } else {
+            Blocks::All
+        };
+        let runs = if self.full { Runs::Full } else { Runs::Folded };
+        let positions = if self.columns.contains(&Column::Position) {
+            Positions::Shown
+        } else {
+            Positions::Hidden
+        };
+        let view = View {
+            kinds: self.kinds,
+            blocks,
+        };
+        let look = target.look;
+        let options = TimelineOptions {
+            text: TextOptions { view, runs, look },
+            positions,
+        };
+        self.format.report(target.writer, options)
+    }
+
+    /// What the user gave for the run, for the HTML report.
+    fn given<'a>(&'a self, loaded: &'a LoadedMachine) -> GivenForRun<'a> {
+        GivenForRun {
+            machine: loaded.origin.as_deref(),
+            enabled: &self.machine.enable,
+            variables: &loaded.settings,
+            state: self.state.as_deref(),
+            start: self.start.given(),
+            stop: self.stop_policy(),
+        }
+    }
+
+    /// Says which options have no effect with the others (R9.71).
+    fn check_options(&self) -> Result<(), Failure> {
+        if !self.columns.is_empty() && self.format != TimelineFormat::Csv {
+            return Err(Failure::new("`--columns` belongs to `--format csv`"));
+        }
+        if self.full && self.format != TimelineFormat::Text {
+            return Err(Failure::new("`--full` has no effect with this `--format`")
+                .with_help("only text folds blocks: leave `--full` out"));
+        }
+        Ok(())
+    }
+
+    fn stop_policy(&self) -> StopPolicy {
+        if self.keep_going {
+            StopPolicy::KeepGoing
+        } else {
+            StopPolicy::FirstError
+        }
+    }
+}
+
+/// What is set up before the first program runs.
+struct Start<'a> {
+    programs: Programs<'a>,
+    loaded: &'a LoadedMachine,
+    session: Session,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &RunArgs, console: Console) -> Result<u8, Failure> {
+    args.check_options()?;
+    let console = if args.quiet { console.quiet() } else { console };
+    let inputs: Vec<Input> = args.files.iter().map(|path| Input::new(path)).collect();
+    for input in &inputs {
+        input.probe()?;
+    }
+    let ledger = Ledger::default();
+    for input in &inputs {
+        input.note(&ledger);
+    }
+    let mut outputs = Outputs::new(&ledger, console);
+    let target = outputs.result(args.output.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
+    let mut html = html.map(|file| HtmlFile::new(file, args.kinds));
+    let mut machines = args.machine.weighed(&args.severities, &ledger)?;
+    machines.look_ahead(&inputs);
+    if let Some(path) = args.state.as_deref() {
+        // Another run of the same machine may bring the programs that name the others.
+        machines.expect_more(StateFile::axes(path));
+    }
+    let loaded = machines.for_folder(inputs[0].folder())?;
+    if let Some(remark) = remark(&loaded) {
+        console.remark(&remark);
+    }
+    if args.format == TimelineFormat::Csv {
+        // A row is a block: the lists have no row.
+        for error in loaded.errors() {
+            Console::talk(&concise_line(error));
+        }
+    }
+    if let Some(path) = args.state.as_deref() {
+        outputs.claim_state(path);
+    }
+    outputs.check()?;
+    let state = args.state.as_deref().map(StateFile::lock).transpose()?;
+    let mut options = args.execution.options(&loaded, args.stop_policy());
+    options.start = args.start.positions(&loaded.machine)?;
+    if !loaded.machine.is_described() {
+        options.switched = switched_axes(&inputs);
+    }
+    if args.format == TimelineFormat::Csv {
+        // A row is a block: the remark has no row.
+        if let Some(remark) = undescribed(&loaded.machine, &options.switched) {
+            Console::talk(&remark.in_words(Some(command_line)));
+        }
+    }
+    let (mut session, changed) = open_session(&loaded, options, state.as_ref())?;
+    expect_axes(&mut session, &loaded, &inputs);
+    let said: Vec<Diagnostic> = loaded.errors().chain(&changed).cloned().collect();
+    let mut start = Start {
+        programs: Programs {
+            inputs: &inputs,
+            said: &said,
+        },
+        loaded: &loaded,
+        session,
+    };
+    let report = args.report(target);
+    let (played, hint) = play(&mut start, report, html.as_mut())?;
+    let Some(played) = played else {
+        // The reader has seen enough; a run that was cut short leaves nothing.
+        return Ok(super::exit::CLEAN);
+    };
+    if let Some(html) = html {
+        html.write(args.given(&loaded), &loaded)?;
+    }
+    if let (true, Some(file)) = (played.flow.is_continue(), &state) {
+        outputs.save(file, &start.session.save())?;
+    }
+    outputs.finish()?;
+    args.machine.say_unread(&ledger, console);
+    if let (TimelineFormat::Text, Some(code)) = (args.format, hint) {
+        console.remark(&explain(code));
+    }
+    let unknown = start.session.unknown();
+    let unknown: BTreeSet<String> = unknown.map(|(axis, kind)| of_axis(axis, kind)).collect();
+    if let Some(remark) = args.fail_on.unknown_remark(&unknown) {
+        console.remark(&remark);
+    }
+    let status = args.fail_on.status(start.session.counts());
+    let status = status.max(args.fail_on.unknown_status(&unknown));
+    // Programs that did not run are no all-clear, whatever kept them from it.
+    let unrun = (played.unrun > 0).then_some(super::exit::FOUND);
+    Ok(status.max(unrun.unwrap_or_default()))
+}
+
+/// Runs the programs; `None` where nobody read the timeline to its end, and there is no other output.
+fn play(
+    start: &mut Start<'_>,
+    report: Box<dyn Report>,
+    html: Option<&mut HtmlFile>,
+) -> Result<(Option<Played>, Option<Code>), Failure> {
+    let timeline = SharedReport::new(report);
+    let goes_on_alone = html.is_some();
+    let mut listeners = Listeners::new(&timeline, html.map(HtmlFile::digest));
+    // Between two reads of a program no record is on its way.
+    let before_waiting = || timeline.flush();
+    let surroundings = Surroundings::new(start.loaded, Naming::AsGiven);
+    let surroundings = surroundings.before_waiting(&before_waiting);
+    let session = &mut start.session;
+    let played = run_programs(session, start.programs, &surroundings, &mut listeners);
+    let most_severe = listeners.most_severe();
+    let mut report = timeline.into_report();
+    report.finish().map_err(Failure::output)?;
+    if report.is_closed() && !goes_on_alone {
+        return Ok((None, None));
+    }
+    let played = played?;
+    if played.unrun > 0 {
+        say_unrun(played.unrun, &start.session);
+    }
+    Ok((Some(played), most_severe))
+}
+
+/// Says why programs did not run.
+fn say_unrun(left: usize, session: &Session) {
+    let programs = if left == 1 { "program" } else { "programs" };
+    let failed = session.counts().contains_key(&Severity::Error);
+    Console::talk(&if failed {
+        format!(
+            "the error stopped the session: {left} more {programs} did not run \
+             (`--keep-going` continues after errors)"
+        )
+    } else {
+        format!("the last program did not reach its end: {left} more {programs} did not run")
+    });
+}

@@ -1,0 +1,191 @@
+//! What drives the path of a program, on the command line.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+
+use super::cycle::CycleArgs;
+use super::execution::ExecutionArgs;
+use super::failure::Failure;
+use super::machine::value_list;
+use super::start::StartArgs;
+use super::values;
+use frictcomp::session::StopPolicy;
+use frictcomp::text::shown_path;
+use frictcomp_host::{ContourSetup, Ledger, LoadedMachine, Naming, NoDrivenContour, find_plant};
+use frictcomp_physics::contour::NoContour;
+use frictcomp_physics::motion::{PlannerOptions, check_cycle};
+use frictcomp_physics::simulation::FrictionModel;
+
+/// What drives the path of a program.
+#[derive(Debug, Clone, Args)]
+pub(super) struct SimulationArgs {
+    /// The axes of the plane, `XY` or `X1,Y1`; by default `XY`
+    #[arg(long, value_name = "AXES", value_parser = parse_plane)]
+    plane: Option<[String; 2]>,
+    /// The drives: `stiff`, `mid`, `soft`, or a TOML file; by default `stiff`
+    #[arg(long, value_name = "PLANT")]
+    plant: Option<String>,
+    /// The friction model; by default `lugre`
+    #[arg(long, value_parser = values::friction_model())]
+    model: Option<FrictionModel>,
+    /// The compensation value list of an axis, in place of the machine's
+    #[arg(long, value_name = "AXIS=FILE", value_parser = parse_list)]
+    value_list: Vec<(String, PathBuf)>,
+    #[command(flatten)]
+    pub(super) start: StartArgs,
+    #[command(flatten)]
+    cycle: CycleArgs,
+    /// The largest number of CNC cycles; by default 100 million
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    max_cycles: Option<u64>,
+}
+
+impl SimulationArgs {
+    /// The plant, as it was named.
+    pub(super) fn plant(&self) -> &str {
+        self.plant.as_deref().unwrap_or("stiff")
+    }
+
+    /// Refuses what only a contour needs, where none is asked for.
+    pub(super) fn refuse_without_contour(&self) -> Result<(), Failure> {
+        let given = [
+            ("--plane", self.plane.is_some()),
+            ("--plant", self.plant.is_some()),
+            ("--model", self.model.is_some()),
+            ("--value-list", !self.value_list.is_empty()),
+            ("--start", !self.start.given().is_empty()),
+            ("--cycle-time-ms", self.cycle.seconds()?.is_some()),
+            ("--max-cycles", self.max_cycles.is_some()),
+        ];
+        match given.iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(Failure::new(format!(
+                "`{option}` says how a contour is driven, and none is asked for"
+            ))
+            .with_help("add `--contour`")),
+            None => Ok(()),
+        }
+    }
+
+    /// What a contour on a machine needs, with files named so.
+    pub(super) fn setup(
+        &self,
+        (loaded, naming): (&LoadedMachine, Naming),
+        execution: &ExecutionArgs,
+        ledger: &Ledger,
+    ) -> Result<ContourSetup, Failure> {
+        let given = self.value_list.iter().map(|(axis, path)| {
+            let list = value_list(path, ledger)?;
+            Ok((axis.clone(), shown_path(path), list))
+        });
+        let mut session = execution.options(loaded, StopPolicy::FirstError);
+        session.start = self.start.positions(&loaded.machine)?;
+        let plane = self.plane.clone();
+        Ok(ContourSetup {
+            plane: plane.unwrap_or_else(|| ["X", "Y"].map(str::to_owned)),
+            plant: find_plant(self.plant(), ledger)?,
+            value_lists: given.collect::<Result<_, Failure>>()?,
+            model: self.model.unwrap_or_default(),
+            planner: self.planner(loaded)?,
+            session,
+            naming,
+        })
+    }
+
+    /// The cycle of the command line, else that of the machine.
+    fn planner(&self, loaded: &LoadedMachine) -> Result<PlannerOptions, Failure> {
+        let usual = PlannerOptions::default();
+        let of_machine = loaded.machine.cycle_time_ms.map(|ms| ms / 1000.0);
+        let cycle = self.cycle.seconds()?.or(of_machine);
+        Ok(PlannerOptions {
+            cycle_s: check_cycle(cycle.unwrap_or(usual.cycle_s))?,
+            max_cycles: self.max_cycles.unwrap_or(usual.max_cycles),
+        })
+    }
+}
+
+/// What a figure may change in µm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tolerance(f64);
+
+impl Default for Tolerance {
+    /// Half a µm: less is seen on no part.
+    fn default() -> Self {
+        Self(0.5)
+    }
+}
+
+impl Tolerance {
+    /// The tolerance in µm.
+    pub(super) fn um(self) -> f64 {
+        self.0
+    }
+
+    /// Refuses a tolerance where no contour is asked for.
+    pub(super) fn refuse_without_contour(given: Option<Self>) -> Result<(), Failure> {
+        match given {
+            Some(_) => Err(Failure::new(
+                "`--tolerance` is that of a contour, and none is asked for",
+            )
+            .with_help("add `--contour`")),
+            None => Ok(()),
+        }
+    }
+}
+
+impl FromStr for Tolerance {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let um = text.parse().ok();
+        let um = um.filter(|um: &f64| um.is_finite() && *um >= 0.0);
+        um.map(Self)
+            .ok_or_else(|| "write the µm, 0 or more".to_owned())
+    }
+}
+
+fn parse_list(text: &str) -> Result<(String, PathBuf), String> {
+    match text.split_once('=') {
+        Some((axis, path)) if !axis.is_empty() && !path.is_empty() => {
+            Ok((axis.trim().to_owned(), path.into()))
+        }
+        _ => Err("write the axis and the file, `X=comp_x.lis`".to_owned()),
+    }
+}
+
+/// `XY`, or `X1,Y1` for names of several letters.
+fn parse_plane(text: &str) -> Result<[String; 2], String> {
+    let pair = match text.split_once(',') {
+        Some((first, second)) => Some([first.trim(), second.trim()]),
+        None if text.chars().count() == 2 => {
+            let second = text.char_indices().nth(1).map_or(0, |(at, _)| at);
+            Some([&text[..second], &text[second..]])
+        }
+        None => None,
+    };
+    pair.map(|pair| pair.map(str::to_owned))
+        .ok_or_else(|| "write two axes, `XY` or `X1,Y1`".to_owned())
+}
+
+impl From<NoDrivenContour> for Failure {
+    fn from(error: NoDrivenContour) -> Self {
+        let help = match &error {
+            NoDrivenContour::Axes(NoContour::NoAxis(unknown)) => unknown.help("its axes are"),
+            NoDrivenContour::Unstable { .. } => {
+                Some("check gains and masses of the plant".to_owned())
+            }
+            NoDrivenContour::OnlyOnce => Some("name a file".to_owned()),
+            _ => None,
+        };
+        if let NoDrivenContour::Host(error) = error {
+            return error.into();
+        }
+        let failure = Self::new(error.to_string());
+        match help {
+            Some(help) => failure.with_help(help),
+            None => failure,
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! `frictcomp trace`: what a recorded trace holds.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::console::Console;
+use super::exit;
+use super::failure::Failure;
+use super::outputs::{Outputs, write_text};
+use super::result::{Format, ResultArgs};
+use frictcomp::text::shown_path;
+use frictcomp_host::{Ledger, read_trace};
+use frictcomp_recordings::trace::{ChannelQuantity, ChannelSelection, Choice};
+use frictcomp_report::html::render_trace;
+use frictcomp_report::pictures::channels;
+use frictcomp_report::svg::Frame;
+use frictcomp_report::trace::{TraceReport, render_json, render_text};
+
+/// List the channels of a recorded trace: rates, lengths, ranges, gaps
+///
+/// Reads exports of TwinCAT Scope (CSV), traces of SINUMERIK (XML) and CSV files with a header. The
+/// names, comments and CNC objects that it lists are what `identify`, `current` and `circle` take
+/// after `--velocity`, `--position`, `--torque`, `--time`, `--x` and `--y`.
+#[derive(Debug, Args)]
+pub(super) struct TraceArgs {
+    /// The recorded trace
+    file: PathBuf,
+    /// The channel of the times, where the file has one that is not called `t` or `time`
+    #[arg(long, value_name = "CHANNEL")]
+    time: Option<String>,
+    #[command(flatten)]
+    result: ResultArgs,
+    /// Draw the channels over time to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write an HTML report with the channels over time to this file
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &TraceArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    ledger.reads("trace", &args.file);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.result.output.as_deref())?;
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    let html = outputs.optional("--html", args.html.as_deref())?;
+    outputs.check()?;
+    let selection = ChannelSelection {
+        time: args.time.clone(),
+        ..ChannelSelection::default()
+    };
+    let recording = read_trace(&args.file, |channels| {
+        let time = selection.find(ChannelQuantity::Time, channels)?;
+        Ok(Choice::all(channels, time))
+    })?;
+    let report = TraceReport {
+        name: shown_path(&args.file),
+        recording: &recording,
+    };
+    if let Some(mut svg) = svg {
+        write_text(&mut svg, &channels(&report).render(Frame::Alone))?;
+    }
+    if let Some(mut html) = html {
+        render_trace(&report, &mut html).map_err(Failure::output)?;
+    }
+    result.text(&match args.result.format {
+        Format::Text => render_text(&report),
+        Format::Json => render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}

@@ -1,0 +1,359 @@
+//! `frictcomp tune`: the parameters of a value list that leave the smallest glitch.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::console::Console;
+use super::cycle::CycleArgs;
+use super::exit;
+use super::failure::Failure;
+use super::machine::MachineArgs;
+use super::outputs::{Outputs, write_text};
+use super::progress;
+use super::result::Format;
+use super::values;
+use frictcomp::comp::CncBuild;
+use frictcomp::diagnostic::{Code, Diagnostic};
+use frictcomp::lists::{AxisType, ListHead, Points};
+use frictcomp::machine::Axis;
+use frictcomp::text::{Place, Span, shown_path};
+use frictcomp_host::{Ledger, OutputFile, find_plant, memory_for_simulation, tune};
+use frictcomp_physics::circle::{
+    Circle, FeedResult, FreeParameter, PlaneAxis, Ranges, Shaping, Task,
+};
+use frictcomp_physics::current::Reading;
+use frictcomp_physics::simulation::{FrictionModel, Plant};
+use frictcomp_report::pictures::tuning;
+use frictcomp_report::svg::Frame;
+use frictcomp_report::tune::{TuneReport, render_json, render_text, round};
+use frictcomp_report::value_lists::render_tuned;
+use frictcomp_report::visible_line;
+
+/// Circles that are tuned at once, at most.
+const MAX_CIRCLES: usize = 32;
+
+/// Plants at most.
+const MAX_PLANTS: usize = 16;
+
+/// Find the value lists with the smallest glitch on a simulated machine
+///
+/// Searches `position_delay`, `reversal_lookahead`, `delay_cycles` and `scaling_factor` within
+/// their documented ranges for the smallest worst glitch over all circles, then shapes the points
+/// of the friction curve below 1 mm/s where that is worth it. On a plant with `[stiction]` it
+/// searches MP1511 and MP1512.
+#[derive(Debug, Args)]
+pub(super) struct TuneArgs {
+    /// The machine: `stiff`, `mid`, `soft`, or a TOML file; several are tuned one after the other
+    #[arg(
+        long,
+        value_name = "PLANT",
+        value_delimiter = ',',
+        default_value = "stiff"
+    )]
+    plant: Vec<String>,
+    /// The feeds in mm/min
+    #[arg(
+        long,
+        value_name = "MM/MIN",
+        value_delimiter = ',',
+        default_value = "500,1000,2000,5000",
+        allow_negative_numbers = true
+    )]
+    feeds: Vec<f64>,
+    /// The accelerations v²/R in mm/s², instead of feeds; each feed follows from the radius
+    #[arg(
+        long,
+        value_name = "MM/S2",
+        value_delimiter = ',',
+        conflicts_with = "feeds",
+        allow_negative_numbers = true
+    )]
+    accelerations: Vec<f64>,
+    /// Search this parameter beyond its documented range
+    #[arg(long, value_name = "PARAMETER", value_delimiter = ',')]
+    free: Vec<Free>,
+    /// The radii in mm, each with every feed
+    #[arg(
+        long,
+        alias = "radius",
+        value_name = "MM",
+        value_delimiter = ',',
+        default_value = "100",
+        allow_negative_numbers = true
+    )]
+    radii: Vec<f64>,
+    /// Keep the friction curve as it is; do not shape it below 1 mm/s
+    #[arg(long)]
+    no_shaping: bool,
+    /// The friction model
+    #[arg(long, default_value = "lugre", value_parser = values::friction_model())]
+    model: FrictionModel,
+    #[command(flatten)]
+    cycle: CycleArgs,
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
+    reading: Reading,
+    /// The format of the result
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// Draw the glitch over the feed, before and after tuning, to this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// The CNC build that the value list is for, such as `3.1.3132.0`; outputs are whole numbers
+    /// unless the build accepts fractions
+    #[arg(long, value_name = "BUILD")]
+    cnc_build: Option<CncBuild>,
+    /// Write the value list of the first plant to this file; if X and Y have different lists, that of X
+    #[arg(long, short, value_name = "LIST")]
+    output: Option<PathBuf>,
+    /// Write a value list for each axis of the first plant to this folder, named after the axes of
+    /// the machine: `X.lis`, `Y.lis`
+    #[arg(long, value_name = "FOLDER")]
+    output_dir: Option<PathBuf>,
+    #[command(flatten)]
+    machine: MachineArgs,
+}
+
+/// A parameter that may leave its documented range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Free {
+    /// Up to 200 µm.
+    #[value(name = "position_delay", alias = "position-delay")]
+    PositionDelay,
+    /// Up to 50 cycles.
+    #[value(name = "reversal_lookahead", alias = "reversal-lookahead")]
+    ReversalLookahead,
+    /// From 0 to 100 000 µs.
+    #[value(name = "mp1511")]
+    Mp1511,
+    /// Up to 1000 counting steps.
+    #[value(name = "mp1512")]
+    Mp1512,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &TuneArgs, console: Console) -> Result<u8, Failure> {
+    memory_for_simulation()?;
+    let circles = circles(args)?;
+    if args.plant.len() > MAX_PLANTS {
+        let message = format!("{} plants were given", args.plant.len());
+        return Err(Failure::new(message).with_help(format!("give at most {MAX_PLANTS}")));
+    }
+    let ledger = Ledger::default();
+    let plants: Vec<Plant> = args
+        .plant
+        .iter()
+        .map(|name| find_plant(name, &ledger))
+        .collect::<Result<_, _>>()?;
+    if let Some(first) = plants.first()
+        && (args.output.is_some() || args.output_dir.is_some())
+    {
+        check_list(first)?;
+    }
+    let mut outputs = Outputs::new(&ledger, console);
+    outputs.print("the result")?;
+    let list = args.output.as_deref();
+    let list = list
+        .map(|path| outputs.list("--output", path))
+        .transpose()?;
+    let axis_lists = match &args.output_dir {
+        Some(folder) => axis_lists(folder, args, &mut outputs, &ledger)?,
+        None => Vec::new(),
+    };
+    let svg = outputs.optional("--svg", args.svg.as_deref())?;
+    outputs.check()?;
+    let model = args.model;
+    let watch = progress::watch();
+    let mut reports = Vec::new();
+    for plant in plants {
+        let name = plant.name.clone();
+        let task = Task {
+            plant,
+            model,
+            circles: circles.clone(),
+            ranges: ranges(&args.free),
+            reading: args.reading,
+            points: Points::of_build(args.cnc_build),
+            shaping: if args.no_shaping {
+                Shaping::None
+            } else {
+                Shaping::Allowed
+            },
+        };
+        reports.push(TuneReport {
+            plant: name,
+            model: model.as_str(),
+            reading: args.reading.to_string(),
+            tuned: tune(&task, &watch)?,
+        });
+    }
+    if let Some(first) = reports.first() {
+        let [x, y] = &first.tuned.axes;
+        if let Some(mut file) = list {
+            write_text(
+                &mut file,
+                &render_tuned(first, x, args.cnc_build, &ListHead::default()),
+            )?;
+            if x != y {
+                console.remark("Y has a list of its own: `--output-dir` writes both");
+            }
+        }
+        for (mut of_axis, axis) in axis_lists.into_iter().zip([x, y]) {
+            let text = render_tuned(first, axis, args.cnc_build, &of_axis.head());
+            write_text(&mut of_axis.file, &text)?;
+        }
+    }
+    for report in &reports {
+        console.show(&worse_than_off(report));
+    }
+    if let Some(mut svg) = svg {
+        write_text(&mut svg, &tuning(&reports).render(Frame::Alone))?;
+    }
+    console.print(&match args.format {
+        Format::Text => console.fitted(&render_text(&reports)),
+        Format::Json => render_json(&reports),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}
+
+/// Stiction compensation has no value list that could be written.
+fn check_list(plant: &Plant) -> Result<(), Failure> {
+    if [&plant.x, &plant.y].iter().all(|it| it.stiction.is_none()) {
+        return Ok(());
+    }
+    let message = format!(
+        "the plant `{}` compensates stiction, which has no value list",
+        visible_line(&plant.name)
+    );
+    let help =
+        "enter MP1511 and MP1512 of the report in the control and in `[stiction]` of the plant";
+    Err(Failure::new(message).with_help(help))
+}
+
+/// The file of the list of an axis, and whose it is.
+struct AxisFile {
+    file: OutputFile,
+    name: String,
+    number: Option<u32>,
+}
+
+impl AxisFile {
+    fn head(&self) -> ListHead<'_> {
+        ListHead {
+            number: self.number,
+            name: Some(&self.name),
+            ..ListHead::default()
+        }
+    }
+}
+
+/// The files of the lists of X and Y, named after the first two linear axes of the machine, if they
+/// have no better names: `X.lis`.
+fn axis_lists(
+    folder: &Path,
+    args: &TuneArgs,
+    outputs: &mut Outputs,
+    ledger: &Ledger,
+) -> Result<Vec<AxisFile>, Failure> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure::new(format!(
+            "the folder `{}` cannot be made: {error}",
+            shown_path(folder)
+        ))
+    })?;
+    let loaded = args.machine.machines(ledger).for_folder(Path::new("."))?;
+    let linear: Vec<&Axis> = loaded
+        .machine
+        .axes
+        .iter()
+        .filter(|axis| axis.axis_type == AxisType::Linear)
+        .collect();
+    let of = |(at, axis): (usize, PlaneAxis)| {
+        let same = linear
+            .iter()
+            .find(|it| it.name.eq_ignore_ascii_case(axis.as_str()));
+        let found = same.or(linear.get(at));
+        let name = found.map_or(axis.as_str(), |axis| &axis.name);
+        Ok(AxisFile {
+            file: outputs.list("--output-dir", &folder.join(format!("{name}.lis")))?,
+            name: name.to_owned(),
+            number: found.and_then(|axis| axis.number),
+        })
+    };
+    PlaneAxis::ALL.into_iter().enumerate().map(of).collect()
+}
+
+/// FC506 for each circle on which compensation is worse than none (R5.25).
+fn worse_than_off(report: &TuneReport) -> Vec<Diagnostic> {
+    let worse = report.tuned.feeds.iter().filter(|it| it.is_worse());
+    let tell = |it: &FeedResult| {
+        let message = format!(
+            "at {} mm/min on a radius of {} mm compensation leaves {:.1} µm, more than the {:.1} µm \
+             without it",
+            round(it.feed_mm_per_min),
+            round(it.radius_mm),
+            it.glitch_on_um,
+            it.glitch_off_um
+        );
+        let place = Place {
+            file: report.plant.as_str().into(),
+            text: "".into(),
+            first_line: 1,
+            span: Span::new(0, 0),
+        };
+        Diagnostic::new(Code::Fc506, place, message)
+            .with_help("tune for fewer feeds, or search further with `--free position_delay`")
+    };
+    worse.map(tell).collect()
+}
+
+fn circles(args: &TuneArgs) -> Result<Vec<Circle>, Failure> {
+    let cycle = args.cycle.seconds()?;
+    let cycle_time_s = cycle.unwrap_or(Circle::default().cycle_time_s);
+    let of_radius = |&radius_mm: &f64| {
+        let circle = move |feed_mm_per_min| Circle {
+            radius_mm,
+            feed_mm_per_min,
+            cycle_time_s,
+        };
+        let feeds: Vec<f64> = match &args.accelerations[..] {
+            [] => args.feeds.clone(),
+            given => given
+                .iter()
+                .map(|it| 60.0 * (it * radius_mm).sqrt())
+                .collect(),
+        };
+        feeds.into_iter().map(circle)
+    };
+    let possible = f64::MIN_POSITIVE..f64::INFINITY;
+    let mut accelerations = args.accelerations.iter();
+    if let Some(acceleration) = accelerations.find(|it| !possible.contains(*it)) {
+        let message = format!("an acceleration of {acceleration} mm/s² is not possible");
+        return Err(Failure::new(message).with_help("give v²/R in mm/s², 2.8 for instance"));
+    }
+    let circles: Vec<Circle> = args.radii.iter().flat_map(of_radius).collect();
+    if circles.len() > MAX_CIRCLES {
+        let message = format!("{} circles were given", circles.len());
+        let help = format!("give at most {MAX_CIRCLES} pairs of feed and radius");
+        return Err(Failure::new(message).with_help(help));
+    }
+    Ok(circles)
+}
+
+fn ranges(free: &[Free]) -> Ranges {
+    free.iter().fold(Ranges::default(), |ranges, free| {
+        ranges.free(match free {
+            Free::PositionDelay => FreeParameter::PositionDelay,
+            Free::ReversalLookahead => FreeParameter::ReversalLookahead,
+            Free::Mp1511 => FreeParameter::Mp1511,
+            Free::Mp1512 => FreeParameter::Mp1512,
+        })
+    })
+}

@@ -1,0 +1,92 @@
+//! `frictcomp verify`: a recorded torque against a value list.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::channels::AxisChannels;
+use super::console::Console;
+use super::cycle::CycleArgs;
+use super::exit;
+use super::failure::Failure;
+use super::machine::value_list;
+use super::outputs::Outputs;
+use super::result::{Format, ResultArgs};
+use frictcomp::text::shown_path;
+use frictcomp_host::{Ledger, read_axis};
+use frictcomp_physics::current::Reading;
+use frictcomp_recordings::identify::{Predictor, verify_followed};
+use frictcomp_recordings::trace::ChannelSelection;
+use frictcomp_report::fitted;
+use frictcomp_report::verify::{VerifyReport, render_json, render_text};
+
+/// Compare a recorded torque with what a value list predicts
+///
+/// The prediction is the additive current that the control computes from the list. Says at which
+/// speeds the list is too low or too high, whether its sign is inverted, and, where the following error
+/// was recorded, whether it acted and whether it comes early or late at reversals. The channels are
+/// named as for `identify`. Record without compensation, or record the torque that the drive measures.
+#[derive(Debug, Args)]
+pub(super) struct VerifyArgs {
+    /// The recorded trace
+    trace: PathBuf,
+    /// The compensation value list
+    #[arg(long, value_name = "LIST")]
+    value_list: PathBuf,
+    #[command(flatten)]
+    channels: AxisChannels,
+    /// The channel of the actual positions, beside that of the commanded ones: only the following error
+    /// tells whether the list is early or late
+    #[arg(long, value_name = "CHANNEL")]
+    actual_position: Option<String>,
+    /// The channel of the following error, commanded less actual position
+    #[arg(long, value_name = "CHANNEL", conflicts_with = "actual_position")]
+    following_error: Option<String>,
+    #[command(flatten)]
+    cycle: CycleArgs,
+    /// Where the documents leave something open: `standstill=zero,below=origin,delay=reversal`
+    #[arg(
+        long,
+        value_name = "READING",
+        default_value = "",
+        hide_default_value = true
+    )]
+    reading: Reading,
+    #[command(flatten)]
+    result: ResultArgs,
+}
+
+/// Runs the command.
+pub(super) fn run(args: &VerifyArgs, console: Console) -> Result<u8, Failure> {
+    let ledger = Ledger::default();
+    ledger.reads("trace", &args.trace);
+    let mut outputs = Outputs::new(&ledger, console);
+    let mut result = outputs.result(args.result.output.as_deref())?;
+    let list = value_list(&args.value_list, &ledger)?;
+    outputs.check()?;
+    let cycle_s = args.cycle.seconds()?;
+    let selection = ChannelSelection {
+        actual_position: args.actual_position.clone(),
+        following_error: args.following_error.clone(),
+        ..args.channels.selection()
+    };
+    let recording = read_axis(&args.trace, &selection, cycle_s)?;
+    let predictor = Predictor {
+        list: &list,
+        reading: args.reading,
+        cycle_s,
+    };
+    let verified = verify_followed(&recording.track, &recording.following_errors, &predictor)?;
+    let report = VerifyReport {
+        trace: shown_path(&args.trace),
+        list: shown_path(&args.value_list),
+        recording,
+        verified,
+    };
+    result.text(&match args.result.format {
+        Format::Text => fitted(&render_text(&report), result.look.width),
+        Format::Json => render_json(&report),
+    })?;
+    outputs.finish()?;
+    Ok(exit::CLEAN)
+}

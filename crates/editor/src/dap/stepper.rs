@@ -1,0 +1,516 @@
+//! The run of a program that is looked at block by block.
+//!
+//! An interpreter tells of a block when it has executed it; a debugger stands before a block. So the
+//! stepper keeps a copy of the run from some blocks ago: when a block says that the run should have
+//! stopped before it, the copy goes to the block again.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::breakpoints::Breakpoints;
+use frictcomp::comp::Kind;
+use frictcomp::diagnostic::{Diagnostic, Severity};
+use frictcomp::interpreter::{
+    Ended, EndedBy, Event, Executed, Interpreter, NoteKind, Notes, Observer, Options,
+};
+use frictcomp::machine::{Machine, Setting};
+use frictcomp::syntax::axis_uses;
+use frictcomp::text::SourceFile;
+use frictcomp_host::{
+    HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines, Naming, ProgramFinder,
+    read_text,
+};
+
+/// Blocks that are executed between two copies, and between two looks whether the client wants
+/// anything.
+const STRIDE: u64 = 10_000;
+
+/// A block of a call, or the one that comes next.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Site {
+    pub(super) file: Arc<str>,
+    /// From 1.
+    pub(super) line: u32,
+    pub(super) text: String,
+}
+
+/// Where the run stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Position {
+    /// Before a block; the last site is that block, those before it the calls that led there.
+    Before(Vec<Site>),
+    /// The program has ended.
+    Ended(EndedBy),
+}
+
+/// How far the run is to go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// To the next block.
+    Block,
+    /// To the next block of this call depth, or of one above.
+    Depth(usize),
+    /// To the next breakpoint.
+    Breakpoint,
+}
+
+/// Why the run stands where it does.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Halt {
+    /// It has come as far as it was to go.
+    Arrived,
+    /// A breakpoint stands on the line; what is to be said about it.
+    Breakpoint(String),
+    /// States changed in the block before; what changed.
+    Changed(String),
+    /// The next block reads values that only the machine knows.
+    Unknown(BTreeSet<String>),
+    /// An error of the control.
+    Error(String),
+    /// The client wants something.
+    Interrupted,
+    /// The program has ended.
+    Ended(EndedBy),
+}
+
+/// What is known of the blocks up to the next one.
+#[derive(Debug, Clone, Default)]
+struct Trail {
+    /// The last executed block of each call depth.
+    sites: Vec<Site>,
+    /// Why the program ended.
+    ended: Option<EndedBy>,
+}
+
+impl Trail {
+    fn pass(&mut self, block: &Executed<'_>) {
+        self.sites.truncate(depth(block));
+        self.sites.push(site(block));
+    }
+}
+
+/// Text that a run has for its user.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Said {
+    /// A message about the program.
+    Message(Diagnostic),
+    /// The text of a log point.
+    Log {
+        file: Arc<str>,
+        line: u32,
+        text: String,
+    },
+}
+
+/// Where a stride ends before its last block.
+enum Stop {
+    /// Before the block of the moment.
+    Before(Halt),
+    /// Before it, where the breakpoints on its line want that; otherwise for another reason.
+    AtBreakpoint {
+        file: Arc<str>,
+        line: u32,
+        otherwise: Option<Halt>,
+    },
+    /// After it.
+    After(Halt),
+}
+
+/// Listens to some blocks of the run.
+struct Stride<'a> {
+    reach: Reach,
+    breakpoints: &'a mut Breakpoints,
+    asked: &'a BTreeSet<String>,
+    machine: &'a Machine,
+    trail: &'a mut Trail,
+    said: Vec<Said>,
+    blocks: u64,
+    /// Whether the next block is one that the run need not stop before.
+    first: bool,
+    stop: Option<Stop>,
+}
+
+impl Stride<'_> {
+    /// Why the run should have stopped before a block.
+    fn before(&mut self, block: &Executed<'_>) -> Option<Stop> {
+        let halt = self.halt_before(block);
+        let is_error = matches!(halt, Some(Halt::Error(_)));
+        if is_error || !self.breakpoints.is_on(block) {
+            return halt.map(Stop::Before);
+        }
+        Some(Stop::AtBreakpoint {
+            file: Arc::clone(block.file),
+            line: block.line,
+            otherwise: halt,
+        })
+    }
+
+    /// The same without the breakpoints on its line.
+    fn halt_before(&mut self, block: &Executed<'_>) -> Option<Halt> {
+        if block.stopped {
+            let error = block
+                .diagnostics
+                .iter()
+                .find(|said| said.severity == Severity::Error);
+            return Some(Halt::Error(error.map(in_words).unwrap_or_default()));
+        }
+        if self.breakpoints.stops_at_unknown() {
+            let mut unknown = unknown_names(block);
+            unknown.retain(|name| !self.asked.contains(name));
+            if !unknown.is_empty() {
+                return Some(Halt::Unknown(unknown));
+            }
+        }
+        let has_arrived = match self.reach {
+            Reach::Block => true,
+            Reach::Depth(limit) => depth(block) <= limit,
+            Reach::Breakpoint => false,
+        };
+        has_arrived.then_some(Halt::Arrived)
+    }
+
+    /// The changes of states that a block makes, where they stop the run.
+    fn changes(&self, block: &Executed<'_>) -> Option<Halt> {
+        let name = |axis| self.machine.axis(axis).name.as_str();
+        let made = block
+            .changes
+            .iter()
+            .filter(|change| change.kind == Kind::Frict);
+        let made = made.map(|change| {
+            let words = format!(
+                "{}: {} \u{2192} {}",
+                name(change.axis),
+                change.from,
+                change.to
+            );
+            (name(change.axis), words)
+        });
+        let doubted = block
+            .doubted
+            .iter()
+            .filter(|(_, kinds)| kinds.contains(Kind::Frict));
+        let doubted = doubted.map(|&(axis, _)| (name(axis), format!("{}: unknown", name(axis))));
+        let watched: Vec<String> = made
+            .chain(doubted)
+            .filter(|(axis, _)| self.breakpoints.watches(axis))
+            .map(|(_, words)| words)
+            .collect();
+        (!watched.is_empty()).then(|| Halt::Changed(watched.join(", ")))
+    }
+}
+
+impl Observer for Stride<'_> {
+    fn event(&mut self, event: Event<'_>) -> ControlFlow<()> {
+        match event {
+            Event::Started { .. } => {}
+            Event::Ended(ended) => {
+                self.trail.ended = Some(ended.by);
+                self.said.extend(messages(ended.diagnostics));
+            }
+            Event::Executed(block) => {
+                self.blocks += 1;
+                if !std::mem::take(&mut self.first)
+                    && let Some(stop) = self.before(&block)
+                {
+                    self.stop = Some(stop);
+                    return ControlFlow::Break(());
+                }
+                self.said.extend(messages(block.diagnostics));
+                self.trail.pass(&block);
+                self.stop = self.changes(&block).map(Stop::After);
+                if self.stop.is_some() || self.blocks == STRIDE {
+                    return ControlFlow::Break(());
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// The run of a program.
+pub(super) struct Stepper {
+    machine: Arc<Machine>,
+    /// The axes that the program names.
+    used: BTreeSet<String>,
+    finder: ProgramFinder,
+    /// Stands before the block that is shown.
+    here: Interpreter,
+    /// The same in the program that this block belongs to.
+    settled: Interpreter,
+    /// Whether the client was told that the run stands before that block.
+    is_shown: bool,
+    trail: Trail,
+    position: Position,
+    /// What the block that is shown reads and only the machine knows.
+    wanted: BTreeSet<String>,
+    /// The values that the run has stopped at already.
+    asked: BTreeSet<String>,
+    /// What was said by blocks that were executed since the client was told.
+    said: Vec<Said>,
+}
+
+impl Stepper {
+    /// The run of a program on the machine of its folder, before its first block.
+    ///
+    /// # Errors
+    /// The program or its configuration cannot be read.
+    pub(super) fn new(program: &Path, settings: &[(String, Setting)]) -> Result<Self, HostError> {
+        let mut machines = Machines::new(MachineOptions::default(), &Ledger::default());
+        let input = Input::new(program);
+        let loaded = machines.for_folder(input.folder())?;
+        let LoadedMachine {
+            machine,
+            reach,
+            disk,
+            ..
+        } = &*loaded;
+        let text = read_text(program)?;
+        let used = axis_uses(&text).into_keys().collect();
+        let source = SourceFile::new(input.name(Naming::AsGiven), text);
+        let machine = Arc::new(machine.clone());
+        let options = Options::default().with_notes(Notes::Taken);
+        let mut here = Interpreter::new(Arc::clone(&machine), machine.compensation(), options);
+        for (name, setting) in loaded.settings.iter().chain(settings) {
+            here.set(name, setting);
+        }
+        let mut finder = ProgramFinder::new(&input, reach, Naming::AsGiven, disk);
+        let mut said = Vec::new();
+        let mut trail = Trail::default();
+        let _ = here.program(source, &mut finder, &mut |event: Event<'_>| {
+            if let Event::Ended(ended) = event {
+                trail.ended = Some(ended.by);
+                said.extend(messages(ended.diagnostics));
+            }
+            ControlFlow::Break(())
+        });
+        let mut stepper = Self {
+            machine,
+            used,
+            finder,
+            settled: here.clone(),
+            here,
+            is_shown: false,
+            trail,
+            position: Position::Before(Vec::new()),
+            wanted: BTreeSet::new(),
+            asked: BTreeSet::new(),
+            said,
+        };
+        stepper.look_ahead();
+        Ok(stepper)
+    }
+
+    /// Where the run stands.
+    pub(super) fn position(&self) -> &Position {
+        &self.position
+    }
+
+    /// How many calls deep the block stands that is shown.
+    pub(super) fn depth(&self) -> usize {
+        match &self.position {
+            Position::Before(sites) => sites.len().saturating_sub(1),
+            Position::Ended(_) => 0,
+        }
+    }
+
+    /// The interpreter before the block that is shown.
+    pub(super) fn interpreter(&self) -> &Interpreter {
+        &self.settled
+    }
+
+    /// Whether the machine or the program has an axis of this name.
+    pub(super) fn has_axis(&self, name: &str) -> bool {
+        self.machine.find(name).is_some() || self.used.contains(name)
+    }
+
+    /// The client is told that the run stands before the block: it goes on without stopping there again.
+    pub(super) fn show(&mut self) {
+        self.is_shown = true;
+    }
+
+    /// The names of the values that the block reads which is shown, and only the machine knows.
+    pub(super) fn wanted(&self) -> &BTreeSet<String> {
+        &self.wanted
+    }
+
+    /// Gives a value that only the machine knows, from the block on that is shown.
+    pub(super) fn set(&mut self, name: &str, setting: &Setting) {
+        self.here.set(name, setting);
+        self.look_ahead();
+    }
+
+    /// Takes what was said since the last call.
+    pub(super) fn take_said(&mut self) -> Vec<Said> {
+        std::mem::take(&mut self.said)
+    }
+
+    /// Goes on. `interrupted` is asked every now and then.
+    pub(super) fn go(
+        &mut self,
+        reach: Reach,
+        breakpoints: &mut Breakpoints,
+        interrupted: &mut dyn FnMut() -> bool,
+    ) -> Halt {
+        let mut first = std::mem::take(&mut self.is_shown);
+        let halt = loop {
+            if let Some(by) = self.trail.ended {
+                break Halt::Ended(by);
+            }
+            let anchor = self.here.clone();
+            let trail = self.trail.clone();
+            let mut stride = Stride {
+                reach,
+                breakpoints,
+                asked: &self.asked,
+                machine: &self.machine,
+                trail: &mut self.trail,
+                said: Vec::new(),
+                blocks: 0,
+                first: std::mem::take(&mut first),
+                stop: None,
+            };
+            let _ = self.here.go_on(&mut self.finder, &mut stride);
+            let Stride {
+                blocks,
+                stop,
+                mut said,
+                ..
+            } = stride;
+            self.said.append(&mut said);
+            match stop {
+                Some(Stop::Before(halt)) => {
+                    self.trail = trail;
+                    self.return_to(anchor, blocks - 1);
+                    break halt;
+                }
+                Some(Stop::AtBreakpoint {
+                    file,
+                    line,
+                    otherwise,
+                }) => {
+                    self.trail = trail;
+                    self.return_to(anchor, blocks - 1);
+                    let met = breakpoints.meet((&file, line), &self.here);
+                    self.said
+                        .extend(met.logged.into_iter().map(|text| Said::Log {
+                            file: Arc::clone(&file),
+                            line,
+                            text,
+                        }));
+                    if let Some(halt) = met.stop.map(Halt::Breakpoint).or(otherwise) {
+                        break halt;
+                    }
+                    first = true;
+                }
+                Some(Stop::After(halt)) => break halt,
+                None => {}
+            }
+            if interrupted() {
+                break Halt::Interrupted;
+            }
+        };
+        if let Halt::Unknown(names) = &halt {
+            self.asked.extend(names.iter().cloned());
+        }
+        self.look_ahead();
+        halt
+    }
+
+    /// Goes back to a copy of the run and executes so many blocks.
+    fn return_to(&mut self, anchor: Interpreter, blocks: u64) {
+        self.here = anchor;
+        let mut left = blocks;
+        while left > 0 {
+            let trail = &mut self.trail;
+            let _ = self.here.go_on(&mut self.finder, &mut |event: Event<'_>| {
+                if let Event::Executed(block) = event {
+                    trail.pass(&block);
+                    left -= 1;
+                }
+                if left == 0 {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            });
+        }
+    }
+
+    /// Finds the block that comes next by executing it in a copy of the run.
+    fn look_ahead(&mut self) {
+        self.settled = self.here.settled();
+        self.wanted.clear();
+        if let Some(by) = self.trail.ended {
+            self.position = Position::Ended(by);
+            return;
+        }
+        let mut copy = self.here.clone();
+        let (mut sites, mut ended, mut wanted) = (self.trail.sites.clone(), None, BTreeSet::new());
+        let _ = copy.go_on(&mut self.finder, &mut |event: Event<'_>| {
+            match event {
+                Event::Executed(block) => {
+                    sites.truncate(depth(&block));
+                    sites.push(site(&block));
+                    wanted = unknown_names(&block);
+                }
+                Event::Ended(Ended { by, .. }) => ended = Some(by),
+                Event::Started { .. } => return ControlFlow::Continue(()),
+            }
+            ControlFlow::Break(())
+        });
+        self.wanted = wanted;
+        self.position = match ended {
+            // What is left of the program is no block: it ends without a further stop.
+            Some(by) => {
+                self.finish();
+                Position::Ended(by)
+            }
+            None => Position::Before(sites),
+        };
+    }
+
+    fn finish(&mut self) {
+        let (trail, said) = (&mut self.trail, &mut self.said);
+        let _ = self.here.go_on(&mut self.finder, &mut |event: Event<'_>| {
+            if let Event::Ended(ended) = event {
+                trail.ended = Some(ended.by);
+                said.extend(messages(ended.diagnostics));
+            }
+            ControlFlow::Continue(())
+        });
+    }
+}
+
+/// How many calls deep a block stands; 0 in the main program.
+fn depth(block: &Executed<'_>) -> usize {
+    block
+        .level
+        .and_then(|level| usize::try_from(level).ok())
+        .unwrap_or(0)
+}
+
+fn site(block: &Executed<'_>) -> Site {
+    Site {
+        file: Arc::clone(block.file),
+        line: block.line,
+        text: block.text.to_owned(),
+    }
+}
+
+/// The names of the values that a block reads and only the machine knows.
+pub(super) fn unknown_names(block: &Executed<'_>) -> BTreeSet<String> {
+    let notes = block.notes.iter();
+    let unknown = notes.filter(|note| note.kind == NoteKind::Unknown);
+    unknown.map(|note| note.name.clone()).collect()
+}
+
+fn messages(said: &[Diagnostic]) -> impl Iterator<Item = Said> {
+    said.iter().cloned().map(Said::Message)
+}
+
+/// A message in one line: `P-ERR-70495: ...`.
+pub(super) fn in_words(said: &Diagnostic) -> String {
+    format!("{}[{}]: {}", said.severity, said.code, said.message)
+}

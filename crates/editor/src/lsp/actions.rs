@@ -1,0 +1,244 @@
+//! Changes that do what a message advises, from the data that comes with it (R12.5).
+
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+
+use gen_lsp_types::{
+    CodeAction, CodeActionKind, CodeActionParams, CodeActionResponse, Diagnostic as Message,
+    OptionalVersionedTextDocumentIdentifier, Range, TextDocumentEdit, TextDocumentIdentifier,
+    TextEdit, WorkspaceEdit,
+};
+
+use super::documents::{Document, Documents};
+use super::view::View;
+use frictcomp::diagnostic::{Code, Diagnostic, Fix, Safety, edits};
+use frictcomp::session::allow_here;
+use frictcomp::text::{LineIndex, SourceFile, shown_path};
+use frictcomp_host::read_text;
+
+/// The actions at a place of a text.
+pub(super) fn code_actions(
+    view: &View,
+    params: &CodeActionParams,
+) -> Option<Vec<CodeActionResponse>> {
+    let document = view.document(&params.text_document.uri)?;
+    let only = params.context.only.as_deref();
+    let wanted =
+        |kind: &CodeActionKind| only.is_none_or(|only| only.iter().any(|it| holds(it, kind)));
+    let mut actions = Vec::new();
+    if wanted(&CodeActionKind::QuickFix) {
+        for said in messages(view, document) {
+            let (_, message) = view.translator().message(said);
+            if touches(message.range, params.range) {
+                actions.extend(quick_fixes(view, document, (said, &message)));
+            }
+        }
+    }
+    if wanted(&CodeActionKind::SourceFixAll) {
+        actions.extend(fix_all(view, document));
+    }
+    Some(actions.into_iter().map(Into::into).collect())
+}
+
+/// Whether a kind of action is one of those that a wider kind means.
+fn holds(wide: &CodeActionKind, kind: &CodeActionKind) -> bool {
+    let (wide, kind) = (wide.as_str(), kind.as_str());
+    wide.is_empty()
+        || kind == wide
+        || kind
+            .strip_prefix(wide)
+            .is_some_and(|it| it.starts_with('.'))
+}
+
+fn touches(one: Range, other: Range) -> bool {
+    one.start <= other.end && other.start <= one.end
+}
+
+/// What all checks say about a text, each once.
+fn messages<'a>(view: &'a View, document: &Document) -> Vec<&'a Diagnostic> {
+    let mut known = BTreeSet::new();
+    let analyses = view.analyses_of(document).into_iter();
+    let said = analyses.flat_map(|(_, analysis)| &analysis.said);
+    let here = said.filter(|said| Documents::path(&said.place.file) == document.path);
+    let mut is_new = |said: &&'a Diagnostic| {
+        let place = (said.place.first_line, said.place.span.start);
+        known.insert((place, said.code, said.message.as_str()))
+    };
+    here.filter(|said| is_new(said)).collect()
+}
+
+/// The fixes of a message, and the comment that silences it.
+fn quick_fixes(
+    view: &View,
+    document: &Document,
+    (said, message): (&Diagnostic, &Message),
+) -> Vec<CodeAction> {
+    let mut actions = Vec::new();
+    let mut is_preferred = true;
+    for fix in &said.fixes {
+        let Some(edit) = workspace_edit(view, [fix]) else {
+            continue;
+        };
+        let preferred = fix.safety == Safety::Safe && std::mem::take(&mut is_preferred);
+        actions.push(CodeAction {
+            title: title(document, fix),
+            kind: Some(CodeActionKind::QuickFix),
+            diagnostics: Some(vec![message.clone()]),
+            is_preferred: preferred.then_some(true),
+            edit: Some(edit),
+            ..CodeAction::default()
+        });
+    }
+    let source = SourceFile::new(said.place.file.clone(), document.text());
+    let allow = allow_here(said, &source);
+    if let Some(edit) = allow.and_then(|allow| workspace_edit(view, [&allow])) {
+        actions.push(CodeAction {
+            title: format!("allow {} here", said.code),
+            kind: Some(CodeActionKind::QuickFix),
+            diagnostics: Some(vec![message.clone()]),
+            edit: Some(edit),
+            ..CodeAction::default()
+        });
+    }
+    actions
+}
+
+/// What a fix does, in words.
+fn title(document: &Document, fix: &Fix) -> String {
+    let old = short(fix.place.span.of(&fix.place.text));
+    let new = short(&fix.text);
+    let what = match (old.as_str(), new.as_str()) {
+        (old, "") => format!("remove `{old}`"),
+        ("", new) => format!("insert `{new}`"),
+        (old, new) => format!("replace `{old}` with `{new}`"),
+    };
+    let path = Documents::path(&fix.place.file);
+    if path == document.path {
+        return what;
+    }
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    format!("{what} in {}", name.to_string_lossy())
+}
+
+/// The words of a text in one line, at most forty characters of it.
+fn short(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let words = words.join(" ");
+    if words.chars().count() <= 40 {
+        return words;
+    }
+    words.chars().take(39).chain(['\u{2026}']).collect()
+}
+
+/// All changes of a text that may be made without a look at them.
+fn fix_all(view: &View, document: &Document) -> Option<CodeAction> {
+    let fixes = safe_fixes(view, document);
+    if fixes.is_empty() {
+        return None;
+    }
+    Some(CodeAction {
+        title: "apply all safe fixes of frictcomp".to_owned(),
+        kind: Some(CodeActionKind::SourceFixAll),
+        edit: Some(workspace_edit(view, &fixes)?),
+        ..CodeAction::default()
+    })
+}
+
+/// The first safe change of each message about a text. A comment that silences nothing in one run may
+/// be needed in another: it goes only if no run needs it (R9.82).
+fn safe_fixes(view: &View, document: &Document) -> Vec<Fix> {
+    let name = shown_path(&document.path);
+    let mut proposed: HashMap<&Fix, (Code, usize)> = HashMap::new();
+    let mut runs = 0;
+    for (_, analysis) in view.analyses_of(document) {
+        let is_run = analysis
+            .run
+            .as_ref()
+            .is_some_and(|run| run.states.has(&name));
+        runs += usize::from(is_run);
+        for said in &analysis.said {
+            let mut safe = said.fixes.iter().filter(|fix| fix.safety == Safety::Safe);
+            if let Some(fix) = safe.next()
+                && *fix.place.file == *name
+            {
+                proposed.entry(fix).or_insert((said.code, 0)).1 += 1;
+            }
+        }
+    }
+    let holds = |(code, times): (Code, usize)| code != Code::Fc490 || times >= runs;
+    let fixes = proposed.into_iter().filter(|(_, by)| holds(*by));
+    fixes.map(|(fix, _)| fix.clone()).collect()
+}
+
+/// Changes of files, as the client makes them; `None` where nothing is changed.
+fn workspace_edit<'a>(
+    view: &View,
+    fixes: impl IntoIterator<Item = &'a Fix>,
+) -> Option<WorkspaceEdit> {
+    let mut by_file: HashMap<Arc<str>, Vec<&Fix>> = HashMap::new();
+    for fix in fixes {
+        by_file.entry(fix.place.file.clone()).or_default().push(fix);
+    }
+    let mut changes = Vec::new();
+    for (file, fixes) in by_file {
+        changes.extend(text_edits(view, &file, &fixes));
+    }
+    if changes.is_empty() {
+        return None;
+    }
+    Some(as_edit(view, changes))
+}
+
+/// The changes of a file; `None` where its lines are no longer those of the fixes.
+fn text_edits(
+    view: &View,
+    file: &str,
+    fixes: &[&Fix],
+) -> Option<(TextDocumentIdentifier, Vec<TextEdit>)> {
+    let uri = view.translator().uri(file);
+    let source = match view.document(&uri) {
+        Some(document) => SourceFile::new(file, document.text()),
+        None => SourceFile::new(file, read_text(&Documents::path(file)).ok()?),
+    };
+    let (text, lines): (&str, &LineIndex) = (source.text(), source.lines());
+    let edits = edits(&source, fixes.iter().copied()).into_iter();
+    let at = |offset: u32| view.client.encoding.position(text, lines, offset);
+    let edits = edits.map(|edit| TextEdit {
+        range: Range {
+            start: at(edit.span.start),
+            end: at(edit.span.end),
+        },
+        new_text: edit.text,
+    });
+    let edits: Vec<TextEdit> = edits.collect();
+    (!edits.is_empty()).then(|| (TextDocumentIdentifier::new(uri), edits))
+}
+
+/// Changes in the form that the client knows.
+pub(super) fn as_edit(
+    view: &View,
+    changes: Vec<(TextDocumentIdentifier, Vec<TextEdit>)>,
+) -> WorkspaceEdit {
+    if !view.client.edits_versions() {
+        let changes = changes.into_iter().map(|(text, edits)| (text.uri, edits));
+        return WorkspaceEdit {
+            changes: Some(changes.collect()),
+            ..WorkspaceEdit::default()
+        };
+    }
+    let changes = changes.into_iter().map(|(text, edits)| {
+        let version = view.document(&text.uri).map(|document| document.version);
+        TextDocumentEdit {
+            text_document: OptionalVersionedTextDocumentIdentifier {
+                version,
+                text_document_identifier: text,
+            },
+            edits: edits.into_iter().map(Into::into).collect(),
+        }
+        .into()
+    });
+    WorkspaceEdit {
+        document_changes: Some(changes.collect()),
+        ..WorkspaceEdit::default()
+    }
+}

@@ -1,0 +1,278 @@
+//! What a check of an open text finds.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::documents::{Document, Kind};
+use super::lane::Cancel;
+use super::settings::MAX_BLOCKS;
+use super::states::StateBook;
+use super::wording::editor;
+use frictcomp::comp::State;
+use frictcomp::diagnostic::{Code, Diagnostic};
+use frictcomp::session::{Findings, Limits, Options, SessionOptions, StopPolicy};
+use frictcomp::timeline::{EndedBy, Record, Sink};
+use frictcomp_host::{
+    Alone, Axes, Disk, Grounds, HostError, Input, Ledger, LoadedMachine, MachineOptions, Machines,
+    Naming, check_list_file, run_alone,
+};
+
+/// A text to check, as it and all others were when it was asked for.
+pub(super) struct Job {
+    /// The text that was checked.
+    pub(super) document: Arc<Document>,
+    /// The disk with all open texts.
+    pub(super) disk: Disk,
+    /// The executed blocks that are checked.
+    pub(super) max_blocks: u64,
+    /// Whether the text has changed since.
+    pub(super) cancel: Cancel,
+}
+
+/// What a check of a text found.
+#[derive(Debug, Default)]
+pub(super) struct Analysis {
+    /// The version of the text.
+    pub(super) version: i32,
+    /// Messages about the text and all that it uses.
+    pub(super) said: Vec<Diagnostic>,
+    /// Why it could not be checked.
+    pub(super) failure: Option<Failure>,
+    /// The files that were read for it.
+    pub(super) reads: Vec<PathBuf>,
+    /// The names of programs that were called and not found.
+    pub(super) missed: Vec<String>,
+    /// What happens in the program.
+    pub(super) run: Option<Run>,
+}
+
+/// Why a text could not be checked.
+#[derive(Debug)]
+pub(super) struct Failure {
+    /// What cannot be done.
+    pub(super) message: String,
+    /// What to do about it.
+    pub(super) help: Option<String>,
+}
+
+/// What happens in a program.
+#[derive(Debug)]
+pub(super) struct Run {
+    /// The states of its blocks.
+    pub(super) states: StateBook,
+    /// The axes when it has ended.
+    pub(super) ends: Vec<AxisEnd>,
+    /// Whether more blocks would follow than are checked.
+    pub(super) is_cut: bool,
+    /// The number of executed blocks.
+    pub(super) blocks: u64,
+    /// That no machine is described, in words (R1.37).
+    pub(super) remark: Option<String>,
+}
+
+/// An axis when a program has ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct AxisEnd {
+    /// Its name.
+    pub(super) axis: String,
+    /// The state at the end.
+    pub(super) end: State,
+    /// The state at the start of the control.
+    pub(super) start_up: State,
+}
+
+impl Job {
+    /// Checks the text; `None` where it has changed meanwhile.
+    pub(super) fn run(&self) -> Option<Analysis> {
+        let ledger = Ledger::default();
+        let disk = &self.disk;
+        let mut analysis = match self.document.kind {
+            Kind::Program => self.check_program(disk, &ledger),
+            Kind::List | Kind::Configuration => self.check_list(disk, &ledger),
+            Kind::Other => Analysis::default(),
+        };
+        if self.cancel.is_set() {
+            return None;
+        }
+        analysis.version = self.document.version;
+        analysis.missed = ledger.missed();
+        let files = ledger.files().into_iter();
+        analysis.reads = files
+            .map(|path| disk.absolute(&path).unwrap_or(path))
+            .collect();
+        Some(analysis)
+    }
+
+    fn check_program(&self, disk: &Disk, ledger: &Ledger) -> Analysis {
+        let input = Input::Open(self.document.open_text());
+        input.note(ledger);
+        let mut machines = Machines::new(MachineOptions::default(), ledger).on_disk(disk);
+        let loaded = match machines.for_folder(input.folder()) {
+            Ok(loaded) => loaded,
+            Err(error) => return failed(&error),
+        };
+        let alone = Alone {
+            options: options(&loaded, self.max_blocks),
+            naming: Naming::AsGiven,
+            axes: Axes::Ahead,
+        };
+        let mut survey = Survey::new(self.cancel.clone());
+        if let Err(error) = run_alone(&input, &loaded, alone, &mut survey) {
+            return failed(&error);
+        }
+        let mut said: Vec<Diagnostic> = loaded.errors().cloned().collect();
+        for diagnostic in &mut said {
+            diagnostic.reword(Some(editor));
+        }
+        let mut found = survey.findings.diagnostics();
+        let is_cut = found.any(|it| it.code == Code::Fc910 && it.is_raised());
+        let found = survey.findings.diagnostics();
+        // That the editor looks no further says nothing of a loop without an end.
+        said.extend(
+            found
+                .filter(|it| !is_cut || it.code != Code::Fc910)
+                .cloned(),
+        );
+        Analysis {
+            said,
+            run: Some(Run {
+                states: survey.states,
+                ends: survey.ends,
+                is_cut,
+                blocks: survey.blocks,
+                remark: survey.remark,
+            }),
+            ..Analysis::default()
+        }
+    }
+
+    fn check_list(&self, disk: &Disk, ledger: &Ledger) -> Analysis {
+        let path = &self.document.path;
+        ledger.reads("list", path);
+        let build = match self.document.kind {
+            Kind::List => self.build(disk),
+            Kind::Program | Kind::Configuration | Kind::Other => None,
+        };
+        let mut report = match check_list_file(path, build, disk) {
+            Ok(report) => report,
+            Err(error) => return failed(&error),
+        };
+        for file in &report.files {
+            ledger.reads("list", std::path::Path::new(&**file));
+        }
+        let folder = path.parent().unwrap_or(path);
+        Grounds::default()
+            .with(std::path::Path::new(""))
+            .with(folder)
+            .conceal(&mut report.diagnostics);
+        for diagnostic in &mut report.diagnostics {
+            diagnostic.reword(Some(editor));
+        }
+        Analysis {
+            said: report.diagnostics,
+            ..Analysis::default()
+        }
+    }
+
+    /// The build of the machine that a list belongs to, where a configuration says so.
+    fn build(&self, disk: &Disk) -> Option<frictcomp::comp::CncBuild> {
+        let folder = self.document.path.parent()?;
+        let unheard = Ledger::default();
+        let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(disk);
+        machines.for_folder(folder).ok()?.machine.build
+    }
+}
+
+/// How programs run in an editor: as `check` runs them, for fewer blocks.
+pub(super) fn options(loaded: &LoadedMachine, max_blocks: u64) -> SessionOptions {
+    let run = Options::default()
+        .with_stop(StopPolicy::CheckAll)
+        .with_limits(limits(max_blocks));
+    SessionOptions::from(run)
+        .with_levels(loaded.levels.clone())
+        .with_settings(loaded.settings.clone())
+        .with_wording(Some(editor))
+}
+
+/// The budgets of a program in an editor: who raises the number of blocks lets loops and calls go on for
+/// longer, too.
+pub(super) fn limits(max_blocks: u64) -> Limits {
+    let limits = Limits::brief().with_blocks(max_blocks);
+    limits.with_repeats(
+        limits
+            .repeats
+            .saturating_mul(max_blocks.div_ceil(MAX_BLOCKS)),
+    )
+}
+
+fn failed(error: &HostError) -> Analysis {
+    Analysis {
+        said: error.diagnostics().to_vec(),
+        failure: Some(Failure {
+            message: error.to_string(),
+            help: error.help(),
+        }),
+        ..Analysis::default()
+    }
+}
+
+/// Takes the records of a run.
+struct Survey {
+    cancel: Cancel,
+    findings: Findings,
+    states: StateBook,
+    ends: Vec<AxisEnd>,
+    ended_by: Option<EndedBy>,
+    /// The number of executed blocks.
+    blocks: u64,
+    remark: Option<String>,
+}
+
+impl Survey {
+    fn new(cancel: Cancel) -> Self {
+        Self {
+            cancel,
+            findings: Findings::default(),
+            states: StateBook::default(),
+            ends: Vec::new(),
+            ended_by: None,
+            blocks: 0,
+            remark: None,
+        }
+    }
+}
+
+impl Sink for Survey {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if self.cancel.is_set() {
+            return ControlFlow::Break(());
+        }
+        match record {
+            Record::Session { remark, .. } => self.remark = remark.map(str::to_owned),
+            Record::Program { state, .. } => self.states.begin(*state),
+            Record::Block(row) => {
+                self.states.block(row);
+                if row.diagnostics.is_empty() {
+                    return ControlFlow::Continue(());
+                }
+            }
+            Record::End(end) => {
+                self.states.end(end.state);
+                self.ended_by = Some(end.by);
+            }
+            Record::Summary(summary) => {
+                self.blocks = summary.blocks;
+                let axes = summary.axes.iter();
+                let ends = axes.map(|axis| AxisEnd {
+                    axis: summary.state.name(axis.axis).to_owned(),
+                    end: axis.end,
+                    start_up: axis.start_up,
+                });
+                self.ends = ends.collect();
+            }
+            Record::Machine(_) => {}
+        }
+        self.findings.record(record)
+    }
+}

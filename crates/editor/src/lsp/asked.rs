@@ -1,0 +1,62 @@
+//! What the server asks the client.
+
+use gen_lsp_types::{
+    ConfigurationItem, ConfigurationParams, ConfigurationRequest,
+    DidChangeWatchedFilesRegistrationOptions, FileSystemWatcher, Registration, RegistrationParams,
+    RegistrationRequest, Request as _,
+};
+use lsp_server::{Outgoing, Request};
+use serde_json::json;
+
+use frictcomp_host::CONFIG_NAME;
+
+/// What the server asked, until the client answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Asked {
+    /// The settings of the user.
+    Settings,
+    /// To tell of files that change.
+    NewsOfFiles,
+    /// To ask again for what is shown.
+    Refresh,
+}
+
+impl Asked {
+    /// What does not happen where the client refuses.
+    pub(super) fn refused(self) -> &'static str {
+        match self {
+            Self::Settings => "the client does not give its settings",
+            Self::NewsOfFiles => "the client does not tell of files that change",
+            Self::Refresh => "the client does not ask again for what is shown",
+        }
+    }
+}
+
+/// Asks for the settings of the user.
+pub(super) fn settings(outgoing: &mut Outgoing<Asked>) -> Request {
+    let params = ConfigurationParams::new(vec![ConfigurationItem {
+        scope_uri: None,
+        section: Some("frictcomp".to_owned()),
+    }]);
+    let method = ConfigurationRequest::METHOD.to_string();
+    outgoing.register(method, params, Asked::Settings)
+}
+
+/// Asks to be told of lists, configurations and programs that change.
+pub(super) fn news_of_files(outgoing: &mut Outgoing<Asked>) -> Request {
+    let endings = "nc,NC,cnc,CNC,mpf,MPF,spf,SPF,cyc,CYC,ecy,ECY,sub,SUB,iso,ISO,ngc,NGC,tap,TAP,plc,PLC,lis,LIS";
+    let programs = format!("**/*.{{{endings}}}");
+    let patterns = [programs, format!("**/{CONFIG_NAME}")];
+    let watchers = patterns.map(|pattern| FileSystemWatcher {
+        glob_pattern: pattern.into(),
+        kind: None,
+    });
+    let options = DidChangeWatchedFilesRegistrationOptions::new(watchers.to_vec());
+    let params = RegistrationParams::new(vec![Registration {
+        id: "files".to_owned(),
+        method: "workspace/didChangeWatchedFiles".to_owned(),
+        register_options: Some(json!(options)),
+    }]);
+    let method = RegistrationRequest::METHOD.to_string();
+    outgoing.register(method, params, Asked::NewsOfFiles)
+}

@@ -1,0 +1,172 @@
+//! Reports that an editor shows in a window of its own (R12.4).
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use gen_lsp_types::{ExecuteCommandParams, Uri};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::refusal::Refusal;
+use super::uri::path_of;
+use super::view::View;
+use super::wording::editor;
+use frictcomp::comp::{Kind, KindSet};
+use frictcomp::session::{Options, SessionOptions};
+use frictcomp::text::{LineSource, shown_path};
+use frictcomp::timeline::{Record, Sink};
+use frictcomp_host::{
+    Alone, ArchiveAuditor, AuditOptions, Axes, Disk, Input, Ledger, MachineOptions, Machines,
+    Naming, OpenText, find_programs, run_alone,
+};
+use frictcomp_report::audit::{AuditReport, MachineAudit};
+use frictcomp_report::html::{
+    GivenForRun, RunDigest, RunInputs, Sources, render_audit, render_run,
+};
+
+/// The timeline of a program as an HTML report.
+pub(super) const SHOW_TIMELINE: &str = "frictcomp.showTimeline";
+
+/// What the order of the programs of a folder does, as an HTML report.
+const AUDIT: &str = "frictcomp.audit";
+
+/// All commands.
+pub(super) const COMMANDS: [&str; 2] = [SHOW_TIMELINE, AUDIT];
+
+/// What a command is about: its one argument.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Subject {
+    /// The program, or the folder.
+    uri: Uri,
+}
+
+/// The result of a command.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Shown {
+    /// A page that needs nothing else: no network, no script, no second file.
+    html: String,
+}
+
+/// Runs a command.
+pub(super) fn execute(view: &View, params: ExecuteCommandParams) -> Result<Shown, Refusal> {
+    let subject = params.arguments.into_iter().flatten().next();
+    let subject: Subject = serde_json::from_value(subject.unwrap_or(Value::Null))?;
+    match params.command.as_str() {
+        SHOW_TIMELINE => timeline(view, &subject),
+        AUDIT => audit(view, &subject),
+        other => Err(Refusal::Params(format!("there is no command `{other}`"))),
+    }
+}
+
+/// The texts that are open, and the files besides.
+struct Texts(Disk);
+
+impl Sources for Texts {
+    fn open(&mut self, name: &str) -> Option<Box<dyn LineSource + '_>> {
+        self.0.lines(name)
+    }
+}
+
+/// The run of a program, as far as the client wants it.
+struct Digest<'a> {
+    digest: RunDigest,
+    view: &'a View,
+}
+
+impl Sink for Digest<'_> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if self.view.cancel.is_set() {
+            return ControlFlow::Break(());
+        }
+        self.digest.record(record)
+    }
+}
+
+fn timeline(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
+    let document = view
+        .document(&subject.uri)
+        .ok_or_else(|| Refusal::Params(format!("`{}` is not open", subject.uri.0)))?;
+    let disk = view.documents.disk();
+    let input = Input::Open(document.open_text());
+    let unheard = Ledger::default();
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
+    let loaded = machines.for_folder(input.folder())?;
+    let alone = Alone {
+        options: SessionOptions::default()
+            .with_levels(loaded.levels.clone())
+            .with_settings(loaded.settings.clone())
+            .with_wording(Some(editor)),
+        naming: Naming::AsGiven,
+        axes: Axes::Ahead,
+    };
+    let mut sink = Digest {
+        digest: RunDigest::new(KindSet::of(Kind::Frict)),
+        view,
+    };
+    run_alone(&input, &loaded, alone, &mut sink)?;
+    let given = RunInputs {
+        given: GivenForRun {
+            machine: loaded.origin.as_deref(),
+            variables: &loaded.settings,
+            ..GivenForRun::default()
+        },
+        parameters: &loaded.reports,
+        programs: &loaded.programs,
+    };
+    let mut page = Vec::new();
+    render_run(&sink.digest, &given, &mut Texts(disk), &mut page)
+        .map_err(|error| Refusal::Failed(error.to_string()))?;
+    Ok(Shown {
+        html: String::from_utf8_lossy(&page).into_owned(),
+    })
+}
+
+/// Audits the programs of a folder and below, or of the folder of a program, each as it is open.
+fn audit(view: &View, subject: &Subject) -> Result<Shown, Refusal> {
+    let named = path_of(&subject.uri.0);
+    let path = named.ok_or_else(|| Refusal::Params(format!("`{}` is no file", subject.uri.0)))?;
+    let folder = match path.parent() {
+        Some(folder) if !path.is_dir() => folder.to_owned(),
+        _ => path,
+    };
+    let disk = view.documents.disk();
+    let unheard = Ledger::default();
+    let mut machines = Machines::new(MachineOptions::default(), &unheard).on_disk(&disk);
+    let found = find_programs(&[folder], |folder| machines.extensions(folder));
+    let inputs = found.inputs.into_iter().map(|input| match &input {
+        Input::File(path) => match disk.text(path) {
+            Some(text) => Input::Open(OpenText {
+                path: path.clone(),
+                text: Arc::clone(text),
+            }),
+            None => input,
+        },
+        Input::Open(_) | Input::Stdin => input,
+    });
+    let options = AuditOptions::new(Options::default());
+    let (auditor, mut errors) = ArchiveAuditor::new(inputs.collect(), &mut machines, options);
+    errors.extend(found.failures);
+    let (archives, unread) = auditor.audit();
+    errors.extend(unread);
+    // A report that leaves programs out would look like an all-clear.
+    if let Some(error) = errors.into_iter().next() {
+        return Err(error.into());
+    }
+    let audits = auditor
+        .machines()
+        .iter()
+        .zip(archives)
+        .map(|(loaded, archive)| {
+            let origin = loaded.origin.as_deref();
+            MachineAudit::new(origin.map(shown_path), archive)
+        });
+    let report = AuditReport {
+        machines: audits.collect(),
+    };
+    let mut page = Vec::new();
+    render_audit(&report, &mut Texts(disk), &mut page)
+        .map_err(|error| Refusal::Failed(error.to_string()))?;
+    Ok(Shown {
+        html: String::from_utf8_lossy(&page).into_owned(),
+    })
+}

@@ -1,0 +1,288 @@
+//! What may be written next: words of a COMP command, axes, parameters and keys (R12.6, R12.11).
+//!
+//! An editor may take what it shows first for Enter. So nothing is offered but what begins as the word
+//! that is typed and is longer, each with the range that it replaces; only inside a COMP bracket a
+//! blank is enough.
+
+use gen_lsp_types::{
+    CompletionItem, CompletionItemKind, CompletionParams, Documentation, MarkupContent, MarkupKind,
+    Position, Range, TextEdit,
+};
+
+use super::documents::{Document, Kind as TextKind};
+use super::parameters::{Page, keys_of, pages_for};
+use super::view::View;
+use frictcomp::comp::Kind;
+use frictcomp::syntax::{PieceKind, code_of, kind_at};
+
+/// What may stand at a place.
+pub(super) fn completion(view: &View, params: &CompletionParams) -> Option<Vec<CompletionItem>> {
+    let at = &params.text_document_position_params;
+    let document = view.document(&at.text_document.uri)?;
+    let line = document.line(at.position.line);
+    let before = &line[..view.client.encoding.offset(line, at.position.character)];
+    let offer = match document.kind {
+        // Nothing is offered in comments and strings.
+        TextKind::Program if kind_at(line, before.len()) != PieceKind::Code => None,
+        TextKind::Program => comp_words(before).or_else(|| axes(view, document, before)),
+        TextKind::List => list_keys(document, before),
+        TextKind::Configuration => toml_keys(document, at.position.line, before),
+        TextKind::Other => None,
+    };
+    Some(offer.map_or_else(Vec::new, |offer| offer.items(at.position)))
+}
+
+/// What may stand in place of a word that is being typed.
+struct Offer<'t> {
+    /// The word as far as it is typed.
+    typed: &'t str,
+    /// The words that may stand there, the likeliest first.
+    items: Vec<CompletionItem>,
+}
+
+impl Offer<'_> {
+    /// The items that go on with what is typed, each with the range that it replaces.
+    fn items(self, cursor: Position) -> Vec<CompletionItem> {
+        let Some(length) = u32::try_from(self.typed.len())
+            .ok()
+            .filter(|_| self.typed.is_ascii())
+        else {
+            return Vec::new();
+        };
+        let start = Position {
+            line: cursor.line,
+            character: cursor.character.saturating_sub(length),
+        };
+        let range = Range { start, end: cursor };
+        let typed = self.typed.len();
+        let goes_on = |label: &str| {
+            label.len() > typed
+                && label
+                    .get(..typed)
+                    .is_some_and(|begin| begin.eq_ignore_ascii_case(self.typed))
+        };
+        let items = self.items.into_iter().filter(|item| goes_on(&item.label));
+        let items = items.enumerate().map(|(at, item)| CompletionItem {
+            text_edit: Some(TextEdit::new(range, item.label.clone()).into()),
+            sort_text: Some(format!("{at:04}")),
+            filter_text: Some(item.label.clone()),
+            ..item
+        });
+        items.collect()
+    }
+}
+
+/// Splits off the letters of the word before the cursor.
+fn split_word(before: &str) -> (&str, &str) {
+    let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    before.split_at(before.trim_end_matches(is_name).len())
+}
+
+/// The words that may stand in an open COMP bracket; `None` where none is open.
+fn comp_words(before: &str) -> Option<Offer<'_>> {
+    let code = code_of(before);
+    let open = code.rfind('[')?;
+    let inside = &code[open + 1..];
+    if inside.contains(']') {
+        return None;
+    }
+    let (above, typed) = split_word(inside);
+    let words: Vec<&str> = above.split_whitespace().collect();
+    let is = |at: usize, word: &str| {
+        words
+            .get(at)
+            .is_some_and(|it| it.eq_ignore_ascii_case(word))
+    };
+    let items = if words.is_empty() {
+        // An index may stand in a bracket, too: only a letter shows that a command begins.
+        if typed.is_empty() || !is_of_axis(&before[..open]) {
+            return None;
+        }
+        vec![keyword("COMP", "switches compensations of the axis")]
+    } else if !is(0, "COMP") || !above.ends_with([' ', '\t']) {
+        return None;
+    } else if words.len() == 1 {
+        vec![
+            keyword("ON", "selects the compensations that are named after it"),
+            keyword("OFF", "deselects the compensations that are named after it"),
+            keyword("OFF_ALL", "deselects every compensation of the axis"),
+        ]
+    } else if is(1, "ON") || is(1, "OFF") {
+        let named = |kind: &Kind| {
+            words[2..]
+                .iter()
+                .any(|word| word.eq_ignore_ascii_case(kind.as_str()))
+        };
+        let kinds = Kind::ALL.into_iter().filter(|kind| !named(kind));
+        kinds
+            .map(|kind| keyword(kind.as_str(), &about(kind)))
+            .collect()
+    } else {
+        Vec::new()
+    };
+    let typed = &before[before.len() - typed.len()..];
+    Some(Offer { typed, items })
+}
+
+/// Whether a bracket after this code belongs to a word of the block, and is no index.
+fn is_of_axis(code: &str) -> bool {
+    let (above, name) = split_word(code.trim_end());
+    name.contains(|letter: char| letter.is_ascii_alphabetic()) && !above.ends_with(['.', '@', '='])
+}
+
+/// What a kind needs.
+pub(super) fn about(kind: Kind) -> String {
+    let facts = kind.facts();
+    let (parameter, selector, since) = (facts.parameter, facts.selector, facts.since);
+    format!("configured by {parameter} (`{selector}`), known from CNC build {since}")
+}
+
+fn keyword(word: &str, about: &str) -> CompletionItem {
+    CompletionItem {
+        label: word.to_owned(),
+        kind: Some(CompletionItemKind::Keyword),
+        detail: Some(about.to_owned()),
+        ..CompletionItem::default()
+    }
+}
+
+/// The axes of the machine whose names go on with a word of letters, where a word of a block may begin.
+/// A word with a digit is an address with its value: `X1` moves X, even beside an axis X10.
+fn axes<'t>(view: &View, document: &Document, before: &'t str) -> Option<Offer<'t>> {
+    let run = view.analysis(&document.uri)?.run.as_ref()?;
+    let (above, typed) = split_word(before);
+    let begins_a_word = above.is_empty() || above.ends_with([' ', '\t']);
+    let is_plain = !above.contains(['$', '#', '%', '"']) && !calls(above);
+    let in_expression = above
+        .trim_end()
+        .ends_with(['=', '+', '-', '*', '/', '[', ',', '.']);
+    let is_letters = typed
+        .chars()
+        .all(|it| it.is_ascii_alphabetic() || it == '_');
+    if typed.is_empty() || !begins_a_word || !is_plain || in_expression || !is_letters {
+        return None;
+    }
+    let axes = run.states.axes().iter();
+    if axes.clone().any(|axis| axis.eq_ignore_ascii_case(typed)) {
+        return None;
+    }
+    let items = axes.map(|axis| CompletionItem {
+        label: axis.clone(),
+        kind: Some(CompletionItemKind::Variable),
+        detail: Some("axis".to_owned()),
+        ..CompletionItem::default()
+    });
+    Some(Offer {
+        typed,
+        items: items.collect(),
+    })
+}
+
+/// Whether the name of a program is expected: after `L` and `LL`.
+fn calls(above: &str) -> bool {
+    let last = above.split_whitespace().next_back().unwrap_or_default();
+    ["L", "LL"].iter().any(|it| last.eq_ignore_ascii_case(it))
+}
+
+/// The parameters that a line of a list may give.
+fn list_keys<'t>(document: &Document, before: &'t str) -> Option<Offer<'t>> {
+    let typed = before.trim_start();
+    if typed.is_empty() || typed.contains([' ', '\t', '(', '#']) {
+        return None;
+    }
+    let items = pages_for(typed, document.text()).into_iter();
+    Some(Offer {
+        typed,
+        items: items.map(documented).collect(),
+    })
+}
+
+/// The keys of the table of `frictcomp.toml` that a line belongs to.
+fn toml_keys<'t>(document: &Document, line: u32, before: &'t str) -> Option<Offer<'t>> {
+    let (above, typed) = split_word(before);
+    if typed.is_empty() || !above.trim().is_empty() {
+        return None;
+    }
+    let above = (0..line).rev().map(|line| document.line(line).trim());
+    let mut headers = above.filter(|line| line.starts_with('['));
+    let header = headers.next().unwrap_or_default();
+    let header = header.split('#').next().unwrap_or_default().trim();
+    let items = keys_of(header).into_iter().map(documented).collect();
+    Some(Offer { typed, items })
+}
+
+fn documented(page: Page) -> CompletionItem {
+    let documentation = MarkupContent {
+        kind: MarkupKind::Markdown,
+        value: page.text,
+    };
+    CompletionItem {
+        label: page.key,
+        kind: Some(CompletionItemKind::Property),
+        documentation: Some(Documentation::MarkupContent(documentation)),
+        ..CompletionItem::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(before: &str) -> Option<String> {
+        let offer = comp_words(before)?;
+        let end = u32::try_from(before.len()).expect("a short line");
+        let items = offer.items(Position {
+            line: 0,
+            character: end,
+        });
+        let labels: Vec<String> = items.into_iter().map(|item| item.label).collect();
+        Some(labels.join(" "))
+    }
+
+    #[test]
+    fn comments_before_a_bracket_do_not_count() {
+        // R12.6
+        let is_code = |line: &str, at: usize| kind_at(line, at) == PieceKind::Code;
+        assert!(is_code("V.P.A=\"(\" X[", 12) && words("V.P.A=\"(\" X[C").is_some());
+        assert!(is_code("X1 (;) Y[", 9) && words("X1 (;) Y[C").is_some());
+        assert!(words("X[COMP (all [of] them) ON ").is_some());
+        assert!(!is_code("#MSG [\"X[COMP ON\"]", 10));
+        assert!(!is_code("(X[COMP ", 8) && !is_code("; X[COMP ", 9) && !is_code("(a (b) X[", 9));
+    }
+
+    #[test]
+    fn a_bracket_offers_what_may_follow() {
+        // R12.6, R12.11
+        for (before, offered) in [
+            ("N10 X[C", "COMP"),
+            ("N10X[co", "COMP"),
+            ("N10 X[COMP", ""),
+            ("N10 X[comp ", "ON OFF OFF_ALL"),
+            ("N10 X[COMP OF", "OFF OFF_ALL"),
+            ("N10 X[COMP OFF", "OFF_ALL"),
+            ("N10 X[COMP ON", ""),
+            (
+                "X[COMP ON FRICT LEAD ",
+                "BACKLASH CROSS PLANE TEMP CROSSTALK",
+            ),
+            ("X[COMP ON c", "CROSS CROSSTALK"),
+            ("X[COMP OFF_ALL ", ""),
+        ] {
+            assert_eq!(words(before).as_deref(), Some(offered), "{before}");
+        }
+        for none in [
+            "X[COMP ON FRICT] ",
+            "N10 G1 X",
+            "N10 X[",
+            "N10 X[ ",
+            "P1 = V.P.A[",
+            "P1 = V.P.A[C",
+            "P1 = V.P.A[1 ",
+            "P1 = [C",
+            "(X[COMP) ",
+            "",
+        ] {
+            assert_eq!(words(none), None, "{none}");
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Hints in the text: where a state changes, and what the program leaves (R12.4).
+
+use gen_lsp_types::{InlayHint, InlayHintParams, Position};
+
+use super::analysis::Run;
+use super::documents::{Document, Kind};
+use super::states::Pass;
+use super::view::View;
+use frictcomp::text::shown_path;
+
+/// The hints in a part of a text.
+pub(super) fn inlay_hints(view: &View, params: &InlayHintParams) -> Option<Vec<InlayHint>> {
+    let document = view.document(&params.text_document.uri)?;
+    if document.kind != Kind::Program || !view.client.settings.inlay_hints {
+        return None;
+    }
+    let analysis = view.analysis(&document.uri)?;
+    let run = analysis.run.as_ref()?;
+    let lines = params.range.start.line..=params.range.end.line;
+    let mut hints = Vec::new();
+    let name = shown_path(&document.path);
+    for (line, passes) in run.states.switching(&name) {
+        if lines.contains(&(line - 1)) {
+            hints.push(hint(view, document, line, &changes(run, &passes)));
+        }
+    }
+    if let (Some(left), Some(line)) = (left(run), run.states.at_end().1)
+        && lines.contains(&(line - 1))
+    {
+        hints.push(hint(view, document, line, &left));
+    }
+    Some(hints)
+}
+
+/// A hint at the end of the last line of a block.
+fn hint(view: &View, document: &Document, line: u32, label: &str) -> InlayHint {
+    let mut last = line.saturating_sub(1);
+    while document.line(last).trim_end().ends_with('\\') {
+        last += 1;
+    }
+    let text = document.line(last);
+    InlayHint {
+        position: Position {
+            line: last,
+            character: view.client.encoding.column(text, text.len()),
+        },
+        label: label.to_owned().into(),
+        kind: None,
+        text_edits: None,
+        tooltip: None,
+        padding_left: Some(true),
+        padding_right: None,
+        data: None,
+    }
+}
+
+/// What a block changes: `X: active → inactive`. Where it does so in some passes only, `(2 of 5)`.
+fn changes(run: &Run, passes: &[Pass<'_>]) -> String {
+    let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
+    let mut words: Vec<(String, u64)> = Vec::new();
+    for (at, axis) in run.states.axes().iter().enumerate() {
+        for pass in passes {
+            let (Some(from), Some(to)) = (pass.before[at], pass.after[at]) else {
+                continue;
+            };
+            if from == to {
+                continue;
+            }
+            let change = format!("{axis}: {from} \u{2192} {to}");
+            match words.iter_mut().find(|(known, _)| *known == change) {
+                Some((_, times)) => *times += u64::from(pass.times),
+                None => words.push((change, u64::from(pass.times))),
+            }
+        }
+    }
+    let words = words.into_iter().map(|(change, times)| {
+        if times == total {
+            change
+        } else {
+            format!("{change} ({times} of {total})")
+        }
+    });
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// What the program leaves away from the states at the start of the control: `leaves X inactive`.
+pub(super) fn left(run: &Run) -> Option<String> {
+    let away = run.ends.iter().filter(|axis| axis.end != axis.start_up);
+    let away: Vec<String> = away
+        .map(|axis| format!("{} {}", axis.axis, axis.end))
+        .collect();
+    (!away.is_empty()).then(|| format!("leaves {}", away.join(", ")))
+}

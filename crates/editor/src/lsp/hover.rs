@@ -1,0 +1,172 @@
+//! What is said about the block under the pointer (R12.3).
+
+use std::fmt::Write as _;
+
+use gen_lsp_types::{Hover, HoverParams, MarkupContent, MarkupKind, Position};
+
+use super::completion::about;
+use super::documents::{Document, Kind};
+use super::markdown::{code, plain};
+use super::moving::{AxisMoves, moves};
+use super::parameters::page_of;
+use super::states::{Pass, StateBook};
+use super::view::View;
+use frictcomp::comp::{CompCommand, Selection, State};
+use frictcomp::syntax::ast::Item;
+use frictcomp::syntax::parse_block;
+use frictcomp::text::shown_path;
+
+/// What is said about the place under the pointer.
+pub(super) fn hover(view: &View, params: &HoverParams) -> Option<Hover> {
+    let at = &params.text_document_position_params;
+    let document = view.document(&at.text_document.uri)?;
+    let text = match document.kind {
+        Kind::Program => program(view, document, at.position),
+        Kind::List => page_of(document.line(at.position.line)).map(|page| page.text),
+        Kind::Configuration | Kind::Other => None,
+    };
+    Some(Hover {
+        contents: MarkupContent {
+            kind: MarkupKind::Markdown,
+            value: text?,
+        }
+        .into(),
+        range: None,
+    })
+}
+
+/// The states at a block, what it switches and what moves in it.
+fn program(view: &View, document: &Document, position: Position) -> Option<String> {
+    let line = View::block_at(document, position);
+    let mut text = String::new();
+    for (main, run, name) in view.runs(document) {
+        let passes = run.states.passes(&name, line);
+        if passes.is_empty() {
+            continue;
+        }
+        if main.uri != document.uri {
+            let caller = code(&shown_path(&main.path));
+            let _ = writeln!(text, "\nCalled from {caller}:\n");
+        }
+        text += &table(&run.states, &passes);
+        if main.uri == document.uri {
+            for moves in moves(view, document, line) {
+                let _ = writeln!(text, "\n{}", moving(&moves));
+            }
+        }
+    }
+    let shown = document.line(position.line);
+    let offset = view.client.encoding.offset(shown, position.character);
+    if let Some(command) = command_at(shown, offset) {
+        let _ = writeln!(text, "\n---\n{}", meaning(&command));
+    }
+    (!text.is_empty()).then_some(text)
+}
+
+/// The COMP command around an offset of a line.
+fn command_at(line: &str, offset: usize) -> Option<CompCommand> {
+    let commands = parse_block(line)
+        .items
+        .into_iter()
+        .filter_map(|item| match item {
+            Item::Comp(command) => Some(command),
+            _ => None,
+        });
+    let mut around = commands.filter(|command| {
+        let place = command.span.range();
+        (place.start..=place.end).contains(&offset)
+    });
+    around.next()
+}
+
+/// What a COMP command does, as the documents say it.
+fn meaning(command: &CompCommand) -> String {
+    let axis = plain(&command.axis);
+    let (verb, kinds) = match command.selection {
+        Selection::On(kinds) => ("selects", kinds),
+        Selection::Off(kinds) => ("deselects", kinds),
+        _ => {
+            let whole = code(&format!("{}[COMP OFF_ALL]", command.axis));
+            return format!(
+                "{whole} deselects every compensation of axis {axis}, until a program selects it again or the control restarts; M30 does not."
+            );
+        }
+    };
+    let mut text = format!(
+        "The command {verb} compensations of axis {axis}, until a program switches them again or the control restarts; M30 does not.\n"
+    );
+    for kind in kinds.iter() {
+        let _ = writeln!(text, "\n`{kind}`: {}", about(kind));
+    }
+    text
+}
+
+/// How an axis moves in the block.
+fn moving(moves: &AxisMoves) -> String {
+    let AxisMoves {
+        axis,
+        times,
+        compensated,
+        reversals,
+        is_unsure,
+    } = moves;
+    let compensation = match *compensated {
+        0 => "without friction compensation".to_owned(),
+        all if all == *times => "with friction compensation".to_owned(),
+        some => format!("with friction compensation {some} of {times} times"),
+    };
+    let reversal = match (*reversals, is_unsure) {
+        (0, false) => "does not reverse".to_owned(),
+        (0, true) => "whether it reverses is not known".to_owned(),
+        (1, _) if *times == 1 => "reverses".to_owned(),
+        (count, _) => format!("reverses {count} times"),
+    };
+    format!("{} moves {compensation}; {reversal}", plain(axis))
+}
+
+/// The states of each axis before and after a block, in all passes.
+fn table(states: &StateBook, passes: &[Pass<'_>]) -> String {
+    let total: u64 = passes.iter().map(|pass| u64::from(pass.times)).sum();
+    let mut text = String::from("| axis | before | after |\n|---|---|---|\n");
+    for (at, axis) in states.axes().iter().enumerate() {
+        let before = of_all(passes, |pass| pass.before[at]);
+        let after = of_all(passes, |pass| pass.after[at]);
+        if after.is_empty() {
+            continue;
+        }
+        let (before, after) = (words(&before, total), words(&after, total));
+        let _ = writeln!(text, "| {} | {before} | {after} |", plain(axis));
+    }
+    if total > 1 {
+        let _ = writeln!(text, "\nexecuted {total} times");
+    }
+    text
+}
+
+/// Each state with how often it occurs, the first one first.
+fn of_all<'a>(
+    passes: &[Pass<'a>],
+    state: impl Fn(&Pass<'a>) -> Option<State>,
+) -> Vec<(State, u64)> {
+    let mut found: Vec<(State, u64)> = Vec::new();
+    for pass in passes {
+        let Some(state) = state(pass) else { continue };
+        let times = u64::from(pass.times);
+        match found.iter_mut().find(|(known, _)| *known == state) {
+            Some((_, count)) => *count += times,
+            None => found.push((state, times)),
+        }
+    }
+    found
+}
+
+fn words(states: &[(State, u64)], total: u64) -> String {
+    let words = states.iter().map(|(state, times)| {
+        if *times == total {
+            state.to_string()
+        } else {
+            format!("{state} ({times} of {total})")
+        }
+    });
+    words.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,295 @@
+//! Messages as the protocol has them (R12.2).
+
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+
+use gen_lsp_types::{
+    Code as MessageCode, CodeDescription, Diagnostic as Message, DiagnosticRelatedInformation,
+    DiagnosticSeverity, DiagnosticTag, Location, Message as MessageText, Range, Uri,
+};
+
+use super::analysis::Analysis;
+use super::client::Client;
+use super::documents::{Document, Documents};
+use super::encoding::whole_line;
+use super::pages::page_uri;
+use frictcomp::diagnostic::{Advice, Code, Diagnostic, Severity};
+use frictcomp::text::Place;
+
+/// The source that an editor shows beside a message.
+const SOURCE: &str = "frictcomp";
+
+/// What stands before advice.
+const HELP: &str = "\nhelp: ";
+
+/// What a message says of a main program that reaches it.
+const REACHED_FROM: &str = "reached from this program";
+
+/// Number of main programs that a message names.
+const MAX_PROGRAMS: usize = 20;
+
+/// Messages of a check, by the URIs of the texts that they are about.
+pub(super) type ByText = BTreeMap<String, Vec<Message>>;
+
+/// Makes messages for a client.
+#[derive(Clone, Copy)]
+pub(super) struct Translator<'a> {
+    /// The client.
+    pub(super) client: &'a Client,
+    /// What it has open.
+    pub(super) documents: &'a Documents,
+}
+
+impl Translator<'_> {
+    /// What a check has to say, about the text itself and others.
+    pub(super) fn messages(self, document: &Document, analysis: &Analysis) -> ByText {
+        let mut messages = ByText::new();
+        let own = messages.entry(document.uri.0.clone()).or_default();
+        own.extend(self.failure(analysis));
+        own.extend(Self::shortened(analysis));
+        for said in &analysis.said {
+            let (uri, message) = self.message(said);
+            messages.entry(uri.0).or_default().push(message);
+        }
+        messages
+    }
+
+    /// That a text could not be checked: without a message it would look as if all were well.
+    fn failure(self, analysis: &Analysis) -> Option<Message> {
+        let failure = analysis.failure.as_ref()?;
+        let help = failure.help.iter().map(|help| format!("\nhelp: {help}"));
+        let text = format!(
+            "not checked: {}{}",
+            failure.message,
+            help.collect::<String>()
+        );
+        let mut message = own(DiagnosticSeverity::Error, text);
+        let related = analysis
+            .said
+            .iter()
+            .map(|said| self.related(&said.place, &said.message));
+        message.related_information = Some(related.collect());
+        Some(message)
+    }
+
+    /// That only the first blocks were checked (R12.7).
+    fn shortened(analysis: &Analysis) -> Option<Message> {
+        let run = analysis.run.as_ref()?;
+        let blocks = run.blocks;
+        run.is_cut.then(|| {
+            let text = format!(
+                "only the first {blocks} executed blocks are checked here; `frictcomp check` goes on for longer"
+            );
+            own(DiagnosticSeverity::Information, text)
+        })
+    }
+
+    /// One message, and the text that it is about.
+    pub(super) fn message(self, said: &Diagnostic) -> (Uri, Message) {
+        let help = said.advice.iter().map(|advice| format!("{HELP}{advice}"));
+        let labels = said.labels.iter();
+        let labels = labels.map(|label| self.related(&label.place, &label.text));
+        let lists = said
+            .advice
+            .iter()
+            .filter_map(|advice| self.list_line(advice));
+        let programs = said.reached_from.programs().iter();
+        let programs = programs.map(|file| self.reached_from(file));
+        let related: Vec<_> = labels.chain(lists).chain(programs).collect();
+        let message = Message {
+            range: self.client.encoding.range(&said.place),
+            severity: Some(match said.severity {
+                Severity::Error => DiagnosticSeverity::Error,
+                Severity::Warning => DiagnosticSeverity::Warning,
+                Severity::Info => DiagnosticSeverity::Information,
+            }),
+            code: Some(MessageCode::String(said.code.as_str().to_owned())),
+            code_description: Some(CodeDescription {
+                href: page_uri(said.code, &self.client.settings),
+            }),
+            source: Some(SOURCE.to_owned()),
+            message: format!("{}{}", said.message, help.collect::<String>()).into(),
+            tags: (said.code == Code::Fc402).then(|| vec![DiagnosticTag::Unnecessary]),
+            related_information: (!related.is_empty()).then_some(related),
+            data: None,
+        };
+        (self.uri(&said.place.file), message)
+    }
+
+    /// The text of a name in messages.
+    pub(super) fn uri(self, file: &str) -> Uri {
+        self.documents.uri(&Documents::path(file))
+    }
+
+    fn related(self, place: &Place, text: &str) -> DiagnosticRelatedInformation {
+        DiagnosticRelatedInformation {
+            location: self.location(&place.file, self.client.encoding.range(place)),
+            message: text.to_owned(),
+        }
+    }
+
+    /// A main program that reaches a message in a called program (R17.1).
+    fn reached_from(self, file: &str) -> DiagnosticRelatedInformation {
+        DiagnosticRelatedInformation {
+            location: self.location(file, whole_line(0)),
+            message: REACHED_FROM.to_owned(),
+        }
+    }
+
+    /// The line of a list that sets what the advice is about.
+    fn list_line(self, advice: &Advice) -> Option<DiagnosticRelatedInformation> {
+        let Advice::ConfigureInList { file, line, .. } = advice else {
+            return None;
+        };
+        Some(DiagnosticRelatedInformation {
+            location: self.location(file, whole_line(line.saturating_sub(1))),
+            message: "P-AXIS-00522 is set to 0 here".to_owned(),
+        })
+    }
+
+    fn location(self, file: &str, range: Range) -> Location {
+        let uri = self.uri(file);
+        Location { uri, range }
+    }
+}
+
+/// A message of the server itself, at the first line.
+fn own(severity: DiagnosticSeverity, text: String) -> Message {
+    Message {
+        range: whole_line(0),
+        severity: Some(severity),
+        source: Some(SOURCE.to_owned()),
+        message: text.into(),
+        ..Message::default()
+    }
+}
+
+/// What makes two messages about a text the same (R17.3); what to do depends on the main program.
+fn cause(message: &Message) -> String {
+    let said = match &message.message {
+        MessageText::String(text) => text.split(HELP).next(),
+        MessageText::MarkupContent(_) => None,
+    };
+    format!("{:?} {:?} {said:?}", message.range, message.code)
+}
+
+/// Adds the main programs of the same message of another check (R17.1). A message of a main program
+/// says more than that of the called program alone.
+fn reach(known: &mut Message, message: &Message) {
+    let is_reached = |it: &Message| {
+        let mut related = it.related_information.iter().flatten();
+        related.any(|it| it.message == REACHED_FROM)
+    };
+    if !is_reached(known) {
+        known.clone_from(message);
+        return;
+    }
+    let programs = message.related_information.iter().flatten();
+    for program in programs.filter(|it| it.message == REACHED_FROM) {
+        let related = known.related_information.get_or_insert_default();
+        let named = related.iter().filter(|it| it.message == REACHED_FROM);
+        if named.count() < MAX_PROGRAMS && !related.contains(program) {
+            related.push(program.clone());
+        }
+    }
+}
+
+/// What the client was told, text by text. Each check brings messages about its text and about others;
+/// a text shows its own ones first, then those of other checks, each once.
+#[derive(Debug, Default)]
+pub(super) struct Board {
+    by_check: BTreeMap<String, ByText>,
+    /// What checks of other texts say about a text, and how many of them do.
+    by_others: BTreeMap<String, BTreeMap<Key, (Message, usize)>>,
+    shown: ByText,
+}
+
+/// Where a message stands, its cause, and all else that tells it from others.
+type Key = (u32, u32, String, String);
+
+impl Board {
+    /// Takes the messages of the check of a text in place of the earlier ones, and returns the texts
+    /// whose messages are others now.
+    pub(super) fn put(&mut self, check: &str, messages: ByText) -> ByText {
+        let mut concerned = self.take(check);
+        for (uri, messages) in &messages {
+            concerned.insert(uri.clone());
+            if uri != check {
+                let said = self.by_others.entry(uri.clone()).or_default();
+                for message in messages {
+                    let known = said.entry(key(message));
+                    known.or_insert_with(|| (message.clone(), 0)).1 += 1;
+                }
+            }
+        }
+        self.by_check.insert(check.to_owned(), messages);
+        self.changed(concerned)
+    }
+
+    /// Takes away the messages of the check of a text that was closed, and returns the texts whose
+    /// messages are others now.
+    pub(super) fn remove(&mut self, check: &str) -> ByText {
+        let concerned = self.take(check);
+        let changed = self.changed(concerned.clone());
+        for uri in concerned {
+            if self.shown.get(&uri).is_some_and(Vec::is_empty) {
+                self.shown.remove(&uri);
+            }
+        }
+        changed
+    }
+
+    /// Takes away the messages of a check: the texts that they were about.
+    fn take(&mut self, check: &str) -> BTreeSet<String> {
+        let earlier = self.by_check.remove(check).unwrap_or_default();
+        for (uri, messages) in earlier.iter().filter(|(uri, _)| *uri != check) {
+            let said = self.by_others.entry(uri.clone()).or_default();
+            for message in messages {
+                if let Entry::Occupied(mut known) = said.entry(key(message)) {
+                    known.get_mut().1 -= 1;
+                    if known.get().1 == 0 {
+                        known.remove();
+                    }
+                }
+            }
+            if said.is_empty() {
+                self.by_others.remove(uri);
+            }
+        }
+        earlier.into_keys().collect()
+    }
+
+    fn changed(&mut self, concerned: BTreeSet<String>) -> ByText {
+        let mut changed = ByText::new();
+        for uri in concerned {
+            let own = self.by_check.get(&uri).and_then(|check| check.get(&uri));
+            let own = own.into_iter().flatten();
+            let own = own.map(|message| (cause(message), message));
+            let others = self.by_others.get(&uri).into_iter().flatten();
+            let others = others.map(|((_, _, cause, _), (message, _))| (cause.clone(), message));
+            let mut now: Vec<Message> = Vec::new();
+            let mut known = BTreeMap::new();
+            for (cause, message) in own.chain(others) {
+                match known.entry(cause) {
+                    Entry::Vacant(vacant) => {
+                        vacant.insert(now.len());
+                        now.push(message.clone());
+                    }
+                    Entry::Occupied(at) => reach(&mut now[*at.get()], message),
+                }
+            }
+            if self.shown.get(&uri) != Some(&now) {
+                self.shown.insert(uri.clone(), now.clone());
+                changed.insert(uri, now);
+            }
+        }
+        changed
+    }
+}
+
+fn key(message: &Message) -> Key {
+    let start = message.range.start;
+    let rest = (&message.message, &message.related_information);
+    let rest = format!("{rest:?}");
+    (start.line, start.character, cause(message), rest)
+}

@@ -1,0 +1,573 @@
+//! The loop that listens to the client, and to who works for it (R12.1).
+//!
+//! It never works itself: checks and answers are made on other threads, from copies of the texts that
+//! stay as they are.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, Sender, select, unbounded};
+use gen_lsp_types::{
+    CodeLensRefreshRequest, DidChangeConfigurationParams, DidChangeTextDocumentParams,
+    DidChangeWatchedFilesParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
+    InitializeParams, InlayHintRefreshRequest, Notification as _, PublishDiagnosticsNotification,
+    PublishDiagnosticsParams, Request as _, Uri,
+};
+use lsp_server::{
+    Connection, ErrorCode, Message, Notification, ReqQueue, Request, RequestId, Response,
+};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::analysis::{Analysis, Job};
+use super::asked::{self, Asked};
+use super::capabilities::offer;
+use super::checks::{Checks, Outdated};
+use super::client::{Client, project};
+use super::documents::{Document, Documents, Kind, is_of_a_user};
+use super::lane::{Cancel, Lane};
+use super::log::log;
+use super::messages::{Board, ByText, Translator};
+use super::refusal::Refusal;
+use super::requests::{Answerer, Needs, answerer};
+use super::uri::path_of;
+use super::users::Users;
+use super::view::View;
+use frictcomp_host::SharedMap;
+
+/// How long nothing has to happen before the server looks whether something is due.
+const IDLE: Duration = Duration::from_secs(3600);
+
+/// Questions that wait for a check; more are refused.
+const MOST_WAITING: usize = 1000;
+
+/// How the client took its leave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Farewell {
+    /// It asked for the end, and then ended the server.
+    Proper,
+    /// It was gone, or ended the server without having asked.
+    Abrupt,
+}
+
+/// A question on its way to who answers it.
+struct Question {
+    id: RequestId,
+    answerer: Answerer,
+    params: Value,
+    view: View,
+}
+
+/// Work that is done.
+enum Done {
+    /// A text was checked; `None` where it has changed meanwhile.
+    Checked(Option<Box<Analysis>>),
+    /// A question was answered.
+    Answered(Response),
+}
+
+/// A question that waits for the check of a text.
+struct Waiting {
+    id: RequestId,
+    uri: Uri,
+    answerer: Answerer,
+    params: Value,
+}
+
+/// Talks to one client until it takes its leave.
+///
+/// # Errors
+/// The system starts no threads.
+pub fn serve(connection: &Connection) -> io::Result<Farewell> {
+    let (id, params) = match initialize(connection) {
+        Ok(first) => first,
+        Err(farewell) => return Ok(farewell),
+    };
+    let mut server = Server::new(connection, &params)?;
+    server.send(Response::new_ok(id, offer(&server.client)));
+    Ok(server.listen())
+}
+
+/// Waits for the client to say what it can do. One that leaves before then ends the session without an
+/// error.
+fn initialize(connection: &Connection) -> Result<(RequestId, InitializeParams), Farewell> {
+    loop {
+        let Ok(message) = connection.receiver.recv() else {
+            return Err(Farewell::Proper);
+        };
+        let refused = match message {
+            Message::Request(request) if request.method == "initialize" => {
+                match serde_json::from_value(request.params) {
+                    Ok(params) => return Ok((request.id, params)),
+                    Err(error) => Refusal::from(error).of(request.id),
+                }
+            }
+            Message::Request(request) => {
+                let first = "the first request must be `initialize`".to_owned();
+                Response::new_err(request.id, ErrorCode::ServerNotInitialized as i32, first)
+            }
+            Message::Notification(it) if it.method == "exit" => return Err(Farewell::Abrupt),
+            Message::Notification(_) | Message::Response(_) => continue,
+        };
+        // A client that is gone closes the other channel, too.
+        let _ = connection.sender.send(refused.into());
+    }
+}
+
+/// The server of one client.
+struct Server<'c> {
+    connection: &'c Connection,
+    client: Arc<Client>,
+    documents: Documents,
+    analyses: SharedMap<String, Arc<Analysis>>,
+    users: Users,
+    board: Board,
+    checks: Checks,
+    checking: Lane<Job>,
+    answering: Lane<Question>,
+    /// Answers that take their time.
+    reporting: Lane<Question>,
+    done: Receiver<Done>,
+    waiting: Vec<Waiting>,
+    /// Questions of the client on their way, and what the server asked the client.
+    queue: ReqQueue<Cancel, Asked>,
+    is_shut_down: bool,
+}
+
+impl<'c> Server<'c> {
+    fn new(connection: &'c Connection, params: &InitializeParams) -> io::Result<Self> {
+        let (client, wrong) = Client::new(params);
+        let (sender, done) = unbounded();
+        let here = || std::env::current_dir().ok();
+        let folder = project(params).or_else(here).unwrap_or_default();
+        let server = Self {
+            connection,
+            client: Arc::new(client),
+            documents: Documents::new(folder),
+            analyses: SharedMap::default(),
+            users: Users::default(),
+            board: Board::default(),
+            checks: Checks::default(),
+            checking: checking(sender.clone())?,
+            answering: answering("answers", sender.clone())?,
+            reporting: answering("reports", sender)?,
+            done,
+            waiting: Vec::new(),
+            queue: ReqQueue::default(),
+            is_shut_down: false,
+        };
+        for wrong in wrong {
+            server.send(log(wrong));
+        }
+        Ok(server)
+    }
+
+    fn listen(&mut self) -> Farewell {
+        loop {
+            let now = Instant::now();
+            while let Some(uri) = self.checks.due(now) {
+                self.begin_check(&uri);
+            }
+            let wait = self.checks.wait(now).unwrap_or(IDLE);
+            select! {
+                recv(self.connection.receiver) -> message => match message {
+                    Ok(Message::Request(request)) => self.request(request),
+                    Ok(Message::Notification(it)) if it.method == "exit" => return self.farewell(),
+                    Ok(Message::Notification(notification)) => self.notification(notification),
+                    Ok(Message::Response(response)) => self.response(response),
+                    Err(_) => return Farewell::Abrupt,
+                },
+                recv(self.done) -> done => match done {
+                    Ok(Done::Checked(analysis)) => self.checked(analysis),
+                    Ok(Done::Answered(response)) => self.answered(response),
+                    Err(_) => return Farewell::Abrupt,
+                },
+                default(wait) => {}
+            }
+        }
+    }
+
+    fn farewell(&self) -> Farewell {
+        if self.is_shut_down {
+            Farewell::Proper
+        } else {
+            Farewell::Abrupt
+        }
+    }
+
+    fn send(&self, message: impl Into<Message>) {
+        // A client that is gone closes the other channel, too, which ends the loop.
+        let _ = self.connection.sender.send(message.into());
+    }
+
+    // Questions of the client.
+
+    fn request(&mut self, request: Request) {
+        let Request { id, method, params } = request;
+        let refuse = |code: ErrorCode, why: String| Response::new_err(id.clone(), code as i32, why);
+        if self.is_shut_down {
+            let why = "the server was asked to shut down".to_owned();
+            return self.send(refuse(ErrorCode::InvalidRequest, why));
+        }
+        if !self.queue.incoming.is_completed(&id) {
+            let why = "another request of this id is not answered yet".to_owned();
+            return self.send(refuse(ErrorCode::InvalidRequest, why));
+        }
+        if method == "shutdown" {
+            self.is_shut_down = true;
+            self.checks.stop();
+            return self.send(Response::new_ok(id, ()));
+        }
+        if method == "initialize" {
+            let why = "the server is initialized already".to_owned();
+            return self.send(refuse(ErrorCode::InvalidRequest, why));
+        }
+        let Some((needs, answerer)) = answerer(&method) else {
+            let why = format!("there is no method `{method}`");
+            return self.send(refuse(ErrorCode::MethodNotFound, why));
+        };
+        self.queue.incoming.register(id.clone(), Cancel::default());
+        let uri = params.pointer("/textDocument/uri").and_then(Value::as_str);
+        let uri = uri.map(Uri::from);
+        match uri.filter(|uri| needs == Needs::Check && !self.is_checked(uri)) {
+            Some(_) if self.waiting.len() >= MOST_WAITING => {
+                self.queue.incoming.complete(&id);
+                let why = "too many requests wait for this text".to_owned();
+                self.send(refuse(ErrorCode::ServerCancelled, why));
+            }
+            Some(uri) => self.waiting.push(Waiting {
+                id,
+                uri,
+                answerer,
+                params,
+            }),
+            None => self.ask(id, (needs, answerer), params),
+        }
+    }
+
+    /// Whether nothing new is to be expected about a text.
+    fn is_checked(&self, uri: &Uri) -> bool {
+        self.documents.get(uri).is_none() || !self.checks.is_awaited(&uri.0)
+    }
+
+    fn ask(&mut self, id: RequestId, (needs, answerer): (Needs, Answerer), params: Value) {
+        let cancel = Cancel::default();
+        self.queue.incoming.register(id.clone(), cancel.clone());
+        let lane = match needs {
+            Needs::Texts | Needs::Check => &self.answering,
+            Needs::Time => &self.reporting,
+        };
+        lane.send(Question {
+            id,
+            answerer,
+            params,
+            view: View {
+                client: Arc::clone(&self.client),
+                documents: self.documents.clone(),
+                analyses: self.analyses.clone(),
+                cancel,
+            },
+        });
+    }
+
+    fn answered(&mut self, response: Response) {
+        // A question that was taken back has its answer already.
+        if self.queue.incoming.complete(&response.id).is_some() {
+            self.send(response);
+        }
+    }
+
+    fn cancel(&mut self, params: &Value) {
+        let id = match params.get("id") {
+            Some(Value::Number(id)) => id
+                .as_i64()
+                .and_then(|id| i32::try_from(id).ok())
+                .map(RequestId::from),
+            Some(Value::String(id)) => Some(RequestId::from(id.clone())),
+            _ => None,
+        };
+        let Some(id) = id else { return };
+        self.waiting.retain(|waiting| waiting.id != id);
+        if let Some(cancel) = self.queue.incoming.complete(&id) {
+            cancel.set();
+            let code = ErrorCode::RequestCanceled as i32;
+            self.send(Response::new_err(id, code, "cancelled".to_owned()));
+        }
+    }
+
+    // What the client tells.
+
+    fn notification(&mut self, notification: Notification) {
+        let Notification { method, params } = notification;
+        let told = match method.as_str() {
+            "initialized" => {
+                self.ask_client();
+                Ok(())
+            }
+            "$/cancelRequest" => {
+                self.cancel(&params);
+                Ok(())
+            }
+            "textDocument/didOpen" => read(params).map(|it| self.opened(it)),
+            "textDocument/didChange" => read(params).map(|it| self.changed(it)),
+            "textDocument/didClose" => read(params).map(|it| self.closed(it)),
+            "workspace/didChangeWatchedFiles" => read(params).map(|it| self.files_changed(&it)),
+            "workspace/didChangeConfiguration" => read(params).map(|it| self.settings_changed(&it)),
+            // What is not known and need not be: `$/setTrace`, `textDocument/didSave`.
+            _ => Ok(()),
+        };
+        if let Err(error) = told {
+            self.send(log(format!("`{method}` cannot be read: {error}")));
+        }
+    }
+
+    fn opened(&mut self, params: DidOpenTextDocumentParams) {
+        if !is_of_a_user(&params.text_document.uri) {
+            return;
+        }
+        let languages = &self.client.settings.languages;
+        let document = self.documents.open(params.text_document, languages);
+        self.analyses.remove(&document.uri.0);
+        self.users.forget(&document.uri.0);
+        self.expect_check(&document, Outdated::Now);
+        self.expect_users(&document);
+    }
+
+    fn changed(&mut self, params: DidChangeTextDocumentParams) {
+        let text = params.text_document;
+        let uri = text.text_document_identifier.uri;
+        let changes = params.content_changes;
+        let encoding = self.client.encoding;
+        match self
+            .documents
+            .change((&uri, text.version), changes, encoding)
+        {
+            Some(document) => {
+                self.expect_check(&document, Outdated::ByTyping);
+                self.expect_users(&document);
+            }
+            None if !is_of_a_user(&uri) => {}
+            None => self.send(log(format!("`{}` was changed, but is not open", uri.0))),
+        }
+    }
+
+    fn closed(&mut self, params: DidCloseTextDocumentParams) {
+        let uri = params.text_document.uri;
+        let Some(document) = self.documents.close(&uri) else {
+            if is_of_a_user(&uri) {
+                self.send(log(format!("`{}` was closed, but is not open", uri.0)));
+            }
+            return;
+        };
+        self.analyses.remove(&uri.0);
+        self.users.forget(&uri.0);
+        self.checks.forget(&uri.0);
+        let changed = self.board.remove(&uri.0);
+        self.publish(changed);
+        self.expect_users(&document);
+        self.answer_waiting(&uri);
+    }
+
+    fn files_changed(&mut self, params: &DidChangeWatchedFilesParams) {
+        let events = params.changes.iter();
+        let changed: Vec<_> = events.filter_map(|it| path_of(&it.uri.0)).collect();
+        // A new file may be what was not found before.
+        let has_new = !changed.iter().all(|path| self.users.are_of(path));
+        let texts: BTreeSet<String> = if has_new {
+            self.users.all().cloned().collect()
+        } else {
+            let users = changed.iter().flat_map(|path| self.users.of(path));
+            users.cloned().collect()
+        };
+        for uri in texts {
+            self.checks.expect(&uri, Outdated::ByOthers);
+        }
+    }
+
+    fn settings_changed(&mut self, params: &DidChangeConfigurationParams) {
+        if self.client.gives_settings() {
+            let request = asked::settings(&mut self.queue.outgoing);
+            self.send(request);
+        } else {
+            self.take_settings(&params.settings);
+        }
+    }
+
+    fn take_settings(&mut self, given: &Value) {
+        let before = self.client.settings.clone();
+        let client = Arc::make_mut(&mut self.client);
+        let wrong = client.settings.take(given);
+        for wrong in wrong {
+            self.send(log(wrong));
+        }
+        if self.client.settings != before {
+            let documents = self.documents.clone();
+            for document in documents.iter() {
+                self.expect_check(document, Outdated::ByOthers);
+            }
+        }
+    }
+
+    // Questions of the server.
+
+    /// Asks for what comes with a client that is ready: its settings, and news of files.
+    fn ask_client(&mut self) {
+        if self.client.watches_files() {
+            let request = asked::news_of_files(&mut self.queue.outgoing);
+            self.send(request);
+        }
+        if self.client.gives_settings() {
+            let request = asked::settings(&mut self.queue.outgoing);
+            self.send(request);
+        }
+    }
+
+    fn response(&mut self, response: Response) {
+        let Some(asked) = self.queue.outgoing.complete(response.id) else {
+            return self.send(log("an answer came to nothing that was asked".to_owned()));
+        };
+        match (asked, response.response_result) {
+            (Asked::Settings, Ok(Value::Array(given))) => {
+                given
+                    .first()
+                    .into_iter()
+                    .for_each(|given| self.take_settings(given));
+            }
+            (asked, Err(error)) => {
+                self.send(log(format!("{}: {}", asked.refused(), error.message)));
+            }
+            (_, Ok(_)) => {}
+        }
+    }
+
+    // Checks.
+
+    /// A text is checked again, where it is one of those that are.
+    fn expect_check(&mut self, document: &Document, why: Outdated) {
+        if document.kind != Kind::Other {
+            self.checks.expect(&document.uri.0, why);
+        }
+    }
+
+    /// The texts whose checks read a text, or may look for it, are checked again.
+    fn expect_users(&mut self, changed: &Document) {
+        for uri in self.users.concerned(changed) {
+            self.checks.expect(&uri, Outdated::ByOthers);
+        }
+    }
+
+    fn begin_check(&mut self, uri: &str) {
+        let Some(document) = self.documents.get(&Uri::from(uri)) else {
+            return;
+        };
+        let job = Job {
+            document: Arc::clone(document),
+            disk: self.documents.disk(),
+            max_blocks: self.client.settings.max_blocks,
+            cancel: self.checks.begin(uri),
+        };
+        self.checking.send(job);
+    }
+
+    fn checked(&mut self, analysis: Option<Box<Analysis>>) {
+        let Some(uri) = self.checks.end() else { return };
+        let uri = Uri::from(uri);
+        let (Some(analysis), Some(document)) = (analysis, self.documents.get(&uri)) else {
+            return;
+        };
+        let view = Translator {
+            client: &self.client,
+            documents: &self.documents,
+        };
+        let messages = view.messages(document, &analysis);
+        let earlier = self.analyses.get(&uri.0).map(|earlier| earlier.version);
+        let is_by_others = earlier == Some(analysis.version);
+        self.users.note(document, &analysis);
+        self.analyses.insert(uri.0.clone(), Arc::new(*analysis));
+        let changed = self.board.put(&uri.0, messages);
+        self.publish(changed);
+        self.answer_waiting(&uri);
+        if is_by_others {
+            // The text itself did not change, so the client has no reason to ask again.
+            let hints = (
+                self.client.refreshes_inlay_hints(),
+                InlayHintRefreshRequest::METHOD,
+            );
+            let lenses = (
+                self.client.refreshes_code_lenses(),
+                CodeLensRefreshRequest::METHOD,
+            );
+            for (_, method) in [hints, lenses].into_iter().filter(|(wanted, _)| *wanted) {
+                let outgoing = &mut self.queue.outgoing;
+                let request = outgoing.register(method.to_string(), (), Asked::Refresh);
+                self.send(request);
+            }
+        }
+    }
+
+    fn answer_waiting(&mut self, uri: &Uri) {
+        if !self.is_checked(uri) {
+            return;
+        }
+        let ready = |waiting: &mut Waiting| waiting.uri == *uri;
+        let ready: Vec<Waiting> = self.waiting.extract_if(.., ready).collect();
+        for Waiting {
+            id,
+            answerer,
+            params,
+            ..
+        } in ready
+        {
+            self.ask(id, (Needs::Check, answerer), params);
+        }
+    }
+
+    fn publish(&self, messages: ByText) {
+        for (uri, diagnostics) in messages {
+            let uri = Uri(uri);
+            let version = self.documents.get(&uri).map(|document| document.version);
+            let analysis = self.analyses.get(&uri.0).map(|analysis| analysis.version);
+            let params = PublishDiagnosticsParams {
+                version: version.filter(|version| Some(*version) == analysis),
+                uri,
+                diagnostics,
+            };
+            let method = PublishDiagnosticsNotification::METHOD.to_string();
+            self.send(Notification::new(method, params));
+        }
+    }
+}
+
+fn read<P: DeserializeOwned>(params: Value) -> Result<P, serde_json::Error> {
+    serde_json::from_value(params)
+}
+
+/// The thread of the checks.
+fn checking(done: Sender<Done>) -> io::Result<Lane<Job>> {
+    Lane::new("checks", move |job: Job| {
+        // The receiver is gone with the server.
+        let _ = done.send(Done::Checked(job.run().map(Box::new)));
+    })
+}
+
+/// A thread of answers.
+fn answering(name: &str, done: Sender<Done>) -> io::Result<Lane<Question>> {
+    Lane::new(name, move |question: Question| {
+        let Question {
+            id,
+            answerer,
+            params,
+            view,
+        } = question;
+        if view.cancel.is_set() {
+            return;
+        }
+        let response = match answerer(&view, params) {
+            Ok(result) => Response::new_ok(id, result),
+            Err(refusal) => refusal.of(id),
+        };
+        let _ = done.send(Done::Answered(response));
+    })
+}

@@ -1,0 +1,81 @@
+//! What a question is answered from: the texts and what was found in them, as they are at one moment.
+
+use std::sync::Arc;
+
+use gen_lsp_types::{Position, Uri};
+
+use super::analysis::{Analysis, Run};
+use super::client::Client;
+use super::documents::{Document, Documents};
+use super::lane::Cancel;
+use super::messages::Translator;
+use frictcomp::text::shown_path;
+use frictcomp_host::SharedMap;
+
+/// What a question is answered from. A copy is cheap, and stays as it is.
+#[derive(Clone)]
+pub(super) struct View {
+    /// The client.
+    pub(super) client: Arc<Client>,
+    /// What it has open.
+    pub(super) documents: Documents,
+    /// What was found in the open texts, by their URIs.
+    pub(super) analyses: SharedMap<String, Arc<Analysis>>,
+    /// Whether the client still wants to know.
+    pub(super) cancel: Cancel,
+}
+
+impl View {
+    /// The source of the messages to the client.
+    pub(super) fn translator(&self) -> Translator<'_> {
+        Translator {
+            client: &self.client,
+            documents: &self.documents,
+        }
+    }
+
+    /// What was found in an open text.
+    pub(super) fn analysis(&self, uri: &Uri) -> Option<&Analysis> {
+        self.analyses.get(&uri.0).map(AsRef::as_ref)
+    }
+
+    /// An open text.
+    pub(super) fn document(&self, uri: &Uri) -> Option<&Document> {
+        self.documents.get(uri).map(AsRef::as_ref)
+    }
+
+    /// What was found in a text, and in others that use it, in the order of their URIs.
+    pub(super) fn analyses_of(&self, document: &Document) -> Vec<(&str, &Analysis)> {
+        let analyses = self.analyses.iter();
+        let analyses = analyses.map(|(uri, analysis)| (uri.as_str(), analysis.as_ref()));
+        let mut using: Vec<_> = analyses
+            .filter(|(uri, it)| *uri == document.uri.0 || it.reads.contains(&document.path))
+            .collect();
+        using.sort_unstable_by_key(|(uri, _)| *uri);
+        using
+    }
+
+    /// The runs that came through a file, each with the name of the file there: that of the file
+    /// itself first, then those of programs that call it.
+    pub(super) fn runs(&self, document: &Document) -> Vec<(&Document, &Run, String)> {
+        let name = shown_path(&document.path);
+        let mut runs = Vec::new();
+        for (uri, analysis) in self.analyses_of(document) {
+            let (Some(run), Some(main)) = (&analysis.run, self.document(&Uri(uri.to_owned())))
+            else {
+                continue;
+            };
+            if main.uri == document.uri {
+                runs.insert(0, (main, run, name.clone()));
+            } else if run.states.has(&name) {
+                runs.push((main, run, name.clone()));
+            }
+        }
+        runs
+    }
+
+    /// The line, from 1, of the block at a position.
+    pub(super) fn block_at(document: &Document, position: Position) -> u32 {
+        document.block_line(position.line).saturating_add(1)
+    }
+}

@@ -1,0 +1,18 @@
+//! The words of an editor for advice: which of its settings does it.
+
+use frictcomp::diagnostic::{Advice, Budget};
+
+/// How an editor words advice; `None` where the general words will do.
+pub(super) fn editor(advice: &Advice) -> Option<String> {
+    Some(match advice {
+        Advice::RaiseBudget(Budget::Blocks) => {
+            "look for a loop that does not end, or raise `frictcomp.maxBlocks` in the settings of the editor"
+                .to_owned()
+        }
+        Advice::DescribeMachine(_) => {
+            "no machine is described, so P-AXIS-00522 counts as 0 on every axis: describe it in a `frictcomp.toml` beside the program"
+                .to_owned()
+        }
+        _ => return None,
+    })
+}

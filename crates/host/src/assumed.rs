@@ -1,0 +1,145 @@
+//! Axes on which friction compensation is assumed because the user says so (R9.74, R17.7).
+
+use super::axes_ahead::{AxesAhead, may_be_axis};
+use super::error::HostError;
+use super::input::Input;
+use frictcomp::diagnostic::UnknownName;
+use frictcomp::machine::{AxisReport, AxisSet, Machine, Origin};
+
+/// The axes that programs have: those of their machines, and where none is described, those that
+/// they name.
+#[derive(Debug, Default)]
+pub(super) struct AxesOfPrograms {
+    described: Vec<String>,
+    ahead: AxesAhead,
+}
+
+impl AxesOfPrograms {
+    /// Adds the axes of a described machine.
+    pub(super) fn describe(&mut self, machine: &Machine) {
+        for axis in &machine.axes {
+            if !self.described.contains(&axis.name) {
+                self.described.push(axis.name.clone());
+            }
+        }
+    }
+
+    /// Looks over programs whose machine is not described for the usual axes and further names.
+    pub(super) fn look<'a>(
+        &mut self,
+        inputs: impl IntoIterator<Item = &'a Input>,
+        names: impl IntoIterator<Item = &'a str>,
+    ) {
+        self.ahead = AxesAhead::of(inputs, names);
+    }
+
+    /// Programs of other runs name the usual axes, and those of an earlier one.
+    pub(super) fn expect_more(&mut self, left: Vec<String>) {
+        self.ahead.expect_more(left);
+    }
+
+    /// Whether any program may have an axis.
+    fn may_hold(&self, name: &str) -> bool {
+        self.ahead.may_hold(name) || self.described.iter().any(|known| known == name)
+    }
+}
+
+/// Assumes friction compensation on the axes that the user names, and returns those that the machine
+/// has. An axis that only other programs have is none of this machine.
+///
+/// # Errors
+/// A name that no axis can have, or that no program has.
+pub(super) fn assume_axes<'a>(
+    names: &'a [String],
+    (machine, reports): (&mut Machine, &mut [AxisReport]),
+    programs: Option<&AxesOfPrograms>,
+) -> Result<Vec<&'a str>, HostError> {
+    let mut assumed = Vec::new();
+    for name in names.iter().map(|name| name.trim()) {
+        check_name(name)?;
+        let is_described = machine.axis_set != AxisSet::AsTheyOccur;
+        if !is_described {
+            check_occurs(name, programs)?;
+        }
+        let is_elsewhere = programs.is_some_and(|programs| programs.may_hold(name));
+        let is_here = machine.axes.iter().any(|axis| axis.name == name);
+        if is_described && !is_here && is_elsewhere {
+            continue;
+        }
+        enable(machine, name)?;
+        assume(reports, machine, name);
+        assumed.push(name);
+    }
+    Ok(assumed)
+}
+
+/// Whether a program may name an axis, where no machine is described (R9.74). Called programs and
+/// pipes may name axes that nobody sees ahead.
+fn check_occurs(name: &str, programs: Option<&AxesOfPrograms>) -> Result<(), HostError> {
+    let may_occur = match programs {
+        Some(programs) if programs.may_hold(name) => true,
+        Some(programs) => {
+            let described = programs.described.iter().map(String::as_str);
+            let named: Vec<&'static str> = programs.ahead.names().collect();
+            let known: Vec<&str> = named.into_iter().chain(described).collect();
+            let unknown = UnknownName::new(name, known.iter().copied());
+            return Err(HostError::AxisNotNamed(unknown));
+        }
+        None => may_be_axis(name),
+    };
+    if may_occur {
+        Ok(())
+    } else {
+        Err(HostError::AxisName(name.to_owned()))
+    }
+}
+
+fn check_name(name: &str) -> Result<(), HostError> {
+    let word = name.starts_with(|letter: char| letter.is_ascii_alphabetic())
+        && name
+            .chars()
+            .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if word {
+        Ok(())
+    } else {
+        Err(HostError::AxisName(name.to_owned()))
+    }
+}
+
+fn enable(machine: &mut Machine, name: &str) -> Result<(), HostError> {
+    if machine.enable(name) {
+        return Ok(());
+    }
+    let known = machine.axes.iter().map(|axis| axis.name.as_str());
+    Err(HostError::NoAxis(UnknownName::new(name, known)))
+}
+
+/// Shows an assumed P-AXIS-00522 among the parameters of its axis.
+fn assume(reports: &mut [AxisReport], machine: &Machine, name: &str) {
+    let axis = machine.axes.iter().find(|axis| axis.name == name);
+    if axis.is_none_or(|axis| axis.frict_comp_origin != Origin::Assumed) {
+        return;
+    }
+    let report = reports.iter_mut().filter(|report| report.axis == name);
+    let rows = report.flat_map(|report| &mut report.parameters);
+    for row in rows.filter(|row| row.number == "P-AXIS-00522") {
+        "1".clone_into(&mut row.value);
+        row.origin = Origin::Assumed;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_that_the_machine_lacks_is_not_enabled() {
+        let mut machine = Machine::unconfigured();
+        machine.axis_set = AxisSet::Configured;
+        assert!(enable(&mut machine, "X").is_ok());
+        let error = enable(&mut machine, "XX").unwrap_err();
+        assert_eq!(error.to_string(), "the machine has no axis `XX`");
+        assert_eq!(error.help().as_deref(), Some("did you mean `X`?"));
+        assert!(check_name("X[").is_err());
+    }
+}

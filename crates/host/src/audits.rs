@@ -1,0 +1,339 @@
+//! Programs of the disk, audited (chapter 10).
+
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::discovery::{LoadedMachine, Machines};
+use super::error::HostError;
+use super::finder::ProgramFinder;
+use super::input::{Input, Naming, Opened};
+use super::mend::{MendedFile, read_encoded};
+use super::watch::{Done, LineTracker, Reached};
+use super::workers::{in_order, processors};
+use frictcomp::audit::{
+    Archive, Auditor, MendedEnd, Mending, Missed, ProgramAudit, Sequence, Step, insertions,
+};
+use frictcomp::comp::{Kind, KindSet};
+use frictcomp::interpreter::{Event, Interpreter, Observer, Options};
+use frictcomp::text::SourceFile;
+
+/// Blocks between two looks at the clock.
+const STEP: u64 = 1 << 14;
+
+/// How programs are audited.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct AuditOptions {
+    /// How they run.
+    pub run: Options,
+    /// The kinds of compensation that count.
+    pub kinds: KindSet,
+    /// How many run at once.
+    pub workers: NonZeroUsize,
+}
+
+impl AuditOptions {
+    /// Programs that run in this way, on all processors, with an eye on friction compensation.
+    pub fn new(run: Options) -> Self {
+        Self {
+            run,
+            kinds: KindSet::of(Kind::Frict),
+            workers: processors(),
+        }
+    }
+
+    /// The same with other [`kinds`](Self::kinds).
+    pub fn with_kinds(self, kinds: KindSet) -> Self {
+        Self { kinds, ..self }
+    }
+
+    /// The same with another number of [`workers`](Self::workers).
+    pub fn with_workers(self, workers: NonZeroUsize) -> Self {
+        Self { workers, ..self }
+    }
+}
+
+/// Audits programs of the disk, each on the machine of its folder. What cannot be read is left out
+/// and told.
+pub struct ArchiveAuditor {
+    machines: Vec<Arc<LoadedMachine>>,
+    /// The programs, each with the position of its machine.
+    programs: Vec<(Input, usize)>,
+    options: AuditOptions,
+}
+
+/// Audits the programs of one machine.
+struct ProgramAuditor<'a> {
+    loaded: &'a LoadedMachine,
+    auditor: Auditor,
+}
+
+/// How a program of an archive is mended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MendedProgram {
+    /// The position of the machine in [`ArchiveAuditor::machines`].
+    pub machine: usize,
+    /// The position of the program in the archive of its machine.
+    pub program: usize,
+    /// The file with the blocks, where there are any.
+    pub file: Option<MendedFile>,
+    /// What is left to the user.
+    pub missed: Vec<Missed>,
+}
+
+impl ArchiveAuditor {
+    /// Finds the machine of each program; what keeps a program from having one is returned, too.
+    pub fn new(
+        inputs: Vec<Input>,
+        machines: &mut Machines,
+        options: AuditOptions,
+    ) -> (Self, Vec<HostError>) {
+        let mut auditor = Self {
+            machines: Vec::new(),
+            programs: Vec::with_capacity(inputs.len()),
+            options,
+        };
+        let mut errors = Vec::new();
+        for input in inputs {
+            match machines.for_folder(input.folder()) {
+                Ok(loaded) => {
+                    let machine = auditor.position(loaded);
+                    auditor.programs.push((input, machine));
+                }
+                Err(error) => errors.push(error),
+            }
+        }
+        (auditor, errors)
+    }
+
+    fn position(&mut self, loaded: Arc<LoadedMachine>) -> usize {
+        let mut known = self.machines.iter();
+        known
+            .position(|it| Arc::ptr_eq(it, &loaded))
+            .unwrap_or_else(|| {
+                self.machines.push(loaded);
+                self.machines.len() - 1
+            })
+    }
+
+    /// The machines of the programs, in the order in which they come up.
+    pub fn machines(&self) -> &[Arc<LoadedMachine>] {
+        &self.machines
+    }
+
+    /// The programs, each with the position of its machine.
+    pub fn programs(&self) -> &[(Input, usize)] {
+        &self.programs
+    }
+
+    fn auditors(&self) -> Vec<ProgramAuditor<'_>> {
+        let machines = self.machines.iter();
+        machines
+            .map(|loaded| ProgramAuditor::new(loaded, self.options))
+            .collect()
+    }
+
+    fn workers(&self, most: usize) -> NonZeroUsize {
+        let most = NonZeroUsize::new(most).unwrap_or(NonZeroUsize::MIN);
+        self.options.workers.min(most)
+    }
+
+    /// `Break` where the watcher wants the work to stop.
+    fn flow(&self) -> ControlFlow<()> {
+        if self.machines.iter().any(|it| it.watch.is_stopped()) {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Runs every program twice. Gives the archive of each machine, and what cannot be read.
+    pub fn audit(&self) -> (Vec<Archive>, Vec<HostError>) {
+        let auditors = self.auditors();
+        let mut archives = vec![Archive::default(); auditors.len()];
+        let mut errors = Vec::new();
+        let work = |(input, machine): &(Input, usize)| -> Result<_, HostError> {
+            Ok((*machine, auditors[*machine].audit(input)?))
+        };
+        let workers = self.workers(self.programs.len());
+        in_order(self.programs.iter(), workers, work, |audited| {
+            match audited {
+                Ok((machine, program)) => archives[machine].push(program),
+                Err(error) => errors.push(error),
+            }
+            self.flow()
+        });
+        (archives, errors)
+    }
+
+    /// Finds the blocks that mend the archives of [`audit`](Self::audit); nothing is written.
+    pub fn mend(
+        &self,
+        archives: &[Archive],
+        end: MendedEnd,
+    ) -> (Vec<MendedProgram>, Vec<HostError>) {
+        let auditors = self.auditors();
+        let wanted: Vec<_> = archives
+            .iter()
+            .enumerate()
+            .flat_map(|(machine, archive)| {
+                let wanted = archive.to_mend(end).into_iter();
+                wanted.map(move |(program, mendings)| (machine, program, mendings))
+            })
+            .collect();
+        let (mut changes, mut errors) = (Vec::with_capacity(wanted.len()), Vec::new());
+        let work = |(machine, program, mendings): &(usize, usize, Vec<Mending>)| {
+            let file = &archives[*machine].programs()[*program].file;
+            let (file, missed) = auditors[*machine].mend(Path::new(file), mendings)?;
+            Ok::<_, HostError>(MendedProgram {
+                machine: *machine,
+                program: *program,
+                file,
+                missed,
+            })
+        };
+        in_order(wanted.iter(), self.workers(wanted.len()), work, |change| {
+            match change {
+                Ok(change) => changes.push(change),
+                Err(error) => errors.push(error),
+            }
+            self.flow()
+        });
+        (changes, errors)
+    }
+
+    /// Runs the programs one after another in their order, each machine from the start of its control.
+    pub fn follow(&self) -> (Vec<Step>, Vec<HostError>) {
+        let auditors = self.auditors();
+        let mut sequences: Vec<Sequence<'_>> = auditors
+            .iter()
+            .map(|auditor| Sequence::new(&auditor.auditor))
+            .collect();
+        let (mut steps, mut errors) = (Vec::with_capacity(self.programs.len()), Vec::new());
+        for (input, machine) in &self.programs {
+            match auditors[*machine].step(&mut sequences[*machine], input) {
+                Ok(step) => steps.push(step),
+                Err(error) => errors.push(error),
+            }
+            if self.flow().is_break() {
+                break;
+            }
+        }
+        (steps, errors)
+    }
+}
+
+impl<'a> ProgramAuditor<'a> {
+    fn new(loaded: &'a LoadedMachine, options: AuditOptions) -> Self {
+        let machine = loaded.machine.clone();
+        Self {
+            auditor: Auditor::new(machine, options.run, &loaded.settings, options.kinds),
+            loaded,
+        }
+    }
+
+    fn audit(&self, input: &Input) -> Result<ProgramAudit, HostError> {
+        let name = input.name(Naming::AsGiven);
+        let audit = self.auditor.audit(&name, |interpreter, observer| {
+            self.run(input, interpreter, observer)
+        })?;
+        self.loaded.watch.program_done();
+        Ok(audit)
+    }
+
+    fn step(&self, sequence: &mut Sequence<'_>, input: &Input) -> Result<Step, HostError> {
+        let name = input.name(Naming::AsGiven);
+        let step = sequence.step(&name, |interpreter, observer| {
+            self.run(input, interpreter, observer)
+        })?;
+        self.loaded.watch.program_done();
+        Ok(step)
+    }
+
+    fn mend(
+        &self,
+        path: &Path,
+        wanted: &[Mending],
+    ) -> Result<(Option<MendedFile>, Vec<Missed>), HostError> {
+        let encoded = read_encoded(path)?;
+        let input = Input::File(path.to_owned());
+        let name = input.name(Naming::AsGiven);
+        let mended = self
+            .auditor
+            .mend(encoded.text(), wanted, |text, interpreter, observer| {
+                let source = SourceFile::new(name.as_str(), text);
+                interpreter.program(source, &mut self.finder(&input), observer);
+                Ok::<(), HostError>(())
+            })?;
+        let changes = insertions(encoded.text(), &mended.insertions);
+        Ok((MendedFile::new(path, &encoded, &changes)?, mended.missed))
+    }
+
+    fn finder(&self, input: &Input) -> ProgramFinder {
+        let loaded = self.loaded;
+        ProgramFinder::new(input, &loaded.reach, Naming::AsGiven, &loaded.disk)
+            .noting(&loaded.ledger)
+    }
+
+    fn run(
+        &self,
+        input: &Input,
+        interpreter: &mut Interpreter,
+        observer: &mut dyn Observer,
+    ) -> Result<(), HostError> {
+        let name = input.name(Naming::AsGiven);
+        let mut finder = self.finder(input);
+        let mut heard = Heard::default();
+        let mut listener = |event: Event<'_>| {
+            if self.loaded.watch.is_on() {
+                heard.event(&event, self.loaded)?;
+            }
+            observer.event(event)
+        };
+        match input.open(Naming::AsGiven, &|| ())? {
+            Opened::Whole(source) => {
+                interpreter.program(source, &mut finder, &mut listener);
+            }
+            Opened::Lines(mut lines) => {
+                interpreter.stream(&name, &mut lines, &mut finder, &mut listener);
+                if let Some(error) = lines.take_failure() {
+                    return Err(HostError::read(Path::new(&name), error));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Lets a watch see the blocks of a run.
+#[derive(Default)]
+struct Heard {
+    blocks: u64,
+    tracker: LineTracker,
+}
+
+impl Heard {
+    fn event(&mut self, event: &Event<'_>, loaded: &LoadedMachine) -> ControlFlow<()> {
+        let Event::Executed(executed) = event else {
+            return ControlFlow::Continue(());
+        };
+        self.blocks += 1;
+        if self.blocks.is_multiple_of(STEP) && loaded.watch.is_stopped() {
+            return ControlFlow::Break(());
+        }
+        if executed.level.is_none() {
+            let passes = self.tracker.reach(executed.line);
+            if self.blocks.is_multiple_of(STEP) {
+                let reached = Reached {
+                    file: executed.file,
+                    line: executed.line,
+                };
+                let done = Done::Blocks(self.blocks);
+                loaded.watch.show_program(done, reached, passes);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}

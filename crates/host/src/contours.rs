@@ -1,0 +1,193 @@
+//! Contours of programs on the disk.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use super::discovery::LoadedMachine;
+use super::dry_run::{Alone, Axes, run_alone};
+use super::error::HostError;
+use super::input::{Input, Naming};
+use super::watch::{Done, Watch};
+use frictcomp::lists::FrictionList;
+use frictcomp::session::{Motions, SessionOptions};
+use frictcomp::timeline::{Record, Sink};
+use frictcomp_physics::contour::{
+    ContourOptions, ContourSink, MovingAxes, NoContour, ProgramContour, parameterise,
+};
+use frictcomp_physics::motion::{Cause, PlannerOptions, ProgramTrace, Sample, TraceSink};
+use frictcomp_physics::simulation::{FrictionModel, Plant};
+
+/// What drives the path of a program, and how the program runs.
+#[derive(Debug, Clone)]
+pub struct ContourSetup {
+    /// The axes of the plane.
+    pub plane: [String; 2],
+    /// The drives.
+    pub plant: Plant,
+    /// Value lists that take the place of the machine's: the axis, the name of the list, the list.
+    pub value_lists: Vec<(String, String, FrictionList)>,
+    /// The friction model.
+    pub model: FrictionModel,
+    /// How the commanded trace is planned.
+    pub planner: PlannerOptions,
+    /// How the program runs.
+    pub session: SessionOptions,
+    /// How files are named.
+    pub naming: Naming,
+}
+
+/// Why there is no contour of a program.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum NoDrivenContour {
+    /// The program cannot be read.
+    #[error(transparent)]
+    Host(#[from] HostError),
+    /// Its axes cannot be driven.
+    #[error(transparent)]
+    Axes(#[from] NoContour),
+    /// A plant whose loops do not hold the path.
+    #[error("the simulated drives are unstable after {after_s:.3} s of `{program}`")]
+    Unstable {
+        /// Path of the program.
+        program: String,
+        /// The machine time in s.
+        after_s: f64,
+    },
+    /// Standard input, which can be read only once.
+    #[error("standard input can be read only once, and a contour needs the program twice")]
+    OnlyOnce,
+}
+
+/// Drives the path of a program: a first run finds the axes that move, and how long it takes where
+/// somebody watches; a second one drives them. `sink` is made for the axes that are driven.
+///
+/// # Errors
+/// The program cannot be read or its axes cannot be driven, or a drive is unstable.
+pub fn drive_contour<S: ContourSink>(
+    input: &Input,
+    loaded: &LoadedMachine,
+    setup: &ContourSetup,
+    sink: impl FnOnce(&ContourOptions) -> S,
+) -> Result<ProgramContour<S>, NoDrivenContour> {
+    if *input == Input::Stdin {
+        return Err(NoDrivenContour::OnlyOnce);
+    }
+    let mut loaded = loaded.clone();
+    let alone = || Alone {
+        options: SessionOptions {
+            run: setup.session.run.with_motions(Motions::Taken),
+            ..setup.session.clone()
+        },
+        naming: setup.naming,
+        axes: Axes::AsTheyOccur,
+    };
+    let mut ahead = Ahead::new(&loaded, setup.planner);
+    run_alone(input, &loaded, alone(), &mut ahead)?;
+    let (moving, seconds) = ahead.finish();
+    let [first, second] = &setup.plane;
+    let axes = moving.driven(
+        &loaded.machine,
+        [first, second],
+        &setup.plant,
+        &setup.value_lists,
+    )?;
+    parameterise(&mut loaded.machine, &axes);
+    let options = ContourOptions::new(axes)
+        .with_planner(setup.planner)
+        .with_model(setup.model);
+    let sink = sink(&options);
+    let mut contour = ProgramContour::new(&loaded.machine, options, sink);
+    let mut watched = WatchedContour {
+        contour: &mut contour,
+        watch: &loaded.watch,
+        seconds,
+    };
+    run_alone(input, &loaded, alone(), &mut watched)?;
+    contour.finish();
+    if contour.is_unstable() {
+        return Err(NoDrivenContour::Unstable {
+            program: input.name(Naming::AsGiven),
+            after_s: contour.machine_time_s(),
+        });
+    }
+    Ok(contour)
+}
+
+/// What is to be known before anything is driven.
+struct Ahead {
+    moving: MovingAxes,
+    /// The trace of no axis: it counts cycles, where somebody watches.
+    trace: Option<ProgramTrace<Cycles>>,
+    cycle_s: f64,
+}
+
+/// Counts the cycles of a trace.
+#[derive(Default)]
+struct Cycles(u32);
+
+impl TraceSink for Cycles {
+    fn begin(&mut self, _: f64, _: &Arc<Cause>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn sample(&mut self, _: &Sample<'_>) -> ControlFlow<()> {
+        self.0 = self.0.saturating_add(1);
+        ControlFlow::Continue(())
+    }
+}
+
+impl Ahead {
+    fn new(loaded: &LoadedMachine, planner: PlannerOptions) -> Self {
+        let trace = || ProgramTrace::new(&loaded.machine, &[], planner, Cycles::default());
+        Self {
+            moving: MovingAxes::default(),
+            trace: loaded.watch.is_on().then(trace),
+            cycle_s: planner.cycle_s,
+        }
+    }
+
+    /// The axes that move, and the machine time in s.
+    fn finish(self) -> (MovingAxes, f64) {
+        let seconds = self.trace.map_or(0.0, |mut trace| {
+            let _ = trace.finish();
+            f64::from(trace.sink().0) * self.cycle_s
+        });
+        (self.moving, seconds)
+    }
+}
+
+impl Sink for Ahead {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Some(trace) = &mut self.trace {
+            let _ = trace.record(record);
+        }
+        self.moving.record(record)
+    }
+}
+
+/// Shows how much of the machine time is driven.
+struct WatchedContour<'a, S> {
+    contour: &'a mut ProgramContour<S>,
+    watch: &'a Watch,
+    seconds: f64,
+}
+
+impl<S: ContourSink> Sink for WatchedContour<'_, S> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        let flow = self.contour.record(record);
+        self.watch.show(|| Done::MachineTime {
+            seconds: whole(self.contour.machine_time_s()),
+            all: whole(self.seconds),
+        });
+        flow
+    }
+}
+
+fn whole(seconds: f64) -> u64 {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturates
+    let whole = seconds as u64;
+    whole
+}

@@ -1,0 +1,434 @@
+//! Which machine a program runs on: `frictcomp.toml`, a start-up list, or none.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use super::assumed::{AxesOfPrograms, assume_axes};
+use super::disk::Disk;
+use super::error::HostError;
+use super::file_kind::CONFIG_NAME;
+use super::finder::Reach;
+use super::grounds::{Elsewhere, Grounds};
+use super::input::Input;
+use super::ledger::Ledger;
+use super::list_files::{ListsOnDisk, read_list};
+use super::watch::{Watch, Watcher};
+use frictcomp::diagnostic::{Code, CodeFilter, Diagnostic, Levels, Severity};
+use frictcomp::lists::Parameter;
+use frictcomp::machine::{AxisReport, AxisSet, Configuration, Machine, Setting};
+use frictcomp::text::shown_path;
+
+/// Which configuration counts.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum ConfigurationChoice {
+    /// The nearest `frictcomp.toml` from the folder of the program upwards.
+    #[default]
+    Nearest,
+    /// This file.
+    File(PathBuf),
+    /// None, whatever lies there.
+    Isolated,
+}
+
+/// Where the machine of programs comes from, and what is different from its configuration.
+#[derive(Debug, Clone, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct MachineOptions {
+    /// The configuration.
+    pub configuration: ConfigurationChoice,
+    /// The start-up list that gives the axes in place of the configuration.
+    pub startup: Option<PathBuf>,
+    /// The axes on which P-AXIS-00522 = 1 and an accepted value list are assumed.
+    pub enable: Vec<String>,
+    /// What becomes of programs and lists outside the folders.
+    pub elsewhere: Elsewhere,
+    /// Values of variables that only the machine knows.
+    pub settings: Vec<(String, Setting)>,
+    /// Which codes count.
+    pub codes: CodeFilter,
+}
+
+/// A machine and what else its configuration says.
+#[derive(Debug, Clone, Default)]
+pub struct LoadedMachine {
+    /// The machine.
+    pub machine: Machine,
+    /// Values of variables that only the machine knows.
+    pub settings: Vec<(String, Setting)>,
+    /// The user's severities.
+    pub levels: Levels,
+    /// Where called programs may lie.
+    pub reach: Reach,
+    /// What there is to say about the lists.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The effective parameters, by axis.
+    pub reports: Vec<AxisReport>,
+    /// The programs and macros that the configuration names, and where.
+    pub programs: Vec<Parameter>,
+    /// The configuration or the start-up list that was read.
+    pub origin: Option<PathBuf>,
+    /// How many lists were read, and how many are named and are not there.
+    pub lists: (usize, usize),
+    /// The extensions of files that are programs.
+    pub extensions: Option<Vec<String>>,
+    /// Where the files of a run on this machine are noted.
+    pub ledger: Ledger,
+    /// The disk that runs on this machine read from.
+    pub disk: Disk,
+    /// The watcher of the runs on this machine.
+    pub watch: Arc<Watch>,
+}
+
+impl LoadedMachine {
+    fn new(configuration: Configuration, path: &Path, ledger: &Ledger) -> Self {
+        ledger.reads("configuration", path);
+        for file in &configuration.files {
+            ledger.reads("list", Path::new(&**file));
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let folders = configuration.program_dirs.iter();
+        Self {
+            machine: configuration.machine,
+            settings: configuration.settings,
+            levels: configuration.levels,
+            reach: Reach {
+                // Written on Windows, read anywhere.
+                program_dirs: folders
+                    .map(|written| folder.join(written.replace('\\', "/")))
+                    .collect(),
+                project: folder.to_owned(),
+                elsewhere: Elsewhere::Kept,
+            },
+            diagnostics: configuration.diagnostics,
+            reports: configuration.reports,
+            programs: configuration.programs,
+            origin: Some(path.to_owned()),
+            lists: (configuration.files.len(), configuration.missing),
+            extensions: match configuration.extensions {
+                given if given.is_empty() => None,
+                given => Some(given),
+            },
+            ledger: ledger.clone(),
+            disk: Disk::default(),
+            watch: Arc::default(),
+        }
+    }
+
+    /// The machine without a configuration.
+    fn unconfigured(ledger: &Ledger) -> Self {
+        Self {
+            machine: Machine::unconfigured(),
+            ledger: ledger.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// What stops the control at start-up or keeps it from taking a list.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics
+            .iter()
+            .filter(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+}
+
+/// The machines of programs; each configuration is read once.
+#[derive(Debug)]
+pub struct Machines {
+    options: MachineOptions,
+    ledger: Ledger,
+    disk: Disk,
+    /// The axes of the programs, where axes are asked for.
+    ahead: Option<AxesOfPrograms>,
+    watch: Arc<Watch>,
+    /// The machines without the axes that the user enables.
+    plain: BTreeMap<Option<PathBuf>, LoadedMachine>,
+    loaded: BTreeMap<Option<PathBuf>, Arc<LoadedMachine>>,
+    /// The nearest configuration of each folder that was asked for.
+    nearest: BTreeMap<PathBuf, Option<PathBuf>>,
+}
+
+impl Machines {
+    /// No machine yet. The files that are read are noted in the ledger.
+    pub fn new(options: MachineOptions, ledger: &Ledger) -> Self {
+        Self {
+            options,
+            ledger: ledger.clone(),
+            disk: Disk::default(),
+            ahead: None,
+            watch: Arc::default(),
+            plain: BTreeMap::new(),
+            loaded: BTreeMap::new(),
+            nearest: BTreeMap::new(),
+        }
+    }
+
+    /// The same, with a watcher of the programs that run on the machines.
+    pub fn watched_by(mut self, watcher: Arc<dyn Watcher>) -> Self {
+        self.watch = Arc::new(Watch::by(watcher));
+        self
+    }
+
+    /// The same, read from another disk than that of the system.
+    pub fn on_disk(self, disk: &Disk) -> Self {
+        let disk = disk.clone();
+        Self { disk, ..self }
+    }
+
+    /// The machine of a program in a folder.
+    ///
+    /// # Errors
+    /// The configuration or the start-up list cannot be used, or an axis is unknown.
+    pub fn for_folder(&mut self, folder: &Path) -> Result<Arc<LoadedMachine>, HostError> {
+        let config = self.configuration(folder);
+        if let Some(loaded) = self.loaded.get(&config) {
+            return Ok(Arc::clone(loaded));
+        }
+        let mut loaded = self.plain(config.as_deref())?.clone();
+        let options = &self.options;
+        let onto = (&mut loaded.machine, loaded.reports.as_mut_slice());
+        let assumed = assume_axes(&options.enable, onto, self.ahead.as_ref())?;
+        // What is assumed need not be found missing.
+        loaded.diagnostics.retain(|said| {
+            let is_missing = matches!(said.code, Code::Fc135 | Code::Fc303);
+            !(is_missing && said.axis.as_deref().is_some_and(|it| assumed.contains(&it)))
+        });
+        options.codes.apply(&mut loaded.levels);
+        options.codes.sift(&mut loaded.diagnostics);
+        loaded.disk = self.disk.clone();
+        loaded.watch = Arc::clone(&self.watch);
+        let loaded = Arc::new(loaded);
+        self.loaded.insert(config, Arc::clone(&loaded));
+        Ok(loaded)
+    }
+
+    /// The configuration that counts for the programs of a folder.
+    pub(super) fn configuration(&mut self, folder: &Path) -> Option<PathBuf> {
+        match &self.options.configuration {
+            ConfigurationChoice::File(path) => Some(path.clone()),
+            ConfigurationChoice::Isolated => None,
+            ConfigurationChoice::Nearest => self.nearest(folder),
+        }
+    }
+
+    /// Which configuration counts.
+    pub(super) fn choice(&self) -> &ConfigurationChoice {
+        &self.options.configuration
+    }
+
+    /// The disk that configurations and lists are read from.
+    pub(super) fn disk(&self) -> &Disk {
+        &self.disk
+    }
+
+    /// Has a configuration count for the programs of a folder, unless the user chose another one.
+    pub(super) fn settle(&mut self, folder: &Path, configuration: Option<PathBuf>) {
+        self.nearest.insert(folder.to_owned(), configuration);
+    }
+
+    /// The machine of a configuration without the axes that the user enables.
+    pub(super) fn plain(&mut self, config: Option<&Path>) -> Result<&LoadedMachine, HostError> {
+        let key = config.map(Path::to_owned);
+        if !self.plain.contains_key(&key) {
+            let loaded = self.load(config)?;
+            self.plain.insert(key.clone(), loaded);
+        }
+        Ok(&self.plain[&key])
+    }
+
+    /// The programs are known: compensation is assumed on axes that they, or their machines, have
+    /// (R17.7).
+    pub fn look_ahead(&mut self, inputs: &[Input]) {
+        self.watch.expect(inputs.len());
+        if self.options.enable.is_empty() {
+            return;
+        }
+        let names: Vec<String> = self.options.enable.clone();
+        let mut axes = AxesOfPrograms::default();
+        let mut undescribed = Vec::new();
+        for input in inputs {
+            let config = self.configuration(input.folder());
+            match self.plain(config.as_deref()) {
+                Ok(loaded) if loaded.machine.axis_set == AxisSet::AsTheyOccur => {
+                    undescribed.push(input);
+                }
+                Ok(loaded) => axes.describe(&loaded.machine),
+                // Why it cannot be used is said where a program needs it.
+                Err(_) => {}
+            }
+        }
+        axes.look(undescribed, names.iter().map(|name| name.trim()));
+        self.ahead = Some(axes);
+        self.loaded.clear();
+    }
+
+    /// Programs of other runs name the usual axes, and those that an earlier run left.
+    pub fn expect_more(&mut self, left: Vec<String>) {
+        if let Some(ahead) = &mut self.ahead {
+            ahead.expect_more(left);
+        }
+    }
+
+    /// The extensions of programs below a folder, where its configuration names them.
+    pub fn extensions(&mut self, folder: &Path) -> Option<Vec<String>> {
+        let config = self.configuration(folder);
+        self.plain(config.as_deref()).ok()?.extensions.clone()
+    }
+
+    /// Reads the configuration and applies what differs from it.
+    fn load(&self, config: Option<&Path>) -> Result<LoadedMachine, HostError> {
+        let options = &self.options;
+        let mut loaded = match config {
+            Some(path) => self.read_config(path)?,
+            None => LoadedMachine::unconfigured(&self.ledger),
+        };
+        loaded.reach.elsewhere = options.elsewhere;
+        if let Some(path) = &options.startup {
+            let axes = self.read_startup(path)?;
+            loaded.machine = axes.machine;
+            loaded.diagnostics = axes.diagnostics;
+            loaded.reports = axes.reports;
+            loaded.programs = axes.programs;
+            loaded.origin = axes.origin;
+            loaded.lists = axes.lists;
+        }
+        loaded.settings.extend(options.settings.iter().cloned());
+        Ok(loaded)
+    }
+
+    /// Reads a `frictcomp.toml` and the lists that it names.
+    fn read_config(&self, path: &Path) -> Result<LoadedMachine, HostError> {
+        let text = read_list(path, &self.disk)?;
+        match Configuration::from_toml(text, &mut ListsOnDisk::new(&self.disk)) {
+            Ok(configuration) => {
+                let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
+                let grounds = self.options.grounds(path, &loaded.reach, &self.disk);
+                grounds.conceal(&mut loaded.diagnostics);
+                Ok(loaded)
+            }
+            Err(error) => {
+                let reach = Reach {
+                    project: path.parent().unwrap_or(path).to_owned(),
+                    ..Reach::default()
+                };
+                let mut diagnostics = vec![*error.diagnostic];
+                let grounds = self.options.grounds(path, &reach, &self.disk);
+                grounds.conceal(&mut diagnostics);
+                Err(HostError::Configuration {
+                    path: path.to_owned(),
+                    diagnostics,
+                })
+            }
+        }
+    }
+
+    /// Reads a start-up list and the lists that it names.
+    fn read_startup(&self, path: &Path) -> Result<LoadedMachine, HostError> {
+        let text = read_list(path, &self.disk)?;
+        let mut lists = ListsOnDisk::new(&self.disk);
+        let configuration = Configuration::from_startup(text, &mut lists);
+        let wrong = configuration.diagnostics.iter().find(|said| {
+            let whole_file = *said.place.file == *shown_path(path);
+            said.code == Code::Fc125 && whole_file && said.place.start().line == 1
+        });
+        if let Some(wrong) = wrong
+            && configuration.machine.axis_set == AxisSet::AsTheyOccur
+        {
+            return Err(HostError::NotAStartupList {
+                path: path.to_owned(),
+                message: wrong.message.clone(),
+            });
+        }
+        let mut loaded = LoadedMachine::new(configuration, path, &self.ledger);
+        let grounds = self.options.grounds(path, &loaded.reach, &self.disk);
+        grounds.conceal(&mut loaded.diagnostics);
+        Ok(loaded)
+    }
+
+    fn nearest(&mut self, folder: &Path) -> Option<PathBuf> {
+        if let Some(found) = self.nearest.get(folder) {
+            return found.clone();
+        }
+        let found = nearest_config(folder, &self.disk);
+        self.nearest.insert(folder.to_owned(), found.clone());
+        found
+    }
+
+    /// Every machine that was asked for, in the order of its configuration's path.
+    pub fn loaded(&self) -> impl Iterator<Item = &LoadedMachine> {
+        self.loaded.values().map(Arc::as_ref)
+    }
+}
+
+impl MachineOptions {
+    /// The folders whose lists are shown: the current one, that of a file and those of programs.
+    fn grounds(&self, path: &Path, reach: &Reach, disk: &Disk) -> Grounds {
+        let reach = Reach {
+            elsewhere: self.elsewhere,
+            ..reach.clone()
+        };
+        let grounds = reach.grounds(disk).with(Path::new(""));
+        // A file that the user names lies where it lies; one that was found may be a link.
+        match (&self.configuration, disk.real(path)) {
+            (ConfigurationChoice::File(_), Ok(real)) => {
+                grounds.with(real.parent().unwrap_or(&real))
+            }
+            _ => grounds,
+        }
+    }
+}
+
+/// The nearest configuration from a folder upwards, as a path from the current folder.
+pub fn nearest_config(folder: &Path, disk: &Disk) -> Option<PathBuf> {
+    let found = disk
+        .absolute(folder)?
+        .ancestors()
+        .map(|ancestor| ancestor.join(CONFIG_NAME))
+        .find(|candidate| disk.is_file(candidate))?;
+    let here = disk.absolute(Path::new(""))?;
+    Some(relative(&found, &here))
+}
+
+/// A path seen from a folder, so that no output holds an absolute path (R9.16).
+pub(super) fn relative(path: &Path, folder: &Path) -> PathBuf {
+    let shared = path
+        .components()
+        .zip(folder.components())
+        .take_while(|(one, other)| one == other)
+        .count();
+    if shared == 0 {
+        return path.to_owned();
+    }
+    let up = folder
+        .components()
+        .skip(shared)
+        .map(|_| Component::ParentDir);
+    up.chain(path.components().skip(shared)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_configuration_counts() {
+        let root = tempfile::tempdir().unwrap();
+        let deep = root.path().join("a/b");
+        std::fs::create_dir_all(&deep).unwrap();
+        std::fs::write(root.path().join(CONFIG_NAME), "").unwrap();
+        let nearest = || nearest_config(&deep, &Disk::default()).unwrap();
+        let far = nearest();
+        assert!(far.ends_with(CONFIG_NAME) && !far.ends_with("a/frictcomp.toml"));
+        std::fs::write(root.path().join("a").join(CONFIG_NAME), "").unwrap();
+        assert!(nearest().ends_with("a/frictcomp.toml"));
+    }
+
+    #[test]
+    fn paths_are_seen_from_the_current_folder() {
+        let seen = |path, folder| relative(Path::new(path), Path::new(folder));
+        assert_eq!(seen("/a/b/c.toml", "/a/b"), Path::new("c.toml"));
+        assert_eq!(seen("/a/c.toml", "/a/b/d"), Path::new("../../c.toml"));
+        assert_eq!(seen("/a/b/c.toml", "/a"), Path::new("b/c.toml"));
+    }
+}

@@ -1,0 +1,201 @@
+//! The disk that programs, lists and configurations are read from: that of the system, with texts in
+//! place of some of its files (R12.2), or one in memory (R13.3).
+
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::input::reopen;
+use super::memory_disk::MemoryDisk;
+use super::open_text::OpenText;
+use super::paths::{Entry, normal, or_here};
+use super::read::read_bytes;
+use super::shared_map::SharedMap;
+use crate::decode::decode;
+use frictcomp::text::{LineSource, TextLines};
+
+/// More bytes than a list or a configuration has.
+const MOST_LIST: u64 = 64 << 20;
+
+/// The disk that a host reads from. By default it is that of the system.
+#[derive(Debug, Clone)]
+pub struct Disk(Kind);
+
+#[derive(Debug, Clone)]
+enum Kind {
+    /// That of the system, with texts in place of files, by their real paths.
+    System(SharedMap<PathBuf, Arc<String>>),
+    /// Texts and nothing else.
+    Memory(Arc<MemoryDisk>),
+}
+
+impl Default for Disk {
+    fn default() -> Self {
+        Self(Kind::System(SharedMap::default()))
+    }
+}
+
+impl Disk {
+    /// The disk of the system, with texts in place of files, whatever name finds them: what an editor
+    /// has open and may not have saved.
+    pub fn with_open(texts: impl IntoIterator<Item = OpenText>) -> Self {
+        let system = Self::default();
+        let texts = texts.into_iter();
+        let texts = texts.map(|open| (system.place_of(&open.path), open.text));
+        Self(Kind::System(texts.collect()))
+    }
+
+    /// The same with texts that are found by the [places](Self::place) of their files already.
+    pub fn with_placed(texts: SharedMap<PathBuf, Arc<String>>) -> Self {
+        Self(Kind::System(texts))
+    }
+
+    /// The one path that all names of a file of the system lead to.
+    pub fn place(path: &Path) -> PathBuf {
+        Self::default().place_of(path)
+    }
+
+    /// A disk in memory with these texts and the folders of their paths, for hosts that have no other.
+    /// Relative paths begin at its root.
+    pub fn in_memory(texts: impl IntoIterator<Item = OpenText>) -> Self {
+        Self(Kind::Memory(Arc::new(MemoryDisk::new(texts))))
+    }
+
+    /// The text that is at hand for a file; `None` for a file of the system's own.
+    pub fn text(&self, path: &Path) -> Option<&Arc<String>> {
+        match &self.0 {
+            Kind::System(open) if open.is_empty() => None,
+            Kind::System(open) => open.get(&self.place_of(path)),
+            Kind::Memory(disk) => disk.text(path),
+        }
+    }
+
+    /// The lines of a program that was run, by its name in records. `None` for what can be read only
+    /// once, a pipe.
+    pub fn lines(&self, name: &str) -> Option<Box<dyn LineSource + '_>> {
+        match (self.text(Path::new(name)), &self.0) {
+            (Some(text), _) => Some(Box::new(TextLines::new(text))),
+            (None, Kind::System(_)) => reopen(name),
+            (None, Kind::Memory(_)) => None,
+        }
+    }
+
+    /// What a path leads to, once links are followed.
+    pub(super) fn entry(&self, path: &Path) -> io::Result<Entry> {
+        if let Kind::Memory(disk) = &self.0 {
+            return disk.entry(path);
+        }
+        match std::fs::metadata(path) {
+            // What is open and was never saved lies where its name says.
+            Err(_) if self.text(path).is_some() => Ok(Entry::File),
+            Err(error) => Err(error),
+            Ok(metadata) if metadata.is_file() => Ok(Entry::File),
+            Ok(metadata) if metadata.is_dir() => Ok(Entry::Folder),
+            Ok(_) => Ok(Entry::Special),
+        }
+    }
+
+    /// Whether there is a file.
+    pub(super) fn is_file(&self, path: &Path) -> bool {
+        self.entry(path).is_ok_and(|entry| entry == Entry::File)
+    }
+
+    /// The one path of what is there, all links resolved; an empty path is the current folder.
+    pub(super) fn real(&self, path: &Path) -> io::Result<PathBuf> {
+        match &self.0 {
+            Kind::Memory(disk) => disk.real(path),
+            Kind::System(_) => match or_here(path).canonicalize() {
+                Err(_) if self.text(path).is_some() => Ok(self.place_of(path)),
+                real => real,
+            },
+        }
+    }
+
+    /// The path from the root on, without `.` and with `..` resolved by name; an empty path is the
+    /// current folder.
+    pub fn absolute(&self, path: &Path) -> Option<PathBuf> {
+        match &self.0 {
+            Kind::Memory(_) => Some(MemoryDisk::absolute(path)),
+            Kind::System(_) => std::path::absolute(or_here(path))
+                .ok()
+                .map(|path| normal(&path)),
+        }
+    }
+
+    /// The names in a folder, sorted; an empty path is the current one.
+    pub(super) fn names(&self, folder: &Path) -> Vec<OsString> {
+        if let Kind::Memory(disk) = &self.0 {
+            return disk.names(folder);
+        }
+        let entries = std::fs::read_dir(or_here(folder)).into_iter().flatten();
+        let mut names: Vec<OsString> = entries.flatten().map(|entry| entry.file_name()).collect();
+        names.sort();
+        names
+    }
+
+    /// The text of a regular file.
+    ///
+    /// # Errors
+    /// It does not exist, cannot be read, is no regular file, or is too big to be kept.
+    pub(super) fn read(&self, path: &Path) -> io::Result<String> {
+        match (self.text(path), &self.0) {
+            (Some(text), _) => Ok(text.to_string()),
+            (None, Kind::System(_)) => read_bytes(path).map(decode),
+            (None, Kind::Memory(disk)) => Err(match disk.entry(path)? {
+                Entry::Folder => io::ErrorKind::IsADirectory.into(),
+                Entry::File | Entry::Special => io::ErrorKind::NotFound.into(),
+            }),
+        }
+    }
+
+    /// The text of a list or a configuration.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read); it is also refused where it is larger than any list (R9.94).
+    pub(super) fn read_list(&self, path: &Path) -> io::Result<String> {
+        let length = std::fs::metadata(path).map_or(0, |found| found.len());
+        if self.text(path).is_none() && length > MOST_LIST {
+            let reason = "it is larger than 64 MiB, which no list or configuration is";
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, reason));
+        }
+        self.read(path)
+    }
+
+    /// The one path of a file of the system that all its names lead to; that of a file which is not
+    /// there goes by its folder.
+    fn place_of(&self, path: &Path) -> PathBuf {
+        let there = || path.canonicalize().ok();
+        let beside = || Some(path.parent()?.canonicalize().ok()?.join(path.file_name()?));
+        let named = || self.absolute(path);
+        let found = there().or_else(beside).or_else(named);
+        found.unwrap_or_else(|| path.to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_found_under_every_name_of_its_file() {
+        // R12.2
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir(path("deep")).unwrap();
+        std::fs::write(path("a.nc"), "disk").unwrap();
+        let open = |name: &str| OpenText {
+            path: path(name),
+            text: Arc::new(name.to_owned()),
+        };
+        let disk = Disk::with_open([open("a.nc"), open("deep/../new.nc")]);
+        let of = |name: &str| disk.text(&path(name)).map(|text| text.as_str());
+        assert_eq!(of("a.nc"), Some("a.nc"));
+        assert_eq!(of("deep/../a.nc"), Some("a.nc"));
+        assert_eq!(of("new.nc"), Some("deep/../new.nc"));
+        assert_eq!(of("other.nc"), None);
+        assert_eq!(Disk::default().text(&path("a.nc")), None);
+        assert_eq!(disk.entry(&path("new.nc")).ok(), Some(Entry::File));
+        assert!(disk.real(&path("new.nc")).unwrap().ends_with("new.nc"));
+    }
+}

@@ -1,0 +1,228 @@
+//! Programs on their way through a session.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::axes_ahead::AxesAhead;
+use super::discovery::LoadedMachine;
+use super::disk::Disk;
+use super::error::HostError;
+use super::finder::{ProgramFinder, Reach};
+use super::input::{Input, Naming, Opened};
+use super::ledger::Ledger;
+use super::state_file::StateFile;
+use super::switched_axes::switched_axes;
+use super::watch::{Watch, Watched};
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::machine::AxisSet;
+use frictcomp::session::{Program, Session, SessionOptions};
+use frictcomp::timeline::Sink;
+
+/// Where called programs are looked for, and how files are named.
+#[derive(Clone)]
+pub struct Surroundings<'a> {
+    reach: Reach,
+    ledger: Ledger,
+    disk: Disk,
+    watch: Arc<Watch>,
+    naming: Naming,
+    before_waiting: &'a dyn Fn(),
+}
+
+impl<'a> Surroundings<'a> {
+    /// What a machine's configuration says about them.
+    pub fn new(loaded: &LoadedMachine, naming: Naming) -> Self {
+        Self {
+            reach: loaded.reach.clone(),
+            ledger: loaded.ledger.clone(),
+            disk: loaded.disk.clone(),
+            watch: Arc::clone(&loaded.watch),
+            naming,
+            before_waiting: &|| (),
+        }
+    }
+
+    /// The same; what is called whenever a pipe may have to wait for more of a program.
+    pub fn before_waiting(self, before_waiting: &'a dyn Fn()) -> Self {
+        Self {
+            before_waiting,
+            ..self
+        }
+    }
+}
+
+/// Runs one program in a session. `Break` when the sink wants no more.
+///
+/// # Errors
+/// The program cannot be read.
+pub fn run_program(
+    session: &mut Session,
+    input: &Input,
+    surroundings: &Surroundings<'_>,
+    sink: &mut dyn Sink,
+) -> Result<ControlFlow<()>, HostError> {
+    let name = input.name(surroundings.naming);
+    let watch = &*surroundings.watch;
+    let mut watched;
+    let sink: &mut dyn Sink = if watch.is_on() {
+        watched = Watched::new(sink, watch);
+        &mut watched
+    } else {
+        sink
+    };
+    let Surroundings {
+        reach,
+        naming,
+        disk,
+        ledger,
+        ..
+    } = surroundings;
+    let mut finder = ProgramFinder::new(input, reach, *naming, disk).noting(ledger);
+    let flow = match input.open(surroundings.naming, surroundings.before_waiting)? {
+        Opened::Whole(source) => session.program(&name, Program::Whole(source), &mut finder, sink),
+        Opened::Lines(mut lines) => {
+            let flow = session.program(&name, Program::Lines(&mut lines), &mut finder, sink);
+            if let Some(error) = lines.take_failure() {
+                return Err(HostError::read(Path::new(&name), error));
+            }
+            flow
+        }
+    };
+    watch.program_done();
+    Ok(match flow {
+        ControlFlow::Break(()) => ControlFlow::Break(()),
+        ControlFlow::Continue(_) => ControlFlow::Continue(()),
+    })
+}
+
+/// A session that goes on where a saved state ended, or begins at the start of the control, and what
+/// the control says about lists that changed since the state was saved (P-ERR-110641).
+///
+/// # Errors
+/// The state cannot be read, is damaged, or is that of another machine.
+pub fn open_session(
+    loaded: &LoadedMachine,
+    options: SessionOptions,
+    state: Option<&StateFile>,
+) -> Result<(Session, Vec<Diagnostic>), HostError> {
+    let machine = loaded.machine.clone();
+    if let Some(file) = state
+        && let Some(saved) = file.load()?
+    {
+        return Session::resume(machine, options, saved).map_err(|error| file.refused(&error));
+    }
+    Ok((Session::new(machine, options), Vec::new()))
+}
+
+/// Lists from the start the axes that a look over the programs finds, where no machine is described
+/// (R9.74).
+pub fn expect_axes(session: &mut Session, loaded: &LoadedMachine, inputs: &[Input]) {
+    if loaded.machine.axis_set == AxisSet::AsTheyOccur {
+        session.expect_axes(AxesAhead::of(inputs, []).names());
+    }
+}
+
+/// Programs that run one after the other.
+#[derive(Debug, Clone, Copy)]
+pub struct Programs<'a> {
+    /// The programs.
+    pub inputs: &'a [Input],
+    /// What is said about the machine before the first of them.
+    pub said: &'a [Diagnostic],
+}
+
+/// How far programs were run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Played {
+    /// `Break` when the sink wanted no more.
+    pub flow: ControlFlow<()>,
+    /// How many programs were left when the session stopped.
+    pub unrun: usize,
+}
+
+/// Runs programs in a session, from its beginning to its summary.
+///
+/// # Errors
+/// A program cannot be read.
+pub fn run_programs(
+    session: &mut Session,
+    programs: Programs<'_>,
+    surroundings: &Surroundings<'_>,
+    sink: &mut dyn Sink,
+) -> Result<Played, HostError> {
+    let mut flow = session.begin(programs.said, sink);
+    let mut unrun = programs.inputs.len();
+    for input in programs.inputs {
+        if flow.is_break() || session.is_stopped() {
+            break;
+        }
+        unrun -= 1;
+        flow = run_program(session, input, surroundings, sink)?;
+    }
+    if flow.is_continue() {
+        flow = session.finish(sink);
+    } else {
+        unrun = 0;
+    }
+    Ok(Played { flow, unrun })
+}
+
+/// How a program runs in a session of its own.
+pub struct Alone {
+    /// How the session runs.
+    pub options: SessionOptions,
+    /// How files are named in records.
+    pub naming: Naming,
+    /// Which axes are listed where no machine is described.
+    pub axes: Axes,
+}
+
+/// Which axes are listed where no machine is described.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axes {
+    /// Those that a look over the program finds (R9.74).
+    Ahead,
+    /// They are not listed.
+    AsTheyOccur,
+}
+
+/// Runs one program in a session of its own, from the start of the control to the summary, and
+/// returns the session.
+///
+/// # Errors
+/// The program cannot be read.
+pub fn run_alone(
+    input: &Input,
+    loaded: &LoadedMachine,
+    alone: Alone,
+    sink: &mut dyn Sink,
+) -> Result<Session, HostError> {
+    let surroundings = Surroundings::new(loaded, alone.naming);
+    let mut options = alone.options;
+    if !loaded.machine.is_described() {
+        options.switched = switched_axes([input]);
+    }
+    let mut session = Session::new(loaded.machine.clone(), options);
+    if alone.axes == Axes::Ahead {
+        expect_axes(&mut session, loaded, std::slice::from_ref(input));
+    }
+    let mut flow = begin(&mut session, loaded, sink);
+    if flow.is_continue() {
+        flow = run_program(&mut session, input, &surroundings, sink)?;
+    }
+    if flow.is_continue() {
+        let _ = session.finish(sink);
+    }
+    Ok(session)
+}
+
+/// Says what the session starts with, and what keeps the control from taking its lists.
+pub(super) fn begin(
+    session: &mut Session,
+    loaded: &LoadedMachine,
+    sink: &mut dyn Sink,
+) -> ControlFlow<()> {
+    let errors: Vec<_> = loaded.errors().cloned().collect();
+    session.begin(&errors, sink)
+}

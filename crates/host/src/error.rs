@@ -1,0 +1,339 @@
+//! Why the work with files could not be done.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::in_use::{device, told};
+use super::trace_error::TraceError;
+use frictcomp::diagnostic::{Diagnostic, UnknownName};
+use frictcomp::text::shown_path;
+use frictcomp_physics::simulation::UnknownPreset;
+
+/// Why the work with files could not be done: one sentence in lower case.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum HostError {
+    /// A file that is not there, or that may not be read.
+    #[error("{}", reading(.path, .reason))]
+    Read {
+        /// The file as it was named.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// A file in a folder that does not exist, or that may not be written.
+    #[error("{}", writing(.path, .reason))]
+    Write {
+        /// The file as it was named.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// A change that the code page of a file cannot write.
+    #[error("`{}` cannot be changed: {reason}", shown_path(.path))]
+    Unwritable {
+        /// Path of the file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// A file that somebody else changed while it was worked on.
+    #[error("`{}` has changed since it was read; nothing was written", shown_path(.0))]
+    ChangedMeanwhile(PathBuf),
+    /// Files that took their place on a disk that may lose them again.
+    #[error("{} in place, but the disk did not confirm it: {reason}", are(.files))]
+    Unsettled {
+        /// The files.
+        files: Vec<PathBuf>,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// A full disk.
+    #[error("the output cannot be written: {0}")]
+    Output(io::Error),
+    /// A folder where a program is wanted.
+    #[error("`{}` is a folder, not a program", shown_path(.0))]
+    FolderAsProgram(PathBuf),
+    /// A folder where a list is wanted.
+    #[error("`{}` is a folder, not a list", shown_path(.0))]
+    FolderAsList(PathBuf),
+    /// A folder of which a part may not be read.
+    #[error("`{}` cannot be searched completely: {reason}", shown_path(.folder))]
+    Search {
+        /// The folder that is searched.
+        folder: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A folder of texts.
+    #[error("there is no program below `{}`", shown_path(.folder))]
+    NoPrograms {
+        /// The folder that was searched.
+        folder: PathBuf,
+        /// The extensions that programs have there.
+        extensions: Vec<String>,
+    },
+    /// A `frictcomp.toml` with a mistake.
+    #[error("the configuration `{}` cannot be used", shown_path(.path))]
+    Configuration {
+        /// Path of the file.
+        path: PathBuf,
+        /// The lines that are the reason.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// An axis list where a start-up list is wanted.
+    #[error("{message}")]
+    NotAStartupList {
+        /// Path of the file.
+        path: PathBuf,
+        /// What it is instead.
+        message: String,
+    },
+    /// A folder that is not there.
+    #[error("there is no folder `{}`", shown_path(.0))]
+    NoFolder(PathBuf),
+    /// A file that is there already and stays as it is.
+    #[error("`{}` already exists and is not changed", shown_path(.0))]
+    AlreadyThere(PathBuf),
+    /// Start-up lists of which nobody says which one the machine has.
+    #[error("there are several start-up lists: {}", listed(.0))]
+    SeveralStartupLists(Vec<PathBuf>),
+    /// A link to a file that nobody handed over.
+    #[error("`{}` is a link that leads out of the given folders", shown_path(.0))]
+    LeadsOut(PathBuf),
+    /// A program without a place beside it.
+    #[error("standard input has no `.{0}` file beside it")]
+    NothingBeside(&'static str),
+    /// `X[` where the name of an axis is wanted.
+    #[error("`{0}` is not an axis name")]
+    AxisName(String),
+    /// `XX` on a machine with X, Y and Z.
+    #[error("the machine has no axis `{}`", .0.name)]
+    NoAxis(UnknownName),
+    /// Compensation that is assumed on an axis that no program names.
+    #[error("no program names an axis `{}`", .0.name)]
+    AxisNotNamed(UnknownName),
+    /// Two outputs in one file.
+    #[error("`{one}` and `{other}` are the same file")]
+    SameFile {
+        /// One output.
+        one: String,
+        /// The other one.
+        other: String,
+    },
+    /// An output that is an input.
+    #[error("`{output}` would overwrite the {what} `{}`", shown_path(.input))]
+    Overwrites {
+        /// The output.
+        output: String,
+        /// What the input is.
+        what: &'static str,
+        /// The input.
+        input: PathBuf,
+    },
+    /// An output through a link to a file that users write.
+    #[error("`{output}` is a link to the {what} `{}`", shown_path(.target))]
+    LeadsToSource {
+        /// The output.
+        output: String,
+        /// The kind of file.
+        what: &'static str,
+        /// Path of the file.
+        target: PathBuf,
+    },
+    /// An output in the place of a file that users write.
+    #[error("`{output}` would take the place of a {what}")]
+    ReplacesSource {
+        /// The output.
+        output: String,
+        /// The kind of file.
+        what: &'static str,
+    },
+    /// A folder where the state is wanted.
+    #[error("`{}` cannot hold a state: it is not a regular file", shown_path(.0))]
+    StateNotRegular(PathBuf),
+    /// A state that another run has locked.
+    #[error("another run uses the state file `{}`", shown_path(.0))]
+    StateInUse(PathBuf),
+    /// A state that is damaged, or of another machine.
+    #[error("the state file `{}` cannot be used: {reason}", shown_path(.path))]
+    State {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A value list that the control would not take.
+    #[error("the value list `{}` cannot be used: {reason}", shown_path(.path))]
+    ValueList {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: &'static str,
+        /// The lines that are the reason.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// A plant that is neither a preset nor a file.
+    #[error(transparent)]
+    NoPlant(UnknownPreset),
+    /// A plant file with a mistake.
+    #[error("the plant `{}` cannot be used", shown_path(.path))]
+    Plant {
+        /// Path of the file.
+        path: PathBuf,
+        /// The lines that are the reason.
+        diagnostics: Vec<Diagnostic>,
+    },
+    /// A recorded trace that cannot be read.
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    /// A limit of memory that is too low for a simulation.
+    #[error("not enough memory: a simulation needs {mebibytes} MiB")]
+    Memory {
+        /// What it needs.
+        mebibytes: usize,
+    },
+}
+
+impl HostError {
+    /// A file that cannot be read.
+    pub fn read(path: &Path, reason: io::Error) -> Self {
+        if reason.kind() == io::ErrorKind::IsADirectory {
+            return Self::FolderAsProgram(path.to_owned());
+        }
+        let (path, reason) = (path.to_owned(), told(reason));
+        Self::Read { path, reason }
+    }
+
+    /// A file that cannot be written.
+    pub fn write(path: &Path, reason: io::Error) -> Self {
+        let (path, reason) = (path.to_owned(), told(reason));
+        Self::Write { path, reason }
+    }
+
+    /// The lines of a file of the user that are the reason.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        match self {
+            Self::Configuration { diagnostics, .. }
+            | Self::ValueList { diagnostics, .. }
+            | Self::Plant { diagnostics, .. } => diagnostics,
+            _ => &[],
+        }
+    }
+
+    /// What to do about it, where that does not depend on the program that asks.
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            Self::Read { reason, .. } => match reason.kind() {
+                io::ErrorKind::NotFound => "check the path; it is taken from the current folder",
+                io::ErrorKind::PermissionDenied => "check your permission to read it",
+                io::ErrorKind::ResourceBusy => "close it there, then try again",
+                _ => return None,
+            },
+            Self::Write { reason, .. } => match reason.kind() {
+                io::ErrorKind::NotFound => "create the folder, or name another file",
+                io::ErrorKind::ResourceBusy => "close it there and try again, or name another file",
+                io::ErrorKind::IsADirectory => "name a file in it",
+                kind => return to_write(kind).map(str::to_owned),
+            },
+            Self::Output(reason) => return to_write(reason.kind()).map(str::to_owned),
+            Self::Unsettled { .. } => "check the disk before you rely on them",
+            Self::FolderAsList(_) => "name the file in it",
+            Self::NoFolder(_) => "name the folder of the programs",
+            Self::LeadsOut(_) => "put the file itself there, or name its folder",
+            Self::NoPrograms { extensions, .. } => {
+                return Some(format!(
+                    "programs end in .{}; `[check] extensions` in frictcomp.toml names others",
+                    extensions.join(", .")
+                ));
+            }
+            Self::NoAxis(unknown) => return unknown.help("its axes are"),
+            Self::AxisNotNamed(unknown) => return unknown.help("they name"),
+            Self::SameFile { .. } => "give each output its own file",
+            Self::Overwrites { .. } | Self::LeadsToSource { .. } => {
+                "name another file for the output"
+            }
+            Self::StateInUse(_) => "wait until it has ended, or give each run a state file",
+            Self::State { .. } => {
+                "name another file, or remove this one to begin from a start of the control"
+            }
+            Self::NoPlant(unknown) => return Some(format!("did you mean `{}`?", unknown.near()?)),
+            Self::Trace(error) => return error.help(),
+            Self::Memory { .. } => {
+                "close other programs, or raise the limit of the shell (`ulimit -v`)"
+            }
+            _ => return None,
+        };
+        Some(help.to_owned())
+    }
+}
+
+/// What helps where writing fails.
+fn to_write(kind: io::ErrorKind) -> Option<&'static str> {
+    Some(match kind {
+        io::ErrorKind::PermissionDenied => {
+            "check your permission to write there, or name another file"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "make room there, or name a file on another disk, then try again"
+        }
+        io::ErrorKind::FileTooLarge => {
+            "raise the limit of the shell (`ulimit -f`), or write less, then try again"
+        }
+        io::ErrorKind::ReadOnlyFilesystem => "name a file on another disk",
+        // Reasons of the tool's own say what is wrong, not what failed.
+        io::ErrorKind::Other | io::ErrorKind::InvalidInput => return None,
+        _ => "check the disk or the network drive, then try again",
+    })
+}
+
+/// Files, and the verb after them.
+fn are(files: &[PathBuf]) -> String {
+    match files {
+        [file] => format!("`{}` is", shown_path(file)),
+        [first, rest @ ..] => format!("`{}` and {} more are", shown_path(first), rest.len()),
+        [] => "all files are".to_owned(),
+    }
+}
+
+fn listed(paths: &[PathBuf]) -> String {
+    let names: Vec<String> = paths
+        .iter()
+        .map(|path| format!("`{}`", shown_path(path)))
+        .collect();
+    names.join(", ")
+}
+
+fn reading(path: &Path, reason: &io::Error) -> String {
+    let shown = shown_path(path);
+    if let Some(device) = device(path).filter(|_| cfg!(windows)) {
+        return format!("`{shown}` cannot be read: `{device}` is the name of a device on Windows");
+    }
+    match reason.kind() {
+        io::ErrorKind::NotFound => format!("there is no file `{shown}`"),
+        io::ErrorKind::PermissionDenied => format!("`{shown}` cannot be read: permission denied"),
+        io::ErrorKind::ResourceBusy => {
+            format!("`{shown}` cannot be read: another program has it open")
+        }
+        _ => format!("`{shown}` cannot be read: {reason}"),
+    }
+}
+
+fn writing(path: &Path, reason: &io::Error) -> String {
+    let shown = shown_path(path);
+    match reason.kind() {
+        io::ErrorKind::NotFound => {
+            format!("`{shown}` cannot be written: its folder does not exist")
+        }
+        io::ErrorKind::PermissionDenied => {
+            format!("`{shown}` cannot be written: permission denied")
+        }
+        io::ErrorKind::ResourceBusy => {
+            format!("`{shown}` cannot be written: another program has it open")
+        }
+        io::ErrorKind::IsADirectory => format!("`{shown}` cannot be written: it is a folder"),
+        _ => format!("`{shown}` cannot be written: {reason}"),
+    }
+}

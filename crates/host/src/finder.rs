@@ -1,0 +1,386 @@
+//! Finds the programs that programs call, and nothing else on the disk (R2.13, R2.16).
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap};
+use std::ffi::OsString;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::disk::Disk;
+use super::grounds::{Elsewhere, Grounds};
+use super::input::{Input, Naming};
+use super::ledger::{Ledger, PROGRAM};
+use super::open_text::OpenText;
+use super::paths::{Entry, normal, spelt_as};
+use frictcomp::session::{Finder, NoProgram};
+use frictcomp::text::SourceFile;
+
+/// Where the programs that are called may lie besides their caller's folder.
+#[derive(Debug, Clone, Default)]
+pub struct Reach {
+    /// The folders of `program_dirs`, which are searched in this order.
+    pub program_dirs: Vec<PathBuf>,
+    /// The folder of the configuration; empty, the current one, without.
+    pub project: PathBuf,
+    /// What becomes of programs that lie elsewhere.
+    pub elsewhere: Elsewhere,
+}
+
+impl Reach {
+    /// The project, the configured folders and everything below them.
+    pub fn grounds(&self, disk: &Disk) -> Grounds {
+        let grounds = Grounds::on(disk, self.elsewhere).with(&self.project);
+        self.program_dirs
+            .iter()
+            .fold(grounds, |grounds, folder| grounds.with(folder))
+    }
+}
+
+/// Finds called programs beside the caller and in the configured folders.
+pub struct ProgramFinder {
+    folders: Vec<PathBuf>,
+    grounds: Grounds,
+    naming: Naming,
+    /// Where the files lie that were named so far.
+    known: HashMap<String, PathBuf>,
+    /// The names of the files that were found, by their real paths.
+    names: HashMap<PathBuf, String>,
+    /// What the folders hold that were searched, by names in lower case.
+    listings: HashMap<PathBuf, BTreeMap<String, Vec<OsString>>>,
+    /// Where the files are noted that were read.
+    ledger: Ledger,
+    disk: Disk,
+}
+
+impl ProgramFinder {
+    /// A finder for the programs that `main` calls.
+    pub fn new(main: &Input, reach: &Reach, naming: Naming, disk: &Disk) -> Self {
+        let mut known = HashMap::new();
+        let mut names = HashMap::new();
+        if let Input::File(path) | Input::Open(OpenText { path, .. }) = main {
+            let name = naming.name(path);
+            names.extend(disk.real(path).map(|real| (real, name.clone())));
+            known.insert(name, path.clone());
+        }
+        Self {
+            folders: reach.program_dirs.clone(),
+            grounds: reach.grounds(disk).with(main.folder()),
+            naming,
+            known,
+            names,
+            listings: HashMap::new(),
+            ledger: Ledger::default(),
+            disk: disk.clone(),
+        }
+    }
+
+    /// The same, which notes what it reads.
+    pub fn noting(self, ledger: &Ledger) -> Self {
+        let ledger = ledger.clone();
+        Self { ledger, ..self }
+    }
+
+    fn locate(&mut self, name: &str, caller: &str) -> Result<PathBuf, NoProgram> {
+        let beside = self
+            .known
+            .get(caller)
+            .and_then(|path| path.parent())
+            .unwrap_or(Path::new(""))
+            .to_owned();
+        // A path of the control's own disk means nothing here, its last part does.
+        let slashed = name.replace('\\', "/");
+        let last = slashed.rsplit('/').next().unwrap_or(&slashed);
+        let folders: Vec<PathBuf> = std::iter::once(beside)
+            .chain(self.folders.clone())
+            .collect();
+        let mut refused = None;
+        for folder in &folders {
+            for name in [slashed.as_str(), last] {
+                match self.usable(folder, name) {
+                    Ok(path) => return Ok(path),
+                    Err(NoProgram::Absent) => {}
+                    Err(why) => refused = refused.or(Some(why)),
+                }
+            }
+        }
+        let near = || self.with_extension(&folders, last);
+        Err(refused.or_else(near).unwrap_or(NoProgram::Absent))
+    }
+
+    /// A file that is called so but for its extension, which the control wants to be written.
+    fn with_extension(&mut self, folders: &[PathBuf], name: &str) -> Option<NoProgram> {
+        let stem = format!("{}.", name.to_lowercase());
+        for folder in folders {
+            let listed = self.listing(folder).range(stem.clone()..);
+            let begins = |(name, _): &(&String, &Vec<OsString>)| name.starts_with(&stem);
+            let alike: Vec<OsString> = listed
+                .take_while(begins)
+                .filter_map(|(_, names)| names.first().cloned())
+                .collect();
+            let mut names = alike.iter().filter_map(|name| name.to_str());
+            if let Some(near) = names.find(|name| self.usable(folder, name).is_ok()) {
+                return Some(NoProgram::Near(near.to_owned()));
+            }
+        }
+        None
+    }
+
+    /// A file of that name in a folder, when it may be called.
+    fn usable(&mut self, folder: &Path, name: &str) -> Result<PathBuf, NoProgram> {
+        if name.is_empty() {
+            return Err(NoProgram::Absent);
+        }
+        let name = &*native(name);
+        if !self.grounds.may_hold(&folder.join(name)) {
+            return Err(NoProgram::Outside);
+        }
+        let path = self.existing(folder, name).ok_or(NoProgram::Absent)?;
+        let entry = self.disk.entry(&path).map_err(|error| unusable(&error))?;
+        if !self.grounds.holds(&path) {
+            return Err(NoProgram::Outside);
+        }
+        match entry {
+            Entry::File => Ok(path),
+            Entry::Folder => Err(NoProgram::Unusable("is a folder".to_owned())),
+            Entry::Special => Err(NoProgram::Unusable("is not a regular file".to_owned())),
+        }
+    }
+
+    /// The path of that name below a folder; the control's disk does not tell upper from lower
+    /// case.
+    fn existing(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
+        let exact = folder.join(name);
+        match self.disk.entry(&exact) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            // A folder of that name may stand beside a file that is meant.
+            Ok(Entry::Folder | Entry::Special) => {
+                return Some(self.spelled(folder, name).unwrap_or(exact));
+            }
+            Ok(Entry::File) | Err(_) => return Some(exact),
+        }
+        if Path::new(name).has_root() {
+            return None;
+        }
+        self.spelled(folder, name)
+    }
+
+    /// The same, whatever the case of each part.
+    fn spelled(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
+        let mut path = folder.to_owned();
+        let mut parts = name.split('/').filter(|part| !part.is_empty()).peekable();
+        while let Some(part) = parts.next() {
+            if matches!(part, "." | "..") {
+                path.push(part);
+                continue;
+            }
+            let is_last = parts.peek().is_none();
+            let disk = self.disk.clone();
+            let wanted = |path: &PathBuf| {
+                let entry = disk.entry(path);
+                entry.is_ok_and(|entry| (entry == Entry::File) == is_last)
+            };
+            let exact = path.join(part);
+            if wanted(&exact) {
+                path = exact;
+                continue;
+            }
+            let alike = self.listing(&path).get(&part.to_lowercase())?;
+            let mut alike = alike.iter().map(|name| path.join(name));
+            path = alike.find(wanted)?;
+        }
+        Some(path)
+    }
+
+    fn listing(&mut self, folder: &Path) -> &BTreeMap<String, Vec<OsString>> {
+        let disk = &self.disk;
+        self.listings.entry(folder.to_owned()).or_insert_with(|| {
+            let mut names: BTreeMap<String, Vec<OsString>> = BTreeMap::new();
+            for name in disk.names(folder) {
+                if let Some(text) = name.to_str() {
+                    names.entry(text.to_lowercase()).or_default().push(name);
+                }
+            }
+            names
+        })
+    }
+
+    /// The name of a file in records: its own, and no other file's.
+    fn name(&mut self, path: &Path) -> String {
+        let real = self.disk.real(path);
+        let real = real.unwrap_or_else(|_| path.to_owned());
+        if let Some(name) = self.names.get(&real) {
+            return name.clone();
+        }
+        // Going by the name alone, `..` after a link leads to a different file.
+        let shown = Some(normal(path))
+            .filter(|shown| self.disk.real(shown).is_ok_and(|shown| shown == real));
+        let mut shown = shown.unwrap_or_else(|| path.to_owned());
+        if cfg!(windows) {
+            shown = spelt_as(&shown, &real);
+        }
+        let mut name = self.naming.name(&shown);
+        let mut parts = shown.iter().rev().skip(1);
+        while self.known.contains_key(&name) {
+            let Some(part) = parts.next() else { break };
+            name = format!("{}/{name}", part.to_string_lossy());
+        }
+        self.names.insert(real, name.clone());
+        self.known.insert(name.clone(), path.to_owned());
+        name
+    }
+}
+
+impl Finder for ProgramFinder {
+    fn find(&mut self, name: &str, caller: &str) -> Result<SourceFile, NoProgram> {
+        let path = self.locate(name, caller);
+        let path = path.inspect_err(|_| self.ledger.misses(name))?;
+        self.ledger.reads(PROGRAM, &path);
+        let text = self.disk.read(&path).map_err(|error| unusable(&error))?;
+        Ok(SourceFile::new(self.name(&path), text))
+    }
+}
+
+/// A name with a drive begins at a root on every system, `C:/CNC/sub.nc`.
+fn native(name: &str) -> Cow<'_, str> {
+    let drive = name.as_bytes().get(1) == Some(&b':');
+    if drive && !cfg!(windows) {
+        Cow::Owned(format!("/{name}"))
+    } else {
+        Cow::Borrowed(name)
+    }
+}
+
+fn unusable(error: &io::Error) -> NoProgram {
+    NoProgram::Unusable(match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => return NoProgram::Absent,
+        io::ErrorKind::PermissionDenied => "cannot be read: permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "is a folder".to_owned(),
+        io::ErrorKind::InvalidInput => "has a name that no file can have".to_owned(),
+        _ => format!("cannot be read: {error}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn called_programs_are_found_beside_the_caller_and_in_the_folders() {
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir_all(path("cycles/deep")).unwrap();
+        std::fs::write(path("main.nc"), "L SUB.nc").unwrap();
+        std::fs::write(path("sub.nc"), "beside").unwrap();
+        std::fs::write(path("cycles/drill.nc"), "folder").unwrap();
+        std::fs::write(path("cycles/deep/x.nc"), "deep").unwrap();
+        let main = Input::File(path("main.nc"));
+        let reach = Reach {
+            program_dirs: vec![path("cycles")],
+            ..Reach::default()
+        };
+        for naming in [Naming::AsGiven, Naming::FileName] {
+            let mut finder = ProgramFinder::new(&main, &reach, naming, &Disk::default());
+            let caller = main.name(naming);
+            let mut find = |name: &str| {
+                let found = finder.find(name, &caller).ok();
+                found.map(|file| file.text().to_owned())
+            };
+            assert_eq!(find("SUB.NC").as_deref(), Some("beside"));
+            assert_eq!(find(r"C:\CNC\prg\sub.nc").as_deref(), Some("beside"));
+            assert_eq!(find("drill.nc").as_deref(), Some("folder"));
+            assert_eq!(find(r"deep\x.nc").as_deref(), Some("deep"));
+            assert_eq!(find("missing.nc"), None);
+            assert_eq!(find(""), None);
+            let shown = finder.find("sub.nc", &caller).ok().unwrap();
+            assert_eq!(naming == Naming::FileName, &**shown.name() == "sub.nc");
+        }
+    }
+
+    #[test]
+    fn what_lies_elsewhere_is_not_called() {
+        // R2.16
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir_all(path("project/programs")).unwrap();
+        std::fs::create_dir_all(path("project/Cycles")).unwrap();
+        std::fs::create_dir_all(path("shared/deep")).unwrap();
+        std::fs::create_dir_all(path("project/programs/folder.nc")).unwrap();
+        for name in [
+            "secret.nc",
+            "project/programs/main.nc",
+            "project/Cycles/Drill.nc",
+            "shared/deep/x.nc",
+        ] {
+            std::fs::write(path(name), "text").unwrap();
+        }
+        let main = Input::File(path("project/programs/main.nc"));
+        let reach = |elsewhere| Reach {
+            program_dirs: vec![path("shared")],
+            project: path("project"),
+            elsewhere,
+        };
+        let caller = main.name(Naming::AsGiven);
+        let secret = path("secret.nc").display().to_string();
+        let why = |elsewhere, name: &str| {
+            let mut finder =
+                ProgramFinder::new(&main, &reach(elsewhere), Naming::AsGiven, &Disk::default());
+            finder
+                .find(name, &caller)
+                .map(|file| file.text().to_owned())
+        };
+        for name in [
+            "../cycles/drill.nc",
+            r"..\CYCLES\DRILL.NC",
+            "../../shared/deep/x.nc",
+            "deep/x.nc",
+            r"C:\CNC\prg\main.nc",
+        ] {
+            assert_eq!(why(Elsewhere::Kept, name).as_deref(), Ok("text"), "{name}");
+        }
+        for name in [
+            "../../secret.nc",
+            r"..\..\secret.nc",
+            "../../not-there.nc",
+            &secret,
+            r"\\server\share\secret.nc",
+            r"D:\secret.nc",
+        ] {
+            assert_eq!(
+                why(Elsewhere::Kept, name),
+                Err(NoProgram::Outside),
+                "{name}"
+            );
+        }
+        assert_eq!(
+            why(Elsewhere::Allowed, "../../secret.nc").as_deref(),
+            Ok("text")
+        );
+        assert_eq!(why(Elsewhere::Allowed, &secret).as_deref(), Ok("text"));
+        assert_eq!(why(Elsewhere::Kept, "not-there.nc"), Err(NoProgram::Absent));
+        let folder = NoProgram::Unusable("is a folder".to_owned());
+        assert_eq!(why(Elsewhere::Kept, "folder.nc"), Err(folder));
+    }
+
+    #[test]
+    fn files_of_one_name_keep_apart() {
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        for name in ["one", "two"] {
+            std::fs::create_dir(path(name)).unwrap();
+            std::fs::write(path(name).join("sub.nc"), name).unwrap();
+        }
+        std::fs::write(path("main.nc"), "").unwrap();
+        let main = Input::File(path("main.nc"));
+        let reach = Reach::default();
+        let mut finder = ProgramFinder::new(&main, &reach, Naming::FileName, &Disk::default());
+        let mut find = |name: &str| finder.find(name, "main.nc").ok().unwrap();
+        let (one, two, again) = (
+            find("one/sub.nc"),
+            find("two/sub.nc"),
+            find("two/../one/SUB.nc"),
+        );
+        assert_eq!((&**one.name(), one.text()), ("sub.nc", "one"));
+        assert_eq!((&**two.name(), two.text()), ("two/sub.nc", "two"));
+        assert_eq!(again.name(), one.name());
+    }
+}

@@ -1,0 +1,125 @@
+//! What a folder tells about the machine of its programs before it has a configuration (R9.73).
+
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use ignore::WalkBuilder;
+
+use super::discovery::relative;
+use super::disk::Disk;
+use super::error::HostError;
+use super::file_kind::is_list;
+use super::input::Input;
+use super::list_files::{ListsOnDisk, read_list};
+use super::paths::normal;
+use super::read::read_text;
+use super::unfinished::{Placed, UnfinishedFile, take_away_left};
+use super::walk::find_programs;
+use frictcomp::diagnostic::Code;
+use frictcomp::lists::ListKind;
+use frictcomp::machine::{Configuration, NoLists, Outline, check_list};
+use frictcomp::text::shown_path;
+
+/// How deep below the folder a start-up list is looked for.
+const DEPTH: usize = 4;
+
+/// What a folder tells about its machine: the start-up list that is given or lies there, otherwise
+/// the axes of the programs.
+///
+/// # Errors
+/// There is no such folder, several start-up lists lie there, or the given list is not a start-up list.
+pub fn outline_of(folder: &Path, startup: Option<&Path>) -> Result<Outline, HostError> {
+    if !folder.is_dir() {
+        return Err(HostError::NoFolder(folder.to_owned()));
+    }
+    let startup = match startup {
+        Some(path) => Some(path.to_owned()),
+        None => find_startup(folder)?,
+    };
+    let Some(path) = startup else {
+        return Ok(Outline::of_programs(programs(folder)));
+    };
+    check_startup(&path)?;
+    Ok(Outline::Startup(shown_path(&seen_from(folder, &path)?)))
+}
+
+/// Creates a file as a whole; one that is there stays.
+///
+/// # Errors
+/// There is such a file, or it cannot be written.
+pub fn write_new(target: &Path, text: &str) -> Result<(), HostError> {
+    let mut placed = Placed::default();
+    let written = UnfinishedFile::begin(target).and_then(|mut file| {
+        take_away_left(&file, &mut BTreeSet::new());
+        file.write_all(text.as_bytes())?;
+        file.take_free_place()?;
+        placed.add(&file, target);
+        Ok(())
+    });
+    written.map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => HostError::AlreadyThere(target.to_owned()),
+        _ => HostError::write(target, error),
+    })?;
+    placed.settle()
+}
+
+/// The start-up list below a folder, recognised by its content.
+fn find_startup(folder: &Path) -> Result<Option<PathBuf>, HostError> {
+    let disk = Disk::default();
+    let mut found: Vec<PathBuf> = Vec::new();
+    let walk = WalkBuilder::new(folder)
+        .max_depth(Some(DEPTH))
+        .sort_by_file_name(std::ffi::OsStr::cmp)
+        .build();
+    for entry in walk.filter_map(Result::ok) {
+        let path = entry.path();
+        if is_list(path)
+            && let Ok(list) = read_list(path, &disk)
+            && check_list(list, None, &mut NoLists).kind == Some(ListKind::Startup)
+        {
+            found.push(path.strip_prefix(".").unwrap_or(path).to_owned());
+        }
+    }
+    if found.len() > 1 {
+        return Err(HostError::SeveralStartupLists(found));
+    }
+    Ok(found.pop())
+}
+
+/// Says what is there instead of a start-up list.
+fn check_startup(path: &Path) -> Result<(), HostError> {
+    let disk = Disk::default();
+    let list = read_list(path, &disk)?;
+    let configuration = Configuration::from_startup(list, &mut ListsOnDisk::new(&disk));
+    let wrong = configuration
+        .diagnostics
+        .iter()
+        .find(|said| said.code == Code::Fc125 && *said.place.file == *shown_path(path));
+    match wrong {
+        Some(wrong) if configuration.files.len() == 1 => Err(HostError::NotAStartupList {
+            path: path.to_owned(),
+            message: wrong.message.clone(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A path as a configuration in the folder writes it.
+fn seen_from(folder: &Path, path: &Path) -> Result<PathBuf, HostError> {
+    let absolute = |path: &Path| {
+        let found = std::path::absolute(path).map(|path| normal(&path));
+        found.map_err(|error| HostError::read(path, error))
+    };
+    Ok(relative(&absolute(path)?, &absolute(folder)?))
+}
+
+/// The texts of the programs below a folder. What cannot be read is no program to learn from.
+fn programs(folder: &Path) -> impl Iterator<Item = String> {
+    let inputs = find_programs(&[folder.to_owned()], |_| None).inputs;
+    inputs.into_iter().filter_map(|input| match input {
+        Input::File(path) => read_text(&path).ok(),
+        Input::Open(open) => Some(open.text.to_string()),
+        Input::Stdin => None,
+    })
+}

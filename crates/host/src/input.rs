@@ -1,0 +1,268 @@
+//! The programs that the user names.
+
+use std::fs::{File, Metadata};
+use std::io::{self, Read, Seek};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::error::HostError;
+use super::ledger::{Ledger, PROGRAM};
+use super::lines::LineReader;
+use super::open_text::OpenText;
+use super::read::{read_text, read_whole};
+use super::steady::Steady;
+use crate::decode::decode;
+use frictcomp::syntax::FlowScan;
+use frictcomp::text::{LineSource, SourceFile, shown_path};
+
+/// The name of standard input in records and diagnostics.
+const STDIN: &str = "<stdin>";
+
+/// How files are named in records and diagnostics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Naming {
+    /// As the user named them.
+    AsGiven,
+    /// By their last part only, so that the folder does not matter.
+    FileName,
+}
+
+impl Naming {
+    /// The name of a file.
+    pub fn name(self, path: &Path) -> String {
+        match (self, path.file_name()) {
+            (Self::FileName, Some(name)) => name.to_string_lossy().into_owned(),
+            _ => shown_path(path),
+        }
+    }
+}
+
+/// A program that the user named.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Input {
+    /// A file.
+    File(PathBuf),
+    /// A text that stands in for a file.
+    Open(OpenText),
+    /// Standard input, `-`.
+    Stdin,
+}
+
+/// A program that is ready to run.
+pub(super) enum Opened<'a> {
+    /// A file without flow, or what can be read only once: the lines come one after another.
+    Lines(LineReader<Box<dyn Read + 'a>>),
+    /// A program with flow.
+    Whole(SourceFile),
+}
+
+/// A reader that may have to wait for more, and says so before it does.
+struct Waiting<'a, R> {
+    reader: R,
+    before: &'a dyn Fn(),
+}
+
+impl<R: Read> Read for Waiting<'_, R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        (self.before)();
+        self.reader.read(buffer)
+    }
+}
+
+impl Input {
+    /// What the user means by an argument.
+    pub fn new(argument: &Path) -> Self {
+        if argument == Path::new("-") {
+            Self::Stdin
+        } else {
+            Self::File(argument.to_owned())
+        }
+    }
+
+    /// Its name in records and diagnostics.
+    pub fn name(&self, naming: Naming) -> String {
+        match self {
+            Self::File(path) | Self::Open(OpenText { path, .. }) => naming.name(path),
+            Self::Stdin => STDIN.to_owned(),
+        }
+    }
+
+    /// The folder in which the search for a configuration begins.
+    pub fn folder(&self) -> &Path {
+        match self {
+            Self::File(path) | Self::Open(OpenText { path, .. }) => path.parent().unwrap_or(path),
+            Self::Stdin => Path::new(""),
+        }
+    }
+
+    /// Says why the program cannot be run, as far as that is known before it runs.
+    ///
+    /// # Errors
+    /// It does not exist, cannot be read, or is a folder.
+    pub fn probe(&self) -> Result<(), HostError> {
+        let Self::File(path) = self else {
+            return Ok(());
+        };
+        let metadata = std::fs::metadata(path).map_err(|error| HostError::read(path, error))?;
+        if metadata.is_dir() {
+            return Err(HostError::FolderAsProgram(path.clone()));
+        }
+        if metadata.is_file() {
+            File::open(path).map_err(|error| HostError::read(path, error))?;
+        }
+        Ok(())
+    }
+
+    /// Notes the program among the files that are read.
+    pub fn note(&self, ledger: &Ledger) {
+        let path = match self {
+            Self::File(path) | Self::Open(OpenText { path, .. }) => path,
+            Self::Stdin => Path::new(STDIN),
+        };
+        ledger.reads(PROGRAM, path);
+    }
+
+    /// Opens the program. Standard input or a pipe calls `before_waiting` whenever it may have to
+    /// wait for more.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub(super) fn open<'a>(
+        &self,
+        naming: Naming,
+        before_waiting: &'a dyn Fn(),
+    ) -> Result<Opened<'a>, HostError> {
+        match self {
+            Self::File(path) => open_file(path, self.name(naming), before_waiting)
+                .map_err(|error| HostError::read(path, error)),
+            Self::Open(open) => Ok(open_text(open, self.name(naming))),
+            Self::Stdin => Ok(match standard_input() {
+                // A file redirected with `<` must not change while it is read, like one that is named.
+                Some((file, metadata)) => arriving(Steady::new(file, &metadata), before_waiting),
+                None => arriving(io::stdin().lock(), before_waiting),
+            }),
+        }
+    }
+}
+
+/// The lines of a program that was run, by its name in records. `None` for what can be read only
+/// once, a pipe.
+pub fn reopen(name: &str) -> Option<Box<dyn LineSource>> {
+    let path = Path::new(name);
+    if !path.is_file() {
+        return None;
+    }
+    let lines = LineReader::new(File::open(path).ok()?);
+    if lines.is_wide() {
+        let text = read_text(path).ok()?;
+        return Some(Box::new(LineReader::new(io::Cursor::new(text))));
+    }
+    Some(Box::new(lines))
+}
+
+/// Standard input, where it is a file and no pipe.
+fn standard_input() -> Option<(File, Metadata)> {
+    let file = input_file().ok()?;
+    let metadata = file.metadata().ok()?;
+    metadata.is_file().then_some((file, metadata))
+}
+
+#[cfg(unix)]
+fn input_file() -> io::Result<File> {
+    let input = std::os::fd::AsFd::as_fd(&io::stdin()).try_clone_to_owned();
+    input.map(File::from)
+}
+
+#[cfg(windows)]
+fn input_file() -> io::Result<File> {
+    let input = std::os::windows::io::AsHandle::as_handle(&io::stdin()).try_clone_to_owned();
+    input.map(File::from)
+}
+
+#[cfg(not(any(unix, windows)))]
+fn input_file() -> io::Result<File> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+fn open_file<'a>(
+    path: &Path,
+    name: String,
+    before_waiting: &'a dyn Fn(),
+) -> io::Result<Opened<'a>> {
+    let file = File::open(path)?;
+    let metadata = file.metadata()?;
+    if metadata.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if !metadata.is_file() {
+        return Ok(arriving(file, before_waiting));
+    }
+    let mut lines = LineReader::of_length(Steady::new(file, &metadata), metadata.len());
+    if !lines.is_wide() && !lines.scan()?.needs_whole_text() {
+        return Ok(Opened::Lines(lines.boxed()));
+    }
+    let mut file = lines.into_reader();
+    file.rewind()?;
+    let bytes = read_whole(file, metadata.len())?;
+    Ok(Opened::Whole(SourceFile::new(name, decode(bytes))))
+}
+
+/// The lines of a text without flow, or the whole text.
+fn open_text<'a>(open: &OpenText, name: String) -> Opened<'a> {
+    let mut scan = FlowScan::default();
+    scan.feed(open.text.as_bytes());
+    if scan.needs_whole_text() {
+        return Opened::Whole(SourceFile::new(name, open.text.as_str()));
+    }
+    let bytes = io::Cursor::new(Shared(Arc::clone(&open.text)));
+    let length = u64::try_from(open.text.len()).unwrap_or(u64::MAX);
+    Opened::Lines(LineReader::of_length(Box::new(bytes), length))
+}
+
+/// The bytes of a text that others hold, too.
+struct Shared(Arc<String>);
+
+impl AsRef<[u8]> for Shared {
+    fn as_ref(&self) -> &[u8] {
+        self.0.as_bytes()
+    }
+}
+
+/// Lines that are given out as they arrive.
+fn arriving<'a>(reader: impl Read + 'a, before: &'a dyn Fn()) -> Opened<'a> {
+    Opened::Lines(LineReader::new(Box::new(Waiting { reader, before }) as Box<dyn Read>).narrow())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_programs_with_flow_are_read_whole() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("a.nc");
+        std::fs::write(&path, "N10 X1\nN20 M30").unwrap();
+        let input = Input::new(&path);
+        match input.open(Naming::FileName, &|| ()).unwrap() {
+            Opened::Lines(mut lines) => {
+                assert!(lines.advance());
+                assert_eq!(lines.line().text, "N10 X1");
+            }
+            Opened::Whole(_) => panic!("a straight program is streamed"),
+        }
+        std::fs::write(&path, b"$IF 1\n(\xdc)").unwrap();
+        match input.open(Naming::FileName, &|| ()).unwrap() {
+            Opened::Whole(file) => assert_eq!(file.text(), "$IF 1\n(Ü)"),
+            Opened::Lines(_) => panic!("flow needs the whole text"),
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_run_is_said_before() {
+        let root = tempfile::tempdir().unwrap();
+        let failure = Input::new(root.path()).probe().unwrap_err();
+        assert!(failure.to_string().contains("is a folder"));
+        let failure = Input::new(&root.path().join("no.nc")).probe().unwrap_err();
+        assert!(failure.to_string().starts_with("there is no file"));
+    }
+}

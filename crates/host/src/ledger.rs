@@ -1,0 +1,312 @@
+//! What is read and what is written, so that no output destroys an input (R9.70), nor a program, a
+//! list or a configuration that this call does not read (R9.93).
+
+use std::collections::hash_map::{Entry, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::error::HostError;
+use super::file_kind::FileKind;
+use frictcomp::text::shown_path;
+
+/// The files that a piece of work reads. Its copies are the same ledger: called programs are known only
+/// while others run already.
+#[derive(Debug, Clone, Default)]
+pub struct Ledger(Arc<Mutex<Inputs>>);
+
+#[derive(Debug, Default)]
+struct Inputs {
+    /// Each file, and as what it is read.
+    files: BTreeMap<Arc<Path>, &'static str>,
+    /// The files in the order in which they became known.
+    order: Vec<Arc<Path>>,
+    /// The names of called programs that were not found.
+    missed: BTreeSet<String>,
+}
+
+/// What a program is noted as.
+pub(super) const PROGRAM: &str = "program";
+
+/// A file that is written, and what it is called in errors.
+#[derive(Debug, Clone)]
+pub(super) struct Claim {
+    /// What it is called in errors.
+    pub name: &'static str,
+    /// Path of the file.
+    pub path: PathBuf,
+    /// What it may take the place of.
+    pub replaces: Replaces,
+}
+
+/// What an output may take the place of (R9.93).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Replaces {
+    /// Another result.
+    #[default]
+    Results,
+    /// Another result or a value list: the output is one.
+    Lists,
+    /// Whatever is no input of the same call.
+    Anything,
+}
+
+impl Claim {
+    fn shown(&self) -> String {
+        format!("{} {}", self.name, shown_path(&self.path))
+    }
+
+    /// Whether the output may be written where its name leads (R9.93).
+    fn check_place(&self) -> Result<(), HostError> {
+        let leads_to = std::fs::symlink_metadata(&self.path)
+            .is_ok_and(|found| found.is_symlink())
+            .then(|| self.path.canonicalize().ok())
+            .flatten();
+        if let Some(target) = leads_to
+            && let Some(what) = FileKind::of(&target)
+        {
+            return Err(HostError::LeadsToSource {
+                output: self.shown(),
+                what: what.as_str(),
+                target,
+            });
+        }
+        let is_allowed = |what| match self.replaces {
+            Replaces::Results => false,
+            Replaces::Lists => what == FileKind::List,
+            Replaces::Anything => true,
+        };
+        match FileKind::of(&self.path) {
+            Some(what)
+                if !is_allowed(what) && (what == FileKind::Configuration || self.path.exists()) =>
+            {
+                Err(HostError::ReplacesSource {
+                    output: self.shown(),
+                    what: what.as_str(),
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Ledger {
+    /// Notes a file that is read, and as what.
+    pub fn reads(&self, what: &'static str, path: &Path) {
+        let mut inputs = self.inputs();
+        if !inputs.files.contains_key(path) {
+            let path: Arc<Path> = path.into();
+            inputs.files.insert(path.clone(), what);
+            inputs.order.push(path);
+        }
+    }
+
+    /// The number of files that are known.
+    pub(super) fn count(&self) -> usize {
+        self.inputs().order.len()
+    }
+
+    /// Says which output is a file that is read, or another output; links, hard links and other
+    /// spellings included. The outputs were compared with the first `compared` files before.
+    ///
+    /// # Errors
+    /// One is.
+    pub(super) fn check(&self, outputs: &[Claim], compared: usize) -> Result<(), HostError> {
+        self.compare(outputs, compared)?;
+        outputs.iter().try_for_each(Claim::check_place)
+    }
+
+    fn compare(&self, outputs: &[Claim], compared: usize) -> Result<(), HostError> {
+        let mut written: HashMap<Identity, &Claim> = HashMap::new();
+        for output in outputs {
+            let Some(identity) = Identity::of_output(&output.path) else {
+                continue;
+            };
+            match written.entry(identity) {
+                Entry::Vacant(vacant) => {
+                    vacant.insert(output);
+                }
+                Entry::Occupied(other) => {
+                    return Err(HostError::SameFile {
+                        one: other.get().shown(),
+                        other: output.shown(),
+                    });
+                }
+            }
+        }
+        if !written.keys().any(Identity::exists) {
+            return Ok(());
+        }
+        let inputs = self.inputs();
+        for input in inputs.order.iter().skip(compared) {
+            let identity = Identity::of_file(input);
+            if let Some(output) = identity.and_then(|identity| written.get(&identity)) {
+                return Err(HostError::Overwrites {
+                    output: output.shown(),
+                    what: inputs.files.get(input).copied().unwrap_or_default(),
+                    input: input.to_path_buf(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The programs that were read.
+    pub fn programs(&self) -> Vec<PathBuf> {
+        let inputs = self.inputs();
+        let programs = inputs.files.iter().filter(|(_, what)| **what == PROGRAM);
+        programs.map(|(path, _)| path.to_path_buf()).collect()
+    }
+
+    /// All files that were read.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let inputs = self.inputs();
+        inputs.files.keys().map(|path| path.to_path_buf()).collect()
+    }
+
+    /// Whether a program came from where it cannot be read again.
+    pub fn has_streams(&self) -> bool {
+        let inputs = self.inputs();
+        inputs.order.iter().any(|path| !path.is_file())
+    }
+
+    /// Notes the name of a called program that was not found.
+    pub(super) fn misses(&self, name: &str) {
+        let mut inputs = self.inputs();
+        if !inputs.missed.contains(name) {
+            inputs.missed.insert(name.to_owned());
+        }
+    }
+
+    /// The names of called programs that were not found.
+    pub fn missed(&self) -> Vec<String> {
+        self.inputs().missed.iter().cloned().collect()
+    }
+
+    fn inputs(&self) -> MutexGuard<'_, Inputs> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Which file a path names.
+#[derive(Debug, PartialEq, Eq, Hash)]
+enum Identity {
+    /// A file that is there.
+    File(FileKey),
+    /// The place of a file that is not there yet: its folder and its name.
+    Place(FileKey, OsString),
+}
+
+/// Device and number of a file.
+#[cfg(unix)]
+type FileKey = (u64, u64);
+
+/// The open file, which is how the system tells.
+#[cfg(windows)]
+type FileKey = same_file::Handle;
+
+/// Where there are no links.
+#[cfg(not(any(unix, windows)))]
+type FileKey = PathBuf;
+
+impl Identity {
+    fn of_file(path: &Path) -> Option<Self> {
+        key(path).map(Self::File)
+    }
+
+    fn of_output(path: &Path) -> Option<Self> {
+        if let Some(identity) = Self::of_file(path) {
+            return Some(identity);
+        }
+        let name = path.file_name()?;
+        // Where a folder does not tell upper from lower case, neither may this.
+        let name = if cfg!(any(windows, target_os = "macos")) {
+            name.to_ascii_lowercase()
+        } else {
+            name.to_owned()
+        };
+        Some(Self::Place(key(folder(path))?, name))
+    }
+
+    fn exists(&self) -> bool {
+        matches!(self, Self::File(_))
+    }
+}
+
+#[cfg(unix)]
+fn key(path: &Path) -> Option<FileKey> {
+    use std::os::unix::fs::MetadataExt;
+    let metadata = std::fs::metadata(path).ok()?;
+    Some((metadata.dev(), metadata.ino()))
+}
+
+#[cfg(windows)]
+fn key(path: &Path) -> Option<FileKey> {
+    same_file::Handle::from_path(path).ok()
+}
+
+#[cfg(not(any(unix, windows)))]
+fn key(path: &Path) -> Option<FileKey> {
+    path.canonicalize().ok()
+}
+
+/// The folder of a file, `.` for a bare name.
+pub(crate) fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(inputs: &[&Path], outputs: &[&Path]) -> Option<String> {
+        let ledger = Ledger::default();
+        for path in inputs {
+            ledger.reads(PROGRAM, path);
+        }
+        let claim = |path: &&Path| Claim {
+            name: "-o",
+            path: path.to_path_buf(),
+            replaces: Replaces::default(),
+        };
+        let outputs: Vec<Claim> = outputs.iter().map(claim).collect();
+        let refused = ledger.check(&outputs, 0).err();
+        refused.map(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_file_is_known_under_every_name() {
+        // R9.70
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir(path("sub")).unwrap();
+        std::fs::write(path("a.nc"), "").unwrap();
+        std::fs::hard_link(path("a.nc"), path("hard")).unwrap();
+        let mut names = vec![path("a.nc"), path("sub/../a.nc"), path("hard")];
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(path("a.nc"), path("soft")).unwrap();
+            names.push(path("soft"));
+        }
+        for name in &names {
+            let said = refused(&[&path("a.nc")], &[name]).unwrap();
+            assert!(said.contains("would overwrite the program"), "{said}");
+        }
+        assert_eq!(refused(&[&path("a.nc")], &[&path("new")]), None);
+    }
+
+    #[test]
+    fn two_outputs_are_two_files() {
+        // R9.70
+        let root = tempfile::tempdir().unwrap();
+        let path = |name: &str| root.path().join(name);
+        std::fs::create_dir(path("sub")).unwrap();
+        let said = refused(&[], &[&path("new"), &path("sub/../new")]).unwrap();
+        assert!(said.contains("are the same file"), "{said}");
+        assert_eq!(refused(&[], &[&path("new"), &path("sub/new")]), None);
+    }
+}

@@ -1,0 +1,98 @@
+//! Everything that touches files or threads and is no command line: for the command line, an editor,
+//! Python, and whoever runs programs from a disk.
+//!
+//! [`Machines`] finds the machine of a program from `frictcomp.toml` or the control's lists;
+//! [`find_programs`] walks folders, an [`Input`] is one program, [`run_alone`] and [`run_program`]
+//! run it with everything that it calls. [`StateFile`] holds what one run leaves for the next,
+//! [`OutputFiles`] take their place all at once, [`read_commanded`] and [`read_circles`] read what was
+//! recorded on a machine, and [`compare`] and [`tune`] simulate on all processors.
+//!
+//! Nothing here prints or knows an option: long work is followed by a [`Watcher`], and what cannot
+//! be done is a [`HostError`].
+
+mod agreed;
+mod assumed;
+mod audits;
+mod axes_ahead;
+mod both_versions;
+mod contours;
+mod decode;
+mod discovery;
+mod disk;
+mod dry_run;
+mod encoded_text;
+mod error;
+mod figures;
+mod file_kind;
+mod finder;
+mod first_look;
+mod grounds;
+mod in_use;
+mod input;
+mod interrupt;
+mod ledger;
+mod lines;
+mod list_files;
+mod memory;
+mod memory_disk;
+mod mend;
+mod open_text;
+mod outputs;
+mod parameter_files;
+mod paths;
+mod pieces;
+mod read;
+mod shared_map;
+mod simulations;
+mod state_file;
+mod steady;
+mod switched_axes;
+mod trace_error;
+mod traces;
+mod unfinished;
+mod unread;
+mod walk;
+mod watch;
+mod workers;
+
+pub use agreed::{AgreedDrift, AgreedFile, AgreedKind, AgreedResults, UpdatedFolder};
+pub use audits::{ArchiveAuditor, AuditOptions, MendedProgram};
+pub use both_versions::{MachineOfVersions, MachineOwner};
+pub use contours::{ContourSetup, NoDrivenContour, drive_contour};
+pub use decode::decode;
+pub use discovery::{ConfigurationChoice, LoadedMachine, MachineOptions, Machines, nearest_config};
+pub use disk::Disk;
+pub use dry_run::{
+    Alone, Axes, Played, Programs, Surroundings, expect_axes, open_session, run_alone, run_program,
+    run_programs,
+};
+pub use encoded_text::{EncodedText, NotEncodable};
+pub use error::HostError;
+pub use file_kind::{CONFIG_NAME, is_program};
+pub use finder::{ProgramFinder, Reach};
+pub use first_look::{outline_of, write_new};
+pub use grounds::{Elsewhere, Grounds};
+pub use input::{Input, Naming, reopen};
+pub use interrupt::{clean_up_when_stopped, survive_file_size_limit};
+pub use ledger::{Ledger, Replaces};
+pub use list_files::{ListsOnDisk, read_list};
+pub use memory::memory_for_simulation;
+pub use mend::{MendedFile, mend, write_mended};
+pub use open_text::OpenText;
+pub use outputs::{OutputFile, OutputFiles};
+pub use parameter_files::{check_list_file, find_plant, read_value_list};
+pub use read::read_text;
+pub use simulations::{compare, tune};
+pub use state_file::StateFile;
+pub use switched_axes::switched_axes;
+pub use trace_error::TraceError;
+pub use traces::{CircleChannels, read_axis, read_circles, read_commanded, read_trace};
+pub use unread::{UnreadVariable, unread_variables};
+pub use walk::{FoundPrograms, find_programs};
+pub use watch::{Done, Progress, Watch, Watcher};
+pub use workers::{in_order, processors};
+
+pub use shared_map::SharedMap;
+
+pub use parameter_files::is_configuration;
+pub use watch::{LineTracker, Passes, Reached};

@@ -1,0 +1,229 @@
+//! The files that a piece of work writes: all take their place at the end, or none (R9.70).
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::error::HostError;
+use super::ledger::{Claim, Ledger, Replaces};
+use super::unfinished::{Placed, UnfinishedFile, take_away_left};
+use frictcomp::text::shown_path;
+
+/// The files that a piece of work writes. Dropped before [`finish`](Self::finish), nothing was
+/// written.
+#[derive(Debug)]
+pub struct OutputFiles {
+    ledger: Ledger,
+    claims: Vec<Claim>,
+    open: Vec<OutputFile>,
+    /// The number of inputs that the claims were compared with before.
+    compared: usize,
+    /// Folders from which the leavings of killed runs are gone.
+    swept: BTreeSet<PathBuf>,
+}
+
+/// A result on its way to a file or a device. Its copies are the same file.
+#[derive(Debug, Clone)]
+pub struct OutputFile {
+    path: Arc<Path>,
+    place: Arc<Mutex<Place>>,
+}
+
+enum Place {
+    /// A device or a pipe, which cannot be replaced.
+    Open(Box<dyn Write + Send>),
+    /// Beside the file whose place it takes.
+    Beside(UnfinishedFile),
+}
+
+impl fmt::Debug for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Open(_) => f.write_str("Open"),
+            Self::Beside(file) => f.debug_tuple("Beside").field(file).finish(),
+        }
+    }
+}
+
+impl OutputFiles {
+    /// No output yet; those to come are compared with the inputs of a ledger.
+    pub fn new(ledger: &Ledger) -> Self {
+        Self {
+            ledger: ledger.clone(),
+            claims: Vec::new(),
+            open: Vec::new(),
+            compared: 0,
+            swept: BTreeSet::new(),
+        }
+    }
+
+    /// Some of the outputs of other work, which has compared them with all inputs that are known.
+    pub(super) fn part_of(whole: &Self) -> Self {
+        Self {
+            compared: whole.ledger.count(),
+            ..Self::new(&whole.ledger)
+        }
+    }
+
+    /// Begins an output; `name` says in errors which one it is. A device or a pipe is opened, a file
+    /// is written beside the one whose place it takes.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn create(
+        &mut self,
+        name: &'static str,
+        path: &Path,
+        replaces: Replaces,
+    ) -> Result<OutputFile, HostError> {
+        if is_device(path) {
+            let file = std::fs::File::options().append(true).open(path);
+            let file = file.map_err(|error| HostError::write(path, error))?;
+            return Ok(self.keep(path, Place::Open(Box::new(file))));
+        }
+        self.claim(name, path, replaces);
+        self.begin(path)
+    }
+
+    /// Notes a file that will be written, before it is known with what.
+    pub fn claim(&mut self, name: &'static str, path: &Path, replaces: Replaces) {
+        self.claims.push(Claim {
+            name,
+            path: path.to_owned(),
+            replaces,
+        });
+    }
+
+    /// Begins a file that was claimed.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn begin(&mut self, path: &Path) -> Result<OutputFile, HostError> {
+        let beside = UnfinishedFile::begin(path).map_err(|error| HostError::write(path, error))?;
+        take_away_left(&beside, &mut self.swept);
+        Ok(self.keep(path, Place::Beside(beside)))
+    }
+
+    /// The inputs are known: says which output would destroy one, before anything runs.
+    ///
+    /// # Errors
+    /// An output is an input or another output.
+    pub fn check(&self) -> Result<(), HostError> {
+        self.ledger.check(&self.claims, self.compared)
+    }
+
+    /// Everything is written: every file takes its place, and `placed` hears of each.
+    ///
+    /// # Errors
+    /// A file cannot be written, or is an input that became known meanwhile.
+    pub fn finish(self, mut placed: impl FnMut(&Path)) -> Result<(), HostError> {
+        for file in &self.open {
+            file.sync()?;
+        }
+        // What the programs called is known now.
+        self.ledger.check(&self.claims, self.compared)?;
+        // All take their place, or none.
+        for file in &self.open {
+            if let Place::Beside(beside) = &*file.place() {
+                beside
+                    .check_place()
+                    .map_err(|error| HostError::write(&file.path, error))?;
+            }
+        }
+        let mut in_place = Placed::default();
+        for file in &self.open {
+            if let Place::Beside(beside) = &mut *file.place() {
+                beside
+                    .take_place()
+                    .map_err(|error| HostError::write(&file.path, error))?;
+                in_place.add(beside, &file.path);
+                placed(&file.path);
+            }
+        }
+        in_place.settle()
+    }
+
+    fn keep(&mut self, path: &Path, place: Place) -> OutputFile {
+        let file = OutputFile {
+            path: path.into(),
+            place: Arc::new(Mutex::new(place)),
+        };
+        self.open.push(file.clone());
+        file
+    }
+}
+
+impl Write for OutputFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = match &mut *self.place() {
+            Place::Open(writer) => writer.write(bytes),
+            Place::Beside(file) => file.write(bytes),
+        };
+        written.map_err(|error| self.named(error))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let flushed = match &mut *self.place() {
+            Place::Open(writer) => writer.flush(),
+            Place::Beside(file) => file.flush(),
+        };
+        flushed.map_err(|error| self.named(error))
+    }
+}
+
+impl OutputFile {
+    /// A result that goes to an open writer, under the name of a path.
+    pub fn open(path: &Path, writer: Box<dyn Write + Send>) -> Self {
+        Self {
+            path: path.into(),
+            place: Arc::new(Mutex::new(Place::Open(writer))),
+        }
+    }
+
+    /// Nothing more is written: the file lies on the disk and waits for the others.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn sync(&self) -> Result<(), HostError> {
+        let synced = match &mut *self.place() {
+            Place::Open(writer) => writer.flush(),
+            Place::Beside(beside) => beside.sync(),
+        };
+        synced.map_err(|error| HostError::write(&self.path, error))
+    }
+
+    /// Writes bytes.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub fn bytes(&mut self, bytes: &[u8]) -> Result<(), HostError> {
+        self.write_all(bytes).map_err(HostError::Output)
+    }
+
+    fn place(&self) -> MutexGuard<'_, Place> {
+        self.place.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The same error with the name of the file.
+    fn named(&self, error: io::Error) -> io::Error {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe | io::ErrorKind::Interrupted => error,
+            kind => io::Error::new(kind, format!("{error} (`{}`)", shown_path(&self.path))),
+        }
+    }
+}
+
+/// Whether a path names what can only be opened, not replaced: a device, a pipe, or an open file of
+/// this process.
+fn is_device(path: &Path) -> bool {
+    if cfg!(windows) {
+        return path
+            .to_str()
+            .is_some_and(|name| name.eq_ignore_ascii_case("nul"));
+    }
+    let system = ["/dev", "/proc"].iter().any(|root| path.starts_with(root));
+    let is_special = std::fs::metadata(path).is_ok_and(|it| !it.is_file() && !it.is_dir());
+    is_special || (cfg!(unix) && system && !path.starts_with("/dev/shm"))
+}

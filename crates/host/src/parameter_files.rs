@@ -1,0 +1,75 @@
+//! Value lists, plants and whole configurations, each from a file that the user names.
+
+use std::path::Path;
+
+use super::disk::Disk;
+use super::error::HostError;
+use super::ledger::Ledger;
+use super::list_files::{ListsOnDisk, read_list};
+use super::read::read_text;
+use frictcomp::comp::CncBuild;
+use frictcomp::lists::{FrictionList, ReadList};
+use frictcomp::machine::{ListsReport, check_configuration, check_list};
+use frictcomp::text::{SourceFile, shown_path};
+use frictcomp_physics::simulation::{Plant, Preset};
+
+/// Reads the values that a list by itself would give the control.
+///
+/// # Errors
+/// The file cannot be read, or the control would not take it.
+pub fn read_value_list(path: &Path, ledger: &Ledger) -> Result<ReadList, HostError> {
+    ledger.reads("value list", path);
+    let source = SourceFile::new(shown_path(path), read_text(path)?);
+    FrictionList::read(source).map_err(|refused| HostError::ValueList {
+        path: path.to_owned(),
+        reason: refused.reason,
+        diagnostics: refused.diagnostics,
+    })
+}
+
+/// The plant of a name: a preset, or a TOML file.
+///
+/// # Errors
+/// There is no such preset, or the file cannot be used.
+pub fn find_plant(name: &str, ledger: &Ledger) -> Result<Plant, HostError> {
+    let unknown = match name.parse::<Preset>() {
+        Ok(preset) => return Ok(preset.plant()),
+        Err(unknown) => unknown,
+    };
+    let path = Path::new(name);
+    let is_file = path.extension().is_some() || path.exists();
+    if !is_file {
+        return Err(HostError::NoPlant(unknown));
+    }
+    ledger.reads("plant", path);
+    let source = SourceFile::new(name.to_owned(), read_text(path)?);
+    Plant::from_toml(source).map_err(|error| HostError::Plant {
+        path: path.to_owned(),
+        diagnostics: vec![*error.diagnostic],
+    })
+}
+
+/// Whether a file is a `frictcomp.toml` and no list of the control.
+pub fn is_configuration(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// Checks a list under a kernel version, where that is known, or a `frictcomp.toml`, which says its
+/// own; a start-up list and a configuration with every list that they name.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn check_list_file(
+    path: &Path,
+    build: Option<CncBuild>,
+    disk: &Disk,
+) -> Result<ListsReport, HostError> {
+    let mut lists = ListsOnDisk::new(disk);
+    let source = read_list(path, disk)?;
+    Ok(if is_configuration(path) {
+        check_configuration(source, &mut lists)
+    } else {
+        check_list(source, build, &mut lists)
+    })
+}

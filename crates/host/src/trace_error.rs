@@ -1,0 +1,92 @@
+//! Why a trace cannot be read.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use frictcomp::text::shown_path;
+use frictcomp_physics::circle::RecordedError;
+use frictcomp_physics::current::CyclesError;
+use frictcomp_recordings::trace::{NotAligned, SelectError, TraceProblem};
+
+/// Why a trace cannot be read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum TraceError {
+    /// A file that is no trace, or not the one that is wanted.
+    #[error("{}", said(.path, .problem))]
+    Problem {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: TraceProblem,
+    },
+    /// A project of TwinCAT Scope, whose form is not public.
+    #[error("`{}` is a file of TwinCAT Scope that only Scope reads", shown_path(.0))]
+    Closed(PathBuf),
+    /// Channels that cannot be brought to one clock.
+    #[error("the trace `{}`: {reason}", shown_path(.path))]
+    Apart {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: NotAligned,
+    },
+    /// Rows that are not CNC cycles.
+    #[error("the trace `{}`: {reason}", shown_path(.path))]
+    Cycles {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong with its times.
+        reason: CyclesError,
+    },
+    /// Channels of a commanded trace that were not sampled together.
+    #[error("the trace `{}`: its channels were sampled at different times", shown_path(.0))]
+    SeveralClocks(PathBuf),
+    /// Points that make no circle.
+    #[error("`{}`: {reason}", shown_path(.path))]
+    Circle {
+        /// Path of the file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: RecordedError,
+    },
+    /// Circles that do not belong together.
+    #[error(transparent)]
+    Circles(#[from] RecordedError),
+}
+
+impl TraceError {
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            Self::Problem { problem, .. } => return problem.help(),
+            Self::Closed(_) => {
+                "export it as CSV, in Scope or with Beckhoff's export tool: \
+                 `TC3ScopeExportTool.exe svd=FILE.svdx target=FILE.csv silent`"
+            }
+            Self::Apart { reason, .. } => reason.help(),
+            Self::Circle { reason, .. } | Self::Circles(reason) => reason.help(),
+            // What helps is said where the option has its name.
+            Self::Cycles { .. } | Self::SeveralClocks(_) => return None,
+        };
+        Some(help.to_owned())
+    }
+}
+
+/// A problem with the place that it has.
+fn said(path: &Path, problem: &TraceProblem) -> String {
+    let path = shown_path(path);
+    match (problem, problem.line()) {
+        (TraceProblem::Select(SelectError::Lacks { lacks, .. }), _) => {
+            let text = problem.to_string();
+            let found = text
+                .split_once(lacks.as_str())
+                .map_or("", |(_, found)| found);
+            format!("the trace `{path}` has {lacks}{found}")
+        }
+        (TraceProblem::Select(_), _) => format!("the trace `{path}`: {problem}"),
+        (_, Some(line)) => format!("{path}:{line}: {problem}"),
+        _ => format!("the trace `{path}` cannot be read: {problem}"),
+    }
+}

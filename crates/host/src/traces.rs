@@ -1,0 +1,512 @@
+//! Recorded traces in files: which channels of them are which column of a circle or of a commanded
+//! trace. How a file is laid out is known to `trace`.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::error::HostError;
+use super::read::open_regular;
+use super::trace_error::TraceError;
+use frictcomp_physics::circle::{
+    CommandedCircle, PathCentre, RecordedCircle, RecordedTrace, Recording as Circles,
+};
+use frictcomp_physics::current::{
+    CommandedTrace, Resampling, Switched, TraceColumns, TraceOptions,
+};
+use frictcomp_recordings::identify::{AxisChannels, AxisRecording};
+use frictcomp_recordings::trace::{
+    Channel, ChannelIndex, ChannelQuantity, ChannelSelection, Choice, Missing, Pick, SelectError,
+    TimeSource, TraceProblem, TraceReader, TraceRecording,
+};
+
+/// Rows of a recorded circle at most; they are kept in memory until the circle is evaluated.
+const MAX_POINTS: usize = 4_000_000;
+
+/// Rows of a trace at most: eleven hours of cycles of 1 ms.
+const MAX_ROWS: usize = 40_000_000;
+
+/// Bytes that are read at a time.
+const PIECE: usize = 1 << 18;
+
+/// Kinds of files that Scope writes and that are not read.
+const CLOSED: [&str; 4] = ["svdx", "svd", "svb", "tdms"];
+
+/// Reads those channels of a trace that `choose` wants.
+///
+/// # Errors
+/// The file cannot be read, is no trace, or not one with the channels that are wanted.
+pub fn read_trace(
+    path: &Path,
+    choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
+) -> Result<TraceRecording, HostError> {
+    read(path, MAX_ROWS, choose)
+}
+
+fn read(
+    path: &Path,
+    most_rows: usize,
+    choose: impl FnMut(&[Channel]) -> Result<Choice, SelectError> + Send,
+) -> Result<TraceRecording, HostError> {
+    let problem = |problem| TraceError::Problem {
+        path: path.to_owned(),
+        problem,
+    };
+    let failed = |error| HostError::read(path, error);
+    let (mut file, _) = open_regular(path).map_err(failed)?;
+    let extension = path
+        .extension()
+        .map(|it| it.to_string_lossy().to_lowercase());
+    if extension.is_some_and(|it| CLOSED.contains(&it.as_str())) {
+        return Err(TraceError::Closed(path.to_owned()).into());
+    }
+    let mut reader = TraceReader::new(most_rows, choose);
+    let mut piece = vec![0; PIECE];
+    loop {
+        let length = file.read(&mut piece).map_err(failed)?;
+        if length == 0 {
+            break;
+        }
+        reader.feed(&piece[..length]).map_err(problem)?;
+    }
+    Ok(reader.finish().map_err(problem)?)
+}
+
+/// Reads a commanded trace: positions in 0.1 µm or 0.0001°, or velocities in µm/s or 0.001°/s, or
+/// both; times in s and a column `comp` with `on` and `off` where they are there. Without times, a
+/// row is a CNC cycle.
+///
+/// # Errors
+/// The file cannot be read, holds something else, or its rows are not CNC cycles and are not
+/// resampled.
+pub fn read_commanded(
+    path: &Path,
+    selection: &ChannelSelection,
+    options: TraceOptions,
+) -> Result<CommandedTrace, HostError> {
+    let mut found: [Option<Pick>; 3] = [None; 3];
+    let mut switch = None;
+    let recording = read(path, MAX_ROWS, |channels| {
+        let find = |quantity| selection.find(quantity, channels);
+        found = [
+            find(ChannelQuantity::Time)?,
+            find(ChannelQuantity::Position)?,
+            find(ChannelQuantity::Velocity)?,
+        ];
+        let [time, position, velocity] = found;
+        if position.is_none() && velocity.is_none() {
+            return Err(lacks(
+                channels,
+                "neither a column `x` nor a column `v`",
+                "name the columns `t` (s), `x` (0.1 µm or 0.0001°), `v` (µm/s or 0.001°/s), `comp`, \
+                 or say which channels they are",
+            ));
+        }
+        let values = [position, velocity].into_iter().flatten();
+        let choice = Choice {
+            values: values.map(|pick| pick.channel).collect(),
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::all(&[], None)
+        };
+        let (choice, comp) = choice.with_switch("comp", channels);
+        switch = comp;
+        Ok(choice)
+    })?;
+    let [_, position, velocity] = found;
+    let commanded = CommandedChannels {
+        path,
+        recording: &recording,
+        motion: [position, velocity],
+        switch,
+    };
+    let (columns, remarks) = if commanded.have_one_clock() {
+        (commanded.columns()?, Vec::new())
+    } else if options.resampling == Resampling::Done {
+        commanded.aligned(options.cycle_s)?
+    } else {
+        return Err(TraceError::SeveralClocks(path.to_owned()).into());
+    };
+    let trace = CommandedTrace::new(columns, options).map_err(|reason| {
+        let path = path.to_owned();
+        HostError::from(TraceError::Cycles { path, reason })
+    })?;
+    Ok(trace.after(remarks))
+}
+
+/// The channels of a commanded trace.
+struct CommandedChannels<'a> {
+    path: &'a Path,
+    recording: &'a TraceRecording,
+    /// Position and velocity.
+    motion: [Option<Pick>; 2],
+    /// Whether compensation is on.
+    switch: Option<ChannelIndex>,
+}
+
+impl CommandedChannels<'_> {
+    /// Whether they were sampled together.
+    fn have_one_clock(&self) -> bool {
+        let motion = self.motion.into_iter().flatten();
+        let channels = motion.map(|pick| pick.channel).chain(self.switch);
+        let mut clocks = channels.map(|channel| self.recording.clock(channel));
+        let first = clocks.next();
+        clocks.all(|clock| Some(clock) == first)
+    }
+
+    /// The columns of channels that were sampled together.
+    fn columns(&self) -> Result<TraceColumns, TraceError> {
+        let column = |pick: Option<Pick>| {
+            pick.map(|pick| numbers(self.path, self.recording, &pick))
+                .transpose()
+        };
+        let [position, velocity] = self.motion;
+        let [positions, velocities] = [column(position)?, column(velocity)?];
+        let rows = positions
+            .as_ref()
+            .or(velocities.as_ref())
+            .map_or(0, Vec::len);
+        let states = self.states()?;
+        let switched = |row: usize| match states.and_then(|states| states.get(row)) {
+            Some(0.0) => Switched::Off,
+            _ => Switched::On,
+        };
+        let times = position
+            .or(velocity)
+            .and_then(|pick| self.recording.times_s(pick.channel));
+        Ok(TraceColumns {
+            times_s: times.map(<[f64]>::to_vec),
+            switched: (0..rows).map(switched).collect(),
+            positions,
+            velocities,
+        })
+    }
+
+    /// The columns of channels that were sampled at different times, brought to those of the
+    /// fastest, and what was done for it.
+    fn aligned(&self, cycle_s: Option<f64>) -> Result<(TraceColumns, Vec<String>), TraceError> {
+        let picks: Vec<Pick> = self.motion.into_iter().flatten().collect();
+        let aligned = self.recording.align(&picks, cycle_s);
+        let aligned = aligned.map_err(|reason| TraceError::Apart {
+            path: self.path.to_owned(),
+            reason,
+        })?;
+        let states = self.states()?.unwrap_or_default();
+        let times = self.switch.and_then(|it| self.recording.times_s(it));
+        let times = times.unwrap_or_default();
+        // It holds from its row on.
+        let switched = |time: &f64| {
+            let after = times.partition_point(|it| it <= time);
+            match states.get(after.saturating_sub(1)) {
+                Some(0.0) => Switched::Off,
+                _ => Switched::On,
+            }
+        };
+        let switched = aligned.times_s.iter().map(switched).collect();
+        let mut columns = aligned.columns.into_iter();
+        let [positions, velocities] = self.motion.map(|pick| pick.and_then(|_| columns.next()));
+        let columns = TraceColumns {
+            times_s: Some(aligned.times_s),
+            positions,
+            velocities,
+            switched,
+        };
+        Ok((columns, aligned.remarks))
+    }
+
+    /// The samples of the switch.
+    fn states(&self) -> Result<Option<&[f64]>, TraceError> {
+        self.switch
+            .map(|channel| numbers_of(self.path, self.recording, channel))
+            .transpose()
+    }
+}
+
+/// Reads one recorded circle, or one of each direction, in one file or two: columns `x` and `y` of
+/// actual positions in mm, or with their unit, `x_um`, `X [mm]`; `t` in s where it is there. G(b)
+/// and H are about `centre`.
+///
+/// # Errors
+/// A file cannot be read, or holds no circle.
+pub fn read_circles(
+    paths: &[PathBuf],
+    channels: &CircleChannels,
+    commanded: CommandedCircle,
+    centre: PathCentre,
+) -> Result<Circles, HostError> {
+    Circles::check(paths.len(), commanded).map_err(TraceError::Circles)?;
+    let mut circles = Vec::new();
+    for path in paths {
+        let trace = read_positions(path, channels)?;
+        let found = RecordedCircle::find(&trace, commanded.radius_mm).map_err(|reason| {
+            let path = path.clone();
+            HostError::from(TraceError::Circle { path, reason })
+        })?;
+        circles.extend(found);
+    }
+    Ok(Circles::new(circles, commanded, centre).map_err(TraceError::Circles)?)
+}
+
+/// Reads motion and torque of one axis.
+///
+/// # Errors
+/// The file cannot be read, has not the channels that are wanted, or none that belong together.
+pub fn read_axis(
+    path: &Path,
+    selection: &ChannelSelection,
+    cycle_s: Option<f64>,
+) -> Result<AxisRecording, HostError> {
+    let mut channels = None;
+    let recording = read_trace(path, |described| {
+        let found = AxisChannels::find(selection, described)?;
+        let choice = found.choice();
+        channels = Some(found);
+        Ok(choice)
+    })?;
+    let channels = channels.unwrap_or_default();
+    let axis = channels
+        .take(&recording, cycle_s)
+        .map_err(|reason| TraceError::Apart {
+            path: path.to_owned(),
+            reason,
+        })?;
+    Ok(axis)
+}
+
+/// Which channels of a trace are the positions of a circle.
+#[derive(Debug, Clone, Default)]
+pub struct CircleChannels {
+    /// The channel of each of the two axes; by default those named `x` and `y`.
+    pub names: [Option<String>; 2],
+    /// Units of channels.
+    pub selection: ChannelSelection,
+}
+
+/// The actual positions of two axes, in the order of the rows. Times that are no seconds are as
+/// good as none.
+fn read_positions(path: &Path, wanted: &CircleChannels) -> Result<RecordedTrace, HostError> {
+    let timed = read_points(path, wanted, Times::Read);
+    match timed {
+        Err(HostError::Trace(TraceError::Problem {
+            problem: TraceProblem::Number { column, .. },
+            ..
+        })) if column == "time" => read_points(path, wanted, Times::Ignored),
+        timed => timed,
+    }
+}
+
+/// Whether a column of times is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Times {
+    Read,
+    Ignored,
+}
+
+fn read_points(
+    path: &Path,
+    wanted: &CircleChannels,
+    times: Times,
+) -> Result<RecordedTrace, HostError> {
+    let mut picks = [None; 2];
+    let recording = read(path, MAX_POINTS, |channels| {
+        for (pick, (axis, name)) in picks.iter_mut().zip(["x", "y"].iter().zip(&wanted.names)) {
+            let found = match name {
+                Some(name) => Some(wanted.selection.pick_named(
+                    name,
+                    ChannelQuantity::Position,
+                    channels,
+                )?),
+                None => wanted.selection.position_of(axis, channels)?,
+            };
+            *pick = found.map(|pick| millimetres(pick, wanted));
+        }
+        let [Some(x), Some(y)] = picks else {
+            return Err(lacks(
+                channels,
+                "no columns `x` and `y`",
+                "name the columns `x` and `y` for mm, or `x_um` and `y_um` for µm, or say which \
+                 channels they are",
+            ));
+        };
+        let time = match times {
+            Times::Read => wanted.selection.find(ChannelQuantity::Time, channels)?,
+            Times::Ignored => None,
+        };
+        Ok(Choice {
+            values: vec![x.channel, y.channel],
+            time: time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::default()
+        })
+    })?;
+    let [Some(x), Some(y)] = picks else {
+        return Ok(RecordedTrace::default());
+    };
+    let points = |xs: Vec<f64>, ys: Vec<f64>| xs.into_iter().zip(ys).map(|(x, y)| [x, y]).collect();
+    if recording.clock(x.channel) == recording.clock(y.channel) {
+        let points_mm: Vec<[f64; 2]> = points(
+            numbers(path, &recording, &x)?,
+            numbers(path, &recording, &y)?,
+        );
+        let times_s = recording.times_s(x.channel).map(<[f64]>::to_vec);
+        let times_s = times_s.filter(|it| it.len() == points_mm.len());
+        return Ok(RecordedTrace {
+            points_mm,
+            times_s: times_s.unwrap_or_default(),
+        });
+    }
+    let aligned = recording
+        .align(&[x, y], None)
+        .map_err(|reason| TraceError::Apart {
+            path: path.to_owned(),
+            reason,
+        })?;
+    let mut columns = aligned.columns.into_iter();
+    let mut column = || columns.next().unwrap_or_default();
+    Ok(RecordedTrace {
+        points_mm: points(column(), column()),
+        times_s: aligned.times_s,
+    })
+}
+
+/// Positions of a circle in mm; without a unit they are in mm already.
+fn millimetres(mut pick: Pick, wanted: &CircleChannels) -> Pick {
+    const UNITS_PER_MM: f64 = frictcomp_physics::current::POSITION_UNITS_PER_MM;
+    let is_named = wanted.names.iter().any(Option::is_some);
+    pick.unit.factor = if pick.is_unit_assumed && !is_named {
+        1.0
+    } else {
+        pick.unit.factor / UNITS_PER_MM
+    };
+    pick
+}
+
+/// The samples of a channel in the unit that is wanted, each of them a number.
+fn numbers(path: &Path, recording: &TraceRecording, pick: &Pick) -> Result<Vec<f64>, TraceError> {
+    let values = numbers_of(path, recording, pick.channel)?.iter();
+    Ok(values.map(|value| value * pick.unit.factor).collect())
+}
+
+/// The samples of a channel as the file has them, each of them a number.
+fn numbers_of<'a>(
+    path: &Path,
+    recording: &'a TraceRecording,
+    channel: ChannelIndex,
+) -> Result<&'a [f64], TraceError> {
+    let Missing { count, line, text } = recording.missing(channel);
+    if count > 0 {
+        return Err(TraceError::Problem {
+            path: path.to_owned(),
+            problem: TraceProblem::Number {
+                line,
+                column: recording.channels()[channel.get()].name.clone(),
+                text,
+            },
+        });
+    }
+    Ok(recording.values(channel))
+}
+
+fn lacks(channels: &[Channel], lacks: &str, help: &str) -> SelectError {
+    SelectError::Lacks {
+        lacks: lacks.to_owned(),
+        found: channels
+            .iter()
+            .map(|channel| channel.name.clone())
+            .collect(),
+        help: help.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(bytes: &[u8]) -> tempfile::NamedTempFile {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), bytes).unwrap();
+        file
+    }
+
+    #[test]
+    fn a_header_says_the_unit() {
+        // R5.20
+        for (header, millimetres) in [
+            ("x", Some(3.0)),
+            ("X [mm]", Some(3.0)),
+            ("x_um", Some(0.003)),
+            ("X (µm)", Some(0.003)),
+            ("x m", Some(3000.0)),
+            ("z", None),
+        ] {
+            let text = format!("{header};y\n3;1\n4;1\n");
+            let points = read_positions(file(text.as_bytes()).path(), &CircleChannels::default());
+            let x = points.ok().map(|trace| trace.points_mm[0][0]);
+            match (x, millimetres) {
+                (Some(x), Some(wanted)) => {
+                    assert!((x - wanted).abs() < 1e-9 * wanted, "{header}: {x}");
+                }
+                (x, wanted) => assert_eq!(x, wanted, "{header}"),
+            }
+        }
+    }
+
+    #[test]
+    fn every_encoding_of_a_header_is_read() {
+        // R2.2
+        let wide: Vec<u8> = "\u{feff}x [µm],y [µm]\n1,2\n"
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect();
+        let texts: [&[u8]; 3] = [
+            "\u{feff}x [µm],y [µm]\n1,2\n".as_bytes(),
+            b"x [\xb5m],y [\xb5m]\n1,2\n",
+            &wide,
+        ];
+        for text in texts {
+            let trace = read_positions(file(text).path(), &CircleChannels::default());
+            let points = trace.unwrap().points_mm;
+            assert_eq!(points, [[0.001, 0.002]]);
+        }
+    }
+
+    #[test]
+    fn what_is_no_trace_is_said_with_its_line() {
+        let said = |text: &str| {
+            let error = read_commanded(
+                file(text.as_bytes()).path(),
+                &ChannelSelection::default(),
+                TraceOptions::default(),
+            )
+            .unwrap_err();
+            error.to_string()
+        };
+        assert!(said("x\n1\none\n").ends_with(":3: column `x` holds `one`, which is not a number"));
+        assert!(said("v,comp\n1,ja\n").ends_with(":2: column `comp` holds `ja`"));
+        assert!(said("a,b\n1,2\n").contains("neither a column `x` nor a column `v`, only a, b"));
+        assert!(said("x,v\n1\n").contains("cannot be read"));
+        // The number of the line counts blank lines too.
+        assert!(said("x\n1\n\n\none\n").contains(":5: column `x`"));
+        assert!(said("t,x\n0,1\n5000,2\n").contains("a CNC cycle of 5000000 ms"));
+    }
+
+    #[test]
+    fn missing_columns_are_computed() {
+        let columns = |text: &str| {
+            let trace = read_commanded(
+                file(text.as_bytes()).path(),
+                &ChannelSelection::default(),
+                TraceOptions::default().with_cycle_s(Some(0.002)),
+            )
+            .unwrap();
+            let rows = trace.rows();
+            rows.map(|row| [row.time_s, row.position, row.velocity])
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            columns("x\n0\n20\n"),
+            [[0.0, 0.0, 0.0], [0.002, 20.0, 1000.0]]
+        );
+        assert_eq!(
+            columns("v\n0\n1000\n"),
+            [[0.0, 0.0, 0.0], [0.002, 20.0, 1000.0]]
+        );
+    }
+}

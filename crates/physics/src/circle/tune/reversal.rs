@@ -1,0 +1,273 @@
+//! One reversal of one axis by itself: what the search looks at in place of whole circles.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::super::crossing::PlaneAxis;
+use super::super::direction::Direction;
+use super::super::method::Method;
+use super::super::profile::UM_PER_M;
+use super::super::reference::{Circle, CircleError, Stretch};
+use super::super::simulate::{AxisRun, Run};
+use crate::current::Reading;
+use crate::simulation::{DriveParameters, FrictionModel};
+use frictcomp::lists::FrictionList;
+
+/// Half the least window of the glitch (R5.22), in radians.
+const WINDOW: f64 = 8.0 * PI / 180.0;
+
+/// So long before the window, at least, the drives begin, in s.
+const SETTLING: f64 = 0.15;
+
+/// The window is not looked at farther from the reversal than this, in s. With the settling that
+/// is 0.6 s in which the slow points of a list act before the reversal, too (R5.25).
+const BEFORE: f64 = 0.45;
+
+/// The window lasts at least so long after the reversal, in s.
+const AFTER: f64 = 0.3;
+
+/// And no longer than this: by then the peak has decayed.
+const LONGEST: f64 = 0.5;
+
+/// CNC cycles by which more than enough is enough.
+const SPARE: usize = 4;
+
+/// CNC cycles at both ends of the window through which the undisturbed path runs.
+const ENDS: usize = 20;
+
+/// One axis, and how its friction is computed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AxisAlone<'a> {
+    pub(super) axis: PlaneAxis,
+    pub(super) drive: &'a DriveParameters,
+    pub(super) model: FrictionModel,
+    pub(super) reading: Reading,
+}
+
+/// The commanded angle of one reversal of an axis in the turn that a whole run evaluates, which
+/// begins half a turn after X+.
+fn reversal(axis: PlaneAxis) -> f64 {
+    match axis {
+        PlaneAxis::X => 2.0 * PI,
+        PlaneAxis::Y => 3.0 * FRAC_PI_2,
+    }
+}
+
+impl AxisAlone<'_> {
+    /// The glitch in µm at a reversal, with or without compensation, peak to peak, less the straight
+    /// line from one end of the window to the other. The cycles are those of a whole run, so that the
+    /// reversal falls at the same place within its cycle.
+    ///
+    /// # Errors
+    /// A drive that is unstable.
+    pub(super) fn glitch_um(
+        &self,
+        circle: Circle,
+        compensation: Option<&Method>,
+    ) -> Result<f64, CircleError> {
+        let window = Window::of(&circle, self.axis);
+        let lead = compensation
+            .and_then(Method::list)
+            .map_or(0, |list| window.lead(&circle, list));
+        let first = window.begin.saturating_sub(lead);
+        let turning = circle.angular_velocity() * circle.cycle_time_s;
+        let stretch = Stretch {
+            start: real(first) * turning,
+            length: real(window.end - first) * turning,
+            lead: window.begin - first,
+            direction: Direction::Ccw,
+        };
+        let run = Run {
+            circle,
+            model: self.model,
+            reading: self.reading,
+            axes: [AxisRun {
+                axis: self.axis,
+                drive: self.drive,
+                compensation,
+            }],
+        };
+        let mut path = Path {
+            circle: &circle,
+            stretch,
+            axis: self.axis,
+            cycle: usize::MAX,
+            chord: [0.0; 2],
+            steps: 0,
+            cycles: Vec::with_capacity(window.end - window.from),
+        };
+        run.simulate(stretch, |cycle, [place]| {
+            if (window.from..window.end).contains(&(first + cycle)) {
+                path.take(cycle, place);
+            }
+        })?;
+        Ok(path.height() * UM_PER_M)
+    }
+}
+
+/// The deviation of one axis from what is commanded, outwards in m.
+struct Path<'a> {
+    circle: &'a Circle,
+    stretch: Stretch,
+    axis: PlaneAxis,
+    cycle: usize,
+    /// Where the axis is commanded at the ends of the cycle.
+    chord: [f64; 2],
+    /// Simulation steps since the cycle began.
+    steps: u32,
+    /// The least and the largest deviation of each cycle.
+    cycles: Vec<[f64; 2]>,
+}
+
+impl Path<'_> {
+    fn take(&mut self, cycle: usize, place: f64) {
+        if cycle != self.cycle {
+            let at = |k| {
+                let [x, y] = self.circle.at(self.stretch, k);
+                match self.axis {
+                    PlaneAxis::X => x.0,
+                    PlaneAxis::Y => y.0,
+                }
+            };
+            self.chord = [at(cycle), at(cycle + 1)];
+            self.cycle = cycle;
+            self.steps = 0;
+            self.cycles.push([f64::MAX, f64::MIN]);
+        }
+        self.steps += 1;
+        let [from, to] = self.chord;
+        let share = f64::from(self.steps) * self.circle.step_in_cycle();
+        let commanded = from + share * (to - from);
+        let deviation = (place - commanded) * commanded.signum();
+        if let Some([least, most]) = self.cycles.last_mut() {
+            *least = least.min(deviation);
+            *most = most.max(deviation);
+        }
+    }
+
+    /// From the least to the largest deviation, less the line through both ends.
+    fn height(&self) -> f64 {
+        let ends = ENDS.min(self.cycles.len() / 2).max(1);
+        let mean = |cycles: &[[f64; 2]]| {
+            let middles = cycles
+                .iter()
+                .map(|[least, most]| f64::midpoint(*least, *most));
+            middles.sum::<f64>() / real(cycles.len())
+        };
+        let [first, last] = [
+            mean(&self.cycles[..ends]),
+            mean(&self.cycles[self.cycles.len() - ends..]),
+        ];
+        let slope = (last - first) / real((self.cycles.len() - ends).max(1));
+        let mut line = first;
+        let [mut lowest, mut highest] = [f64::MAX, f64::MIN];
+        for [least, most] in &self.cycles {
+            lowest = lowest.min(least - line);
+            highest = highest.max(most - line);
+            line += slope;
+        }
+        highest - lowest
+    }
+}
+
+/// CNC cycles of a whole run around a reversal.
+struct Window {
+    /// The angle in radians from where the drives begin to the reversal.
+    ahead: f64,
+    /// Where the drives begin.
+    begin: usize,
+    /// Where the glitch is looked for.
+    from: usize,
+    /// Where both end.
+    end: usize,
+}
+
+impl Window {
+    fn of(circle: &Circle, axis: PlaneAxis) -> Self {
+        let turning = circle.angular_velocity();
+        let cycle = |time: f64| {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // in a checked run
+            let cycle = (time / circle.cycle_time_s).floor() as usize;
+            cycle
+        };
+        let reversal = reversal(axis) / turning;
+        let window = WINDOW / turning;
+        let from = cycle(reversal - window.min(BEFORE));
+        let ahead_s = (BEFORE + SETTLING).min(reversal);
+        Self {
+            ahead: ahead_s * turning,
+            begin: cycle(reversal - ahead_s),
+            from,
+            end: cycle(reversal + window.clamp(AFTER, LONGEST)).max(from + 2),
+        }
+    }
+}
+
+impl Window {
+    /// CNC cycles before the drives begin from which on the additive current of a list is what it
+    /// would be on a whole run: its dead time has passed, and before that the axis has moved by more
+    /// than its `position_delay`. A quarter of a turn is enough for any list.
+    fn lead(&self, circle: &Circle, list: &FrictionList) -> usize {
+        let quarter = circle.cycles(FRAC_PI_2);
+        let dead = usize::try_from(list.delay_cycles).unwrap_or_default() + SPARE;
+        let turning = circle.angular_velocity() * circle.cycle_time_s;
+        let near = self.ahead + real(dead) * turning;
+        let way = f64::from(list.position_delay.max(0)) * 1e-7;
+        // The axis is at R·cos of the angle before its reversal.
+        let far = near.cos() - way / circle.radius_m();
+        if near >= FRAC_PI_2 || far <= 0.0 {
+            return quarter;
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at most a quarter
+        let moving = ((far.acos() - near) / turning).ceil() as usize;
+        (dead + moving + SPARE).min(quarter)
+    }
+}
+
+fn real(cycles: usize) -> f64 {
+    #[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
+    let real = cycles as f64;
+    real
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Preset;
+
+    #[test]
+    fn a_short_lead_is_as_good_as_a_quarter_of_a_turn() {
+        // R5.25: what the additive current was long before the drives begin makes no difference.
+        let circle = Circle {
+            feed_mm_per_min: 3000.0,
+            ..Circle::default()
+        };
+        let drive = Preset::Mid.plant().x;
+        for (delay_cycles, position_delay) in [(0, 0), (30, 10), (248, 2000)] {
+            let list = FrictionList {
+                position_delay,
+                delay_cycles,
+                ..crate::simulation::plant_list(&drive)
+            };
+            let window = Window::of(&circle, PlaneAxis::X);
+            let lead = window.lead(&circle, &list);
+            assert!(lead < circle.cycles(FRAC_PI_2) / 3, "{lead}");
+            let currents = |lead: usize| {
+                let turning = circle.angular_velocity() * circle.cycle_time_s;
+                let mut current = crate::current::AdditiveCurrent::new(&list, Reading::default());
+                let mut added = 0.0;
+                for before in (0..lead).rev() {
+                    let angle = window.ahead + real(before) * turning;
+                    let position = circle.radius_m() * 1e7 * angle.cos();
+                    let velocity = 1e3 * circle.feed_mm_per_min / 60.0 * angle.sin();
+                    added = current.step(position, velocity, &[]).current_units;
+                }
+                added
+            };
+            let [short, long] = [lead, circle.cycles(FRAC_PI_2)].map(currents);
+            assert!(
+                (short - long).abs() < 1e-9,
+                "{delay_cycles}: {short} {long}"
+            );
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! The shape of a value list below 1 mm/s (R5.25).
+//!
+//! After a reversal a contact bends before it slides, and the force that the axis needs depends on the
+//! way. A value list depends on the velocity, but at these velocities one follows from the other. The
+//! output of each slow point is free within bounds around the friction curve, and with them are
+//! `delay_cycles`, since a bent contact still pushes the old way, `position_delay` and
+//! `reversal_lookahead`.
+
+use super::candidate::Candidate;
+use super::evolution::Evolution;
+use super::heights::Heights;
+use super::ranges::Ranges;
+use crate::simulation::{DriveParameters, plant_list_at};
+use frictcomp::lists::{FrictionList, Points, TablePoint};
+
+/// The velocities of the points in µm/s, the first ones free.
+const INPUTS: [f64; 20] = [
+    0.0, 10.0, 20.0, 35.0, 60.0, 100.0, 150.0, 220.0, 330.0, 500.0, 700.0, 1000.0, 2000.0, 3500.0,
+    6000.0, 10_000.0, 25_000.0, 80_000.0, 200_000.0, 500_000.0,
+];
+
+/// Points up to 1 mm/s.
+const FREE: usize = 12;
+
+/// How far an output may be from the curve, as a part.
+const BOUND: f64 = 0.6;
+
+/// The first step of the search, as a part of the curve.
+const STEP: f64 = 0.15;
+
+/// Cycles of `delay_cycles` for a step of 1.
+const DELAY: f64 = 20.0;
+
+/// Units of `position_delay` for a step of 1.
+const DISTANCE: f64 = 20.0;
+
+/// Cycles of `reversal_lookahead` for a step of 1.
+const LOOKAHEAD: f64 = 10.0;
+
+/// Later than the unshaped list, where the search begins, in cycles.
+const LATER: f64 = 3.0;
+
+/// The outputs alone scale the table.
+const UNSCALED: i16 = 1000;
+
+/// Searches that begin with other random numbers: each ends in another valley.
+const RUNS: usize = 3;
+
+/// Generations of each, before the best of them goes on alone.
+const TRIAL: usize = 40;
+
+/// Generations at most, of all searches together.
+const MOST: usize = 220;
+
+/// Generations without a gain after which the search ends.
+const IDLE: usize = 40;
+
+/// What counts as a gain, as a part.
+const GAIN: f64 = 0.001;
+
+/// A search for outputs and times.
+#[derive(Debug, Clone)]
+pub(super) struct ShapeSearch {
+    runs: [Run; RUNS],
+    /// Which of them is asked.
+    current: usize,
+    start: Candidate,
+    ranges: Ranges,
+    curve: FrictionList,
+    points: Points,
+    asked: Vec<Vec<f64>>,
+    best: Option<(f64, FrictionList)>,
+    generations: usize,
+    idle: usize,
+    goal: f64,
+}
+
+/// One of the searches, and the least that it found.
+#[derive(Debug, Clone)]
+struct Run {
+    evolution: Evolution,
+    least: f64,
+}
+
+impl ShapeSearch {
+    /// A search around the friction curve of a drive with the parameters that are best without a
+    /// shape. Outputs are written as `points`.
+    pub(super) fn new(
+        drive: &DriveParameters,
+        start: Candidate,
+        ranges: &Ranges,
+        points: Points,
+    ) -> Self {
+        let mut mean = vec![0.0; FREE];
+        mean.extend([LATER / DELAY, 0.0, 0.0]);
+        Self {
+            runs: [0, 1, 2].map(|seed| Run {
+                evolution: Evolution::new(mean.clone(), STEP, seed),
+                least: f64::INFINITY,
+            }),
+            current: 0,
+            start: Candidate {
+                scaling_factor: UNSCALED,
+                ..start
+            },
+            ranges: ranges.clone(),
+            curve: plant_list_at(drive, &INPUTS),
+            points,
+            asked: Vec::new(),
+            best: None,
+            generations: 0,
+            idle: 0,
+            goal: f64::INFINITY,
+        }
+    }
+
+    /// The lists to try next; `None` when the search is over.
+    pub(super) fn next_trials(&mut self) -> Option<Vec<FrictionList>> {
+        if self.generations >= MOST || self.idle >= IDLE {
+            return None;
+        }
+        self.current = self.generations / TRIAL;
+        if self.current >= RUNS {
+            let best = (0..RUNS)
+                .min_by(|&one, &other| self.runs[one].least.total_cmp(&self.runs[other].least));
+            self.current = best.unwrap_or_default();
+        }
+        self.asked = self.runs[self.current].evolution.ask();
+        let lists = self.asked.iter().map(|point| self.shaped(point));
+        Some(lists.collect())
+    }
+
+    /// Takes what the lists leave, in their order.
+    pub(super) fn take(&mut self, heights: &[Heights]) {
+        self.generations += 1;
+        self.idle += 1;
+        let asked = std::mem::take(&mut self.asked);
+        let mut values = Vec::new();
+        let run = &mut self.runs[self.current];
+        for heights in heights {
+            run.least = run.least.min(heights.worst_um());
+        }
+        for (point, heights) in asked.iter().zip(heights) {
+            let worst = heights.worst_um();
+            if self.best.as_ref().is_none_or(|(least, _)| worst < *least) {
+                self.best = Some((worst, self.shaped(point)));
+            }
+            values.push(heights.smooth_um() * (1.0 + self.excess(point)));
+        }
+        let least = self
+            .best
+            .as_ref()
+            .map_or(f64::INFINITY, |(least, _)| *least);
+        // While the searches compete none of them is given up.
+        if least < self.goal * (1.0 - GAIN) || self.generations <= RUNS * TRIAL {
+            self.goal = least;
+            self.idle = 0;
+        }
+        self.runs[self.current].evolution.tell(&values);
+    }
+
+    /// The best list that was tried.
+    pub(super) fn best(self) -> Option<FrictionList> {
+        self.best.map(|(_, list)| list)
+    }
+
+    /// The list of a point of the search, within all bounds.
+    fn shaped(&self, point: &[f64]) -> FrictionList {
+        let candidate = self.candidate(point);
+        let factors = point.iter().take(FREE);
+        let bent = self
+            .curve
+            .table
+            .iter()
+            .zip(factors.chain(std::iter::repeat(&0.0)));
+        let bent = bent.map(|(point, factor)| TablePoint {
+            input: point.input,
+            output: point.output * (1.0 + factor.clamp(-BOUND, BOUND)),
+        });
+        let list = FrictionList {
+            table: bent.collect(),
+            ..self.curve.clone()
+        };
+        candidate.with_table(&list, self.points)
+    }
+
+    /// The parameters of a point of the search, within their ranges.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // within the ranges
+    fn candidate(&self, point: &[f64]) -> Candidate {
+        let [delay, distance, lookahead] = self.free(point);
+        let ranges = &self.ranges;
+        Candidate {
+            delay_cycles: (delay as i16)
+                .clamp(*ranges.delay_cycles.start(), *ranges.delay_cycles.end()),
+            position_delay: (distance as i32)
+                .clamp(*ranges.position_delay.start(), *ranges.position_delay.end()),
+            reversal_lookahead: (lookahead as u16).clamp(
+                *ranges.reversal_lookahead.start(),
+                *ranges.reversal_lookahead.end(),
+            ),
+            ..self.start
+        }
+    }
+
+    /// `delay_cycles`, `position_delay` and `reversal_lookahead` of a point as whole numbers, wherever
+    /// they are.
+    fn free(&self, point: &[f64]) -> [f64; 3] {
+        let start = &self.start;
+        let starts = [
+            (f64::from(start.delay_cycles), DELAY),
+            (f64::from(start.position_delay), DISTANCE),
+            (f64::from(start.reversal_lookahead), LOOKAHEAD),
+        ];
+        let moved = point.get(FREE..).unwrap_or_default();
+        std::array::from_fn(|at| {
+            let (start, unit) = starts[at];
+            (start + unit * moved.get(at).copied().unwrap_or_default()).round()
+        })
+    }
+
+    /// How far a point of the search is out of bounds.
+    fn excess(&self, point: &[f64]) -> f64 {
+        let factors = point.iter().take(FREE);
+        let outside = factors.map(|it| (it.abs() - BOUND).max(0.0).powi(2));
+        let candidate = self.candidate(point);
+        let taken = [
+            f64::from(candidate.delay_cycles),
+            f64::from(candidate.position_delay),
+            f64::from(candidate.reversal_lookahead),
+        ];
+        let units = [DELAY, DISTANCE, LOOKAHEAD];
+        let wanted = self.free(point).into_iter().zip(taken).zip(units);
+        let beyond = wanted.map(|((wanted, taken), unit)| ((wanted - taken) / unit).powi(2));
+        outside.sum::<f64>() + beyond.sum::<f64>()
+    }
+}

@@ -1,0 +1,207 @@
+//! What is tuned.
+
+use super::super::compare::Comparison;
+use super::super::crossing::PlaneAxis;
+use super::super::direction::Direction;
+use super::super::lap::Job;
+use super::super::method::Method;
+use super::super::reference::{Circle, CircleError};
+use super::super::test::CircularTest;
+use super::heights::Heights;
+use super::ranges::Ranges;
+use super::reversal::AxisAlone;
+use crate::current::{Reading, Switched};
+use crate::simulation::{DriveParameters, FrictionModel, Plant};
+use frictcomp::lists::Points;
+
+/// What is tuned.
+#[derive(Debug, Clone)]
+pub struct Task {
+    /// The machine.
+    pub plant: Plant,
+    /// How its friction is computed.
+    pub model: FrictionModel,
+    /// The circles, which differ in their feeds and radii.
+    pub circles: Vec<Circle>,
+    /// Between which values the parameters are searched.
+    pub ranges: Ranges,
+    /// How the documents are read.
+    pub reading: Reading,
+    /// How the points of the lists are written.
+    pub points: Points,
+    /// Whether the points below 1 mm/s get a shape of their own.
+    pub shaping: Shaping,
+}
+
+/// Whether the points below 1 mm/s get a shape of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Shaping {
+    /// Where it is worth it.
+    #[default]
+    Allowed,
+    /// The table is the friction curve.
+    None,
+}
+
+/// With how much friction, and whether with compensation, a circle is driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Variant {
+    /// Without compensation.
+    Off,
+    /// With it.
+    On,
+    /// With it, the friction 20 % less.
+    Minus20,
+    /// With it, the friction 20 % more.
+    Plus20,
+}
+
+impl Variant {
+    pub(super) const ALL: [Self; 4] = [Self::Off, Self::On, Self::Minus20, Self::Plus20];
+
+    /// The factor on the friction of the machine.
+    fn friction(self) -> f64 {
+        match self {
+            Self::Off | Self::On => 1.0,
+            Self::Minus20 => 0.8,
+            Self::Plus20 => 1.2,
+        }
+    }
+}
+
+/// A change of the velocity in a CNC cycle at a reversal above which it matters where in the cycle
+/// the reversal is, in mm/s.
+const ABRUPT_MM_PER_S: f64 = 0.05;
+
+/// How much faster than the fastest circle a list is looked at beyond its range.
+const BEYOND: f64 = 2.4;
+
+impl Task {
+    /// Checks that every circle can be simulated and has glitches.
+    ///
+    /// # Errors
+    /// What is out of range.
+    pub fn check(&self) -> Result<(), CircleError> {
+        self.circles.iter().try_for_each(|circle| {
+            circle.check()?;
+            circle.check_glitches()
+        })
+    }
+
+    /// The axes that are tuned one by one: both at once where their drives are equal.
+    pub(super) fn groups(&self) -> Vec<Vec<PlaneAxis>> {
+        if self.plant.x == self.plant.y {
+            return vec![PlaneAxis::ALL.to_vec()];
+        }
+        PlaneAxis::ALL.map(|axis| vec![axis]).to_vec()
+    }
+
+    /// The drive of an axis.
+    pub(super) fn drive(&self, axis: PlaneAxis) -> &DriveParameters {
+        match axis {
+            PlaneAxis::X => &self.plant.x,
+            PlaneAxis::Y => &self.plant.y,
+        }
+    }
+
+    /// What a compensation leaves at reversals of axes by themselves, on each circle. As soon as one
+    /// reaches `bound_um` it has lost.
+    pub(super) fn heights(
+        &self,
+        axes: &[PlaneAxis],
+        compensation: &Method,
+        bound_um: f64,
+    ) -> Result<Heights, CircleError> {
+        let mut heights = vec![0.0; self.circles.len()];
+        let mut order: Vec<usize> = (0..self.circles.len()).collect();
+        // The fastest circle is the shortest simulation.
+        let feed = |at: &usize| self.circles[*at].feed_mm_per_min;
+        order.sort_by(|one, other| feed(other).total_cmp(&feed(one)));
+        for at in order {
+            heights[at] = self.glitch_um(axes, self.circles[at], Some(compensation))?;
+            if heights[at] >= bound_um {
+                return Ok(Heights::lost());
+            }
+        }
+        Ok(Heights(heights))
+    }
+
+    /// The largest glitch at a reversal of axes by themselves, with or without compensation.
+    ///
+    /// Equal axes differ only in where within a CNC cycle they reverse, which is looked at where it
+    /// matters.
+    pub(super) fn glitch_um(
+        &self,
+        axes: &[PlaneAxis],
+        circle: Circle,
+        compensation: Option<&Method>,
+    ) -> Result<f64, CircleError> {
+        let change = circle.acceleration_mm_per_s2() * circle.cycle_time_s;
+        let count = if change > ABRUPT_MM_PER_S {
+            axes.len()
+        } else {
+            1
+        };
+        let glitches = axes.iter().take(count).map(|&axis| {
+            let alone = AxisAlone {
+                axis,
+                drive: self.drive(axis),
+                model: self.model,
+                reading: self.reading,
+            };
+            alone.glitch_um(circle, compensation)
+        });
+        glitches
+            .into_iter()
+            .try_fold(0.0, |most: f64, glitch| Ok(most.max(glitch?)))
+    }
+
+    /// A circle beyond the range that is tuned for, as far as it can be driven: the one with the largest
+    /// acceleration, 2.4 times as fast.
+    pub(super) fn beyond(&self) -> Option<Circle> {
+        let by = |circle: &&Circle| circle.acceleration_mm_per_s2();
+        let fastest = self
+            .circles
+            .iter()
+            .max_by(|one, other| by(one).total_cmp(&by(other)))?;
+        let circle = Circle {
+            feed_mm_per_min: BEYOND * fastest.feed_mm_per_min,
+            ..*fastest
+        };
+        let is_possible = circle.check().is_ok() && circle.check_glitches().is_ok();
+        is_possible.then_some(circle)
+    }
+
+    /// The largest glitch of a whole circle with what compensates X and Y. The way round makes no
+    /// difference: a clockwise circle is the mirror image of a counter-clockwise one.
+    pub(super) fn whole_um(
+        &self,
+        circle: Circle,
+        compensation: &[Option<Method>; 2],
+        variant: Variant,
+    ) -> Result<f64, CircleError> {
+        let switched = match variant {
+            Variant::Off => Switched::Off,
+            Variant::On | Variant::Minus20 | Variant::Plus20 => Switched::On,
+        };
+        let test = CircularTest {
+            circle,
+            plant: self.plant.with_friction(variant.friction()),
+            model: self.model,
+            compensation: compensation.clone(),
+            reading: self.reading,
+        };
+        let job = Job {
+            compensation: switched,
+            direction: Direction::Ccw,
+        };
+        let comparison = Comparison::of([test.run(job)?]);
+        let figures = match switched {
+            Switched::Off => comparison.off.figures,
+            Switched::On => comparison.on.figures,
+        };
+        circle.check_glitches()?;
+        Ok(figures.glitch_max_um().unwrap_or_default())
+    }
+}

@@ -1,0 +1,372 @@
+//! Tuning from the task to its result.
+
+use serde::Serialize;
+
+use super::super::crossing::PlaneAxis;
+use super::super::method::Method;
+use super::super::reference::{Circle, CircleError};
+use super::candidate::Candidate;
+use super::heights::Heights;
+use super::search::Search;
+use super::shape::ShapeSearch;
+use super::space::{Lists, Space, Stictions};
+use super::task::{Shaping, Task, Variant};
+use crate::stiction::StictionParameters;
+use frictcomp::lists::FrictionList;
+
+/// The largest glitches on one circle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FeedResult {
+    /// The feed.
+    #[serde(rename = "feed")]
+    pub feed_mm_per_min: f64,
+    /// The radius.
+    #[serde(rename = "radius")]
+    pub radius_mm: f64,
+    /// The acceleration v²/R at a reversal, on which the glitch depends.
+    #[serde(rename = "acceleration")]
+    pub acceleration_mm_per_s2: f64,
+    /// Without compensation.
+    #[serde(rename = "glitch_off")]
+    pub glitch_off_um: f64,
+    /// With it.
+    #[serde(rename = "glitch_on")]
+    pub glitch_on_um: f64,
+    /// With it, the friction of the machine being 20 % less than the list says.
+    #[serde(rename = "glitch_friction_minus20")]
+    pub glitch_friction_minus20_um: f64,
+    /// With it, the friction 20 % more.
+    #[serde(rename = "glitch_friction_plus20")]
+    pub glitch_friction_plus20_um: f64,
+}
+
+impl FeedResult {
+    /// Whether compensation makes it worse.
+    pub fn is_worse(&self) -> bool {
+        self.glitch_on_um > self.glitch_off_um
+    }
+}
+
+/// What was found for an axis.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TunedAxis {
+    /// The best compensation: a value list as it is written, or stiction compensation; none for an
+    /// axis without it beside one that has it.
+    pub compensation: Option<Method>,
+    /// Whether the points of the list below 1 mm/s have a shape of their own.
+    pub is_shaped: bool,
+}
+
+impl TunedAxis {
+    /// The value list, where there is one.
+    pub fn list(&self) -> Option<&FrictionList> {
+        self.compensation.as_ref()?.list()
+    }
+
+    /// The parameters of stiction compensation, where it is that.
+    pub fn stiction(&self) -> Option<&StictionParameters> {
+        self.compensation.as_ref()?.stiction()
+    }
+}
+
+/// The result of a tuning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tuned {
+    /// X and Y; both the same where their drives are equal.
+    pub axes: [TunedAxis; 2],
+    /// What the lists leave on each circle.
+    pub feeds: Vec<FeedResult>,
+    /// How many lists, or sets of parameters, were tried.
+    pub trials: usize,
+}
+
+impl Tuned {
+    /// Whether it is stiction compensation that was tuned.
+    pub fn is_stiction(&self) -> bool {
+        self.axes.iter().any(|axis| axis.stiction().is_some())
+    }
+
+    /// The largest glitch with compensation.
+    pub fn worst_um(&self) -> f64 {
+        self.feeds
+            .iter()
+            .map(|it| it.glitch_on_um)
+            .fold(0.0, f64::max)
+    }
+
+    /// The range of v²/R in mm/s² for which the lists were tuned.
+    pub fn accelerations(&self) -> [f64; 2] {
+        let all = self.feeds.iter().map(|it| it.acceleration_mm_per_s2);
+        all.fold([f64::INFINITY, 0.0], |[least, most], it| {
+            [least.min(it), most.max(it)]
+        })
+    }
+}
+
+/// Simulations that do not depend on each other: how many there are, and what makes one of them.
+pub trait Simulations: Send {
+    /// Makes all of them, in any order, and gives their results in theirs.
+    ///
+    /// # Errors
+    /// A circle that cannot be simulated.
+    fn make(
+        &self,
+        count: usize,
+        simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
+    ) -> Result<Vec<Heights>, CircleError>;
+}
+
+/// One after the other.
+#[derive(Debug, Clone, Copy)]
+struct InOrder;
+
+impl Simulations for InOrder {
+    fn make(
+        &self,
+        count: usize,
+        simulation: &(dyn Fn(usize) -> Result<Heights, CircleError> + Sync),
+    ) -> Result<Vec<Heights>, CircleError> {
+        (0..count).map(simulation).collect()
+    }
+}
+
+/// Tunes by itself, one trial after the other.
+///
+/// # Errors
+/// A circle that cannot be simulated, or has no glitch.
+pub fn tune(task: &Task) -> Result<Tuned, CircleError> {
+    tune_with(task, &InOrder)
+}
+
+/// A shape is taken if it leaves at most this part of the largest glitch.
+const WORTH_IT: f64 = 0.95;
+
+/// Tunes with whoever makes the simulations; the result is the same.
+///
+/// # Errors
+/// A circle that cannot be simulated, or has no glitch.
+pub fn tune_with(task: &Task, simulations: &dyn Simulations) -> Result<Tuned, CircleError> {
+    task.check()?;
+    let tuning = Tuning { task, simulations };
+    let mut trials = 0;
+    let mut found: Vec<(PlaneAxis, TunedAxis, Option<TunedAxis>)> = Vec::new();
+    let [of_x, of_y] = Method::of_plant(&task.plant);
+    for axes in task.groups() {
+        let Some(&first) = axes.first() else { continue };
+        let own = match first {
+            PlaneAxis::X => &of_x,
+            PlaneAxis::Y => &of_y,
+        };
+        let (plain, shaped) = match own {
+            Some(Method::Current(_)) => tuning.list(&axes, &mut trials)?,
+            Some(Method::Stiction(stiction)) => {
+                (tuning.stiction(&axes, stiction, &mut trials)?, None)
+            }
+            None => (TunedAxis::default(), None),
+        };
+        found.extend(
+            axes.iter()
+                .map(|&axis| (axis, plain.clone(), shaped.clone())),
+        );
+    }
+    let of = |axis: PlaneAxis, shaping: Shaping| {
+        let mut found = found.iter().filter(|(of, ..)| *of == axis);
+        let (_, plain, shaped) = found.next().expect("every axis is in a group");
+        match shaping {
+            Shaping::Allowed => shaped.as_ref().unwrap_or(plain).clone(),
+            Shaping::None => plain.clone(),
+        }
+    };
+    let both = |shaping| PlaneAxis::ALL.map(|axis| of(axis, shaping));
+    let mut axes = both(Shaping::None);
+    let shaped = both(Shaping::Allowed);
+    if shaped != axes {
+        let worst = |axes: &[TunedAxis; 2]| {
+            let glitches = tuning.wholes(axes, &[Variant::On])?;
+            Ok(glitches.into_iter().flatten().fold(0.0, f64::max))
+        };
+        if worst(&shaped)? <= WORTH_IT * worst(&axes)? {
+            axes = shaped;
+        }
+    }
+    let glitches = tuning.wholes(&axes, &Variant::ALL)?;
+    let feeds = task.circles.iter().zip(glitches);
+    let feeds = feeds.map(|(circle, glitches)| FeedResult {
+        feed_mm_per_min: circle.feed_mm_per_min,
+        radius_mm: circle.radius_mm,
+        acceleration_mm_per_s2: circle.acceleration_mm_per_s2(),
+        glitch_off_um: glitches[0],
+        glitch_on_um: glitches[1],
+        glitch_friction_minus20_um: glitches[2],
+        glitch_friction_plus20_um: glitches[3],
+    });
+    Ok(Tuned {
+        feeds: feeds.collect(),
+        axes,
+        trials,
+    })
+}
+
+/// A list that without a shape takes most of the glitch away beyond the range that is tuned for must
+/// do so with it.
+#[derive(Debug, Clone, Copy)]
+struct Reserve {
+    /// A circle beyond the range.
+    circle: Circle,
+    /// What the list leaves there without a shape, in µm.
+    left_um: f64,
+}
+
+/// Most of a glitch is taken away where at most this part of it is left.
+const MOSTLY: f64 = 0.2;
+
+/// Beyond the range a list may leave so much more than within it.
+const MORE: f64 = 1.5;
+
+impl Reserve {
+    fn of(task: &Task, axes: &[PlaneAxis], plain: &Method) -> Result<Option<Self>, CircleError> {
+        let Some(circle) = task.beyond() else {
+            return Ok(None);
+        };
+        let off_um = task.glitch_um(axes, circle, None)?;
+        let left_um = task.glitch_um(axes, circle, Some(plain))?;
+        let holds = left_um <= MOSTLY * off_um;
+        Ok(holds.then_some(Self { circle, left_um }))
+    }
+
+    /// A glitch beyond the range as one within it, of a list that leaves `worst_um` there: larger than
+    /// that where too much is left.
+    fn weighed(&self, worst_um: f64, glitch_um: f64) -> f64 {
+        worst_um * glitch_um / self.left_um.max(MORE * worst_um)
+    }
+}
+
+/// A task, and who makes its simulations.
+struct Tuning<'a> {
+    task: &'a Task,
+    simulations: &'a dyn Simulations,
+}
+
+impl Tuning<'_> {
+    /// The best value list of axes whose table is their friction curve, and the best with a shape.
+    fn list(
+        &self,
+        axes: &[PlaneAxis],
+        trials: &mut usize,
+    ) -> Result<(TunedAxis, Option<TunedAxis>), CircleError> {
+        let task = self.task;
+        let drive = task.drive(axes[0]);
+        let of = |candidate: Candidate| Method::from(candidate.list(drive, task.points));
+        let search = self.search(axes, Lists(task.ranges.clone()), &of)?;
+        *trials += search.trials();
+        let candidate = search.result();
+        let plain = TunedAxis {
+            compensation: Some(of(candidate)),
+            is_shaped: false,
+        };
+        let shaped = match task.shaping {
+            Shaping::Allowed => self.shape(axes, candidate, trials)?,
+            Shaping::None => None,
+        };
+        Ok((plain, shaped))
+    }
+
+    /// The best MP1511 and MP1512 of axes whose other parameters are given (R8.6).
+    fn stiction(
+        &self,
+        axes: &[PlaneAxis],
+        given: &StictionParameters,
+        trials: &mut usize,
+    ) -> Result<TunedAxis, CircleError> {
+        let of = |(factor, limit): (u32, u32)| {
+            Method::from(StictionParameters {
+                mp1511_us: f64::from(factor),
+                mp1512: f64::from(limit),
+                ..*given
+            })
+        };
+        let search = self.search(axes, Stictions(self.task.ranges.clone()), &of)?;
+        *trials += search.trials();
+        Ok(TunedAxis {
+            compensation: Some(of(search.result())),
+            is_shaped: false,
+        })
+    }
+
+    /// The search for the parameters of axes in a space, each candidate of which is a compensation.
+    fn search<S: Space>(
+        &self,
+        axes: &[PlaneAxis],
+        space: S,
+        of: &(dyn Fn(S::Candidate) -> Method + Sync),
+    ) -> Result<Search<S>, CircleError>
+    where
+        S::Candidate: Sync,
+    {
+        let mut search = Search::new(space);
+        while let Some(trials) = search.next_trials() {
+            let bound = search.bound();
+            let heights = self.simulations.make(trials.len(), &|at| {
+                self.task.heights(axes, &of(trials[at]), bound)
+            })?;
+            search.take(&trials, &heights);
+        }
+        Ok(search)
+    }
+
+    /// The best shape of the points below 1 mm/s.
+    fn shape(
+        &self,
+        axes: &[PlaneAxis],
+        start: Candidate,
+        trials: &mut usize,
+    ) -> Result<Option<TunedAxis>, CircleError> {
+        let task = self.task;
+        let drive = task.drive(axes[0]);
+        let plain = start.list(drive, task.points).into();
+        let reserve = Reserve::of(task, axes, &plain)?;
+        let mut search = ShapeSearch::new(drive, start, &task.ranges, task.points);
+        while let Some(lists) = search.next_trials() {
+            *trials += lists.len();
+            let lists: Vec<Method> = lists.into_iter().map(Method::from).collect();
+            let heights = self.simulations.make(lists.len(), &|at| {
+                let list = &lists[at];
+                let mut heights = task.heights(axes, list, f64::INFINITY)?;
+                if let Some(reserve) = &reserve {
+                    let glitch = task.glitch_um(axes, reserve.circle, Some(list))?;
+                    heights.0.push(reserve.weighed(heights.worst_um(), glitch));
+                }
+                Ok(heights)
+            })?;
+            search.take(&heights);
+        }
+        Ok(search.best().map(|list| TunedAxis {
+            compensation: Some(list.into()),
+            is_shaped: true,
+        }))
+    }
+
+    /// The glitches of whole circles with what was found: for each circle one a variant.
+    fn wholes(
+        &self,
+        axes: &[TunedAxis; 2],
+        variants: &[Variant],
+    ) -> Result<Vec<Vec<f64>>, CircleError> {
+        let compensation = axes.each_ref().map(|axis| axis.compensation.clone());
+        let circles = &self.task.circles;
+        let glitches = self
+            .simulations
+            .make(circles.len() * variants.len(), &|at| {
+                let (circle, variant) = (at / variants.len(), at % variants.len());
+                let glitch =
+                    self.task
+                        .whole_um(circles[circle], &compensation, variants[variant])?;
+                Ok(Heights(vec![glitch]))
+            })?;
+        let values: Vec<f64> = glitches.iter().map(Heights::worst_um).collect();
+        Ok(values
+            .chunks(variants.len().max(1))
+            .map(<[f64]>::to_vec)
+            .collect())
+    }
+}

@@ -1,0 +1,178 @@
+//! Two versions side by side.
+
+use similar::{Algorithm, DiffOp, capture_diff_slices};
+
+use super::obstacle::Obstacle;
+use super::switch::{Identity, Switch};
+use super::version::Version;
+
+/// One of the two versions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Which {
+    /// The old version.
+    Old,
+    /// The new version.
+    New,
+}
+
+impl Which {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Old => "old",
+            Self::New => "new",
+        }
+    }
+}
+
+/// A switch in its place among those of the other version.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Paired {
+    /// Both versions switch.
+    Both {
+        /// The switch of the old version.
+        old: Switch,
+        /// The same of the new one, perhaps on another line.
+        new: Switch,
+    },
+    /// Only one version switches.
+    One(Which, Switch),
+}
+
+/// What a comparison comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Agreement {
+    /// Both versions switch the same.
+    Same,
+    /// A block switches in one version and not in the other.
+    Different,
+    /// At least one version is not known as a whole, whatever differs in the part that is.
+    NotComparable,
+}
+
+impl Agreement {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Same => "same",
+            Self::Different => "different",
+            Self::NotComparable => "not-comparable",
+        }
+    }
+}
+
+/// Two versions side by side.
+#[derive(Debug, Clone)]
+pub struct VersionComparison {
+    pairs: Vec<Paired>,
+    obstacles: [Option<Obstacle>; 2],
+}
+
+impl VersionComparison {
+    /// Compares two versions.
+    pub fn new(old: Version, new: Version) -> Self {
+        Self {
+            pairs: pair(old.switches, new.switches),
+            obstacles: [old.obstacle, new.obstacle],
+        }
+    }
+
+    /// The switches of both versions in their order.
+    pub fn pairs(&self) -> &[Paired] {
+        &self.pairs
+    }
+
+    /// The switches of only one version.
+    pub fn differences(&self) -> impl Iterator<Item = (Which, &Switch)> {
+        self.pairs.iter().filter_map(|pair| match pair {
+            Paired::Both { .. } => None,
+            Paired::One(which, switch) => Some((*which, switch)),
+        })
+    }
+
+    /// How many switches both versions have.
+    pub fn common(&self) -> usize {
+        self.pairs.len() - self.differences().count()
+    }
+
+    /// What keeps the versions from being compared as a whole.
+    pub fn obstacles(&self) -> impl Iterator<Item = (Which, &Obstacle)> {
+        let both = [Which::Old, Which::New].into_iter().zip(&self.obstacles);
+        both.filter_map(|(which, obstacle)| Some((which, obstacle.as_ref()?)))
+    }
+
+    /// What the comparison comes to.
+    pub fn agreement(&self) -> Agreement {
+        if self.obstacles().next().is_some() {
+            Agreement::NotComparable
+        } else if self.differences().next().is_some() {
+            Agreement::Different
+        } else {
+            Agreement::Same
+        }
+    }
+}
+
+fn pair(old: Vec<Switch>, new: Vec<Switch>) -> Vec<Paired> {
+    let operations = capture_diff_slices(Algorithm::Myers, &identities(&old), &identities(&new));
+    let (mut old, mut new) = (old.into_iter(), new.into_iter());
+    let mut pairs = Vec::with_capacity(old.len().max(new.len()));
+    for operation in operations {
+        let (before, after) = (operation.old_range().len(), operation.new_range().len());
+        if let DiffOp::Equal { .. } = operation {
+            let both = old.by_ref().zip(new.by_ref()).take(before);
+            pairs.extend(both.map(|(old, new)| Paired::Both { old, new }));
+        } else {
+            let gone = old.by_ref().take(before);
+            pairs.extend(gone.map(|switch| Paired::One(Which::Old, switch)));
+            let come = new.by_ref().take(after);
+            pairs.extend(come.map(|switch| Paired::One(Which::New, switch)));
+        }
+    }
+    pairs
+}
+
+fn identities(switches: &[Switch]) -> Vec<Identity<'_>> {
+    switches.iter().map(Switch::identity).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frictcomp::comp::{Kind, State};
+
+    fn switch(line: u32, number: i64) -> Switch {
+        Switch {
+            axis: "Y".to_owned(),
+            kind: Kind::Frict,
+            from: State::Active,
+            to: State::Inactive,
+            file: "a.nc".to_owned(),
+            is_called: false,
+            line,
+            number: Some(number),
+            text: format!("N{number} Y[COMP OFF FRICT]"),
+        }
+    }
+
+    #[test]
+    fn moved_lines_make_no_difference() {
+        // R9.81
+        let both = |pairs: &Paired| matches!(pairs, Paired::Both { .. });
+        let pairs = pair(vec![switch(4, 25)], vec![switch(9, 25)]);
+        assert!(pairs.len() == 1 && pairs.iter().all(both));
+        let pairs = pair(
+            vec![switch(4, 25), switch(5, 30)],
+            vec![switch(4, 20), switch(5, 30)],
+        );
+        let expected = [
+            Paired::One(Which::Old, switch(4, 25)),
+            Paired::One(Which::New, switch(4, 20)),
+            Paired::Both {
+                old: switch(5, 30),
+                new: switch(5, 30),
+            },
+        ];
+        assert_eq!(pairs, expected);
+    }
+}

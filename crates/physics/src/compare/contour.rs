@@ -1,0 +1,181 @@
+//! Where the contour of one version of a program deviates more than that of the other.
+
+use super::alignment::align;
+use super::comparison::Which;
+use crate::contour::{
+    BlockDeviation, BlockDeviations, ContourObstacle, Deviations, ProgramContour, WorstPlace,
+};
+
+/// The contour of one version.
+#[derive(Debug, Clone)]
+pub struct VersionContour {
+    blocks: Vec<BlockDeviation>,
+    deviations: Deviations,
+    obstacles: Vec<ContourObstacle>,
+}
+
+impl From<ProgramContour<BlockDeviations>> for VersionContour {
+    fn from(mut contour: ProgramContour<BlockDeviations>) -> Self {
+        let obstacles = contour.obstacles();
+        Self {
+            deviations: contour.deviations().programmed.clone(),
+            blocks: std::mem::take(contour.sink()).into_blocks(),
+            obstacles,
+        }
+    }
+}
+
+/// A block that deviates more somewhere on its path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockChange {
+    /// The block of the new version.
+    pub block: BlockDeviation,
+    /// Its place and deviation there.
+    pub new: WorstPlace,
+    /// The line in the old version and its deviation there in µm, where that has the block.
+    pub old: Option<(u32, f64)>,
+}
+
+impl BlockChange {
+    /// By how much the new version deviates more there, in µm.
+    pub fn more_um(&self) -> f64 {
+        self.new.deviation_um - self.old.map_or(0.0, |(_, um)| um)
+    }
+
+    /// Where a block deviates most beyond what it did there in the old version.
+    fn of(old: Option<&BlockDeviation>, new: &BlockDeviation) -> Option<Self> {
+        let mut stretches = new.stretches.iter().enumerate();
+        let first = stretches.next()?;
+        let of = |(at, place): (usize, &WorstPlace)| Self {
+            block: new.clone(),
+            new: *place,
+            old: old.map(|old| (old.line, before(old, (new, at)))),
+        };
+        let more = |(at, place): (usize, &WorstPlace)| {
+            let before = old.map_or(0.0, |old| before(old, (new, at)));
+            place.deviation_um - before
+        };
+        let worst = stretches.fold(first, |worst, next| {
+            if more(next) > more(worst) {
+                next
+            } else {
+                worst
+            }
+        });
+        Some(of(worst))
+    }
+}
+
+/// How far the old version deviates at a stretch of a block, or next to it. Where the block is as
+/// long in both versions, its stretches are.
+fn before(old: &BlockDeviation, (new, at): (&BlockDeviation, usize)) -> f64 {
+    #[allow(clippy::float_cmp)] // powers of two
+    let is_as_long = old.stretch_mm == new.stretch_mm;
+    if !is_as_long {
+        return old.max_um();
+    }
+    let near = old.stretches.iter().skip(at.saturating_sub(1));
+    let near = near.take(if at == 0 { 2 } else { 3 });
+    near.map(|it| it.deviation_um).fold(0.0, f64::max)
+}
+
+/// What a comparison of contours comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContourAgreement {
+    /// No block of the new version deviates more than the tolerance allows.
+    NoMore,
+    /// A block of the new version deviates more.
+    More,
+    /// A contour is not known as a whole, whatever is more in the part that is.
+    NotComparable,
+}
+
+impl ContourAgreement {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::NoMore => "no-more",
+            Self::More => "more",
+            Self::NotComparable => "not-comparable",
+        }
+    }
+}
+
+/// The contours of two versions side by side.
+#[derive(Debug, Clone)]
+pub struct ContourComparison {
+    deviations: [Deviations; 2],
+    obstacles: [Vec<ContourObstacle>; 2],
+    more: Vec<BlockChange>,
+    less: usize,
+    tolerance_um: f64,
+}
+
+impl ContourComparison {
+    /// Compares two contours, stretch by stretch of each block: a peak is not hidden by another one
+    /// that both versions have. Differences within the tolerance do not count.
+    pub fn new(old: VersionContour, new: VersionContour, tolerance_um: f64) -> Self {
+        let mut more = Vec::new();
+        let mut less = 0;
+        for pair in align(&old.blocks, &new.blocks) {
+            let (before, Some(now)) = pair else {
+                continue;
+            };
+            let before = before.map(|at| &old.blocks[at]);
+            let now = &new.blocks[now];
+            let change = BlockChange::of(before, now);
+            let change = change.filter(|change| change.more_um() > tolerance_um);
+            let gain = before.map_or(0.0, BlockDeviation::max_um) - now.max_um();
+            less += usize::from(change.is_none() && gain > tolerance_um);
+            more.extend(change);
+        }
+        more.sort_by(|one, other| other.more_um().total_cmp(&one.more_um()));
+        Self {
+            deviations: [old.deviations, new.deviations],
+            obstacles: [old.obstacles, new.obstacles],
+            more,
+            less,
+            tolerance_um,
+        }
+    }
+
+    /// How far a version is from its path.
+    pub fn deviations(&self, which: Which) -> &Deviations {
+        match which {
+            Which::Old => &self.deviations[0],
+            Which::New => &self.deviations[1],
+        }
+    }
+
+    /// The blocks of the new version that deviate more, those first that do so most.
+    pub fn more(&self) -> &[BlockChange] {
+        &self.more
+    }
+
+    /// How many blocks of the new version deviate less.
+    pub fn less(&self) -> usize {
+        self.less
+    }
+
+    /// What a block may deviate more in µm.
+    pub fn tolerance_um(&self) -> f64 {
+        self.tolerance_um
+    }
+
+    /// What keeps the contours from being compared as a whole.
+    pub fn obstacles(&self) -> impl Iterator<Item = (Which, ContourObstacle)> {
+        let both = [Which::Old, Which::New].into_iter().zip(&self.obstacles);
+        both.flat_map(|(which, all)| all.iter().map(move |obstacle| (which, *obstacle)))
+    }
+
+    /// What the comparison comes to.
+    pub fn agreement(&self) -> ContourAgreement {
+        if self.obstacles().next().is_some() {
+            ContourAgreement::NotComparable
+        } else if self.more.is_empty() {
+            ContourAgreement::NoMore
+        } else {
+            ContourAgreement::More
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Two versions of a program, compared by what they switch.
+//!
+//! A [`Version`] takes the records of a session that runs one version; a [`VersionComparison`] says
+//! which blocks switch in one version and not in the other, and what keeps the versions from being
+//! compared as a whole. Lines that only moved make no difference. A [`ContourComparison`] says where
+//! the contour of the new version deviates more.
+//!
+//! ```
+//! use frictcomp::comp::{Kind, KindSet};
+//! use frictcomp_physics::compare::{Agreement, Version, VersionComparison};
+//! use frictcomp::{Machine, SourceFile};
+//!
+//! let version = |text: &str| {
+//!     let mut version = Version::new(KindSet::of(Kind::Frict));
+//!     frictcomp::run(SourceFile::new("a.nc", text), Machine::enabled(["X"]), &mut version);
+//!     version
+//! };
+//! let (old, new) = (version("N10 M30"), version("N5 X[COMP OFF FRICT]\nN10 M30"));
+//! let comparison = VersionComparison::new(old, new);
+//! assert_eq!(comparison.agreement(), Agreement::Different);
+//! let (_, switch) = comparison.differences().next().expect("the new block");
+//! assert_eq!(switch.to_string(), "X FRICT: active → inactive");
+//! ```
+
+mod alignment;
+mod comparison;
+mod contour;
+mod obstacle;
+mod switch;
+mod version;
+
+pub use comparison::{Agreement, Paired, VersionComparison, Which};
+pub use contour::{BlockChange, ContourAgreement, ContourComparison, VersionContour};
+pub use obstacle::{Obstacle, Reason};
+pub use switch::Switch;
+pub use version::Version;

@@ -1,0 +1,110 @@
+//! What keeps a version from being compared as a whole.
+
+use std::fmt;
+
+use frictcomp::comp::Kind;
+use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+
+/// What keeps a version from being compared as a whole, and where: what follows is not known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Obstacle {
+    /// Path of the file, as it is shown.
+    pub file: String,
+    /// The line, from 1, where it is known.
+    pub line: Option<u32>,
+    /// What it is.
+    pub reason: Reason,
+}
+
+/// Why a version cannot be compared as a whole.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// An error or a budget stops the program.
+    Stopped {
+        /// Its code.
+        code: Code,
+        /// Its message.
+        message: String,
+    },
+    /// A state depends on what only the machine knows.
+    Unknown {
+        /// Name of the axis.
+        axis: String,
+        /// The kind of compensation.
+        kind: Kind,
+    },
+    /// Which blocks run depends on what only the machine knows; the dry run assumed a way.
+    Assumed,
+    /// What a command does depends on a machine that is not described.
+    Undescribed,
+}
+
+impl Reason {
+    /// The word of the records.
+    pub fn as_str(&self) -> &'static str {
+        match self {
+            Self::Stopped { .. } => "stopped",
+            Self::Unknown { .. } => "unknown",
+            Self::Assumed => "assumed",
+            Self::Undescribed => "undescribed",
+        }
+    }
+}
+
+impl Obstacle {
+    /// What a message would be if it stopped the program.
+    pub(super) fn stop(said: &Diagnostic) -> Option<Self> {
+        let code = said.code;
+        (code.severity() == Severity::Error || code.is_budget()).then(|| {
+            Self::at(
+                said,
+                Reason::Stopped {
+                    code,
+                    message: said.message.clone(),
+                },
+            )
+        })
+    }
+
+    /// What a message is by itself.
+    pub(super) fn of(said: &Diagnostic) -> Option<Self> {
+        match said.code {
+            Code::Fc408 => Some(Self::at(said, Reason::Undescribed)),
+            Code::Fc902 => Some(Self::at(said, Reason::Assumed)),
+            _ => None,
+        }
+    }
+
+    fn at(said: &Diagnostic, reason: Reason) -> Self {
+        Self {
+            file: said.place.file.to_string(),
+            line: Some(said.place.start().line),
+            reason,
+        }
+    }
+}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let at = match self.line {
+            Some(line) => format!("{}:{line}", self.file),
+            None => self.file.clone(),
+        };
+        match &self.reason {
+            Reason::Stopped { code, message } => write!(f, "{at} stops with {code}: {message}"),
+            Reason::Unknown { axis, kind } => {
+                let kind = kind.as_str();
+                write!(f, "from {at} on, {kind} of {axis} is not known offline")
+            }
+            Reason::Assumed => write!(
+                f,
+                "which way the control takes at {at} is not known offline; one was assumed"
+            ),
+            Reason::Undescribed => write!(
+                f,
+                "what {at} does depends on a machine that is not described"
+            ),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! One version of a program: what it switches, and where that ends to be known.
+
+use std::ops::ControlFlow;
+
+use super::obstacle::{Obstacle, Reason};
+use super::switch::Switch;
+use frictcomp::comp::{KindSet, State};
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::timeline::{EndedBy, Footing, Record, Row, Sink};
+
+/// What one version of a program switches: a sink for the records of a session that runs it.
+#[derive(Debug, Clone)]
+pub struct Version {
+    kinds: KindSet,
+    pub(super) switches: Vec<Switch>,
+    /// An error or a bound of which the end will tell whether it stopped the program.
+    candidate: Option<Obstacle>,
+    pub(super) obstacle: Option<Obstacle>,
+    /// The file of the program.
+    file: String,
+}
+
+impl Version {
+    /// A version of which these kinds count.
+    pub fn new(kinds: KindSet) -> Self {
+        Self {
+            kinds,
+            switches: Vec::new(),
+            candidate: None,
+            obstacle: None,
+            file: String::new(),
+        }
+    }
+
+    fn block(&mut self, row: &Row<'_>) {
+        for change in row.changes {
+            if !self.kinds.contains(change.kind) {
+                continue;
+            }
+            let switch = Switch::new(row, *change, &self.file);
+            if change.to == State::Unknown {
+                self.obstacle.get_or_insert_with(|| Obstacle {
+                    file: switch.file.clone(),
+                    line: Some(switch.line),
+                    reason: Reason::Unknown {
+                        axis: switch.axis.clone(),
+                        kind: switch.kind,
+                    },
+                });
+            }
+            self.switches.push(switch);
+        }
+        row.diagnostics.iter().for_each(|said| self.judge(said));
+    }
+
+    /// The program switches on a machine that is not described, which the user may have silenced the
+    /// message about.
+    pub fn rests_on_no_machine(&mut self) {
+        self.hinder(Reason::Undescribed);
+    }
+
+    /// Something keeps the whole program from being compared, unless a block of it does.
+    fn hinder(&mut self, reason: Reason) {
+        let file = &self.file;
+        self.obstacle.get_or_insert_with(|| Obstacle {
+            file: file.clone(),
+            line: None,
+            reason,
+        });
+    }
+
+    /// Looks at a message for what keeps the version from being compared.
+    fn judge(&mut self, said: &Diagnostic) {
+        self.candidate = self.candidate.take().or_else(|| Obstacle::stop(said));
+        self.obstacle = self.obstacle.take().or_else(|| Obstacle::of(said));
+    }
+}
+
+impl Sink for Version {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Program { file, .. } => (*file).clone_into(&mut self.file),
+            Record::Block(row) => self.block(row),
+            Record::End(end) => {
+                for note in end.notes {
+                    self.judge(&note.diagnostic);
+                }
+                if matches!(end.by, EndedBy::Error | EndedBy::Budget) {
+                    self.obstacle = self.candidate.take().or(self.obstacle.take());
+                }
+            }
+            // The user may have silenced the message about it.
+            Record::Summary(summary) if summary.footing == Footing::Assumed => {
+                self.hinder(Reason::Assumed);
+            }
+            _ => {}
+        }
+        ControlFlow::Continue(())
+    }
+}

@@ -1,0 +1,82 @@
+//! What a contour depends on.
+
+use crate::current::Reading;
+use crate::motion::PlannerOptions;
+use crate::simulation::{DriveParameters, FrictionModel};
+use frictcomp::comp::AxisIndex;
+use frictcomp::lists::FrictionList;
+
+/// More axes are not driven at once.
+pub const MOST_AXES: usize = 8;
+
+/// Where the value list of an axis comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum ListSource {
+    /// The lists of the machine.
+    Machine,
+    /// A list that was given for this run, by its name.
+    Given(String),
+    /// The friction curve of the simulated drive: the machine has no values.
+    Plant,
+}
+
+/// An axis that is driven.
+#[derive(Debug, Clone)]
+pub struct ContourAxis {
+    /// Position of the axis in the machine.
+    pub axis: AxisIndex,
+    /// Its name.
+    pub name: String,
+    /// Its simulated drive.
+    pub drive: DriveParameters,
+    /// The compensation value list.
+    pub list: FrictionList,
+    /// Where that comes from.
+    pub source: ListSource,
+    /// What a drive unit of the list is in units of the drive.
+    pub torque_scale: f64,
+}
+
+impl ContourAxis {
+    /// The force of a drive unit of the list, in N.
+    pub fn newtons_per_unit(&self) -> f64 {
+        self.drive.force_per_unit_n * self.torque_scale
+    }
+}
+
+/// How a contour is made.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct ContourOptions {
+    /// The axes: those of the plane first, then further linear axes, at most [`MOST_AXES`].
+    pub axes: Vec<ContourAxis>,
+    /// How the commanded trace is planned.
+    pub planner: PlannerOptions,
+    /// The friction model.
+    pub model: FrictionModel,
+    /// What applies where the documents leave something open.
+    pub reading: Reading,
+}
+
+impl ContourOptions {
+    /// Some axes with the usual planner, model and reading.
+    pub fn new(axes: Vec<ContourAxis>) -> Self {
+        Self {
+            axes,
+            planner: PlannerOptions::default(),
+            model: FrictionModel::default(),
+            reading: Reading::default(),
+        }
+    }
+
+    /// The same with another planner.
+    pub fn with_planner(self, planner: PlannerOptions) -> Self {
+        Self { planner, ..self }
+    }
+
+    /// The same with another friction model.
+    pub fn with_model(self, model: FrictionModel) -> Self {
+        Self { model, ..self }
+    }
+}

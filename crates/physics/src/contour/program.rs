@@ -1,0 +1,530 @@
+//! From the rows of a session to the contour: program, trace, currents, drives, deviations.
+
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::axes::MovingAxes;
+use super::feed::{FeedOnly, FeedReached, is_too_slow};
+use super::figures::{ContourSummary, Deviations, Due};
+use super::measured::Measured;
+use super::obstacle::ContourObstacle;
+use super::options::{ContourAxis, ContourOptions, MOST_AXES};
+use super::path::{CommandedPath, Distance, Places};
+use super::per_run::PerRun;
+use super::reversals::{ContourReversal, Event, Reversals};
+use super::run::Run;
+use crate::current::{
+    AdditiveCurrent, Commanded, CurrentSample, Followers, POSITION_UNITS_PER_MM,
+    VELOCITY_UNITS_PER_MM_PER_S,
+};
+use crate::motion::{
+    AssumedLimits, Cause, Movement, ProgramTrace, Sample, TraceSink, Transitions,
+    without_assumed_limits,
+};
+use frictcomp::comp::{AxisIndex, State};
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::interpreter::{Motion, PositionFrame};
+use frictcomp::machine::Machine;
+use frictcomp::timeline::{Record, Row, Sink};
+
+const UM_PER_MM: f64 = 1000.0;
+
+/// Cycles of the path that are known beyond the one that is driven.
+const AHEAD: usize = 16;
+
+/// The contour in one CNC cycle.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct ContourPoint<'a> {
+    /// The time of the trace.
+    pub time_s: f64,
+    /// The block that is executed, and what holds in it.
+    pub cause: &'a Arc<Cause>,
+    /// Where the axes are commanded to be, in mm; those of the plane first.
+    pub positions: &'a [f64],
+    /// The signed distance from the path in the plane, positive on the outside of a curve.
+    pub deviation_um: PerRun<f64>,
+    /// The distance from the path in space (R11.27).
+    pub space_um: PerRun<f64>,
+    /// From the nearest point of the path to where the axes of the plane are, as programmed, in mm.
+    pub error_mm: [f64; 2],
+    /// Whether it counts: in a feed move, with positions of the machine.
+    pub counts: bool,
+}
+
+/// A listener to a contour.
+pub trait ContourSink {
+    /// Takes a block that moves axes, before its cycles.
+    fn block(&mut self, row: &Row<'_>) {
+        let _ = row;
+    }
+
+    /// Takes a cycle.
+    fn point(&mut self, point: &ContourPoint<'_>) {
+        let _ = point;
+    }
+
+    /// Takes a reversal, once its window has ended.
+    fn reversal(&mut self, reversal: &ContourReversal) {
+        let _ = reversal;
+    }
+
+    /// Takes a place where compensation of an axis is switched while it moves on (R1.57): `state` is the
+    /// new one, and the block the first one with it.
+    fn switch(&mut self, switch: &ContourReversal) {
+        let _ = switch;
+    }
+
+    /// Whether it wants no more.
+    fn is_closed(&self) -> bool {
+        false
+    }
+}
+
+/// Makes the contour of the rows of a session, which must say what their blocks move
+/// ([`Motions::Taken`](frictcomp::interpreter::Motions::Taken)).
+pub struct ProgramContour<S> {
+    trace: ProgramTrace<Tracer<S>>,
+    /// The same path without the assumed limits of the axes, where there are any.
+    unlimited: Option<ProgramTrace<FeedOnly>>,
+    assumed: Vec<(AxisIndex, AssumedLimits)>,
+    moving: MovingAxes,
+}
+
+/// A cycle that is not driven yet.
+struct Cycle {
+    time_s: f64,
+    cause: Arc<Cause>,
+    places: Places,
+    velocities: Places,
+    path_velocity: f64,
+    programmed_velocity: f64,
+    /// The number of its point of the path.
+    point: u64,
+    /// The additive currents of the programmed run, and of the one with all of it on.
+    added: [Places; 2],
+}
+
+/// The three runs and what is measured of them.
+struct Tracer<S> {
+    options: ContourOptions,
+    path: CommandedPath,
+    programmed: Followers,
+    all_on: Followers,
+    /// Cycles whose currents are not known yet.
+    waiting: VecDeque<Cycle>,
+    /// Cycles whose currents are known.
+    ready: VecDeque<Cycle>,
+    runs: Option<[Run; 3]>,
+    reversals: Reversals,
+    deviations: PerRun<Deviations>,
+    due: Due,
+    feed: FeedReached,
+    axes: Vec<ContourSummary>,
+    cycles: u64,
+    not_of_the_machine: u64,
+    is_unstable: bool,
+    sink: S,
+}
+
+impl<S: ContourSink> ProgramContour<S> {
+    /// The contour of a program on a machine.
+    pub fn new(machine: &Machine, options: ContourOptions, sink: S) -> Self {
+        let followed: Vec<AxisIndex> = options.axes.iter().map(|axis| axis.axis).collect();
+        let current = |axis: &ContourAxis| {
+            AdditiveCurrent::new(&axis.list, options.reading).scaled(axis.torque_scale)
+        };
+        let followers = || Followers::new(options.axes.iter().map(current).collect());
+        let names: Vec<String> = options.axes.iter().map(|axis| axis.name.clone()).collect();
+        let summary = |axis: &String| ContourSummary {
+            axis: axis.clone(),
+            ..ContourSummary::default()
+        };
+        let planner = options.planner;
+        let tracer = Tracer {
+            path: CommandedPath::new(lag_cycles(&options)),
+            programmed: followers(),
+            all_on: followers(),
+            waiting: VecDeque::new(),
+            ready: VecDeque::new(),
+            runs: None,
+            axes: names.iter().map(summary).collect(),
+            reversals: Reversals::new(names, options.planner.cycle_s),
+            deviations: PerRun::default(),
+            due: Due::default(),
+            feed: FeedReached::default(),
+            cycles: 0,
+            not_of_the_machine: 0,
+            is_unstable: false,
+            options,
+            sink,
+        };
+        let unlimited = without_assumed_limits(machine)
+            .map(|machine| ProgramTrace::new(&machine, &[], planner, FeedOnly::default()));
+        let indices = (0..).map(AxisIndex::new);
+        let assumed = indices.zip(machine.axes.iter().map(AssumedLimits::of));
+        let assumed = assumed.filter_map(|(axis, limits)| Some((axis, limits?)));
+        Self {
+            trace: ProgramTrace::new(machine, &followed, planner, tracer),
+            unlimited,
+            assumed: assumed.collect(),
+            moving: MovingAxes::default(),
+        }
+    }
+
+    fn tracer(&self) -> &Tracer<S> {
+        self.trace.sink_ref()
+    }
+
+    /// The session is over: the rest of the trace is driven.
+    pub fn finish(&mut self) {
+        if self.trace.finish().is_continue() {
+            let _ = self.trace.sink().drain();
+        }
+        if let Some(unlimited) = &mut self.unlimited {
+            let _ = unlimited.finish();
+        }
+    }
+
+    /// How far each run was from the path.
+    pub fn deviations(&self) -> &PerRun<Deviations> {
+        &self.tracer().deviations
+    }
+
+    /// What missing compensation costs.
+    pub fn due(&self) -> &Due {
+        &self.tracer().due
+    }
+
+    /// The programmed and the reached feed.
+    pub fn feed(&self) -> &FeedReached {
+        &self.tracer().feed
+    }
+
+    /// The share of the cutting time that runs below 80 % of F because of assumed limits (R11.23): that
+    /// would not, if the axes that move had no limits but those of the configuration.
+    pub fn slow_share_by_assumed(&self) -> f64 {
+        let unlimited = self.unlimited.as_ref().map(ProgramTrace::sink_ref);
+        unlimited.map_or(0.0, |FeedOnly(unlimited)| {
+            self.feed().slow_share_against(unlimited)
+        })
+    }
+
+    /// The limits that are assumed of the axes that the program moves.
+    pub fn assumed_limits(&self) -> impl Iterator<Item = &AssumedLimits> {
+        let assumed = self.assumed.iter();
+        let moving = assumed.filter(|(axis, _)| self.moving.contains(*axis));
+        moving.map(|(_, limits)| limits)
+    }
+
+    /// Whether every motion was driven, with positions of the machine: otherwise an axis may reverse
+    /// more often.
+    pub fn is_whole(&self) -> bool {
+        let is_beside = |it: &ContourObstacle| matches!(it, ContourObstacle::AssumedLimits(_));
+        self.left_out() == 0 && self.obstacles().iter().all(is_beside)
+    }
+
+    /// What became of the transitions between feed moves.
+    pub fn transitions(&self) -> Transitions {
+        self.trace.transitions()
+    }
+
+    /// What keeps the contour from being judged as a whole.
+    pub fn obstacles(&self) -> Vec<ContourObstacle> {
+        let mut obstacles = Vec::new();
+        if self.machine_time_s() <= 0.0 {
+            obstacles.push(ContourObstacle::NotDriven);
+        }
+        if self.left_out_feed() > 0 {
+            obstacles.push(ContourObstacle::LeftOut(self.left_out_feed()));
+        }
+        let (errors, remarks) = self.diagnostics();
+        let budgets = remarks.iter().filter(|remark| remark.code.is_budget());
+        let ends = errors.iter().chain(budgets);
+        for end in ends.map(|end| ContourObstacle::Ended(end.code)) {
+            if !obstacles.contains(&end) {
+                obstacles.push(end);
+            }
+        }
+        let seconds = self.time_not_of_the_machine_s();
+        if seconds > 0.0 {
+            obstacles.push(ContourObstacle::NotOfTheMachine(seconds));
+        }
+        let share = self.slow_share_by_assumed();
+        if is_too_slow(share) {
+            obstacles.push(ContourObstacle::AssumedLimits(share));
+        }
+        obstacles
+    }
+
+    /// The reversals of each axis, those of the plane first.
+    pub fn axes(&self) -> &[ContourSummary] {
+        &self.tracer().axes
+    }
+
+    /// The machine time in s that was driven.
+    pub fn machine_time_s(&self) -> f64 {
+        seconds(self.tracer().cycles, self.tracer().options.planner.cycle_s)
+    }
+
+    /// The machine time in s in which positions were not those of the machine (R11.8).
+    pub fn time_not_of_the_machine_s(&self) -> f64 {
+        let cycles = self.tracer().not_of_the_machine;
+        seconds(cycles, self.tracer().options.planner.cycle_s)
+    }
+
+    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
+    /// follows there.
+    pub fn is_cut_short(&self) -> bool {
+        self.trace.is_cut_short()
+    }
+
+    /// How many motions are left out, because it is not known where they lead or how fast.
+    pub fn left_out(&self) -> u64 {
+        self.trace.left_out()
+    }
+
+    /// How many of them are not known to be rapid moves: they may deviate by anything.
+    pub fn left_out_feed(&self) -> u64 {
+        self.trace.left_out_feed()
+    }
+
+    /// Whether a drive was unstable; the contour ends there.
+    pub fn is_unstable(&self) -> bool {
+        self.tracer().is_unstable
+    }
+
+    /// The axes, their drives and their lists.
+    pub fn options(&self) -> &ContourOptions {
+        &self.tracer().options
+    }
+
+    /// The errors that the session reported, then what there is to say about the trace.
+    pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
+        self.trace.diagnostics()
+    }
+
+    /// The listener to the contour.
+    pub fn sink(&mut self) -> &mut S {
+        &mut self.trace.sink().sink
+    }
+}
+
+/// Cycles by which a drive lags at most: what the feed forward leaves of the lag `v/Kv`, and 20 ms
+/// beside it for the loops and an overshoot.
+fn lag_cycles(options: &ContourOptions) -> u64 {
+    let lags = options.axes.iter().map(|axis| {
+        let drive = &axis.drive;
+        (1.0 - drive.velocity_forward).max(0.0) / drive.position_gain_per_s
+    });
+    let longest_s = lags.fold(0.0, f64::max) * 1.5 + 0.02;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturates
+    let cycles = (longest_s / options.planner.cycle_s).ceil() as u64;
+    cycles.max(4)
+}
+
+#[allow(clippy::cast_precision_loss)] // far below 2^52 cycles
+fn seconds(cycles: u64, each_s: f64) -> f64 {
+    cycles as f64 * each_s
+}
+
+impl<S: ContourSink> Sink for ProgramContour<S> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let Record::Block(row) = record
+            && let Some(Motion::Travel(_)) = row.motion
+        {
+            self.trace.sink().sink.block(row);
+        }
+        let _ = self.moving.record(record);
+        if let Some(unlimited) = &mut self.unlimited {
+            let _ = unlimited.record(record);
+        }
+        self.trace.record(record)
+    }
+}
+
+impl<S: ContourSink> TraceSink for Tracer<S> {
+    fn begin(&mut self, _: f64, _: &Arc<Cause>) -> ControlFlow<()> {
+        self.drain()?;
+        self.restart();
+        ControlFlow::Continue(())
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        self.feed.push(sample);
+        let places = widened(sample.positions);
+        let friction = sample.cause.friction.iter();
+        let commanded = |friction: &mut dyn Iterator<Item = State>| -> Vec<Commanded> {
+            let axes = sample.positions.iter().zip(sample.velocities);
+            axes.zip(friction)
+                .map(|((x, v), friction)| Commanded {
+                    position_units: x * POSITION_UNITS_PER_MM,
+                    velocity_units: v * VELOCITY_UNITS_PER_MM_PER_S,
+                    friction,
+                })
+                .collect()
+        };
+        self.waiting.push_back(Cycle {
+            time_s: sample.time_s,
+            cause: Arc::clone(sample.cause),
+            places,
+            velocities: widened(sample.velocities),
+            path_velocity: sample.path_velocity,
+            programmed_velocity: sample.programmed_velocity,
+            point: self.path.push(places),
+            added: Default::default(),
+        });
+        let programmed = self.programmed.push(commanded(&mut friction.copied()));
+        let on = commanded(&mut std::iter::repeat(State::Active));
+        if let (Some(programmed), Some(all_on)) = (programmed, self.all_on.push(on))
+            && let Some(mut cycle) = self.waiting.pop_front()
+        {
+            cycle.added = [programmed, all_on].map(|added| units(added, &self.options.axes));
+            self.ready.push_back(cycle);
+        }
+        self.advance(AHEAD)
+    }
+}
+
+impl<S: ContourSink> Tracer<S> {
+    /// Drives the cycles that are ready, but the last so many.
+    fn advance(&mut self, keep: usize) -> ControlFlow<()> {
+        while self.ready.len() > keep.max(1) {
+            let Some(cycle) = self.ready.pop_front() else {
+                break;
+            };
+            let to = self.ready.front().map_or(cycle.places, |next| next.places);
+            self.drive(&cycle, &to)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Drives what is left of the trace.
+    fn drain(&mut self) -> ControlFlow<()> {
+        while let (Some(programmed), Some(all_on)) = (self.programmed.pop(), self.all_on.pop()) {
+            let Some(mut cycle) = self.waiting.pop_front() else {
+                break;
+            };
+            cycle.added = [programmed, all_on].map(|added| units(added, &self.options.axes));
+            self.ready.push_back(cycle);
+        }
+        self.advance(0)?;
+        if let Some(last) = self.ready.pop_front() {
+            let to = last.places;
+            self.drive(&last, &to)?;
+        }
+        let (axes, sink) = (&mut self.axes, &mut self.sink);
+        self.reversals.restart(|found| take(axes, sink, &found));
+        ControlFlow::Continue(())
+    }
+
+    fn restart(&mut self) {
+        self.programmed.restart();
+        self.all_on.restart();
+        self.waiting.clear();
+        self.ready.clear();
+        self.path.restart();
+        self.runs = None;
+    }
+
+    /// One CNC cycle of all runs.
+    fn drive(&mut self, cycle: &Cycle, to: &Places) -> ControlFlow<()> {
+        let options = &self.options;
+        let runs = self
+            .runs
+            .get_or_insert_with(|| [(); 3].map(|()| Run::at_rest(options, &cycle.places)));
+        let none = Places::default();
+        let [programmed, all_on] = &cycle.added;
+        let mut distances = [Distance::default(); 3];
+        for ((run, added), distance) in runs
+            .iter_mut()
+            .zip([programmed, all_on, &none])
+            .zip(&mut distances)
+        {
+            let places = (&cycle.places, to);
+            let Some(reached) = run.follow(places, added, options.planner.cycle_s) else {
+                self.is_unstable = true;
+                return ControlFlow::Break(());
+            };
+            *distance = self.path.distance(&reached, (&mut run.near, cycle.point));
+        }
+        self.path.forget_before(cycle.point);
+        self.cycles += 1;
+        let count = options.axes.len();
+        let is_of_machine = cycle.cause.frame == PositionFrame::Machine;
+        self.not_of_the_machine += u64::from(!is_of_machine);
+        let counts = is_of_machine && cycle.cause.movement == Movement::Feed;
+        let deviation_um = distances.map(|distance| distance.plane * UM_PER_MM);
+        let space_um = distances.map(|distance| distance.space * UM_PER_MM);
+        if counts {
+            let all = self.deviations.each_mut().into_iter();
+            for (at, deviations) in all.enumerate() {
+                deviations.push([deviation_um[at], space_um[at]], &cycle.cause);
+            }
+            self.due.push([space_um[0], space_um[1]], &cycle.cause);
+            for axis in 2..count {
+                let beside = |run: usize| distances[run].normal[axis] * UM_PER_MM;
+                self.due.push([beside(0), beside(1)], &cycle.cause);
+            }
+        }
+        let (axes, sink) = (&mut self.axes, &mut self.sink);
+        if is_of_machine {
+            let measured = Measured {
+                time_s: cycle.time_s,
+                cause: &cycle.cause,
+                positions: &cycle.places[..count],
+                velocities: &cycle.velocities[..count],
+                path_velocity: cycle.path_velocity,
+                programmed_velocity: cycle.programmed_velocity,
+                added: &programmed[..count],
+                distances: &distances,
+            };
+            self.reversals
+                .push(&measured, |found| take(axes, sink, &found));
+        }
+        self.sink.point(&ContourPoint {
+            time_s: cycle.time_s,
+            cause: &cycle.cause,
+            positions: &cycle.places[..count],
+            deviation_um: PerRun::from_each(deviation_um),
+            space_um: PerRun::from_each(space_um),
+            error_mm: [distances[0].normal[0], distances[0].normal[1]],
+            counts,
+        });
+        if self.sink.is_closed() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+fn take<S: ContourSink>(
+    axes: &mut [ContourSummary],
+    sink: &mut S,
+    (event, reversal): &(Event, ContourReversal),
+) {
+    if *event == Event::Switch {
+        sink.switch(reversal);
+        return;
+    }
+    if let Some(axis) = axes.iter_mut().find(|axis| axis.axis == reversal.axis) {
+        axis.push(reversal);
+    }
+    sink.reversal(reversal);
+}
+
+fn widened(values: &[f64]) -> Places {
+    let mut places = [0.0; MOST_AXES];
+    places[..values.len()].copy_from_slice(values);
+    places
+}
+
+/// The additive currents as they reach the drives, scaled by the control on their way (R7.8).
+fn units(samples: &[CurrentSample], axes: &[ContourAxis]) -> Places {
+    let mut added = [0.0; MOST_AXES];
+    for ((added, sample), axis) in added.iter_mut().zip(samples).zip(axes) {
+        *added = sample.added.current_units * axis.torque_scale;
+    }
+    added
+}

@@ -1,0 +1,269 @@
+//! From the rows of a session to the currents of axes, cycle by cycle: program, trace, current.
+
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use super::additive::AdditiveCurrent;
+use super::followers::{Commanded, CurrentSample, Followers};
+use super::reading::Reading;
+use super::units::{POSITION_UNITS_PER_MM, VELOCITY_UNITS_PER_MM_PER_S};
+use crate::motion::{Cause, PlannerOptions, ProgramTrace, Sample, TraceSink};
+use frictcomp::comp::AxisIndex;
+use frictcomp::diagnostic::{Diagnostic, UnknownName};
+use frictcomp::lists::FrictionList;
+use frictcomp::machine::{Machine, Parameterisation};
+use frictcomp::timeline::{Record, Sink};
+
+/// The additive currents of several axes in one CNC cycle.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct CurrentCycle<'a> {
+    /// The time since the beginning of the program.
+    pub time_s: f64,
+    /// The block that is executed, and what holds in it.
+    pub cause: &'a Arc<Cause>,
+    /// The axes, in the order in which they were asked for.
+    pub axes: &'a [CurrentSample],
+}
+
+/// Who receives the currents of a program. A function of a [`CurrentCycle`] is one.
+pub trait CurrentSink {
+    /// Takes a cycle. `Break` ends the program.
+    fn cycle(&mut self, cycle: &CurrentCycle<'_>) -> ControlFlow<()>;
+
+    /// The trace begins, or restarts after motions that are not known.
+    fn begin(&mut self, time_s: f64, line: u32) {
+        let _ = (time_s, line);
+    }
+}
+
+impl<F: FnMut(&CurrentCycle<'_>) -> ControlFlow<()>> CurrentSink for F {
+    fn cycle(&mut self, cycle: &CurrentCycle<'_>) -> ControlFlow<()> {
+        self(cycle)
+    }
+}
+
+/// How the currents of a program are computed.
+#[derive(Debug, Clone, Copy, Default)]
+#[non_exhaustive]
+pub struct CurrentOptions {
+    /// How its trace is planned.
+    pub planner: PlannerOptions,
+    /// What applies where the documents leave something open.
+    pub reading: Reading,
+}
+
+impl From<PlannerOptions> for CurrentOptions {
+    fn from(planner: PlannerOptions) -> Self {
+        let reading = Reading::default();
+        Self { planner, reading }
+    }
+}
+
+impl CurrentOptions {
+    /// The same with another reading of the documents.
+    pub fn with_reading(self, reading: Reading) -> Self {
+        Self { reading, ..self }
+    }
+}
+
+/// An axis whose current cannot be computed.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum FollowError {
+    /// `Q` on a machine with X, Y and Z.
+    #[error("the machine has no axis `{}`", .0.name)]
+    NoAxis(UnknownName),
+    /// An axis on which compensation is assumed.
+    #[error("the friction values of axis `{0}` are not known, only assumed to exist")]
+    Assumed(String),
+}
+
+/// Finds axes by their names, each once. A value list that is given takes the place of theirs.
+///
+/// # Errors
+/// The machine has no axis of a name, or no values for it.
+pub fn axes_to_follow(
+    names: &[String],
+    machine: &mut Machine,
+    list: Option<&FrictionList>,
+) -> Result<Vec<AxisIndex>, FollowError> {
+    let mut followed: Vec<AxisIndex> = Vec::new();
+    for name in names {
+        let Some(index) = machine.find(name) else {
+            let known = machine.axes.iter().map(|axis| axis.name.as_str());
+            return Err(FollowError::NoAxis(UnknownName::new(name, known)));
+        };
+        if followed.contains(&index) {
+            continue;
+        }
+        followed.push(index);
+        let axis = &mut machine.axes[index.get()];
+        if let Some(list) = list {
+            axis.friction = Parameterisation::Accepted(list.clone());
+        }
+        if axis.friction == Parameterisation::Assumed {
+            return Err(FollowError::Assumed(name.clone()));
+        }
+    }
+    Ok(followed)
+}
+
+/// Makes currents of the rows of a session, which must say what their blocks move
+/// ([`Motions::Taken`](frictcomp::session::Motions::Taken)).
+pub struct ProgramCurrents<S> {
+    trace: ProgramTrace<Cycles<S>>,
+}
+
+/// The cycles of a trace on their way to a sink.
+struct Cycles<S> {
+    followers: Followers,
+    /// Time and block of the cycles whose current is not known yet.
+    waiting: VecDeque<(f64, Arc<Cause>)>,
+    count: u64,
+    sink: S,
+}
+
+impl<S: CurrentSink> ProgramCurrents<S> {
+    /// The currents of some axes of a machine.
+    pub fn new(
+        machine: &Machine,
+        followed: &[AxisIndex],
+        options: CurrentOptions,
+        sink: S,
+    ) -> Self {
+        let current = |axis: &AxisIndex| {
+            let axis = machine.axis(*axis);
+            let list = values(&axis.friction);
+            AdditiveCurrent::new(&list, options.reading).scaled(axis.torque_scale.factor())
+        };
+        let cycles = Cycles {
+            followers: Followers::new(followed.iter().map(current).collect()),
+            waiting: VecDeque::new(),
+            count: 0,
+            sink,
+        };
+        Self {
+            trace: ProgramTrace::new(machine, followed, options.planner, cycles),
+        }
+    }
+
+    /// The session is over: the rest of the trace goes out.
+    pub fn finish(&mut self) {
+        if self.trace.finish().is_continue() {
+            let _ = self.trace.sink().drain();
+        }
+    }
+
+    /// The errors that the session reported, then what there is to say about the trace.
+    pub fn diagnostics(&self) -> (&[Diagnostic], &[Diagnostic]) {
+        self.trace.diagnostics()
+    }
+
+    /// Whether a budget stopped a program, as an endless loop does (FC910): nothing is known of what
+    /// follows there.
+    pub fn is_cut_short(&self) -> bool {
+        self.trace.is_cut_short()
+    }
+
+    /// How many motions the trace leaves out.
+    pub fn left_out(&self) -> u64 {
+        self.trace.left_out()
+    }
+
+    /// How many cycles the trace has.
+    pub fn cycles(&mut self) -> u64 {
+        self.trace.sink().count
+    }
+
+    /// In how many cycles the output of each axis was cut to 16 bit.
+    pub fn saturated(&mut self) -> impl Iterator<Item = u64> {
+        self.trace.sink().followers.saturated()
+    }
+
+    /// In how many cycles each axis stood still and R4.6 matters, see [`AdditiveCurrent::at_rest`].
+    pub fn at_rest(&mut self) -> impl Iterator<Item = u64> {
+        self.trace.sink().followers.at_rest()
+    }
+
+    /// Who received the currents.
+    pub fn sink(&mut self) -> &mut S {
+        &mut self.trace.sink().sink
+    }
+}
+
+impl<S: CurrentSink> Sink for ProgramCurrents<S> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self.trace.record(record)
+    }
+}
+
+impl<S: CurrentSink> Cycles<S> {
+    /// Gives out the cycles that wait for others.
+    fn drain(&mut self) -> ControlFlow<()> {
+        while let Some(axes) = self.followers.pop() {
+            let Some((time_s, cause)) = self.waiting.pop_front() else {
+                break;
+            };
+            let cause = &cause;
+            self.sink.cycle(&CurrentCycle {
+                time_s,
+                cause,
+                axes,
+            })?;
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl<S: CurrentSink> TraceSink for Cycles<S> {
+    fn begin(&mut self, time_s: f64, cause: &Arc<Cause>) -> ControlFlow<()> {
+        self.drain()?;
+        self.followers.restart();
+        self.sink.begin(time_s, cause.line);
+        ControlFlow::Continue(())
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()> {
+        self.count += 1;
+        self.waiting
+            .push_back((sample.time_s, Arc::clone(sample.cause)));
+        let axes = sample.positions.iter().zip(sample.velocities);
+        let inputs = axes
+            .zip(sample.cause.friction.iter())
+            .map(|((x, v), state)| Commanded {
+                position_units: x * POSITION_UNITS_PER_MM,
+                velocity_units: v * VELOCITY_UNITS_PER_MM_PER_S,
+                friction: *state,
+            });
+        if let Some(axes) = self.followers.push(inputs)
+            && let Some((time_s, cause)) = self.waiting.pop_front()
+        {
+            let cause = &cause;
+            return self.sink.cycle(&CurrentCycle {
+                time_s,
+                cause,
+                axes,
+            });
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// The value list of an axis; an empty one where the control would not take any.
+fn values(friction: &Parameterisation) -> FrictionList {
+    match friction {
+        Parameterisation::Accepted(list) => list.clone(),
+        _ => FrictionList {
+            position_delay: 0,
+            reversal_lookahead: 0,
+            scaling_factor: 1000,
+            delay_cycles: 0,
+            max_points: 0,
+            table: Vec::new(),
+        },
+    }
+}

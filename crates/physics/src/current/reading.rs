@@ -1,0 +1,146 @@
+//! How the documents are read where they are silent.
+
+use std::fmt;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+use frictcomp::diagnostic::did_you_mean;
+
+/// How the documents are read where they are silent (R4.3, R4.5 to R4.7). The default is what is assumed
+/// unless the user says otherwise.
+///
+/// It is written in reports, and can be given, as text:
+///
+/// ```
+/// use frictcomp_physics::current::{Delay, Reading};
+///
+/// let reading: Reading = "delay=reversal".parse()?;
+/// assert_eq!(reading.delay, Delay::Reversal);
+/// assert_eq!(reading.to_string(), "standstill=hold,below=hold,delay=reversal,start=first");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Reading {
+    /// The value while the axis stands still.
+    pub standstill: Standstill,
+    /// The value below the first point of the table.
+    pub below: Below,
+    /// What `delay_cycles` postpones.
+    pub delay: Delay,
+    /// After which starts the current builds up.
+    pub start: Start,
+}
+
+/// The value while the axis stands still (R4.6).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Standstill {
+    /// The direction of the last motion is remembered and the value held.
+    #[default]
+    Hold,
+    /// Nothing is added.
+    Zero,
+}
+
+/// The value below the first point of the table (R4.7).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Below {
+    /// The first output is held.
+    #[default]
+    Hold,
+    /// A line from (0, 0) to the first point.
+    Origin,
+}
+
+/// What `delay_cycles` postpones (R4.5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Delay {
+    /// The whole output: a dead time.
+    #[default]
+    All,
+    /// Only the build-up after a reversal.
+    Reversal,
+}
+
+/// After which starts the current builds up, besides reversals (R4.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Start {
+    /// After the first one.
+    #[default]
+    First,
+    /// After every standstill, also in the same direction.
+    Every,
+}
+
+/// Makes a choice.
+type Choose = fn(&mut Reading);
+
+/// What can be chosen; of options that exclude each other one is always in force.
+const OPTIONS: [(&str, Choose); 8] = [
+    ("standstill=hold", |it| it.standstill = Standstill::Hold),
+    ("standstill=zero", |it| it.standstill = Standstill::Zero),
+    ("below=hold", |it| it.below = Below::Hold),
+    ("below=origin", |it| it.below = Below::Origin),
+    ("delay=all", |it| it.delay = Delay::All),
+    ("delay=reversal", |it| it.delay = Delay::Reversal),
+    ("start=first", |it| it.start = Start::First),
+    ("start=every", |it| it.start = Start::Every),
+];
+
+/// A word that is no option of a reading.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{word}` is not a reading{help}")]
+pub struct UnknownReading {
+    /// What was written.
+    pub word: String,
+    help: String,
+}
+
+impl UnknownReading {
+    fn new(word: &str) -> Self {
+        let known = OPTIONS.map(|(option, _)| option);
+        Self {
+            word: word.to_owned(),
+            help: match did_you_mean(word, known) {
+                Some(near) => format!(", did you mean `{near}`?"),
+                None => format!("; the readings are {}", known.join(", ")),
+            },
+        }
+    }
+}
+
+impl fmt::Display for Reading {
+    /// Every option that is in force: `standstill=hold,below=hold,delay=all,start=first`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let in_force = OPTIONS.iter().filter(|(_, choose)| {
+            let mut chosen = *self;
+            choose(&mut chosen);
+            chosen == *self
+        });
+        let options: Vec<&str> = in_force.map(|(option, _)| *option).collect();
+        f.pad(&options.join(","))
+    }
+}
+
+impl FromStr for Reading {
+    type Err = UnknownReading;
+
+    /// `standstill=zero,below=origin,delay=reversal`, each of them optional; of two that exclude
+    /// each other the later one counts.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let mut reading = Self::default();
+        for word in text.split(',').map(str::trim) {
+            if word.is_empty() {
+                continue;
+            }
+            let found = OPTIONS.iter().find(|(option, _)| *option == word);
+            let (_, choose) = found.ok_or_else(|| UnknownReading::new(word))?;
+            choose(&mut reading);
+        }
+        Ok(reading)
+    }
+}

@@ -1,0 +1,133 @@
+//! Block transitions: how fast one piece of the path may turn into the next (R5.2).
+
+use super::limits::AxisLimits;
+use super::segment::Segment;
+use super::share::{KINK_SHARE, Share};
+use frictcomp::interpreter::BlockEnd;
+
+/// Below this a change of slope is only the decimals of the program.
+const STRAIGHT: f64 = 1e-7;
+
+/// From this change of the slope of an axis on the path stops: 5.7° between two lines.
+const SHARP: f64 = 0.1;
+
+/// The transition from one piece of the path to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Junction {
+    /// Nothing changes but the bounds.
+    Smooth,
+    /// Nothing changes, but the program asks for a velocity in it.
+    Paced {
+        /// The highest path velocity in it.
+        velocity: f64,
+    },
+    /// A kink that may be passed while the path speeds up or slows down.
+    Bend {
+        /// The highest path velocity in it.
+        velocity: f64,
+    },
+    /// A kink that is passed without path acceleration.
+    Corner {
+        /// The highest path velocity in it.
+        velocity: f64,
+    },
+    /// The path stops.
+    Stop,
+}
+
+impl Junction {
+    /// The transition between two pieces of the path. In a CNC cycle, in which the path turns from
+    /// one slope to another, the velocity of an axis jumps by `v·Δx'` and its acceleration by
+    /// `v²·Δx'' + a·Δx'`; the jumps stay within a share of the acceleration and the jerk of the
+    /// axis in that cycle.
+    pub(super) fn between(
+        before: &Segment,
+        after: &Segment,
+        limits: &[AxisLimits],
+        cycle: f64,
+    ) -> Self {
+        if before.end == BlockEnd::ExactStop {
+            return Self::Stop;
+        }
+        let mut junction = Self::Smooth;
+        let bounds = [before, after].map(|segment| segment.bounds(limits, Share::BesideKink));
+        let pull = bounds[0].acceleration.min(bounds[1].acceleration);
+        for (axis, limits) in limits.iter().enumerate().take(before.axes()) {
+            let turn = (after.slope(axis, 0.0) - before.slope(axis, before.length)).abs();
+            let bow = (after.bend(axis, 0.0) - before.bend(axis, before.length)).abs();
+            if turn >= SHARP && limits.corner_share.is_none() {
+                return Self::Stop;
+            }
+            // A bow over one length unit changes the slope by as much.
+            if turn < STRAIGHT && bow < STRAIGHT {
+                continue;
+            }
+            // The jerk that the kink may take; a jump of velocity counts over two cycles.
+            let jump = limits.acceleration_per_s2 / cycle;
+            let budget = match limits.corner_share {
+                Some(share) => share * jump,
+                None => KINK_SHARE * limits.jerk_per_s3.min(jump),
+            };
+            let pulled = pull * turn / cycle;
+            let passing = pulled <= budget / 2.0;
+            let left = if passing { budget - pulled } else { budget };
+            let (linear, square) = (turn / (cycle * cycle), bow / cycle);
+            let velocity = 2.0 * left / (linear + (linear * linear + 4.0 * square * left).sqrt());
+            let velocity = velocity.min(before.length.min(after.length) / cycle);
+            junction = junction.and(velocity, passing);
+        }
+        junction.paced(before.end_velocity)
+    }
+
+    /// The same at a velocity that the program asks for (E).
+    fn paced(self, asked: f64) -> Self {
+        let velocity = asked.min(self.velocity());
+        match self {
+            Self::Smooth if asked.is_finite() => Self::Paced { velocity },
+            Self::Bend { .. } => Self::Bend { velocity },
+            Self::Corner { .. } => Self::Corner { velocity },
+            kept => kept,
+        }
+    }
+
+    /// The stricter of what is known and one more kink.
+    fn and(self, velocity: f64, passing: bool) -> Self {
+        let velocity = velocity.min(self.velocity());
+        match self {
+            Self::Stop => Self::Stop,
+            Self::Smooth | Self::Bend { .. } if passing => Self::Bend { velocity },
+            _ => Self::Corner { velocity },
+        }
+    }
+
+    /// The highest path velocity in it.
+    pub(super) fn velocity(self) -> f64 {
+        match self {
+            Self::Smooth => f64::INFINITY,
+            Self::Paced { velocity } | Self::Bend { velocity } | Self::Corner { velocity } => {
+                velocity
+            }
+            Self::Stop => 0.0,
+        }
+    }
+
+    /// The same without path acceleration.
+    pub(super) fn fixed(self) -> Self {
+        match self {
+            Self::Stop => Self::Stop,
+            open => Self::Corner {
+                velocity: open.velocity(),
+            },
+        }
+    }
+
+    /// Whether the axes turn in it while they move.
+    pub(super) fn is_kink(self) -> bool {
+        matches!(self, Self::Bend { .. } | Self::Corner { .. })
+    }
+
+    /// Whether the path must be without acceleration in it.
+    pub(super) fn is_fixed(self) -> bool {
+        matches!(self, Self::Corner { .. } | Self::Stop)
+    }
+}

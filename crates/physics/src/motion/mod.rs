@@ -1,0 +1,37 @@
+//! From executed programs to commanded traces: where each axis is commanded to be, and how fast,
+//! in every CNC cycle (R5.1 to R5.4).
+//!
+//! The rows of a session say what each block moves. A [`TrajectoryPlanner`] makes segments of a
+//! path from them, plans the path velocity with full look-ahead within the limits of all axes, and
+//! hands a [`Sample`] a cycle to a [`TraceSink`], with the [`Cause`] of each: memory is the same for a
+//! program of any length. What cannot be followed is left out and told, see [`SkippedMotion`].
+//! What is modelled, and how a control differs, is in `docs/motion.md`.
+//!
+//! Positions are in mm or degrees, as the axis is linear or rotary; velocities, accelerations and
+//! jerks in the same per s, s² and s³.
+
+mod curve;
+mod cycle;
+mod junction;
+mod limits;
+mod look_ahead;
+mod plan;
+mod planner;
+mod profile;
+mod program;
+mod remarks;
+mod rounding;
+mod sampler;
+mod segment;
+mod share;
+mod smoothing;
+mod trace;
+
+pub use cycle::{CycleError, check_cycle};
+pub use frictcomp::interpreter::{Contouring, PositionFrame, Simplification, Simplifications};
+pub(crate) use limits::without_assumed_limits;
+pub use limits::{Assumed, AssumedLimits, AxisLimits};
+pub use planner::{PlannerOptions, TrajectoryPlanner};
+pub use program::ProgramTrace;
+pub use rounding::{Departure, Transitions};
+pub use trace::{Cause, Movement, Sample, SkippedMotion, TraceSink};

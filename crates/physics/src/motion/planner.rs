@@ -1,0 +1,432 @@
+//! Makes the path from the rows of a session.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::limits::MachineLimits;
+use super::look_ahead::LookAhead;
+use super::remarks::{At, Remark, Remarks};
+use super::rounding::{Rounding, Transitions};
+use super::sampler::Sampler;
+use super::segment::{Ends, Segment};
+use super::trace::{Cause, Dwell, Movement, SkippedMotion, TraceSink};
+use frictcomp::comp::{AxisIndex, Kind, State};
+use frictcomp::diagnostic::{Advice, Budget, Code, Diagnostic};
+use frictcomp::interpreter::{Form, Motion, PathFeed, PositionFrame, SAME_PLACE, Travel};
+use frictcomp::machine::{Axis, Machine};
+use frictcomp::timeline::Row;
+
+/// How a trace is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct PlannerOptions {
+    /// The CNC cycle.
+    pub cycle_s: f64,
+    /// How many cycles the trace may have.
+    pub max_cycles: u64,
+}
+
+impl PlannerOptions {
+    /// The same with another value of [`cycle_s`](Self::cycle_s).
+    pub fn with_cycle_s(mut self, cycle_s: f64) -> Self {
+        self.cycle_s = cycle_s;
+        self
+    }
+
+    /// The same with another value of [`max_cycles`](Self::max_cycles).
+    pub fn with_max_cycles(mut self, max_cycles: u64) -> Self {
+        self.max_cycles = max_cycles;
+        self
+    }
+}
+
+impl Default for PlannerOptions {
+    /// Cycles of 1 ms (R5.1), and 100 million of them: more than a day.
+    fn default() -> Self {
+        Self {
+            cycle_s: 0.001,
+            max_cycles: 100_000_000,
+        }
+    }
+}
+
+/// Why a motion is left out whose start is not known.
+const UNKNOWN_START: &str = "the position of the axes before this motion is not known";
+
+/// Turns the rows of a session into the commanded trace of some axes.
+pub struct TrajectoryPlanner {
+    path: Rounding,
+    followed: Vec<AxisIndex>,
+    /// The name of each axis.
+    names: Vec<String>,
+    /// Whether each axis is X, Y or Z.
+    main: Arc<[bool]>,
+    /// Where the path ends, by axis; empty before it begins.
+    stand: Vec<Option<f64>>,
+    /// The same, to the last bit of the last segment.
+    end: Vec<f64>,
+    running: Running,
+    friction: Arc<[State]>,
+    version: Option<u64>,
+    /// The last block that moved something.
+    file: Arc<str>,
+    text: String,
+    line: u32,
+    /// Whether a motion was left out for another reason than its start.
+    has_lost: bool,
+    left_out: u64,
+    /// Those of them that are not known to be rapid.
+    left_out_feed: u64,
+    remarks: Remarks,
+}
+
+/// A difference, in mm or degrees, that rounding makes and no program.
+const NOTHING: f64 = 1e-9;
+
+/// Whether a straight motion goes nowhere.
+fn is_nothing(travel: &Travel, from: &[f64], to: &[f64]) -> bool {
+    let stays = from
+        .iter()
+        .zip(to)
+        .all(|(from, to)| (to - from).abs() < NOTHING);
+    stays && !matches!(travel.form, Form::Arc(_))
+}
+
+/// Whether the path is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Running {
+    /// It has not begun, or broke off.
+    No,
+    Yes,
+}
+
+/// Why a motion cannot be followed.
+enum Obstacle {
+    /// Where the axes stand before it is not known.
+    Start,
+    Reason(&'static str),
+}
+
+impl TrajectoryPlanner {
+    /// A planner for some axes of a machine, before the first block.
+    pub fn new(machine: &Machine, followed: &[AxisIndex], options: PlannerOptions) -> Self {
+        let limits = MachineLimits::of(machine, options.cycle_s);
+        let sampler = Sampler::new(followed, options.cycle_s, options.max_cycles);
+        let is_main = |axis: &Axis| matches!(axis.name.as_str(), "X" | "Y" | "Z");
+        let main: Arc<[bool]> = machine.axes.iter().map(is_main).collect();
+        Self {
+            path: Rounding::new(LookAhead::new(limits, sampler), Arc::clone(&main)),
+            followed: followed.to_vec(),
+            main,
+            stand: Vec::new(),
+            end: Vec::new(),
+            running: Running::No,
+            friction: Arc::new([]),
+            version: None,
+            file: Arc::from(""),
+            text: String::new(),
+            line: 0,
+            has_lost: false,
+            left_out: 0,
+            left_out_feed: 0,
+            remarks: Remarks::default(),
+            names: machine.axes.iter().map(|axis| axis.name.clone()).collect(),
+        }
+    }
+
+    /// Takes the next row of the session. `Break` when the trace is over.
+    pub fn block(&mut self, row: &Row<'_>, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        let Some(motion) = row.motion else {
+            return ControlFlow::Continue(());
+        };
+        let flow = match motion {
+            Motion::Travel(travel) => self.travel(row, travel, sink),
+            Motion::Dwell(seconds) => self.dwell(row, *seconds, sink),
+        };
+        self.text.clear();
+        self.text.push_str(row.text);
+        self.line = row.line;
+        self.check_budget();
+        flow
+    }
+
+    /// FC915 at the last block that moved something.
+    fn check_budget(&mut self) {
+        if self.path.look_ahead().is_over() {
+            let at = At {
+                file: &Arc::clone(&self.file),
+                text: &std::mem::take(&mut self.text),
+                line: self.line,
+            };
+            let remark = Remark {
+                code: Code::Fc915,
+                message: "the trace is longer than its budget and ends here",
+                help: Advice::RaiseBudget(Budget::Cycles),
+            };
+            self.remarks.say(&at, remark);
+        }
+    }
+
+    fn follows(&self, axis: usize) -> bool {
+        self.followed.iter().any(|followed| followed.get() == axis)
+    }
+
+    /// Follows the path to its end.
+    pub fn finish(&mut self, sink: &mut dyn TraceSink) -> ControlFlow<()> {
+        self.remarks.say_before();
+        self.running = Running::No;
+        let flow = self.path.stop(sink);
+        self.check_budget();
+        flow
+    }
+
+    /// What became of the transitions between feed moves.
+    pub fn transitions(&self) -> Transitions {
+        self.path.transitions()
+    }
+
+    /// How many motions the trace leaves out.
+    pub fn left_out(&self) -> u64 {
+        self.left_out
+    }
+
+    /// How many of them are not known to be rapid moves.
+    pub fn left_out_feed(&self) -> u64 {
+        self.left_out_feed
+    }
+
+    /// What there is to say about the motions, each once a place.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        self.remarks.diagnostics()
+    }
+
+    fn travel(
+        &mut self,
+        row: &Row<'_>,
+        travel: &Travel,
+        sink: &mut dyn TraceSink,
+    ) -> ControlFlow<()> {
+        let segment = self.segment(row, travel);
+        let segment = match segment {
+            Ok(segment) => segment,
+            Err(Obstacle::Start) if self.running == Running::No => {
+                self.note_before(row, travel);
+                self.leave_out(row, UNKNOWN_START, sink);
+                return ControlFlow::Continue(());
+            }
+            Err(Obstacle::Start) => return self.lose(row, UNKNOWN_START, sink),
+            Err(Obstacle::Reason(reason)) => return self.lose(row, reason, sink),
+        };
+        let Some(segment) = segment else {
+            if self.running == Running::Yes {
+                self.stand.clone_from(&travel.to);
+            }
+            return ControlFlow::Continue(());
+        };
+        if !row.modal.transformed.is_empty() {
+            let remark = Remark {
+                code: Code::Fc904,
+                message: "from here on the trace is that of the program, not of the machine: a \
+                          transformation is active",
+                help: "the axes of the machine move differently".into(),
+            };
+            self.remarks.say(&At::of(row), remark);
+        }
+        let jumped = self.stand.iter().zip(&travel.from);
+        if self.running == Running::Yes
+            && jumped
+                .into_iter()
+                .any(|(is, was)| was.is_some() && is != was)
+        {
+            self.path.stop(sink)?;
+            self.running = Running::No;
+        }
+        if self.running == Running::No {
+            self.remarks.say_before();
+            sink.begin(self.path.look_ahead().time_s(), &segment.cause)?;
+            self.running = Running::Yes;
+        }
+        self.stand.clone_from(&travel.to);
+        self.end.clear();
+        self.end.extend_from_slice(segment.ends());
+        self.path.add((segment, travel.contouring), sink)
+    }
+
+    fn dwell(
+        &mut self,
+        row: &Row<'_>,
+        seconds: Option<f64>,
+        sink: &mut dyn TraceSink,
+    ) -> ControlFlow<()> {
+        if self.running == Running::No {
+            return ControlFlow::Continue(());
+        }
+        match seconds {
+            Some(seconds) if seconds >= 0.0 && seconds.is_finite() => {
+                let dwell = Dwell {
+                    seconds,
+                    cause: &self.cause(row, Movement::Dwell),
+                };
+                self.path.rest(dwell, sink)
+            }
+            Some(_) => self.lose(row, "a dwell time must not be negative", sink),
+            None => self.lose(row, "the dwell time is not known", sink),
+        }
+    }
+
+    /// The path breaks off: it goes on after the next motion whose start is known.
+    fn lose(
+        &mut self,
+        row: &Row<'_>,
+        reason: &'static str,
+        sink: &mut dyn TraceSink,
+    ) -> ControlFlow<()> {
+        self.remarks.say_left_out(row, reason);
+        self.has_lost = true;
+        self.running = Running::No;
+        self.path.stop(sink)?;
+        self.leave_out(row, reason, sink);
+        ControlFlow::Continue(())
+    }
+
+    /// The segment of a motion; `None` where nothing moves.
+    fn segment(&mut self, row: &Row<'_>, travel: &Travel) -> Result<Option<Segment>, Obstacle> {
+        if let Form::Unknown(reason) = travel.form {
+            return Err(Obstacle::Reason(reason));
+        }
+        if self.unknown_at_start(travel).next().is_some() {
+            return Err(Obstacle::Start);
+        }
+        let feed = match travel.feed {
+            PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
+            PathFeed::PerMinute(feed) | PathFeed::Seconds(feed) | PathFeed::OfAxes(feed)
+                if feed <= 0.0 =>
+            {
+                return Err(Obstacle::Reason("F is not above 0"));
+            }
+            feed => feed,
+        };
+        let mut from = Vec::with_capacity(travel.from.len());
+        let mut to = Vec::with_capacity(travel.from.len());
+        for ends in travel.from.iter().zip(&travel.to) {
+            let (start, end) = match ends {
+                (Some(start), Some(end)) => (*start, *end),
+                (Some(_), None) => {
+                    return Err(Obstacle::Reason("its end is not known"));
+                }
+                // It does not move: where it stands does not matter.
+                (None, _) => (0.0, 0.0),
+            };
+            from.push(start);
+            to.push(end);
+        }
+        if self.running == Running::Yes {
+            // What was too short to be a motion is made up for by the next one.
+            for (start, end) in from.iter_mut().zip(&self.end) {
+                if (*start - end).abs() < SAME_PLACE {
+                    *start = *end;
+                }
+            }
+        }
+        if is_nothing(travel, &from, &to) {
+            return Ok(None);
+        }
+        let movement = match travel.form {
+            Form::Rapid => Movement::Rapid,
+            _ => Movement::Feed,
+        };
+        self.remarks.say_simplified(row, travel.simplified);
+        let cause = self.cause(row, movement);
+        let ends = Ends {
+            from: from.into(),
+            to: to.into(),
+            main: &self.main,
+        };
+        let segment = match &travel.form {
+            Form::Arc(arc) => Some(Segment::arc(ends, arc, cause).map_err(Obstacle::Reason)?),
+            _ => Segment::line(ends, cause),
+        };
+        let Some(mut segment) = segment else {
+            return Ok(None);
+        };
+        if !segment.length.is_finite() {
+            return Err(Obstacle::Reason("it is too long to compute"));
+        }
+        segment.feed = match feed {
+            PathFeed::PerMinute(feed) => feed / 60.0,
+            PathFeed::Seconds(seconds) => segment.length / seconds,
+            PathFeed::OfAxes(share) if share >= 1.0 => f64::INFINITY,
+            PathFeed::OfAxes(share) => self.path.look_ahead().fastest(&segment) * share,
+            PathFeed::Unknown(reason) => return Err(Obstacle::Reason(reason)),
+        };
+        segment.end = travel.end;
+        if let Some(feed) = travel.end_feed_per_min {
+            segment.end_velocity = feed / 60.0;
+        }
+        Ok(Some(segment))
+    }
+
+    fn cause(&mut self, row: &Row<'_>, movement: Movement) -> Arc<Cause> {
+        if self.version != Some(row.state.version) {
+            self.version = Some(row.state.version);
+            let axes = self.followed.iter();
+            self.friction = axes
+                .map(|&axis| row.state.state(axis, Kind::Frict))
+                .collect();
+        }
+        if *self.file != *row.file {
+            self.file = row.file.into();
+        }
+        Arc::new(Cause {
+            program: row.program,
+            seq: row.seq,
+            file: Arc::clone(&self.file),
+            line: row.line,
+            number: row.number,
+            movement,
+            frame: if row.modal.transformed.is_empty() {
+                PositionFrame::Machine
+            } else {
+                PositionFrame::Programmed
+            },
+            simplified: self.remarks.simplified(),
+            friction: Arc::clone(&self.friction),
+        })
+    }
+
+    /// A motion that is not part of the trace.
+    fn leave_out(&mut self, row: &Row<'_>, reason: &'static str, sink: &mut dyn TraceSink) {
+        self.left_out += 1;
+        let is_rapid =
+            matches!(row.motion, Some(Motion::Travel(travel)) if travel.form == Form::Rapid);
+        self.left_out_feed += u64::from(!is_rapid);
+        sink.left_out(&SkippedMotion {
+            time_s: self.path.look_ahead().time_s(),
+            file: row.file,
+            line: row.line,
+            number: row.number,
+            reason,
+        });
+    }
+
+    /// A motion before the trace begins. Once it has begun, what made it break off was said.
+    fn note_before(&mut self, row: &Row<'_>, travel: &Travel) {
+        if self.has_lost || !self.stand.is_empty() {
+            return;
+        }
+        let unknown = self.unknown_at_start(travel);
+        let names: Vec<String> = unknown.map(|axis| self.names[axis].clone()).collect();
+        self.remarks.note_before(row, names);
+    }
+
+    /// The axes that matter to a motion, and of which nobody knows where they stand before it.
+    fn unknown_at_start(&self, travel: &Travel) -> impl Iterator<Item = usize> {
+        let ends = travel.from.iter().zip(&travel.to).enumerate();
+        let matters = |axis, to: &Option<f64>| {
+            let moves = || travel.axes.iter().any(|moved| moved.get() == axis);
+            to.is_some() || self.follows(axis) || moves()
+        };
+        ends.filter(move |(axis, (from, to))| from.is_none() && matters(*axis, to))
+            .map(|(axis, _)| axis)
+    }
+}

@@ -1,0 +1,161 @@
+//! What there is to say about motions.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use frictcomp::diagnostic::{Advice, Code, Diagnostic};
+use frictcomp::interpreter::Simplifications;
+use frictcomp::text::{Place, Span};
+use frictcomp::timeline::Row;
+
+/// How many places are named.
+const MAX_NAMED: usize = 100;
+
+/// The place of a block.
+pub(super) struct At<'a> {
+    pub(super) file: &'a str,
+    pub(super) text: &'a str,
+    pub(super) line: u32,
+}
+
+impl<'a> At<'a> {
+    pub(super) fn of(row: &Row<'a>) -> Self {
+        Self {
+            file: row.file,
+            text: row.text,
+            line: row.line,
+        }
+    }
+
+    fn place(&self) -> Place {
+        Place {
+            file: self.file.into(),
+            text: self.text.into(),
+            first_line: self.line,
+            span: Span::new(0, self.text.len()),
+        }
+    }
+}
+
+/// Something to say about a block.
+pub(super) struct Remark<'a> {
+    pub(super) code: Code,
+    pub(super) message: &'a str,
+    pub(super) help: Advice,
+}
+
+/// What was said: the code, file and line of a block, and what of several things there.
+type Key = (Code, Arc<str>, u32, &'static str);
+
+/// What there is to say about motions, each once a place.
+#[derive(Default)]
+pub(super) struct Remarks {
+    diagnostics: Vec<Diagnostic>,
+    named: BTreeSet<Key>,
+    /// What the last motion was followed without.
+    simplified: Simplifications,
+    before: Option<BeforeTrace>,
+}
+
+/// The motions before the trace begins, because nobody knows where the axes stand.
+struct BeforeTrace {
+    /// The first of them.
+    place: Place,
+    count: u64,
+    /// The axes whose place at the start is not known.
+    axes: BTreeSet<String>,
+}
+
+impl Remarks {
+    pub(super) fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// What the last motion was followed without.
+    pub(super) fn simplified(&self) -> Simplifications {
+        self.simplified
+    }
+
+    /// A motion before the trace begins, and the axes whose place before it is not known. After a
+    /// change of the origin it would not help to know where they stood at the start.
+    pub(super) fn note_before(&mut self, row: &Row<'_>, unknown: Vec<String>) {
+        let before = self.before.get_or_insert_with(|| BeforeTrace {
+            place: At::of(row).place(),
+            count: 0,
+            axes: BTreeSet::new(),
+        });
+        before.count += 1;
+        if !row.modal.has_moved_origin() {
+            before.axes.extend(unknown);
+        }
+    }
+
+    /// FC906 at the first motion before the trace, which begins now or never.
+    pub(super) fn say_before(&mut self) {
+        let Some(before) = self.before.take() else {
+            return;
+        };
+        let left_out = match before.count {
+            1 => "the trace leaves out this motion".to_owned(),
+            count => format!("the trace leaves out {count} motions, of which this is the first"),
+        };
+        let names: Vec<String> = before.axes.into_iter().collect();
+        let (why, help) = match names.as_slice() {
+            [] => (
+                "the origin was moved by values of the machine".to_owned(),
+                Advice::CompleteMotion,
+            ),
+            names => {
+                let stand = if names.len() == 1 { "stands" } else { "stand" };
+                let all = names.join(", ");
+                (
+                    format!("where {all} {stand} at the start is not known"),
+                    Advice::GiveStart(names.to_vec()),
+                )
+            }
+        };
+        let message = format!("{left_out}: {why}");
+        let diagnostic = Diagnostic::new(Code::Fc906, before.place, message).with_help(help);
+        self.diagnostics.insert(0, diagnostic);
+    }
+
+    /// FC907 where something begins to hold that the trace does not follow in full.
+    pub(super) fn say_simplified(&mut self, row: &Row<'_>, holds: Simplifications) {
+        for what in holds.without(self.simplified).iter() {
+            let message = format!("the trace {}", what.instead());
+            let key = (Code::Fc907, Arc::from(row.file), row.line, what.name());
+            let remark = Remark {
+                code: Code::Fc907,
+                message: &message,
+                help: Advice::ReadPage(Code::Fc907),
+            };
+            self.say_once(key, &At::of(row), remark);
+        }
+        self.simplified = holds;
+    }
+
+    /// FC903: a motion is left out.
+    pub(super) fn say_left_out(&mut self, row: &Row<'_>, reason: &str) {
+        let message = format!("the trace leaves this motion out: {reason}");
+        let key = (Code::Fc903, Arc::from(row.file), row.line, "");
+        let remark = Remark {
+            code: Code::Fc903,
+            message: &message,
+            help: Advice::CompleteMotion,
+        };
+        self.say_once(key, &At::of(row), remark);
+    }
+
+    /// Something that holds for the rest of the program: only the first is said.
+    pub(super) fn say(&mut self, at: &At<'_>, remark: Remark<'_>) {
+        self.say_once((remark.code, Arc::from(""), 0, ""), at, remark);
+    }
+
+    fn say_once(&mut self, key: Key, at: &At<'_>, remark: Remark<'_>) {
+        if self.named.len() < MAX_NAMED && self.named.insert(key) {
+            let diagnostic = Diagnostic::new(remark.code, at.place(), remark.message);
+            let diagnostic = diagnostic.with_help(remark.help);
+            self.diagnostics.push(diagnostic);
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! One piece of the path: where the axes are after a distance, where they head, how they turn.
+
+use std::sync::Arc as Shared;
+
+use super::curve::Curve;
+use super::limits::AxisLimits;
+use super::profile::Bounds;
+use super::share::Share;
+use super::trace::Cause;
+use frictcomp::interpreter::{BlockEnd, CircularArc, SAME_PLACE};
+
+/// How much of the acceleration a circle may take for its own: the rest speeds up and slows down.
+const CIRCLE_ACCELERATION: f64 = 0.9;
+/// How much of the jerk a circle may take for its own.
+const CIRCLE_JERK: f64 = 0.7;
+/// How much of the jerk the change of path velocity on a circle may take across the path.
+const CROSS_JERK: f64 = 0.5;
+
+/// A slope smaller than this is the rounding of a sine.
+const NO_SLOPE: f64 = 1e-12;
+
+/// A piece of the path.
+#[derive(Debug, Clone)]
+pub(super) struct Segment {
+    from: Box<[f64]>,
+    to: Box<[f64]>,
+    shape: Shape,
+    /// The distance along the path that the feed refers to, in mm or degrees.
+    pub(super) length: f64,
+    /// The highest path velocity that the program asks for.
+    pub(super) feed: f64,
+    pub(super) end: BlockEnd,
+    /// The highest path velocity at its end.
+    pub(super) end_velocity: f64,
+    pub(super) cause: Shared<Cause>,
+}
+
+/// What a segment follows.
+#[derive(Debug, Clone)]
+enum Shape {
+    Line,
+    Arc(Circle),
+    Curve(Box<Curve>),
+}
+
+/// An arc in the plane of two axes.
+#[derive(Debug, Clone, Copy)]
+struct Circle {
+    axes: [usize; 2],
+    centre: [f64; 2],
+    radius: f64,
+    /// The angle at which it starts, against the first axis.
+    start: f64,
+    /// The angle that it runs through, positive against the clock.
+    sweep: f64,
+}
+
+/// Where a segment leads, by axis, and which axes the feed refers to.
+pub(super) struct Ends<'a> {
+    pub(super) from: Box<[f64]>,
+    pub(super) to: Box<[f64]>,
+    /// Whether each axis is a main axis (X Y Z, PM/207471243).
+    pub(super) main: &'a [bool],
+}
+
+impl Segment {
+    /// A straight segment; `None` where nothing moves.
+    pub(super) fn line(ends: Ends<'_>, cause: Shared<Cause>) -> Option<Self> {
+        let way = |main: bool| {
+            let axes = ends.from.iter().zip(&ends.to).zip(ends.main);
+            axes.filter(|(_, is_main)| **is_main == main)
+                .map(|((from, to), _)| to - from)
+                .fold(0.0, f64::hypot)
+        };
+        // Axes beside the main ones follow; moving alone, the feed is theirs.
+        let (main, beside) = (way(true), way(false));
+        let length = if main > SAME_PLACE || beside == 0.0 {
+            main
+        } else {
+            beside
+        };
+        if length == 0.0 {
+            return None;
+        }
+        Some(Self::new(ends, Shape::Line, length, cause))
+    }
+
+    /// An arc or a helix.
+    ///
+    /// # Errors
+    /// What keeps the ends and the centre from making an arc.
+    pub(super) fn arc(
+        ends: Ends<'_>,
+        arc: &CircularArc,
+        cause: Shared<Cause>,
+    ) -> Result<Self, &'static str> {
+        let axes = arc.axes.map(frictcomp::comp::AxisIndex::get);
+        let circle = Circle::new(axes, &ends.from, &ends.to, arc)?;
+        let depth = (0..ends.from.len())
+            .filter(|axis| ends.main[*axis] && !axes.contains(axis))
+            .map(|axis| ends.to[axis] - ends.from[axis])
+            .fold(0.0, f64::hypot);
+        let length = (circle.radius * circle.sweep).hypot(depth);
+        Ok(Self::new(ends, Shape::Arc(circle), length, cause))
+    }
+
+    /// The same block along other lines: from one place to another, straight.
+    pub(super) fn moved(&self, from: &[f64], to: &[f64], main: &[bool]) -> Option<Self> {
+        let ends = Ends {
+            from: from.into(),
+            to: to.into(),
+            main,
+        };
+        let line = Self::line(ends, Shared::clone(&self.cause))?;
+        Some(line.paced_as(self))
+    }
+
+    /// The same block along the span of a B-spline with these control points.
+    pub(super) fn curved(&self, points: [&[f64]; 4], main: &[bool]) -> Option<Self> {
+        let curve = Curve::new(points, main)?;
+        let place = |along| {
+            let still = points[1];
+            (0..still.len())
+                .map(|axis| curve.position(axis, along).unwrap_or(still[axis]))
+                .collect()
+        };
+        let ends = Ends {
+            from: place(curve.after(0.0)),
+            to: place(curve.after(curve.length())),
+            main,
+        };
+        let length = curve.length();
+        let shape = Shape::Curve(Box::new(curve));
+        Some(Self::new(ends, shape, length, Shared::clone(&self.cause)).paced_as(self))
+    }
+
+    fn paced_as(self, block: &Self) -> Self {
+        Self {
+            feed: block.feed,
+            end: block.end,
+            end_velocity: block.end_velocity,
+            ..self
+        }
+    }
+
+    /// Whether it is straight.
+    pub(super) fn is_straight(&self) -> bool {
+        matches!(self.shape, Shape::Line)
+    }
+
+    /// The arc that it is.
+    fn circle(&self) -> Option<&Circle> {
+        match &self.shape {
+            Shape::Arc(circle) => Some(circle),
+            _ => None,
+        }
+    }
+
+    fn new(ends: Ends<'_>, shape: Shape, length: f64, cause: Shared<Cause>) -> Self {
+        Self {
+            from: ends.from,
+            to: ends.to,
+            shape,
+            length,
+            feed: f64::INFINITY,
+            end: BlockEnd::Through,
+            end_velocity: f64::INFINITY,
+            cause,
+        }
+    }
+
+    /// The path velocity at which one axis moves at its limit, and none beyond.
+    pub(super) fn fastest(&self, limits: &[AxisLimits]) -> f64 {
+        let open = Self {
+            feed: f64::INFINITY,
+            ..self.clone()
+        };
+        open.bounds(limits, Share::Whole).velocity
+    }
+
+    /// Where the axes are at its start.
+    pub(super) fn starts(&self) -> &[f64] {
+        &self.from
+    }
+
+    /// Where the axes are at its end.
+    pub(super) fn ends(&self) -> &[f64] {
+        &self.to
+    }
+
+    /// How many axes there are.
+    pub(super) fn axes(&self) -> usize {
+        self.from.len()
+    }
+
+    /// Where an axis is after a distance along the segment, and its slope there.
+    pub(super) fn place(&self, axis: usize, distance: f64) -> [f64; 2] {
+        if let Shape::Curve(curve) = &self.shape
+            && distance > 0.0
+            && distance < self.length
+        {
+            let along = curve.after(distance);
+            let [slope, _] = curve.shape(axis, along);
+            let position = curve.position(axis, along).unwrap_or(self.from[axis]);
+            return [position, slope];
+        }
+        [self.position(axis, distance), self.slope(axis, distance)]
+    }
+
+    /// Where an axis is after a distance along the segment; exact at both ends.
+    pub(super) fn position(&self, axis: usize, distance: f64) -> f64 {
+        if distance <= 0.0 {
+            return self.from[axis];
+        }
+        if distance >= self.length {
+            return self.to[axis];
+        }
+        if let Shape::Curve(curve) = &self.shape {
+            let along = curve.after(distance);
+            return curve.position(axis, along).unwrap_or(self.from[axis]);
+        }
+        let part = distance / self.length;
+        match self.circle() {
+            Some(circle) if circle.axes.contains(&axis) => {
+                let (along, across) = circle.direction(part);
+                let (centre, share) = if axis == circle.axes[0] {
+                    (circle.centre[0], along)
+                } else {
+                    (circle.centre[1], across)
+                };
+                centre + circle.radius * share
+            }
+            _ => self.from[axis] + (self.to[axis] - self.from[axis]) * part,
+        }
+    }
+
+    /// The change of the position of an axis with the distance, `dx/ds`, after a distance.
+    pub(super) fn slope(&self, axis: usize, distance: f64) -> f64 {
+        let slope = match &self.shape {
+            Shape::Curve(curve) => curve.shape(axis, curve.after(distance))[0],
+            Shape::Arc(circle) if circle.axes.contains(&axis) => {
+                let (along, across) = circle.direction(distance / self.length);
+                let turn = circle.radius * circle.sweep / self.length;
+                if axis == circle.axes[0] {
+                    -across * turn
+                } else {
+                    along * turn
+                }
+            }
+            _ => (self.to[axis] - self.from[axis]) / self.length,
+        };
+        if slope.abs() < NO_SLOPE { 0.0 } else { slope }
+    }
+
+    /// The change of the slope of an axis with the distance, `d²x/ds²`.
+    pub(super) fn bend(&self, axis: usize, distance: f64) -> f64 {
+        match &self.shape {
+            Shape::Curve(curve) => curve.shape(axis, curve.after(distance))[1],
+            Shape::Arc(circle) if circle.axes.contains(&axis) => {
+                let (along, across) = circle.direction(distance / self.length);
+                let turn = circle.sweep / self.length;
+                let share = if axis == circle.axes[0] {
+                    along
+                } else {
+                    across
+                };
+                -share * circle.radius * turn * turn
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// What the limits of the axes leave along this segment (R5.2, R5.3). Along a circle position,
+    /// acceleration and jerk of the plane's axes are those of `r(φ)`: `v²/r` and `3va/r` across the
+    /// path, `a` and `j - v³/r²` along it.
+    pub(super) fn bounds(&self, limits: &[AxisLimits], share: Share) -> Bounds {
+        let mut bounds = Bounds {
+            velocity: self.feed,
+            acceleration: f64::INFINITY,
+            jerk: f64::INFINITY,
+            curve_jerk: f64::INFINITY,
+        };
+        if let Shape::Curve(curve) = &self.shape {
+            curve.restrict(&mut bounds, (limits, share));
+            return bounds;
+        }
+        for (axis, limits) in limits.iter().enumerate() {
+            let straight = self
+                .circle()
+                .is_none_or(|circle| !circle.axes.contains(&axis));
+            let slope = ((self.to[axis] - self.from[axis]) / self.length).abs();
+            if straight && slope > 0.0 {
+                let limits = share.of(limits);
+                bounds.velocity = bounds.velocity.min(limits.velocity / slope);
+                bounds.acceleration = bounds.acceleration.min(limits.acceleration / slope);
+                bounds.jerk = bounds.jerk.min(limits.jerk / slope);
+            }
+        }
+        if let Some(circle) = self.circle() {
+            let [one, two] = circle.axes.map(|axis| share.of(&limits[axis]));
+            let plane = Bounds {
+                velocity: one.velocity.min(two.velocity),
+                acceleration: one.acceleration.min(two.acceleration),
+                jerk: one.jerk.min(two.jerk),
+                curve_jerk: one.curve_jerk.min(two.curve_jerk),
+            };
+            circle.restrict(&mut bounds, plane, self.length);
+        }
+        bounds
+    }
+}
+
+impl Circle {
+    fn new(
+        axes: [usize; 2],
+        from: &[f64],
+        to: &[f64],
+        arc: &CircularArc,
+    ) -> Result<Self, &'static str> {
+        let places = [from, to].map(|places| axes.map(|axis| places[axis]));
+        let shape = arc.between(places)?;
+        Ok(Self {
+            axes,
+            centre: shape.centre,
+            radius: shape.radius,
+            start: shape.start,
+            sweep: shape.sweep,
+        })
+    }
+
+    /// Cosine and sine of the angle after a part of the arc.
+    fn direction(&self, part: f64) -> (f64, f64) {
+        let (sine, cosine) = (self.start + self.sweep * part).sin_cos();
+        (cosine, sine)
+    }
+
+    /// What the axes of the plane leave along the path.
+    fn restrict(&self, bounds: &mut Bounds, plane: Bounds, length: f64) {
+        // The part of the path velocity that lies in the plane; all of it without a helix.
+        let flat = self.radius * self.sweep.abs() / length;
+        let radius = self.radius;
+        let velocity = (bounds.velocity * flat)
+            .min(plane.velocity)
+            .min((CIRCLE_ACCELERATION * plane.acceleration * radius).sqrt())
+            .min((CIRCLE_JERK * plane.curve_jerk * radius * radius).cbrt());
+        let across = velocity * velocity / radius;
+        let acceleration = (plane.acceleration * plane.acceleration - across * across)
+            .sqrt()
+            .min(CROSS_JERK * plane.jerk * radius / (3.0 * velocity));
+        let jerk = plane.jerk * (1.0 - CROSS_JERK * CROSS_JERK).sqrt()
+            - velocity.powi(3) / (radius * radius);
+        let jerk = jerk.max(plane.jerk * (1.0 - CIRCLE_JERK) / 2.0);
+        bounds.velocity = velocity / flat;
+        bounds.acceleration = bounds.acceleration.min(acceleration / flat);
+        bounds.jerk = bounds.jerk.min(jerk / flat);
+    }
+}

@@ -1,0 +1,107 @@
+//! The commanded trace, and who takes it.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use frictcomp::comp::State;
+use frictcomp::interpreter::{PositionFrame, Simplifications};
+
+/// The block that a piece of the path comes from, and what holds while it is followed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cause {
+    /// The program of the session, from 1.
+    pub program: u32,
+    /// The executed block of its program, from 1.
+    pub seq: u64,
+    /// Path of the file, as it is shown.
+    pub file: Arc<str>,
+    /// The line on which the block starts, from 1.
+    pub line: u32,
+    /// The block number, where it is known.
+    pub number: Option<i64>,
+    /// How the axes move.
+    pub movement: Movement,
+    /// Whether positions are those of the machine (R5.4).
+    pub frame: PositionFrame,
+    /// What the control does to the path or its velocity and the trace does not.
+    pub simplified: Simplifications,
+    /// The friction compensation of each followed axis.
+    pub friction: Arc<[State]>,
+}
+
+/// How the axes move along a piece of the path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Movement {
+    /// As fast as they can, G00.
+    Rapid,
+    /// At a feed, G01, G02, G03.
+    Feed,
+    /// They rest for a time, G04.
+    Dwell,
+}
+
+impl Movement {
+    /// The word of the records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Rapid => "rapid",
+            Self::Feed => "feed",
+            Self::Dwell => "dwell",
+        }
+    }
+}
+
+/// The commanded trace in one CNC cycle (R5.1).
+#[derive(Debug, Clone, Copy)]
+pub struct Sample<'a> {
+    /// Time since the first cycle.
+    pub time_s: f64,
+    /// Where each followed axis is commanded to be, in mm or degrees.
+    pub positions: &'a [f64],
+    /// How fast each followed axis is commanded to move, in mm or degrees per second.
+    pub velocities: &'a [f64],
+    /// How fast the path is followed, in mm/s, or °/s where the feed is that of rotary axes.
+    pub path_velocity: f64,
+    /// The path velocity that the program asks for in the same units, infinite in a rapid motion.
+    pub programmed_velocity: f64,
+    /// The block that is followed.
+    pub cause: &'a Arc<Cause>,
+}
+
+/// A motion that the trace leaves out, because where it leads or how fast is not known.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct SkippedMotion<'a> {
+    /// The time of the trace at which it would begin.
+    pub time_s: f64,
+    /// Path of the file, as it is shown.
+    pub file: &'a str,
+    /// The line of the block, from 1.
+    pub line: u32,
+    /// The block number, where it is known.
+    pub number: Option<i64>,
+    /// Why, in lower case.
+    pub reason: &'static str,
+}
+
+/// A stay where the path ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dwell<'a> {
+    pub(super) seconds: f64,
+    pub(super) cause: &'a Arc<Cause>,
+}
+
+/// Takes a commanded trace.
+pub trait TraceSink {
+    /// The trace begins, or begins anew after something that is not known. The axes stand still.
+    fn begin(&mut self, time_s: f64, cause: &Arc<Cause>) -> ControlFlow<()>;
+
+    /// Takes the next cycle; `Break` ends the trace.
+    fn sample(&mut self, sample: &Sample<'_>) -> ControlFlow<()>;
+
+    /// The trace leaves a motion out. The motions before it have been followed.
+    fn left_out(&mut self, motion: &SkippedMotion<'_>) {
+        let _ = motion;
+    }
+}

@@ -1,0 +1,240 @@
+//! A plant file: TOML with the symbols of the equations, in SI units.
+
+use std::sync::Arc;
+
+use toml::de::DeTable;
+
+use super::plant_keys::{self as keys, Facts, Quantity, StictionKey};
+use frictcomp::config::{ConfigError, Section, Shape};
+use frictcomp::diagnostic::Advice;
+use frictcomp::lists::{Given, Number, Written};
+use frictcomp::text::{SourceFile, Span};
+
+/// What a plant file says.
+#[derive(Debug, Clone)]
+pub(super) struct PlantFile {
+    /// What the plant is called.
+    pub(super) name: Option<String>,
+    /// The plant that gives the missing values.
+    pub(super) base: Option<Given<String>>,
+    /// What holds for both axes.
+    pub(super) both: DriveTable,
+    /// What holds for X and for Y.
+    pub(super) axes: [Option<DriveTable>; 2],
+}
+
+/// The values of a drive that a table has, each within its range.
+#[derive(Debug, Clone)]
+pub(super) struct DriveTable {
+    numbers: Vec<(Quantity, Given<f64>)>,
+    /// How fast elements that slip follow the friction.
+    pub(super) attraction: Option<f64>,
+    /// The share and the stiffness in N/m of each element of the Maxwell-slip model.
+    pub(super) elements: Option<Vec<[f64; 2]>>,
+    /// Stiction compensation.
+    pub(super) stiction: Option<StictionTable>,
+    whole: Given<()>,
+}
+
+/// The values of a table `[stiction]`, each within its range.
+#[derive(Debug, Clone)]
+pub(super) struct StictionTable {
+    numbers: Vec<(StictionKey, Given<f64>)>,
+}
+
+/// The whole file.
+const PLANT: Shape = Shape {
+    name: "plant",
+    keys: Some(&keys::FILE_KEYS),
+};
+
+/// The tables `[x]` and `[y]`.
+const AXIS: Shape = Shape {
+    name: "[x] and [y]",
+    keys: Some(&keys::AXIS_KEYS),
+};
+
+/// The tables `[stiction]`, `[x.stiction]` and `[y.stiction]`.
+const STICTION: Shape = Shape {
+    name: "[stiction]",
+    keys: Some(&keys::STICTION_KEYS),
+};
+
+/// Elements of the Maxwell-slip model at most.
+const MAX_ELEMENTS: usize = 20;
+
+impl PlantFile {
+    /// What the file says. What the values must be to each other is not looked at.
+    pub(super) fn parse(source: &Arc<SourceFile>) -> Result<Self, ConfigError> {
+        let parsed = DeTable::parse(source.text()).map_err(|error| {
+            let span = error.span().unwrap_or_default();
+            let message = error.message().lines().collect::<Vec<_>>().join(", ");
+            ConfigError::new(source, Span::new(span.start, span.end), message)
+        })?;
+        let root = Section::new(parsed.get_ref(), source, &PLANT)?;
+        let one = |key: &str| match root.table(key, &AXIS)? {
+            Some(table) => DriveTable::read(&table).map(Some),
+            None => Ok(None),
+        };
+        let base = root.string(keys::BASE)?;
+        let both = DriveTable::read(&root)?;
+        let name = root.string(keys::NAME)?.map(|given| given.value);
+        let [x, y] = keys::AXES.map(one);
+        Ok(Self {
+            name,
+            base,
+            both,
+            axes: [x?, y?],
+        })
+    }
+}
+
+impl DriveTable {
+    fn read(table: &Section<'_>) -> Result<Self, ConfigError> {
+        let mut numbers = Vec::new();
+        for quantity in Quantity::ALL {
+            let help = match quantity {
+                Quantity::Backlash => "backlash is the width of the dead zone, 0 without one",
+                _ => "all values are in SI units: kg, N, m, s",
+            };
+            if let Some(number) = number(table, &quantity.facts(), help)? {
+                numbers.push((quantity, number));
+            }
+        }
+        let read = Self {
+            numbers,
+            attraction: table.positive(keys::ATTRACTION)?,
+            elements: elements(table)?,
+            stiction: match table.table(keys::STICTION, &STICTION)? {
+                Some(table) => Some(StictionTable::read(&table)?),
+                None => None,
+            },
+            whole: table.whole(),
+        };
+        let either = [Quantity::RatedForce, Quantity::ForcePerUnit];
+        if either
+            .iter()
+            .all(|&quantity| read.number(quantity).is_some())
+        {
+            let message = "`k_I` and `rated_force` mean the same".to_owned();
+            let help = "`k_I` is `rated_force` / 1000; remove one of them";
+            return Err(read.refuse(Quantity::ForcePerUnit, message, help));
+        }
+        Ok(read)
+    }
+
+    /// The numbers of the table.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (Quantity, f64)> {
+        self.numbers
+            .iter()
+            .map(|(quantity, given)| (*quantity, given.value))
+    }
+
+    /// A number of the table.
+    pub(super) fn number(&self, quantity: Quantity) -> Option<f64> {
+        self.numbers()
+            .find_map(|(other, number)| (other == quantity).then_some(number))
+    }
+
+    /// The error about a number, at its place, or at the table without it.
+    pub(super) fn refuse(
+        &self,
+        quantity: Quantity,
+        message: String,
+        help: impl Into<Advice>,
+    ) -> ConfigError {
+        let mut numbers = self.numbers.iter();
+        let place = numbers.find_map(|(other, given)| (*other == quantity).then(|| given.with(())));
+        ConfigError::at(place.as_ref().unwrap_or(&self.whole), message).with_help(help)
+    }
+}
+
+impl StictionTable {
+    fn read(table: &Section<'_>) -> Result<Self, ConfigError> {
+        let mut numbers = Vec::new();
+        for key in StictionKey::ALL {
+            let help = "the units are those of the manual: µs, counting steps, µm, m/min";
+            if let Some(number) = number(table, &key.facts(), help)? {
+                numbers.push((key, number));
+            }
+        }
+        Ok(Self { numbers })
+    }
+
+    /// The numbers of the table with their places.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (StictionKey, &Given<f64>)> {
+        self.numbers.iter().map(|(key, given)| (*key, given))
+    }
+}
+
+/// The number of a key within its range; `None` without the key.
+fn number(
+    table: &Section<'_>,
+    facts: &Facts,
+    help: &'static str,
+) -> Result<Option<Given<f64>>, ConfigError> {
+    let Facts { key, unit, range } = *facts;
+    let Some(place) = table.given(key) else {
+        return Ok(None);
+    };
+    let [least, most] = range;
+    let Some(number) = table.number(key).and_then(|given| value(&given)) else {
+        let unit = match unit {
+            "" => String::new(),
+            unit => format!(" in {unit}"),
+        };
+        return Err(ConfigError::at(
+            &place,
+            format!("`{key}` is a number{unit}"),
+        ));
+    };
+    if (least..=most).contains(&number) {
+        return Ok(Some(place.with(number)));
+    }
+    let shown = if number.abs() < 1e15 {
+        number.to_string()
+    } else {
+        format!("{number:e}")
+    };
+    let unit = match unit {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let message = format!("`{key}` is {shown}{unit}; it must be between {least} and {most}");
+    Err(ConfigError::at(&place, message).with_help(help))
+}
+
+fn value(given: &Given<Written>) -> Option<f64> {
+    given.value.number.map(Number::to_f64)
+}
+
+/// `gms = [[share, stiffness], …]`, stiffnesses in N/m.
+fn elements(table: &Section<'_>) -> Result<Option<Vec<[f64; 2]>>, ConfigError> {
+    let Some(pairs) = table.number_pairs(keys::ELEMENTS)? else {
+        return Ok(None);
+    };
+    let place = table.given(keys::ELEMENTS).unwrap_or_else(|| table.whole());
+    if pairs.is_empty() || pairs.len() > MAX_ELEMENTS {
+        let message = format!(
+            "`gms` has {} elements; it takes 1 to {MAX_ELEMENTS}",
+            pairs.len()
+        );
+        return Err(ConfigError::at(&place, message));
+    }
+    let mut elements = Vec::new();
+    for [share, stiffness] in &pairs {
+        let share = value(share).filter(|share| (0.0..=1.0).contains(share));
+        let stiffness = value(stiffness).filter(|stiffness| (1.0..=1e12).contains(stiffness));
+        let (Some(share), Some(stiffness)) = (share, stiffness) else {
+            let message = "an element of `gms` is `[share, stiffness]`: 0 to 1, and 1 to 1e12 N/m";
+            return Err(ConfigError::at(&place, message));
+        };
+        elements.push([share, stiffness]);
+    }
+    let sum: f64 = elements.iter().map(|[share, _]| share).sum();
+    if (sum - 1.0).abs() > 1e-6 {
+        let message = format!("the shares of `gms` add up to {sum}");
+        return Err(ConfigError::at(&place, message).with_help("they must add up to 1"));
+    }
+    Ok(Some(elements))
+}

@@ -1,0 +1,182 @@
+//! The keys of a plant file, each once, with its unit and its range.
+
+/// A key whose value is one number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// The moved mass; the gain of the speed loop and the damping of the contact follow from it.
+    Mass,
+    PositionGain,
+    SpeedGain,
+    IntegralTime,
+    CurrentTime,
+    VelocityForward,
+    AccelerationForward,
+    /// The force of a drive unit, in place of the rated force.
+    ForcePerUnit,
+    /// The rated force; the force of a drive unit and the largest force follow from it.
+    RatedForce,
+    MaxForce,
+    Coulomb,
+    Breakaway,
+    StribeckVelocity,
+    Viscous,
+    StribeckShape,
+    /// The stiffness of the contact; its damping and its elements follow from it.
+    Stiffness,
+    Damping,
+    DampingVelocity,
+    /// The dead zone between motor and load.
+    Backlash,
+}
+
+/// A key of `[stiction]`, whose value is one number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum StictionKey {
+    /// MP1511, the factor.
+    Factor,
+    /// MP1512, the limit in counting steps.
+    Limit,
+    /// The grating period of the encoder.
+    GratingPeriod,
+    /// The control loop cycle.
+    Cycle,
+    /// MP1513, the feed up to which it acts.
+    Feed,
+}
+
+/// What is to be known about a key.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Facts {
+    /// The symbol of the equations.
+    pub(super) key: &'static str,
+    /// Its unit, empty where it has none; except in `[stiction]` and for backlash those of SI.
+    pub(super) unit: &'static str,
+    /// The smallest and the largest value that are accepted. The ranges are wide; they are there
+    /// against wrong units and against values that the step of the simulation could not follow.
+    pub(super) range: [f64; 2],
+}
+
+impl Quantity {
+    pub(super) const ALL: [Self; 19] = [
+        Self::Mass,
+        Self::PositionGain,
+        Self::SpeedGain,
+        Self::IntegralTime,
+        Self::CurrentTime,
+        Self::VelocityForward,
+        Self::AccelerationForward,
+        Self::ForcePerUnit,
+        Self::RatedForce,
+        Self::MaxForce,
+        Self::Coulomb,
+        Self::Breakaway,
+        Self::StribeckVelocity,
+        Self::Viscous,
+        Self::StribeckShape,
+        Self::Stiffness,
+        Self::Damping,
+        Self::DampingVelocity,
+        Self::Backlash,
+    ];
+
+    pub(super) const fn facts(self) -> Facts {
+        let (key, unit, range) = match self {
+            Self::Mass => ("m", "kg", [0.01, 1e6]),
+            Self::PositionGain => ("Kv", "1/s", [0.1, 2000.0]),
+            Self::SpeedGain => ("Kp", "N·s/m", [0.1, 1e10]),
+            Self::IntegralTime => ("Ti", "s", [1e-4, 1e6]),
+            Self::CurrentTime => ("Tt", "s", [1e-5, 0.1]),
+            Self::VelocityForward => ("k_ff", "", [0.0, 2.0]),
+            Self::AccelerationForward => ("k_a", "", [0.0, 2.0]),
+            Self::ForcePerUnit => ("k_I", "N per drive unit", [-1e6, 1e6]),
+            Self::RatedForce => ("rated_force", "N", [0.01, 1e7]),
+            Self::MaxForce => ("max_force", "N", [0.01, 1e8]),
+            Self::Coulomb => ("Fc", "N", [0.0, 1e7]),
+            Self::Breakaway => ("Fs", "N", [0.0, 1e7]),
+            Self::StribeckVelocity => ("vs", "m/s", [1e-6, 1.0]),
+            Self::Viscous => ("fv", "N·s/m", [0.0, 1e8]),
+            Self::StribeckShape => ("delta", "", [0.1, 10.0]),
+            Self::Stiffness => ("sigma0", "N/m", [1e3, 1e12]),
+            Self::Damping => ("sigma1", "N·s/m", [0.0, 1e10]),
+            Self::DampingVelocity => ("vd", "m/s", [1e-6, 10.0]),
+            Self::Backlash => ("backlash_um", "µm", [0.0, 1000.0]),
+        };
+        Facts { key, unit, range }
+    }
+}
+
+impl StictionKey {
+    pub(super) const ALL: [Self; 5] = [
+        Self::Factor,
+        Self::Limit,
+        Self::GratingPeriod,
+        Self::Cycle,
+        Self::Feed,
+    ];
+
+    /// The units are those of the manual; only MP1511 has a documented range (R8.3).
+    pub(super) const fn facts(self) -> Facts {
+        let (key, unit, range) = match self {
+            Self::Factor => ("mp1511", "µs", [0.0, 16_777_215.0]),
+            Self::Limit => ("mp1512", "counting steps", [0.0, 1e6]),
+            Self::GratingPeriod => ("gp", "µm", [1e-3, 1e4]),
+            Self::Cycle => ("tc", "µs", [250.0, 1e5]),
+            Self::Feed => ("mp1513", "m/min", [0.0, 1000.0]),
+        };
+        Facts { key, unit, range }
+    }
+}
+
+/// The elements of the Maxwell-slip model.
+pub(super) const ELEMENTS: &str = "gms";
+/// How fast those that slip follow the friction.
+pub(super) const ATTRACTION: &str = "gms_C";
+
+/// The table of stiction compensation.
+pub(super) const STICTION: &str = "stiction";
+
+/// What the plant is called in reports.
+pub(super) const NAME: &str = "name";
+/// The plant that gives the missing values.
+pub(super) const BASE: &str = "base";
+/// The table of each axis.
+pub(super) const AXES: [&str; 2] = ["x", "y"];
+
+const COUNT: usize = Quantity::ALL.len() + 3;
+
+/// The keys of `[x]` and `[y]`.
+pub(super) const AXIS_KEYS: [&str; COUNT] = {
+    let mut keys = [""; COUNT];
+    let mut at = 0;
+    while at < Quantity::ALL.len() {
+        keys[at] = Quantity::ALL[at].facts().key;
+        at += 1;
+    }
+    keys[COUNT - 3] = ELEMENTS;
+    keys[COUNT - 2] = ATTRACTION;
+    keys[COUNT - 1] = STICTION;
+    keys
+};
+
+/// The keys of `[stiction]`.
+pub(super) const STICTION_KEYS: [&str; StictionKey::ALL.len()] = {
+    let mut keys = [""; StictionKey::ALL.len()];
+    let mut at = 0;
+    while at < keys.len() {
+        keys[at] = StictionKey::ALL[at].facts().key;
+        at += 1;
+    }
+    keys
+};
+
+/// The keys at the top of the file: its own, and for both axes those of one.
+pub(super) const FILE_KEYS: [&str; COUNT + 4] = {
+    let mut keys = [""; COUNT + 4];
+    [keys[0], keys[1], keys[2], keys[3]] = [NAME, BASE, AXES[0], AXES[1]];
+    let mut at = 0;
+    while at < COUNT {
+        keys[at + 4] = AXIS_KEYS[at];
+        at += 1;
+    }
+    keys
+};

@@ -1,0 +1,36 @@
+//! What the control accepts as MP1511, and what the manual recommends (R8.3).
+
+use std::ops::RangeInclusive;
+
+use serde::Serialize;
+
+/// MP1511 as the control takes it, in µs.
+pub const MP1511_RANGE_US: RangeInclusive<f64> = 0.0..=16_777_215.0;
+
+/// MP1511 as the manual recommends it, in µs.
+pub const MP1511_GUIDELINE_US: RangeInclusive<f64> = 5000.0..=10_000.0;
+
+/// MP1512 stays below this many counting steps, or the axis oscillates at standstill.
+pub const MP1512_GUIDELINE: f64 = 50.0;
+
+/// A guideline of the manual that a value does not keep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub enum Guideline {
+    /// MP1511 is outside 5000 to 10 000 µs.
+    Mp1511,
+    /// MP1512 is 50 or more: the axis may oscillate at standstill.
+    Mp1512,
+}
+
+/// The guidelines that the values which are known do not keep.
+pub(super) fn not_kept(mp1511_us: Option<f64>, mp1512: Option<f64>) -> Vec<Guideline> {
+    let factor = mp1511_us.filter(|it| !MP1511_GUIDELINE_US.contains(it));
+    let limit = mp1512.filter(|it| *it >= MP1512_GUIDELINE);
+    let found = [
+        factor.map(|_| Guideline::Mp1511),
+        limit.map(|_| Guideline::Mp1512),
+    ];
+    found.into_iter().flatten().collect()
+}

@@ -1,0 +1,213 @@
+//! Friction from recorded circles: no constant speeds, but every speed in both directions (R6.19).
+
+use super::curve::solve_linear;
+use super::doubts;
+use super::finding::TraceFinding;
+use super::identified::IdentifyError;
+use super::measured::Measured;
+use super::statistics::{count, moving_average, samples_in};
+use super::track::{Samples, Track, TrackError};
+use frictcomp::lists::{DEFAULT_MAX_POINTS, FrictionList, TablePoint};
+
+/// What circles say about friction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnCircles {
+    /// Speeds in mm/s with the friction there in drive units, slowest first.
+    pub points: Vec<[f64; 2]>,
+    /// Torque of an acceleration of 1 mm/s², in drive units.
+    pub inertia: f64,
+    /// What is the same in both directions.
+    pub offset: f64,
+    /// Speeds in mm/s that had too few samples and are left out.
+    pub left_out: Vec<f64>,
+    /// What is wrong with the recordings.
+    pub findings: Vec<TraceFinding>,
+}
+
+impl OnCircles {
+    /// The value list: the points, the first one held down to standstill.
+    pub fn list(&self) -> FrictionList {
+        let held = self.points.first().map(|point| [0.0, point[1]]);
+        let points = held.into_iter().chain(self.points.iter().copied());
+        FrictionList {
+            position_delay: 0,
+            reversal_lookahead: 0,
+            scaling_factor: 1000,
+            delay_cycles: 0,
+            max_points: DEFAULT_MAX_POINTS,
+            table: points
+                .map(|[speed, friction]| TablePoint {
+                    input: (speed * 1000.0).round(),
+                    output: friction,
+                })
+                .collect(),
+        }
+    }
+}
+
+/// Speeds of points, at most so many.
+const POINTS: u32 = 10;
+
+/// The slowest point in mm/s.
+const SLOWEST: f64 = 0.5;
+
+/// So far after a reversal, in mm, the contact is still winding up.
+const WINDING: f64 = 0.05;
+
+/// And so long, in s, the loops still answer to it.
+const SETTLING_S: f64 = 0.05;
+
+/// A point with fewer samples is left out.
+const FEWEST: f64 = 200.0;
+
+/// The same as [`identify_measured_circles`] of the actual torque in drive units.
+///
+/// # Errors
+/// The recordings cannot be used.
+pub fn identify_circles(tracks: &[Track]) -> Result<OnCircles, IdentifyError> {
+    identify_measured_circles(tracks, &Measured::default())
+}
+
+/// Torque is the friction of the direction at points of the speed, linear in between, an inertia
+/// times the acceleration, and an offset: their least squares over all circles.
+///
+/// # Errors
+/// The recordings cannot be used, or are not what they seem.
+pub fn identify_measured_circles(
+    tracks: &[Track],
+    measured: &Measured,
+) -> Result<OnCircles, IdentifyError> {
+    let compensation = doubts::check_compensation(measured)?;
+    let mut findings: Vec<TraceFinding> = compensation.into_iter().collect();
+    let mut rows = Rows::default();
+    let mut fastest = 0.0_f64;
+    let mut circles = Vec::new();
+    for track in tracks {
+        let samples = Samples::new(track)?;
+        let smooth = moving_average(&samples.velocities, samples_in(0.005, samples.step_s));
+        fastest = smooth.iter().fold(fastest, |most, v| most.max(v.abs()));
+        doubts::check_directions(&samples, &[])?;
+        findings.extend(doubts::missing_rows(&samples.times_s, samples.step_s));
+        circles.push((samples, smooth));
+    }
+    if fastest < 2.0 * SLOWEST {
+        return Err(IdentifyError::NoSegments);
+    }
+    rows.speeds = points(fastest);
+    for (samples, smooth) in &circles {
+        rows.add(samples, smooth);
+    }
+    let mut found = rows.solve().ok_or(IdentifyError::Track(TrackError::Short {
+        samples: rows.used,
+    }))?;
+    for (samples, _) in &circles {
+        findings.extend(doubts::check_points(&found.points, samples, measured)?);
+        findings.dedup();
+    }
+    found.findings = findings;
+    Ok(found)
+}
+
+/// Speeds of points with equal factors between them.
+fn points(fastest: f64) -> Vec<f64> {
+    let factor = (fastest / SLOWEST).ln() / f64::from(POINTS - 1);
+    (0..POINTS)
+        .map(|at| SLOWEST * (f64::from(at) * factor).exp())
+        .collect()
+}
+
+/// Sums of the least squares.
+#[derive(Debug, Default)]
+struct Rows {
+    speeds: Vec<f64>,
+    /// Products of all parts with each other and with the torque.
+    sums: Vec<Vec<f64>>,
+    weights: Vec<f64>,
+    used: usize,
+}
+
+impl Rows {
+    fn add(&mut self, samples: &Samples, smooth: &[f64]) {
+        let size = self.speeds.len() + 2;
+        if self.sums.is_empty() {
+            self.sums = vec![vec![0.0; size + 1]; size];
+            self.weights = vec![0.0; self.speeds.len()];
+        }
+        let step = samples_in(0.002, samples.step_s);
+        let settling = samples_in(SETTLING_S, samples.step_s);
+        let mut turned = (0, samples.positions[0], 0.0_f64);
+        let mut row = vec![0.0; size];
+        for at in step..smooth.len() - step {
+            let velocity = smooth[at];
+            if velocity * turned.2 <= 0.0 {
+                turned = (at, samples.positions[at], velocity);
+            }
+            let way = (samples.positions[at] - turned.1).abs();
+            let speed = velocity.abs();
+            if way < WINDING || at - turned.0 < settling || speed < self.speeds[0] {
+                continue;
+            }
+            row.fill(0.0);
+            let upper = self
+                .speeds
+                .partition_point(|it| *it < speed)
+                .clamp(1, self.speeds.len() - 1);
+            let (low, high) = (self.speeds[upper - 1], self.speeds[upper]);
+            let share = ((speed - low) / (high - low)).clamp(0.0, 1.0);
+            row[upper - 1] = velocity.signum() * (1.0 - share);
+            row[upper] = velocity.signum() * share;
+            self.weights[upper - 1] += 1.0 - share;
+            self.weights[upper] += share;
+            let span = samples.times_s[at + step] - samples.times_s[at - step];
+            row[size - 2] = (smooth[at + step] - smooth[at - step]) / span;
+            row[size - 1] = 1.0;
+            for (i, one) in row.iter().enumerate() {
+                for (j, other) in row.iter().enumerate() {
+                    self.sums[i][j] += one * other;
+                }
+                self.sums[i][size] += one * samples.torques[at];
+            }
+            self.used += 1;
+        }
+    }
+
+    /// The parts that have enough samples.
+    fn solve(&self) -> Option<OnCircles> {
+        let nodes = self.speeds.len();
+        let is_kept = |at: usize| at >= nodes || self.weights[at] >= FEWEST;
+        let kept: Vec<usize> = (0..nodes + 2).filter(|&at| is_kept(at)).collect();
+        let matrix = kept.iter().map(|&i| {
+            let row = kept.iter().map(|&j| self.sums[i][j]);
+            row.chain([self.sums[i][nodes + 2]]).collect()
+        });
+        let matrix: Vec<Vec<f64>> = if self.sums.is_empty() {
+            return None;
+        } else {
+            matrix.collect()
+        };
+        let found = solve_linear(matrix)?;
+        let value = |part: usize| {
+            let at = kept.iter().position(|&it| it == part);
+            at.map(|at| found[at])
+        };
+        let friction = |(at, speed): (usize, &f64)| Some([*speed, value(at)?]);
+        let points: Vec<[f64; 2]> = self
+            .speeds
+            .iter()
+            .enumerate()
+            .filter_map(friction)
+            .collect();
+        let left_out = self
+            .speeds
+            .iter()
+            .enumerate()
+            .filter(|(at, _)| !is_kept(*at));
+        (count(points.len()) >= 2.0).then(|| OnCircles {
+            points,
+            inertia: value(nodes).unwrap_or(0.0),
+            offset: value(nodes + 1).unwrap_or(0.0),
+            left_out: left_out.map(|(_, speed)| *speed).collect(),
+            findings: Vec::new(),
+        })
+    }
+}

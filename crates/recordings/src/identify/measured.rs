@@ -1,0 +1,149 @@
+//! What a recorded torque holds: whether the additive current is in it (R6.21).
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::trace::Channel;
+use frictcomp_physics::current::Switched;
+
+/// Which torque a channel holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TorqueKind {
+    /// Torque or current as the drive measures it, the additive current included.
+    Actual,
+    /// Torque as it is commanded within the drive.
+    Command,
+    /// Output of the speed controller, without the additive current.
+    Loop,
+}
+
+/// Words in names, symbols and comments of channels, without blanks and lines.
+const WORDS: [(TorqueKind, &[&str]); 3] = [
+    (
+        TorqueKind::Loop,
+        &[
+            "loopout",
+            "speedcontroller",
+            "controllerout",
+            "reglerausgang",
+            "speedctrl",
+        ],
+    ),
+    (
+        TorqueKind::Actual,
+        &[
+            "acttorq",
+            "actualtorq",
+            "torqueactual",
+            "actcurr",
+            "actualcurr",
+            "currentactual",
+            "torqact",
+            "actforce",
+            "istwert",
+            "istmoment",
+            "momentist",
+            "iststrom",
+        ],
+    ),
+    (
+        TorqueKind::Command,
+        &[
+            "cmdtorq",
+            "commandedtorq",
+            "settorq",
+            "targettorq",
+            "torquecmd",
+            "torquedemand",
+            "torqueset",
+            "sollwert",
+            "sollmoment",
+            "momentsoll",
+            "sollstrom",
+        ],
+    ),
+];
+
+impl TorqueKind {
+    /// The kind that name, symbol or comment of a channel tell.
+    pub fn of(channel: &Channel) -> Option<Self> {
+        let texts = [&channel.name, &channel.symbol, &channel.comment];
+        let plain = texts.map(|text| text.to_lowercase().replace(['_', ' ', '.', '-'], ""));
+        let tells = |words: &[&str]| {
+            plain
+                .iter()
+                .any(|text| words.iter().any(|word| text.contains(word)))
+        };
+        let mut kinds = WORDS.iter().filter(|(_, words)| tells(words));
+        let (kind, _) = kinds.next()?;
+        kinds.next().is_none().then_some(*kind)
+    }
+
+    /// Its name on a command line and in a sentence.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Actual => "actual",
+            Self::Command => "command",
+            Self::Loop => "loop",
+        }
+    }
+}
+
+impl fmt::Display for TorqueKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+impl FromStr for TorqueKind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let kinds = [Self::Actual, Self::Command, Self::Loop];
+        let found = kinds.into_iter().find(|kind| kind.as_str() == text);
+        found.ok_or_else(|| format!("`{text}` is not one of actual, command, loop"))
+    }
+}
+
+/// What is known of a recorded torque.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Which torque it is; `None` where nothing tells.
+    pub kind: Option<TorqueKind>,
+    /// Whether friction compensation was on; `None` where nothing tells.
+    pub compensation: Option<Switched>,
+    /// The rated torque in the unit of the channel, where it is known.
+    pub rated: Option<f64>,
+}
+
+impl Measured {
+    /// What is known of two recordings alike; compensation was on if it was on in either.
+    #[must_use]
+    pub fn common(self, other: Self) -> Self {
+        let either = [self.compensation, other.compensation];
+        Self {
+            kind: self.kind.filter(|_| self.kind == other.kind),
+            compensation: if either.contains(&Some(Switched::On)) {
+                Some(Switched::On)
+            } else {
+                self.compensation.and(other.compensation)
+            },
+            rated: self.rated.filter(|_| self.rated == other.rated),
+        }
+    }
+}
+
+/// Drive units in the rated torque.
+pub(super) const RATED_UNITS: f64 = 1000.0;
+
+impl Default for Measured {
+    /// The actual torque in drive units, 0.1 % of the rated torque.
+    fn default() -> Self {
+        Self {
+            kind: Some(TorqueKind::Actual),
+            compensation: None,
+            rated: Some(RATED_UNITS),
+        }
+    }
+}

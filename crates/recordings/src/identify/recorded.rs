@@ -1,0 +1,260 @@
+//! The channels of one axis in a recording.
+
+use super::finding::TraceFinding;
+use super::measured::{Measured, RATED_UNITS, TorqueKind};
+use super::track::Track;
+use super::unit_doubts::{improbable_speed, scope_scale};
+use crate::trace::{
+    Channel, ChannelQuantity, ChannelSelection, Choice, NotAligned, Pick, SelectError, TimeSource,
+    TraceRecording, Unit,
+};
+use frictcomp::diagnostic::Code;
+use frictcomp_physics::current::Switched;
+
+/// Which channels are the motion and the torque of an axis.
+#[derive(Debug, Clone, Default)]
+pub struct AxisChannels {
+    time: Option<Pick>,
+    velocity: Option<Pick>,
+    position: Option<Pick>,
+    torque: Option<Pick>,
+    /// Whether friction compensation was on.
+    state: Option<Pick>,
+    /// The actual position beside the commanded one, or the following error itself.
+    followed: Option<(Followed, Pick)>,
+}
+
+/// How the following error was recorded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Followed {
+    /// As itself.
+    Error,
+    /// As the actual position.
+    Actual,
+}
+
+/// What was recorded of an axis, and what there is to say about it.
+#[derive(Debug, Clone, Default)]
+pub struct AxisRecording {
+    /// Motion and torque.
+    pub track: Track,
+    /// Commanded less actual position at each sample in 0.1 µm or 0.0001°; empty where it was not
+    /// recorded.
+    pub following_errors: Vec<f64>,
+    /// What is known of the torque.
+    pub measured: Measured,
+    /// The unit of the torque, where it is no drive unit.
+    pub torque_unit: Option<String>,
+    /// How the file was read, each a sentence in lower case.
+    pub remarks: Vec<String>,
+    /// What may be wrong with it.
+    pub findings: Vec<TraceFinding>,
+}
+
+impl AxisChannels {
+    /// The channels that the user names, those with the short names `t`, `v`, `x`, `torque`, and the
+    /// state of friction compensation.
+    ///
+    /// # Errors
+    /// A channel that is named or needed is not there.
+    pub fn find(selection: &ChannelSelection, channels: &[Channel]) -> Result<Self, SelectError> {
+        let find = |quantity| selection.find(quantity, channels);
+        let found = Self {
+            time: find(ChannelQuantity::Time)?,
+            velocity: find(ChannelQuantity::Velocity)?,
+            position: find(ChannelQuantity::Position)?,
+            torque: Some(selection.require(ChannelQuantity::Torque, channels)?),
+            state: state_of(selection, channels),
+            followed: followed_of(selection, channels)?,
+        };
+        if found.velocity.is_none() && found.position.is_none() {
+            selection.require(ChannelQuantity::Velocity, channels)?;
+        }
+        Ok(found)
+    }
+
+    /// What is kept of the file.
+    pub fn choice(&self) -> Choice {
+        Choice {
+            values: self
+                .picks()
+                .map(|(_, pick)| pick)
+                .chain(self.state)
+                .chain(self.followed.map(|it| it.1))
+                .map(|pick| pick.channel)
+                .collect(),
+            time: self.time.map_or(TimeSource::Layout, TimeSource::Channel),
+            ..Choice::default()
+        }
+    }
+
+    fn picks(&self) -> impl Iterator<Item = (ChannelQuantity, Pick)> {
+        let picks = [
+            (ChannelQuantity::Velocity, self.velocity),
+            (ChannelQuantity::Position, self.position),
+            (ChannelQuantity::Torque, self.torque),
+        ];
+        picks
+            .into_iter()
+            .filter_map(|(quantity, pick)| Some((quantity, pick?)))
+    }
+
+    /// The samples of the channels at common times. Rows without times are `cycle_s` apart.
+    ///
+    /// # Errors
+    /// There are no common times.
+    pub fn take(
+        &self,
+        recording: &TraceRecording,
+        cycle_s: Option<f64>,
+    ) -> Result<AxisRecording, NotAligned> {
+        let picks = self.picks().map(|(_, pick)| pick);
+        let picks: Vec<Pick> = picks.chain(self.followed.map(|it| it.1)).collect();
+        let aligned = recording.align(&picks, cycle_s)?;
+        let mut columns = aligned.columns.into_iter();
+        let mut column = |pick: Option<Pick>| pick.and_then(|_| columns.next());
+        let track = Track {
+            times_s: aligned.times_s,
+            velocities: column(self.velocity),
+            positions: column(self.position),
+            torques: column(self.torque).unwrap_or_default(),
+            step_s: aligned.step_s,
+        };
+        let followed = column(self.followed.map(|it| it.1));
+        let following_errors = match (self.followed, followed, &track.positions) {
+            (Some((Followed::Error, _)), Some(errors), _) => errors,
+            (Some((Followed::Actual, _)), Some(actual), Some(commanded)) => {
+                commanded.iter().zip(&actual).map(|(x, y)| x - y).collect()
+            }
+            _ => Vec::new(),
+        };
+        let mut remarks = recording.remarks().to_vec();
+        remarks.extend(aligned.remarks);
+        let mut findings = self.unit_findings(recording);
+        for (_, pick) in self.picks() {
+            let channel = &recording.channels()[pick.channel.get()];
+            let (remark, finding) = scope_scale(channel, recording.values(pick.channel));
+            remarks.extend(remark);
+            findings.extend(finding);
+        }
+        remarks.extend(self.names_that_were_taken(recording));
+        let speed = self.velocity.or(self.position).and_then(|pick| {
+            let channel = &recording.channels()[pick.channel.get()];
+            improbable_speed(channel, &pick, &track)
+        });
+        findings.splice(0..0, speed);
+        let torque = self.torque.filter(|pick| !pick.unit.is_of_the_drive);
+        let unit_of = |pick: Pick| recording.channels()[pick.channel.get()].unit.clone();
+        Ok(AxisRecording {
+            track,
+            torque_unit: torque
+                .map(|pick| unit_of(pick).unwrap_or_else(|| "its own unit".to_owned())),
+            remarks,
+            following_errors,
+            measured: self.measured(recording, torque.is_none()),
+            findings,
+        })
+    }
+
+    /// What the channel of the torque and that of the state tell.
+    fn measured(&self, recording: &TraceRecording, is_of_the_drive: bool) -> Measured {
+        let channel = |pick: Pick| &recording.channels()[pick.channel.get()];
+        let state = self.state.map(|pick| recording.values(pick.channel));
+        let switched = |values: &[f64]| {
+            let is_off = values.iter().all(|&it| it == 0.0);
+            if is_off { Switched::Off } else { Switched::On }
+        };
+        Measured {
+            kind: self.torque.and_then(|pick| TorqueKind::of(channel(pick))),
+            compensation: state.filter(|it| !it.is_empty()).map(switched),
+            rated: is_of_the_drive.then_some(RATED_UNITS),
+        }
+    }
+
+    /// The units of channels that were taken by their short names alone.
+    fn names_that_were_taken(&self, recording: &TraceRecording) -> Option<String> {
+        let taken = self.picks().filter_map(|(quantity, pick)| {
+            let channel = &recording.channels()[pick.channel.get()];
+            let is_said = channel.unit.is_some() || !pick.is_unit_assumed;
+            (!is_said && is_short(&channel.name))
+                .then(|| format!("`{}` in {}", channel.name, quantity.own_unit()))
+        });
+        let taken: Vec<String> = taken.collect();
+        (!taken.is_empty()).then(|| format!("taken by their names: {}", taken.join(", ")))
+    }
+
+    /// FC519 for every unit that nobody named, unless the channel has the short name that says it.
+    fn unit_findings(&self, recording: &TraceRecording) -> Vec<TraceFinding> {
+        let finding = |(quantity, pick): (ChannelQuantity, Pick)| {
+            let channel = &recording.channels()[pick.channel.get()];
+            let name = &channel.name;
+            if !pick.unit.is_of_the_drive {
+                return Some(TraceFinding::new(
+                    Code::Fc519,
+                    format!(
+                        "`{name}` is in {}, and so is every `out`",
+                        channel.unit.as_deref().unwrap_or("no drive units")
+                    ),
+                    "a value list has the unit of `dig_drv.act_torque`; record that, or convert the outputs",
+                ));
+            }
+            (pick.is_unit_assumed && (!is_short(name) || channel.unit.is_some())).then(|| {
+                TraceFinding::new(
+                    Code::Fc519,
+                    format!(
+                        "`{name}` has no known unit and is taken in {}",
+                        quantity.own_unit()
+                    ),
+                    format!("name it, as in `{name}=mm/s`, where that is not so"),
+                )
+            })
+        };
+        self.picks().filter_map(finding).collect()
+    }
+}
+
+/// The following error: the channel that the user names, `e`, or the actual position `x_act`.
+fn followed_of(
+    selection: &ChannelSelection,
+    channels: &[Channel],
+) -> Result<Option<(Followed, Pick)>, SelectError> {
+    for (followed, asked, taken) in [
+        (Followed::Error, &selection.following_error, "e"),
+        (Followed::Actual, &selection.actual_position, "x_act"),
+    ] {
+        let is_there = |name: &&str| channels.iter().any(|it| it.name.eq_ignore_ascii_case(name));
+        if let Some(name) = asked.as_deref().or(Some(taken).filter(is_there)) {
+            let pick = selection.pick_named(name, ChannelQuantity::Position, channels)?;
+            return Ok(Some((followed, pick)));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether a channel has the short name that says its unit.
+fn is_short(name: &str) -> bool {
+    ["v", "x", "torque"]
+        .iter()
+        .any(|it| name.eq_ignore_ascii_case(it))
+}
+
+/// The channel `comp`, or the object of the control that says whether friction compensation is
+/// active (`frict_comp.f_is_active`), of the axis where several are recorded.
+fn state_of(selection: &ChannelSelection, channels: &[Channel]) -> Option<Pick> {
+    let is_state = |channel: &Channel| {
+        let texts = [&channel.name, &channel.symbol];
+        let plain = texts.map(|text| text.to_lowercase());
+        plain[0] == "comp"
+            || plain.iter().any(|text| {
+                text.contains("frict_comp_active") || text.ends_with("frict_comp.f_is_active")
+            })
+    };
+    let mut states = channels.iter().filter(|it| is_state(it));
+    let (state, next) = (states.next()?, states.next());
+    let name = if next.is_none() { &state.name } else { "comp" };
+    let found = selection.pick_named(name, ChannelQuantity::Time, channels);
+    found.ok().map(|pick| Pick {
+        unit: Unit::own(ChannelQuantity::Time),
+        ..pick
+    })
+}

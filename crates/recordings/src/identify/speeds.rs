@@ -1,0 +1,106 @@
+//! The way from a recording at constant speeds to the points of a value list.
+
+use super::curve::{FrictionCurve, WORST_CHI_SQUARE, fit};
+use super::doubts;
+use super::finding::TraceFinding;
+use super::identified::{Identified, IdentifyError, IdentifyOptions};
+use super::pair::{Pair, Paired};
+use super::ripple::{residuals, wave};
+use super::segment::segments;
+use super::statistics::count;
+use super::support::{Speeds, support};
+use super::track::{Samples, Track};
+use super::warnings;
+use frictcomp::lists::TablePoint;
+
+/// Identifies the friction of an axis that moves at constant speeds.
+///
+/// # Errors
+/// The recording cannot be used for that.
+pub fn identify(track: &Track, options: &IdentifyOptions) -> Result<Identified, IdentifyError> {
+    let mut samples = Samples::new(track)?;
+    let mut segments = segments(&samples);
+    if segments.is_empty() {
+        return Err(IdentifyError::NoSegments);
+    }
+    let compensation = doubts::check_compensation(&options.measured)?;
+    doubts::check_directions(&samples, &segments)?;
+    let clipped = doubts::drop_clipped(&samples, &mut segments)?;
+    let directions = |sign: f64| segments.iter().any(|it| it.velocity * sign > 0.0);
+    if !(directions(1.0) && directions(-1.0)) {
+        return Err(IdentifyError::OneDirection);
+    }
+    let duration_s = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);
+    let residuals = residuals(&samples, &segments);
+    let wave = wave(&samples, &segments);
+    if let Some(wave) = wave {
+        // What repeats along the way is neither friction nor weight.
+        samples.take_away(|position| wave.at(position));
+    }
+    let Paired {
+        pairs,
+        offset,
+        drift,
+    } = Paired::of(&samples, &segments, duration_s);
+    if pairs.iter().all(|pair| pair.offset.is_none()) {
+        return Err(IdentifyError::OneDirection);
+    }
+    if doubts::is_still(&samples, &options.measured) {
+        check_friction(&pairs)?;
+    }
+    let suspect = doubts::check_pairs(&pairs, &samples, &options.measured)?;
+    check_friction(&pairs)?;
+    let rows = doubts::missing_rows(&samples.times_s, samples.step_s);
+    let tight = doubts::tight(&samples, &segments, &pairs);
+    let mut findings: Vec<TraceFinding> = [compensation, clipped, rows, tight]
+        .into_iter()
+        .flatten()
+        .collect();
+    findings.extend(suspect);
+    let fit = fit(&pairs);
+    let curve = match fit {
+        Some(fit) if fit.chi_square <= WORST_CHI_SQUARE => FrictionCurve::Fit(fit),
+        _ => FrictionCurve::Lines(
+            pairs
+                .iter()
+                .map(|pair| [pair.speed, pair.friction])
+                .collect(),
+        ),
+    };
+    let speeds = Speeds {
+        slowest: pairs[0].speed,
+        fastest: pairs[pairs.len() - 1].speed,
+    };
+    let support = support(&curve, speeds, options.wanted);
+    let points = support.points.iter().map(|&[speed, friction]| TablePoint {
+        input: (speed * 1000.0).round(),
+        output: friction,
+    });
+    let mut identified = Identified {
+        points: points.collect(),
+        point_error: support.error,
+        ripple: wave.map(|wave| wave.ripple()),
+        drift,
+        residuals,
+        findings,
+        segments,
+        pairs,
+        offset,
+        fit,
+        curve,
+    };
+    let lacks = warnings::findings(&identified, options);
+    identified.findings.extend(lacks);
+    Ok(identified)
+}
+
+/// Whether the torque has anything to do with the direction.
+fn check_friction(pairs: &[Pair]) -> Result<(), IdentifyError> {
+    let weighted =
+        |value: fn(&Pair) -> f64| pairs.iter().map(value).sum::<f64>() / count(pairs.len());
+    let (friction, spread) = (weighted(|it| it.friction), weighted(|it| it.error));
+    if friction.abs() > 2.0 * spread && friction != 0.0 {
+        return Ok(());
+    }
+    Err(IdentifyError::NoFriction { friction, spread })
+}

@@ -1,0 +1,404 @@
+//! A recorded torque against what a value list predicts (R6.20).
+
+use super::curve::solve_linear;
+use super::identified::IdentifyError;
+use super::statistics::{count, moving_average, noise_of, samples_in};
+use super::timing::{Followed, Timing};
+use super::track::{Samples, Track};
+use frictcomp::lists::FrictionList;
+use frictcomp_physics::current::{
+    AdditiveCurrent, POSITION_UNITS_PER_MM, Reading, VELOCITY_UNITS_PER_MM_PER_S,
+};
+
+/// How a value list fits a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verified {
+    /// Recorded friction as a part of the predicted one, over all speeds.
+    pub scale: f64,
+    /// The same by ranges of speeds.
+    pub ranges: Vec<ScaleRange>,
+    /// What is the same in both directions, in drive units.
+    pub offset: f64,
+    /// Torque of an acceleration of 1 mm/s², in drive units.
+    pub inertia: f64,
+    /// What the following error tells of the timing of the list.
+    pub timing: Timing,
+    /// The time between two samples.
+    pub step_s: f64,
+    /// The CNC cycle, in which the control computes the additive current.
+    pub cycle_s: f64,
+    /// The standard deviation of what is left over, in drive units.
+    pub residual: f64,
+    /// The reversals of the recording.
+    pub reversals: Vec<Reversal>,
+}
+
+/// A range of speeds with its scale.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScaleRange {
+    /// The slowest speed of the range, in mm/s or °/s.
+    pub from: f64,
+    /// The fastest one.
+    pub to: f64,
+    /// Recorded friction as a part of the predicted one.
+    pub scale: f64,
+}
+
+/// A change of direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reversal {
+    /// When, in s.
+    pub time_s: f64,
+    /// The recorded step of the torque, in drive units, without inertia.
+    pub recorded: f64,
+    /// The step that the list predicts.
+    pub predicted: f64,
+}
+
+/// Ranges of speeds end here, in mm/s.
+const BOUNDS: [f64; 5] = [1.0, 5.0, 20.0, 80.0, f64::INFINITY];
+
+/// Slower than that in mm/s is rest.
+const REST: f64 = 0.05;
+
+/// The velocity is averaged over so many s.
+const AVERAGED_S: f64 = 0.01;
+
+/// Samples around reversals say nothing of the scale, so many s after them.
+const AFTER_S: f64 = 0.05;
+
+/// A range with fewer samples has no scale.
+const FEWEST: f64 = 100.0;
+
+/// A list on a control.
+#[derive(Debug, Clone, Copy)]
+pub struct Predictor<'a> {
+    /// The value list.
+    pub list: &'a FrictionList,
+    /// How the documents are read.
+    pub reading: Reading,
+    /// The CNC cycle in s; without it the time between two samples.
+    pub cycle_s: Option<f64>,
+}
+
+/// The same as [`verify_followed`] without a following error: the timing of the list stays open.
+///
+/// # Errors
+/// The recording cannot be used, or the axis moves in one direction only.
+pub fn verify(track: &Track, predictor: &Predictor<'_>) -> Result<Verified, IdentifyError> {
+    verify_followed(track, &[], predictor)
+}
+
+/// Compares a recording with the additive current that a control computes from a value list
+/// (chapter 4 of the rules). Following errors are commanded less actual positions in 0.1 µm or
+/// 0.0001°, one for each sample of the track, or none.
+///
+/// # Errors
+/// The recording cannot be used, or the axis moves in one direction only.
+pub fn verify_followed(
+    track: &Track,
+    following_errors: &[f64],
+    predictor: &Predictor<'_>,
+) -> Result<Verified, IdentifyError> {
+    let samples = Samples::new(track)?;
+    let motion = Motion::of(&samples, predictor);
+    let directions = |sign: f64| motion.signs.iter().any(|it| it * sign > 0.0);
+    if !(directions(1.0) && directions(-1.0)) {
+        return Err(IdentifyError::OneDirection);
+    }
+    let used = motion.used(samples_in(AFTER_S, samples.step_s));
+    let whole = regress(&samples, &motion, &used, |_| 0);
+    let ranges = regress(&samples, &motion, &used, range_of);
+    let [Some(whole), Some(ranges)] = [whole, ranges] else {
+        return Err(IdentifyError::NoSegments);
+    };
+    let scales = ranges.scales.iter().enumerate();
+    let ranges = scales.filter_map(|(at, scale)| {
+        Some(ScaleRange {
+            from: at.checked_sub(1).map_or(REST, |before| BOUNDS[before]),
+            to: BOUNDS[at].min(motion.fastest()),
+            scale: (*scale)?,
+        })
+    });
+    let scale = whole.scales[0].unwrap_or(0.0);
+    let rest: Vec<f64> = (0..samples.torques.len())
+        .map(|at| samples.torques[at] - whole.inertia * motion.accelerations[at] - whole.offset)
+        .collect();
+    let squares: f64 = used
+        .iter()
+        .map(|&at| (rest[at] - scale * motion.predicted[at]).powi(2))
+        .sum();
+    let turns = motion.turns();
+    let at_once: Vec<usize> = turns
+        .iter()
+        .copied()
+        .filter(|&at| motion.turns_at_once(at))
+        .collect();
+    let errors: Vec<f64> = following_errors
+        .iter()
+        .map(|it| it / POSITION_UNITS_PER_MM)
+        .collect();
+    let cycle_s = predictor.cycle_s.unwrap_or(samples.step_s);
+    let followed = Followed {
+        samples: &samples,
+        errors: &errors,
+        predicted: &motion.predicted,
+        accelerations: &motion.accelerations,
+        turns: &at_once,
+        signs: &motion.signs,
+        cycle: cycle_s / samples.step_s,
+    };
+    let is_followed = errors.len() == samples.torques.len();
+    Ok(Verified {
+        scale,
+        ranges: ranges.collect(),
+        offset: whole.offset,
+        inertia: whole.inertia,
+        timing: if is_followed {
+            followed.timing()
+        } else {
+            Timing::Open
+        },
+        step_s: samples.step_s,
+        cycle_s,
+        residual: (squares / count(used.len())).sqrt(),
+        reversals: turns
+            .iter()
+            .filter_map(|&at| motion.reversal(&samples, &rest, at))
+            .collect(),
+    })
+}
+
+/// Cycles between two samples, at most.
+const MOST_CYCLES: f64 = 100.0;
+
+impl Predictor<'_> {
+    /// The additive current at each sample, of an axis with these velocities in mm/s.
+    fn currents(&self, samples: &Samples, velocities: &[f64]) -> Vec<f64> {
+        let mut current = AdditiveCurrent::new(self.list, self.reading);
+        let cycle_s = self.cycle_s.unwrap_or(samples.step_s);
+        let cycle_s = cycle_s.max(samples.step_s / MOST_CYCLES);
+        // A commanded velocity has no noise, and turns where it changes its sign.
+        let rest = REST.min(5.0 * noise_of(&samples.velocities));
+        let moving = |velocity: f64| {
+            let is_moving = velocity.abs() > rest;
+            if is_moving {
+                velocity * VELOCITY_UNITS_PER_MM_PER_S
+            } else {
+                0.0
+            }
+        };
+        let times = &samples.times_s;
+        let (first, last) = (times[0], times[times.len() - 1]);
+        let mut after = 0;
+        let [mut positions, mut speeds, mut reached] = [const { Vec::new() }; 3];
+        let mut time = first;
+        // The motion at each cycle, linear between samples.
+        while time <= last + 0.5 * cycle_s {
+            while after + 1 < times.len() && times[after] < time {
+                after += 1;
+            }
+            let before = after.saturating_sub(1);
+            let length = times[after] - times[before];
+            let share = if length > 0.0 {
+                ((time - times[before]) / length).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            let between =
+                |values: &[f64]| values[before] + share * (values[after] - values[before]);
+            positions.push(between(&samples.positions) * POSITION_UNITS_PER_MM);
+            speeds.push(moving(between(velocities)));
+            reached.push(time);
+            time += cycle_s;
+        }
+        let added = current.trace(&positions, &speeds);
+        let mut at = 0;
+        let of_sample = |&time: &f64| {
+            while at + 1 < reached.len() && reached[at + 1] <= time + 1e-3 * cycle_s {
+                at += 1;
+            }
+            added[at].current_units
+        };
+        times.iter().map(of_sample).collect()
+    }
+}
+
+/// The motion of an axis, and the friction that the list predicts.
+struct Motion {
+    velocities: Vec<f64>,
+    accelerations: Vec<f64>,
+    /// The direction of each sample; at rest the last one goes on.
+    signs: Vec<f64>,
+    predicted: Vec<f64>,
+}
+
+impl Motion {
+    fn of(samples: &Samples, predictor: &Predictor<'_>) -> Self {
+        let velocities =
+            moving_average(&samples.velocities, samples_in(AVERAGED_S, samples.step_s));
+        let mut direction = 0.0;
+        let signs: Vec<f64> = velocities
+            .iter()
+            .map(|velocity| {
+                if velocity.abs() > REST {
+                    direction = velocity.signum();
+                }
+                direction
+            })
+            .collect();
+        let end = velocities.len() - 1;
+        let slope = |at: usize| {
+            let (from, to) = (at.saturating_sub(2), (at + 2).min(end));
+            (velocities[to] - velocities[from]) / (samples.times_s[to] - samples.times_s[from])
+        };
+        Self {
+            accelerations: (0..=end).map(slope).collect(),
+            predicted: predictor.currents(samples, &velocities),
+            signs,
+            velocities,
+        }
+    }
+
+    fn fastest(&self) -> f64 {
+        self.velocities
+            .iter()
+            .fold(0.0, |most, velocity| most.max(velocity.abs()))
+    }
+
+    /// Where the direction changes.
+    fn turns(&self) -> Vec<usize> {
+        (1..self.signs.len())
+            .filter(|&at| self.signs[at] * self.signs[at - 1] < 0.0)
+            .collect()
+    }
+
+    /// The samples in motion, without those shortly after a change of direction.
+    fn used(&self, after: usize) -> Vec<usize> {
+        let mut since = 0;
+        let mut used = Vec::new();
+        for at in 1..self.signs.len() {
+            since = if self.signs[at] * self.signs[at - 1] > 0.0 {
+                since + 1
+            } else {
+                0
+            };
+            if since >= after && self.velocities[at].abs() > REST {
+                used.push(at);
+            }
+        }
+        used
+    }
+
+    /// Whether the axis turns without standing still: only then time is seen.
+    fn turns_at_once(&self, at: usize) -> bool {
+        const LONGEST: usize = 20;
+        let moving = |index: &usize| self.velocities[*index].abs() > REST;
+        let before = (0..at).rev().take(LONGEST).find(moving);
+        before.is_some_and(|index| self.velocities[index] * self.velocities[at] < 0.0)
+    }
+
+    fn reversal(&self, samples: &Samples, rest: &[f64], at: usize) -> Option<Reversal> {
+        let width = samples_in(0.02, samples.step_s);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / count(values.len());
+        let [before, after] = [
+            at.checked_sub(3 * width)?..at - 2 * width,
+            at + 2 * width..at + 3 * width,
+        ];
+        let step = |values: &[f64]| {
+            Some(mean(values.get(after.clone())?) - mean(values.get(before.clone())?))
+        };
+        Some(Reversal {
+            time_s: samples.times_s[at],
+            recorded: step(rest)?,
+            predicted: step(&self.predicted)?,
+        })
+    }
+}
+
+/// Which range a speed in mm/s belongs to.
+fn range_of(speed: f64) -> usize {
+    BOUNDS.partition_point(|bound| *bound < speed)
+}
+
+/// A least-squares fit of the recorded torque.
+struct Regression {
+    /// By range; `None` with too few samples.
+    scales: Vec<Option<f64>>,
+    inertia: f64,
+    offset: f64,
+}
+
+/// The torque as the prediction times a scale, which may differ between ranges, an inertia times the
+/// acceleration, and an offset.
+fn regress(
+    samples: &Samples,
+    motion: &Motion,
+    used: &[usize],
+    range: impl Fn(f64) -> usize,
+) -> Option<Regression> {
+    let ranges = BOUNDS.len();
+    let size = ranges + 2;
+    let mut sums = vec![vec![0.0; size + 1]; size];
+    let mut weights = [0.0; BOUNDS.len()];
+    let mut row = vec![0.0; size];
+    for &at in used {
+        row.fill(0.0);
+        let range = range(motion.velocities[at].abs());
+        weights[range] += 1.0;
+        row[range] = motion.predicted[at];
+        row[ranges] = motion.accelerations[at];
+        row[ranges + 1] = 1.0;
+        for (i, one) in row.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            for (j, other) in row.iter().enumerate() {
+                sums[i][j] += one * other;
+            }
+            sums[i][size] += one * samples.torques[at];
+        }
+    }
+    let is_kept = |at: &usize| match at.checked_sub(ranges) {
+        None => weights[*at] >= FEWEST && sums[*at][*at] > 0.0,
+        Some(0) => sums[*at][*at] > 1e-6 * count(used.len()),
+        Some(_) => true,
+    };
+    let kept: Vec<usize> = (0..size).filter(is_kept).collect();
+    let matrix = kept.iter().map(|&i| {
+        let row = kept.iter().map(|&j| sums[i][j]);
+        row.chain([sums[i][size]]).collect()
+    });
+    let found = solve_linear(matrix.collect())?;
+    let value = |part: usize| Some(found[kept.iter().position(|&it| it == part)?]);
+    let scales: Vec<Option<f64>> = (0..ranges).map(value).collect();
+    scales.iter().any(Option::is_some).then(|| Regression {
+        scales,
+        inertia: value(ranges).unwrap_or(0.0),
+        offset: value(ranges + 1).unwrap_or(0.0),
+    })
+}
+
+impl Verified {
+    /// What is wrong with the list, each a sentence; empty where nothing is.
+    pub fn verdict(&self) -> Vec<String> {
+        /// A list within this part is right.
+        const RIGHT: f64 = 0.03;
+        let mut said = Vec::new();
+        if self.scale < 0.0 {
+            said.push("the sign of the list is inverted".to_owned());
+        }
+        let off = |range: &&ScaleRange| (range.scale.abs() - 1.0).abs() > RIGHT;
+        for range in self.ranges.iter().filter(off) {
+            let part = (1.0 - 1.0 / range.scale.abs()) * 100.0;
+            let word = if part > 0.0 { "low" } else { "high" };
+            said.push(format!(
+                "the list is {:.0} % {word} from {:.2} to {:.1} mm/s",
+                part.abs(),
+                range.from,
+                range.to
+            ));
+        }
+        if let Some(word) = self.timing.early_or_late() {
+            said.push(format!("the list comes {word} at reversals"));
+        }
+        said
+    }
+}

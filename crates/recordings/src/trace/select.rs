@@ -1,0 +1,478 @@
+//! Finding channels by name, comment or symbol, or as an object of the CNC (R6.3).
+
+use super::channel::{Channel, ChannelIndex, CncObject, parse_address};
+use super::error::SelectError;
+use super::unit::ChannelQuantity::Position;
+use super::unit::{ChannelQuantity, Unit, split_unit};
+use frictcomp::diagnostic::did_you_mean;
+
+/// What the user says about the channels of a trace.
+#[derive(Debug, Clone, Default)]
+pub struct ChannelSelection {
+    /// The axis whose channels are meant, by its name or its number.
+    pub axis: Option<String>,
+    /// The channel of the times.
+    pub time: Option<String>,
+    /// The channel of the positions.
+    pub position: Option<String>,
+    /// The channel of the velocities.
+    pub velocity: Option<String>,
+    /// The channel of the torque or the current.
+    pub torque: Option<String>,
+    /// The channel of the actual positions, beside that of the commanded ones.
+    pub actual_position: Option<String>,
+    /// The channel of the following error, commanded less actual position.
+    pub following_error: Option<String>,
+    /// Units of channels that the file does not name, or not rightly.
+    pub units: Vec<(String, Unit)>,
+}
+
+/// A channel that was found, with what makes the units of lists and traces of its samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pick {
+    /// Which channel.
+    pub channel: ChannelIndex,
+    /// Its unit.
+    pub unit: Unit,
+    /// No unit is named: that of the CNC is assumed.
+    pub is_unit_assumed: bool,
+}
+
+/// The names by which channels are taken without being asked for, and words that hint at them.
+struct Names {
+    quantity: ChannelQuantity,
+    taken: &'static [&'static str],
+    hints: &'static [&'static str],
+}
+
+/// For each quantity; the first hint that is found in a name counts.
+const NAMES: [Names; 4] = [
+    Names {
+        quantity: ChannelQuantity::Time,
+        taken: &["t", "time", "zeit"],
+        hints: &["time", "zeit", "stamp"],
+    },
+    Names {
+        quantity: ChannelQuantity::Position,
+        taken: &["x"],
+        hints: &["cmdpos", "setpos", "pos", "weg", "lage"],
+    },
+    Names {
+        quantity: ChannelQuantity::Velocity,
+        taken: &["v"],
+        hints: &["cmdvel", "setvel", "vel", "speed", "geschw", "drehzahl"],
+    },
+    Names {
+        quantity: ChannelQuantity::Torque,
+        taken: &["torque"],
+        hints: &[
+            "acttorque",
+            "torque",
+            "curr",
+            "moment",
+            "strom",
+            "force",
+            "kraft",
+        ],
+    },
+];
+
+impl ChannelSelection {
+    fn asked(&self, quantity: ChannelQuantity) -> Option<&str> {
+        match quantity {
+            ChannelQuantity::Time => self.time.as_deref(),
+            ChannelQuantity::Position => self.position.as_deref(),
+            ChannelQuantity::Velocity => self.velocity.as_deref(),
+            ChannelQuantity::Torque => self.torque.as_deref(),
+        }
+    }
+
+    /// The channel of a quantity: the one that the user names, else the one with its short name;
+    /// `None` where there is none of either.
+    ///
+    /// # Errors
+    /// No channel fits what the user names, or several do.
+    pub fn find(
+        &self,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Option<Pick>, SelectError> {
+        let found = match self.asked(quantity) {
+            Some(wanted) => Some(self.named(wanted, channels).map_err(|error| {
+                // Nothing is spelled like it, but something may be meant.
+                error.or_guess(|| guess(quantity, channels))
+            })?),
+            None => Self::taken(quantity, channels),
+        };
+        found
+            .map(|channel| self.pick(channel, quantity, channels))
+            .transpose()
+    }
+
+    /// The same for a channel that must be there.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn require(
+        &self,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Pick, SelectError> {
+        self.find(quantity, channels)?.ok_or_else(|| {
+            let name = quantity.as_str();
+            SelectError::Lacks {
+                lacks: format!("no channel that is known to be the {name}"),
+                found: shown(channels),
+                help: match guess(quantity, channels) {
+                    Some(guess) => format!("name it; perhaps `{guess}` is the {name}"),
+                    None => {
+                        "name the channel, by its name, its comment or as a CNC object".to_owned()
+                    }
+                },
+            }
+        })
+    }
+
+    /// A channel by what the user says about it, with the unit for a quantity.
+    ///
+    /// # Errors
+    /// No channel fits, or several do.
+    pub fn pick_named(
+        &self,
+        wanted: &str,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Pick, SelectError> {
+        self.pick(self.named(wanted, channels)?, quantity, channels)
+    }
+
+    /// The channel of the positions of an axis by the name of the axis alone, with its unit where
+    /// that is one of positions.
+    ///
+    /// # Errors
+    /// Scope scales the unit.
+    pub fn position_of(
+        &self,
+        axis: &str,
+        channels: &[Channel],
+    ) -> Result<Option<Pick>, SelectError> {
+        let found = channels.iter().position(|channel| {
+            let (name, unit) = split_unit(&channel.name);
+            let unit = channel.unit.as_deref().or(unit).map(Unit::parse);
+            let fits = unit.is_none_or(|unit| unit.is_some_and(|it| it.quantity == Position));
+            name.eq_ignore_ascii_case(axis) && fits
+        });
+        found
+            .map(|channel| self.pick(ChannelIndex(channel), Position, channels))
+            .transpose()
+    }
+
+    /// The channel that has the short name of a quantity.
+    fn taken(quantity: ChannelQuantity, channels: &[Channel]) -> Option<ChannelIndex> {
+        let names = NAMES.iter().find(|names| names.quantity == quantity)?;
+        names.taken.iter().find_map(|name| {
+            let at = channels
+                .iter()
+                .position(|channel| split_unit(&channel.name).0.eq_ignore_ascii_case(name));
+            at.map(ChannelIndex)
+        })
+    }
+
+    fn named(&self, wanted: &str, channels: &[Channel]) -> Result<ChannelIndex, SelectError> {
+        let wanted = wanted.trim();
+        let object = parse_object(wanted);
+        // From what fits closely to what fits somehow; the first that finds any decides.
+        let fits: [&dyn Fn(&Channel) -> bool; 7] = [
+            &|channel| channel.name == wanted,
+            &|channel| channel.symbol == wanted,
+            &|channel| {
+                channel
+                    .object
+                    .is_some_and(|it| object.is_some_and(|ours| ours.fits(it)))
+            },
+            &|channel| channel.name.eq_ignore_ascii_case(wanted),
+            &|channel| split_unit(&channel.name).0.eq_ignore_ascii_case(wanted),
+            &|channel| channel.comment == wanted,
+            &|channel| holds(&channel.comment, wanted) || holds(&channel.symbol, wanted),
+        ];
+        for fits in fits {
+            let mut found: Vec<usize> = (0..channels.len())
+                .filter(|&index| fits(&channels[index]))
+                .collect();
+            if found.len() > 1 {
+                let of_axis: Vec<usize> = found
+                    .iter()
+                    .copied()
+                    .filter(|&index| self.is_of_axis(&channels[index]))
+                    .collect();
+                if !of_axis.is_empty() {
+                    found = of_axis;
+                }
+            }
+            match found[..] {
+                [] => {}
+                [one] => return Ok(ChannelIndex(one)),
+                // Scope writes a channel once for each chart that shows it.
+                [first, ..] if all_alike(&found, channels) => return Ok(ChannelIndex(first)),
+                _ => {
+                    return Err(SelectError::Several {
+                        wanted: wanted.to_owned(),
+                        found: found
+                            .iter()
+                            .map(|&index| full_name(&channels[index]))
+                            .collect(),
+                    });
+                }
+            }
+        }
+        let names = channels.iter().map(|channel| channel.name.as_str());
+        Err(SelectError::None {
+            wanted: wanted.to_owned(),
+            found: shown(channels),
+            guess: did_you_mean(wanted, names).map(str::to_owned),
+        })
+    }
+
+    /// Whether a channel is one of the axis that the user names.
+    fn is_of_axis(&self, channel: &Channel) -> bool {
+        let Some(axis) = &self.axis else {
+            return false;
+        };
+        if let (Ok(number), Some(object)) = (axis.parse::<u32>(), channel.object) {
+            return object.axis() == number;
+        }
+        [&channel.name, &channel.symbol, &channel.comment]
+            .into_iter()
+            .any(|text| {
+                let mut words = text.split(|letter: char| !letter.is_alphanumeric());
+                words.any(|word| word.eq_ignore_ascii_case(axis))
+            })
+    }
+
+    fn pick(
+        &self,
+        channel: ChannelIndex,
+        quantity: ChannelQuantity,
+        channels: &[Channel],
+    ) -> Result<Pick, SelectError> {
+        let mut of_user = None;
+        for (name, unit) in &self.units {
+            let role = quantity.as_str().eq_ignore_ascii_case(name);
+            if role
+                || self
+                    .named(name, channels)
+                    .is_ok_and(|named| named == channel)
+            {
+                of_user = Some(*unit);
+            }
+        }
+        let described = &channels[channel.0];
+        let of_file = described
+            .unit
+            .as_deref()
+            .or_else(|| split_unit(&described.name).1)
+            .and_then(Unit::parse);
+        if let Some([factor, offset]) = described.unit_scale
+            && of_user.is_none_or(|unit| unit.quantity != quantity)
+            && quantity != ChannelQuantity::Time
+        {
+            return Err(SelectError::UnitScaled {
+                channel: described.name.clone(),
+                unit: described.unit.clone().unwrap_or_default(),
+                factor: factor.to_string().into(),
+                offset: offset.to_string().into(),
+            });
+        }
+        let unit = of_user.or(of_file).filter(|unit| unit.quantity == quantity);
+        Ok(Pick {
+            channel,
+            unit: unit.unwrap_or(Unit::own(quantity)),
+            is_unit_assumed: unit.is_none(),
+        })
+    }
+}
+
+/// The names of channels, for a list of what there is.
+fn shown(channels: &[Channel]) -> Vec<String> {
+    channels
+        .iter()
+        .map(|channel| channel.name.clone())
+        .collect()
+}
+
+fn holds(text: &str, wanted: &str) -> bool {
+    wanted.len() > 2 && text.to_lowercase().contains(&wanted.to_lowercase())
+}
+
+fn all_alike(found: &[usize], channels: &[Channel]) -> bool {
+    found.windows(2).all(|pair| {
+        let [one, other] = [&channels[pair[0]], &channels[pair[1]]];
+        !one.symbol.is_empty()
+            && one.symbol == other.symbol
+            && one.sample_time_s == other.sample_time_s
+    })
+}
+
+fn full_name(channel: &Channel) -> String {
+    let more = [
+        channel.symbol.clone(),
+        channel
+            .object
+            .map(|object| object.to_string())
+            .unwrap_or_default(),
+    ];
+    let more: Vec<String> = more.into_iter().filter(|it| !it.is_empty()).collect();
+    if more.is_empty() {
+        channel.name.clone()
+    } else {
+        format!("{} ({})", channel.name, more.join(", "))
+    }
+}
+
+/// The channel that by its name, symbol or comment may be a quantity.
+fn guess(quantity: ChannelQuantity, channels: &[Channel]) -> Option<String> {
+    let names = NAMES.iter().find(|names| names.quantity == quantity)?;
+    names.hints.iter().find_map(|hint| {
+        let fits = |channel: &&Channel| {
+            let texts = [&channel.name, &channel.symbol, &channel.comment];
+            texts.into_iter().any(|text| {
+                let letters = text.to_lowercase().replace(['_', ' ', '.'], "");
+                letters.contains(hint)
+            })
+        };
+        channels
+            .iter()
+            .find(fits)
+            .map(|channel| channel.name.clone())
+    })
+}
+
+/// A CNC object as the user writes it.
+#[derive(Debug, Clone, Copy)]
+enum Wanted {
+    /// `0x120300:0x10017`.
+    Whole(CncObject),
+    /// `0x10017`, an offset with its axis.
+    Offset(u32),
+    /// `0x17`, the object of whatever axis.
+    Element(u32),
+}
+
+impl Wanted {
+    fn fits(self, object: CncObject) -> bool {
+        match self {
+            Self::Whole(whole) => whole == object,
+            Self::Offset(offset) => offset == object.offset,
+            Self::Element(element) => element == object.element(),
+        }
+    }
+}
+
+fn parse_object(text: &str) -> Option<Wanted> {
+    let is_hex = |text: &str| text.starts_with("0x") || text.starts_with("0X");
+    match text.split_once([':', ',', '/']) {
+        Some((group, offset)) => Some(Wanted::Whole(CncObject {
+            group: parse_address(group)?,
+            offset: parse_address(offset)?,
+        })),
+        None if is_hex(text) => match parse_address(text)? {
+            element @ 0..=0xffff => Some(Wanted::Element(element)),
+            offset => Some(Wanted::Offset(offset)),
+        },
+        None => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn channel(name: &str, comment: &str, offset: u32) -> Channel {
+        Channel {
+            name: name.to_owned(),
+            comment: comment.to_owned(),
+            object: Some(CncObject {
+                group: 0x12_0300,
+                offset,
+            }),
+            ..Channel::default()
+        }
+    }
+
+    fn two_axes() -> [Channel; 4] {
+        [
+            channel("ActTorque", "torque of X", 0x1_0017),
+            channel("ActTorque", "torque of Y", 0x2_0017),
+            channel("SetVelo [mm/s]", "", 0x1_0005),
+            channel("Position", "", 0x1_0003),
+        ]
+    }
+
+    #[test]
+    fn channels_are_found_by_name_comment_and_object() {
+        // R6.3
+        let selection = ChannelSelection::default();
+        let find = |wanted: &str| selection.named(wanted, &two_axes()).map(|it| it.0);
+        assert_eq!(find("Position"), Ok(3));
+        assert_eq!(find("setvelo"), Ok(2));
+        assert_eq!(find("torque of Y"), Ok(1));
+        assert_eq!(find("0x120300:0x20017"), Ok(1));
+        assert_eq!(find("0x10017"), Ok(0));
+        assert_eq!(find("1180416:131095"), Ok(1));
+        assert!(matches!(
+            find("ActTorque"),
+            Err(SelectError::Several { .. })
+        ));
+        assert!(matches!(find("0x17"), Err(SelectError::Several { .. })));
+        let Err(error) = find("Positon") else {
+            panic!("found")
+        };
+        let help = error.help().unwrap_or_default();
+        assert!(
+            help.starts_with("did you mean `Position`? the channels are ActTorque, "),
+            "{help}"
+        );
+    }
+
+    #[test]
+    fn the_axis_tells_channels_apart() {
+        // R6.3
+        for (axis, found) in [("1", 0), ("2", 1), ("X", 0), ("y", 1)] {
+            let selection = ChannelSelection {
+                axis: Some(axis.to_owned()),
+                ..ChannelSelection::default()
+            };
+            let torque = selection.named("ActTorque", &two_axes()).map(|it| it.0);
+            assert_eq!(torque, Ok(found), "{axis}");
+        }
+    }
+
+    #[test]
+    fn the_unit_of_the_user_goes_before_that_of_the_file() {
+        // R6.3
+        let mut selection = ChannelSelection {
+            velocity: Some("SetVelo".to_owned()),
+            ..ChannelSelection::default()
+        };
+        let factor = |selection: &ChannelSelection| {
+            let pick = selection.require(ChannelQuantity::Velocity, &two_axes());
+            pick.map(|pick| (pick.unit.factor, pick.is_unit_assumed))
+        };
+        assert_eq!(factor(&selection), Ok((1000.0, false)));
+        let metres = Unit::parse("m/s").expect("a unit");
+        selection.units.push(("velocity".to_owned(), metres));
+        assert_eq!(factor(&selection), Ok((1e6, false)));
+    }
+
+    #[test]
+    fn what_is_not_named_is_guessed() {
+        // R6.3
+        let error = ChannelSelection::default().require(ChannelQuantity::Torque, &two_axes());
+        let error = error.expect_err("no channel `torque`");
+        assert!(
+            error
+                .help()
+                .is_some_and(|help| help.contains("perhaps `ActTorque`"))
+        );
+    }
+}

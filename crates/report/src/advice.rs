@@ -1,0 +1,98 @@
+//! What the operator has to know or to do after a session, for every report that tells it.
+
+use frictcomp::comp::State;
+use frictcomp::timeline::{AxisSummary, EndedBy, Footing};
+
+/// What the operator has to know or to do about an axis, after its name (R1.27: the state
+/// outlives the program).
+pub(super) fn axis_advice(axis: &AxisSummary, name: &str) -> Option<String> {
+    let untold = axis.end != axis.start_up && !axis.told;
+    match axis.end {
+        State::Inactive if untold => Some(format!(
+            " stays inactive for the next program: switch it on with {name}[COMP ON FRICT]"
+        )),
+        State::Active if untold => Some(format!(
+            " stays active for the next program: switch it off with {name}[COMP OFF FRICT]"
+        )),
+        State::Ineffective => Some(
+            " is selected without effect: it has no accepted value list (explain FC303)".to_owned(),
+        ),
+        State::Unknown => Some(format!(
+            " is not known offline: begin the next program with {name}[COMP ON FRICT] or OFF"
+        )),
+        State::Active | State::Inactive | State::Unconfigured => None,
+    }
+}
+
+/// What an error means for the states that are left, where `errors` were said and the last program
+/// ended so.
+pub(super) fn error_advice(errors: u64, by: Option<EndedBy>) -> Option<&'static str> {
+    match by {
+        Some(EndedBy::Error) => {
+            Some("Stopped by an error: these are the states at the stop; the rest did not run.")
+        }
+        Some(EndedBy::Budget) => {
+            Some("Stopped by a budget: these are the states at the stop; the rest did not run.")
+        }
+        _ if errors > 0 => {
+            Some("The control stops at the first error: correct it, then look at the states again.")
+        }
+        _ => None,
+    }
+}
+
+/// Whether an axis is known to be as at the start of the control.
+pub(super) fn is_home(axis: &AxisSummary) -> bool {
+    axis.end == axis.start_up && axis.others_away.is_empty()
+}
+
+/// Whether every feed move was made with friction compensation, as far as it is configured (R13.12).
+pub(super) fn is_compensated(axis: &AxisSummary) -> bool {
+    axis.feed_moves.is_empty()
+}
+
+/// Said where nothing is left to do, every axis is in its start-up state and the machine is described
+/// (R1.37).
+pub(super) fn all_home(axes: &[AxisSummary], footing: Footing) -> &'static str {
+    match footing {
+        Footing::Known if axes.iter().all(is_compensated) => {
+            "Nothing to do: every axis is as at the start of the control."
+        }
+        Footing::Known => "Every axis is as at the start of the control.",
+        Footing::Assumed => {
+            "Every axis is as at the start of the control as far as it is known: see FC902."
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frictcomp::comp::AxisIndex;
+
+    #[test]
+    fn advice_follows_what_is_left() {
+        // R1.27
+        let advice = |start_up, end| {
+            let axis = AxisSummary {
+                others_away: frictcomp::comp::KindSet::NONE,
+                axis: AxisIndex::new(0),
+                start: start_up,
+                end,
+                start_up,
+                told: false,
+                changed_by: Vec::new(),
+                changes: 0,
+                feed_moves: frictcomp::timeline::FeedMoves::default(),
+            };
+            axis_advice(&axis, "X").unwrap_or_default()
+        };
+        assert_eq!(advice(State::Active, State::Active), "");
+        assert_eq!(advice(State::Inactive, State::Inactive), "");
+        assert_eq!(advice(State::Unconfigured, State::Unconfigured), "");
+        assert!(advice(State::Active, State::Inactive).ends_with("X[COMP ON FRICT]"));
+        assert!(advice(State::Inactive, State::Active).ends_with("X[COMP OFF FRICT]"));
+        assert!(advice(State::Active, State::Unknown).contains("not known offline"));
+        assert!(advice(State::Ineffective, State::Ineffective).contains("FC303"));
+    }
+}

@@ -1,0 +1,175 @@
+//! What is reported: archives by machine, and the words for what a program does.
+
+use frictcomp::audit::{Archive, AxisAudit, AxisFinding, ProgramEffect};
+use frictcomp::comp::Kind;
+
+/// Archives by machine, with what was found in each.
+#[derive(Debug, Clone, Default)]
+pub struct AuditReport {
+    /// The machines, each with its programs.
+    pub machines: Vec<MachineAudit>,
+}
+
+/// The programs of one machine.
+#[derive(Debug, Clone)]
+pub struct MachineAudit {
+    /// The configuration or start-up list of the machine, where there is one.
+    pub origin: Option<String>,
+    /// The programs.
+    pub archive: Archive,
+    /// What they do together.
+    pub findings: Vec<AxisFinding>,
+}
+
+impl MachineAudit {
+    /// What the programs of a machine do together.
+    pub fn new(origin: Option<String>, archive: Archive) -> Self {
+        Self {
+            findings: archive.findings(),
+            origin,
+            archive,
+        }
+    }
+}
+
+impl AuditReport {
+    pub(super) fn findings(&self) -> impl Iterator<Item = &AxisFinding> {
+        self.machines.iter().flat_map(|machine| &machine.findings)
+    }
+
+    /// The hazards of all axes.
+    pub fn hazards(&self) -> u64 {
+        let hazards = self.findings().map(AxisFinding::hazards);
+        hazards.fold(0, u64::saturating_add)
+    }
+
+    /// The possible hazards of all axes.
+    pub fn possible_hazards(&self) -> u64 {
+        let hazards = self.findings().map(AxisFinding::possible_hazards);
+        hazards.fold(0, u64::saturating_add)
+    }
+
+    /// Whether it is not known of some program what it does to some axis.
+    pub(crate) fn has_unknown(&self) -> bool {
+        self.findings().any(|finding| !finding.unknown.is_empty())
+    }
+
+    /// Whether something is to be mended, or cannot be told.
+    pub fn has_warnings(&self) -> bool {
+        self.findings().any(AxisFinding::is_worth_a_warning)
+    }
+
+    /// The axes and kinds of which it is not known what a program makes of them.
+    pub fn unknown(&self) -> impl Iterator<Item = (&str, Kind)> {
+        let programs = self.machines.iter().flat_map(|it| it.archive.programs());
+        let axes = programs.flat_map(|program| &program.axes);
+        let unknown = axes.filter(|axis| axis.effect == ProgramEffect::Unknown);
+        unknown.map(|axis| (axis.axis.as_str(), axis.kind))
+    }
+
+    /// How many programs were audited.
+    pub fn programs(&self) -> usize {
+        let programs = self.machines.iter().map(|it| it.archive.programs().len());
+        programs.sum()
+    }
+
+    /// The machine's name where there are several.
+    pub(super) fn origin_among_several<'a>(&self, machine: &'a MachineAudit) -> Option<&'a str> {
+        let several = self.machines.len() > 1;
+        several.then(|| machine.origin.as_deref().unwrap_or("no configuration"))
+    }
+}
+
+/// What a program does to an axis, as one word; the most dangerous comes first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Word {
+    /// It moves the axis as it finds it, and leaves it away from its start-up state.
+    Both,
+    /// It leaves the axis away from its start-up state.
+    Leaves,
+    /// It is not known offline.
+    Unknown,
+    /// It moves the axis in the state that it finds.
+    Inherits,
+    /// It may move the axis in the state that it finds.
+    Perhaps,
+    /// It leaves the axis in its start-up state, and does not move it before that.
+    StartUp,
+    /// It neither switches nor moves the axis before it is set.
+    Keeps,
+}
+
+impl Word {
+    /// Every word, the most dangerous first.
+    pub const ALL: [Self; 7] = [
+        Self::Both,
+        Self::Leaves,
+        Self::Unknown,
+        Self::Inherits,
+        Self::Perhaps,
+        Self::StartUp,
+        Self::Keeps,
+    ];
+
+    /// The word for what a program does to an axis.
+    pub fn of(axis: &AxisAudit) -> Self {
+        match axis.effect {
+            _ if axis.leaves_away() && axis.is_inheritor() => Self::Both,
+            _ if axis.leaves_away() => Self::Leaves,
+            _ if axis.is_unknown() => Self::Unknown,
+            _ if axis.is_inheritor() => Self::Inherits,
+            _ if axis.may_inherit() => Self::Perhaps,
+            ProgramEffect::Keeps => Self::Keeps,
+            _ => Self::StartUp,
+        }
+    }
+
+    /// The word of the table.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Both => "both",
+            Self::Leaves => "leaves",
+            Self::Unknown => "unknown",
+            Self::Inherits => "inherits",
+            Self::Perhaps => "perhaps",
+            Self::StartUp => "start-up",
+            Self::Keeps => "keeps",
+        }
+    }
+
+    /// What it means.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Both => {
+                "moves the axis as it finds it, and leaves it away from its start-up state"
+            }
+            Self::Leaves => "leaves the axis away from its start-up state",
+            Self::Unknown => "it is not known offline what the program leaves or inherits",
+            Self::Inherits => "moves the axis in the state that it finds",
+            Self::Perhaps => "may move the axis in the state that it finds",
+            Self::StartUp => {
+                "leaves the axis in its start-up state, and does not move it before that"
+            }
+            Self::Keeps => "neither switches nor moves the axis before it is set",
+        }
+    }
+}
+
+/// An axis, and its kind where that is another than friction compensation.
+pub(crate) fn axis_name(axis: &str, kind: Kind) -> String {
+    if kind == Kind::Frict {
+        axis.to_owned()
+    } else {
+        format!("{axis} {}", kind.as_str())
+    }
+}
+
+/// Whether a column of a table says anything: a kind that nobody switches is left out.
+pub(crate) fn is_shown(machine: &MachineAudit, finding: &AxisFinding) -> bool {
+    let programs = machine.archive.programs();
+    finding.kind == Kind::Frict
+        || programs
+            .iter()
+            .any(|program| program.axes[finding.at].effect != ProgramEffect::Keeps)
+}

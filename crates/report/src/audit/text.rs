@@ -1,0 +1,325 @@
+//! An audit for people: a table of programs and axes, what was found of each axis, the cure.
+
+use std::fmt::Write as _;
+
+use super::subject::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use crate::visible::visible_line;
+use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Ending, Inherits, ProgramAudit};
+use frictcomp::interpreter::MotionKind;
+
+/// Rows of a table, and programs of a list, that are shown.
+const ROWS: usize = 40;
+const LISTED: usize = 10;
+
+/// How much of long tables and lists is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Length {
+    /// The dangerous part; the rest is counted.
+    Folded,
+    /// All of it.
+    Whole,
+}
+
+impl Length {
+    fn of(self, folded: usize) -> usize {
+        match self {
+            Self::Folded => folded,
+            Self::Whole => usize::MAX,
+        }
+    }
+}
+
+/// The table, the findings and the cure of every machine.
+pub fn render_text(report: &AuditReport, length: Length) -> String {
+    let mut out = String::new();
+    for machine in &report.machines {
+        if let Some(origin) = report.origin_among_several(machine) {
+            let _ = writeln!(out, "machine {}\n", visible_line(origin));
+        }
+        push_table(&mut out, machine, length);
+        for finding in machine.findings.iter().filter(|it| is_shown(machine, it)) {
+            out.push('\n');
+            push_finding(&mut out, machine, finding, length);
+        }
+        out.push('\n');
+    }
+    let _ = writeln!(out, "{}", total(report));
+    out
+}
+
+fn total(report: &AuditReport) -> String {
+    let programs = counted(length_of(report.programs()), "program");
+    let hazards = report.hazards();
+    if report.findings().next().is_none() {
+        return format!("{programs}; no axis is configured for friction compensation");
+    }
+    let what = match hazards {
+        0 if report.possible_hazards() > 0 => {
+            let pairs = counted(report.possible_hazards(), "possible hazard");
+            format!("no certain hazard, but {pairs}: a program that leaves an axis away from its start-up state, and one that may move it so")
+        }
+        0 if report.has_unknown() => {
+            "no certain hazard, but programs of which it is not known what they leave or inherit".to_owned()
+        }
+        0 => "no order of these programs moves an axis outside its start-up state because of what another left"
+            .to_owned(),
+        1 => "1 hazard: a program that leaves an axis away from its start-up state, and one that inherits it"
+            .to_owned(),
+        more => format!(
+            "{more} hazards: ordered pairs of a program that leaves an axis away from its start-up state and one that inherits it"
+        ),
+    };
+    format!("{programs}; {what}")
+}
+
+fn counted(count: u64, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}
+
+/// A count that follows another one, where it is not zero.
+fn more(count: u64, noun: &str) -> String {
+    match count {
+        0 => String::new(),
+        count => format!(", {}", counted(count, noun)),
+    }
+}
+
+/// The rows of the table, the most dangerous first.
+fn push_table(out: &mut String, machine: &MachineAudit, length: Length) {
+    let columns: Vec<&AxisFinding> = machine
+        .findings
+        .iter()
+        .filter(|it| is_shown(machine, it))
+        .collect();
+    if columns.is_empty() {
+        return;
+    }
+    let words = |program: &ProgramAudit| -> Vec<Word> {
+        columns
+            .iter()
+            .map(|column| Word::of(&program.axes[column.at]))
+            .collect()
+    };
+    let mut rows: Vec<(&str, Vec<Word>)> = machine
+        .archive
+        .programs()
+        .iter()
+        .map(|program| (program.file.as_str(), words(program)))
+        .collect();
+    rows.sort_by_key(|(_, words)| words.iter().min().copied());
+    let shown = rows.len().min(length.of(ROWS));
+    let (shown, folded) = rows.split_at(shown);
+    let names: Vec<String> = shown
+        .iter()
+        .map(|(file, _)| visible_line(file).into_owned())
+        .collect();
+    let width = names.iter().map(|name| columns_of(name)).max();
+    let width = width.unwrap_or_default().max("program".len());
+    let heads = columns.iter().map(|it| axis_name(&it.axis, it.kind));
+    let heads: Vec<String> = heads.collect();
+    let cell = |head: &str| columns_of(head).max("inherits".len());
+    let mut line = format!("{:<width$}", "program");
+    for head in &heads {
+        let _ = write!(line, "  {:<w$}", visible_line(head), w = cell(head));
+    }
+    let _ = writeln!(out, "{}", line.trim_end());
+    for (name, (_, words)) in names.iter().zip(shown) {
+        let mut line = format!("{name}{}", " ".repeat(width - columns_of(name)));
+        for (word, head) in words.iter().zip(&heads) {
+            let _ = write!(line, "  {:<w$}", word.as_str(), w = cell(head));
+        }
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    push_folded(out, folded);
+    let met = |word: &Word| rows.iter().any(|(_, words)| words.contains(word));
+    out.push('\n');
+    for word in Word::ALL.into_iter().filter(met) {
+        let _ = writeln!(out, "  {:<9} {}", word.as_str(), word.meaning());
+    }
+}
+
+fn columns_of(text: &str) -> usize {
+    unicode_width::UnicodeWidthStr::width(text)
+}
+
+/// How many programs are not shown, by their most dangerous word.
+fn push_folded(out: &mut String, folded: &[(&str, Vec<Word>)]) {
+    if folded.is_empty() {
+        return;
+    }
+    let counts = Word::ALL.map(|word| {
+        let worst = folded.iter().map(|(_, words)| words.iter().min());
+        (word, worst.filter(|worst| *worst == Some(&word)).count())
+    });
+    let counts = counts.iter().filter(|(_, count)| *count > 0);
+    let counts: Vec<String> = counts
+        .map(|(word, count)| format!("{count} {}", word.as_str()))
+        .collect();
+    let more = counted(length_of(folded.len()), "more program");
+    let _ = writeln!(out, "… {more}: {}", counts.join(", "));
+}
+
+fn push_finding(out: &mut String, machine: &MachineAudit, finding: &AxisFinding, length: Length) {
+    let name = axis_name(&finding.axis, finding.kind);
+    let away = if finding.on_at_start_up { "off" } else { "on" };
+    let _ = writeln!(
+        out,
+        "{}: {} it {away}, {} in that state, {}{}{}",
+        visible_line(&name),
+        verb(finding.leavers.len(), finding, ("leaves", "leave")),
+        verb(finding.inheritors.len(), finding, ("moves", "move")),
+        counted(finding.hazards(), "hazard"),
+        more(finding.possible_hazards(), "possible one"),
+        more(length_of(finding.unknown.len()), "unknown program"),
+    );
+    let mut list = |title: &str, programs: &[usize], say: &dyn Fn(&ProgramAudit) -> String| {
+        if programs.is_empty() {
+            return;
+        }
+        let _ = writeln!(out, "  {title}");
+        let shown = programs.len().min(length.of(LISTED));
+        for &program in &programs[..shown] {
+            let _ = writeln!(out, "    {}", say(&machine.archive.programs()[program]));
+        }
+        if programs.len() > shown {
+            let _ = writeln!(out, "    … {} more", programs.len() - shown);
+        }
+    };
+    let of = |program: &ProgramAudit| program.axes[finding.at].clone();
+    list(
+        "the second run differs from the first:",
+        &finding.both,
+        &|program| {
+            format!(
+                "{}, {}",
+                leaver(program, &of(program)),
+                inheritor(program, &of(program))
+            )
+        },
+    );
+    let only = |list: &[usize]| -> Vec<usize> {
+        let only = list.iter().filter(|at| !finding.both.contains(at));
+        only.copied().collect()
+    };
+    let title = format!("leave it {away}:");
+    list(&title, &only(&finding.leavers), &|program| {
+        leaver(program, &of(program))
+    });
+    list("inherit it:", &only(&finding.inheritors), &|program| {
+        inheritor(program, &of(program))
+    });
+    list(
+        "may inherit it:",
+        &finding.possible_inheritors,
+        &|program| inheritor(program, &of(program)),
+    );
+    list("not known:", &finding.unknown, &|program| {
+        unknown(program, &of(program))
+    });
+    push_cure(out, machine, finding, length);
+}
+
+fn length_of(list: usize) -> u64 {
+    u64::try_from(list).unwrap_or(u64::MAX)
+}
+
+fn verb(count: usize, finding: &AxisFinding, (one, several): (&str, &str)) -> String {
+    match count {
+        // Any of the others may (R10.9).
+        0 if !finding.unknown.is_empty() => format!("no program is known to {several}"),
+        0 => format!("no program {one}"),
+        1 => format!("1 program {one}"),
+        count => format!("{count} programs {several}"),
+    }
+}
+
+fn leaver(program: &ProgramAudit, axis: &AxisAudit) -> String {
+    let file = visible_line(&program.file);
+    match &axis.by {
+        Some(by) if *by.file == *program.file => format!("{file}:{}", by.line),
+        Some(by) => format!("{file} (at {}:{})", visible_line(&by.file), by.line),
+        None => format!("{file} (at its end)"),
+    }
+}
+
+fn inheritor(program: &ProgramAudit, axis: &AxisAudit) -> String {
+    let Some(motion) = axis.inherits.motion() else {
+        return visible_line(&program.file).into_owned();
+    };
+    let may = if motion.perhaps { "may move" } else { "moves" };
+    let pace = way(motion.motion);
+    let (file, line) = (visible_line(&motion.site.file), motion.site.line);
+    if *motion.site.file == *program.file {
+        format!("{file}:{line} ({may}{pace})")
+    } else {
+        let program = visible_line(&program.file);
+        format!("{program} (at {file}:{line}, {may}{pace})")
+    }
+}
+
+/// How an axis moves, behind `moves` or `may move`.
+fn way(kind: MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Rapid => " in rapid",
+        MotionKind::Feed => " at feed",
+        MotionKind::Homing => " to its reference point",
+        MotionKind::Independent => " by itself",
+        MotionKind::Coupled => " with another axis",
+        MotionKind::Frame => " in a turned frame",
+        _ => "",
+    }
+}
+
+fn unknown(program: &ProgramAudit, axis: &AxisAudit) -> String {
+    let file = visible_line(&program.file);
+    let Some(reason) = &axis.reason else {
+        return match axis.inherits {
+            Inherits::Unknown => format!("{file}: it stops before the axis is moved or set"),
+            _ => file.into_owned(),
+        };
+    };
+    let place = match &reason.site {
+        Some(site) => format!("{}:{}", visible_line(&site.file), site.line),
+        None => file.to_string(),
+    };
+    let code = reason
+        .code
+        .map_or(String::new(), |code| format!(" {code}:"));
+    let of = match &reason.site {
+        Some(site) if *site.file != *program.file => format!("{file}, "),
+        _ => String::new(),
+    };
+    format!("{of}{place}:{code} {}", visible_line(&reason.message))
+}
+
+fn push_cure(out: &mut String, machine: &MachineAudit, finding: &AxisFinding, length: Length) {
+    let movers = finding.movers();
+    let (programs, what) = match finding.cure() {
+        Cure::Leavers => (
+            &finding.leavers,
+            "before the end of each program that leaves it",
+        ),
+        Cure::Inheritors => (&movers, "before the first motion of each that inherits it"),
+        _ => return,
+    };
+    let _ = writeln!(out, "  cure: one block {what}");
+    let shown = programs.len().min(length.of(LISTED));
+    for &program in &programs[..shown] {
+        let program = &machine.archive.programs()[program];
+        let axis = &program.axes[finding.at];
+        let file = visible_line(&program.file);
+        let place = match (finding.cure(), program.ending, axis.inherits.motion()) {
+            (Cure::Inheritors, _, Some(motion)) if *motion.site.file == *program.file => {
+                format!("before {file}:{}", motion.site.line)
+            }
+            (Cure::Inheritors, ..) => format!("at the beginning of {file}"),
+            (_, Ending::At(line), _) => format!("before {file}:{line}"),
+            _ => format!("at the end of {file}"),
+        };
+        let _ = writeln!(out, "    {}  {place}", axis.way_home());
+    }
+    if programs.len() > shown {
+        let _ = writeln!(out, "    … {} more", programs.len() - shown);
+    }
+}

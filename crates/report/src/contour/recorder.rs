@@ -1,0 +1,184 @@
+//! What is kept or written of a contour while it is made.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+use super::records::{CSV_HEADER, csv_row, reversal_record};
+use crate::pictures::ContourPicture;
+use frictcomp_physics::contour::{ContourPoint, ContourReversal, ContourSink};
+use frictcomp_physics::motion::Movement;
+
+/// How many of the worst reversals are kept.
+const WORST: usize = 10;
+
+/// So many switches are kept.
+const MOST_SWITCHES: usize = 100;
+
+/// What becomes of each reversal.
+enum Reversals<'a> {
+    /// Only the worst are kept.
+    Worst,
+    /// All are kept, and the largest deviation of each block.
+    Kept,
+    /// Each is written as a line of JSON.
+    Ndjson(&'a mut (dyn Write + Send)),
+    /// Each is written as a row.
+    Csv(&'a mut (dyn Write + Send)),
+}
+
+/// Takes a contour and keeps or writes what is asked for.
+pub struct ContourRecorder<'a> {
+    names: Vec<String>,
+    reversals: Reversals<'a>,
+    all: Vec<ContourReversal>,
+    worst: Vec<ContourReversal>,
+    switches: Vec<ContourReversal>,
+    more_switches: u64,
+    blocks: BTreeMap<(Arc<str>, u32), f64>,
+    picture: Option<ContourPicture>,
+    error: Option<io::Error>,
+}
+
+impl<'a> ContourRecorder<'a> {
+    /// Keeps the worst reversals of axes with these names.
+    pub fn new(names: Vec<String>) -> Self {
+        Self {
+            names,
+            reversals: Reversals::Worst,
+            all: Vec::new(),
+            worst: Vec::new(),
+            switches: Vec::new(),
+            more_switches: 0,
+            blocks: BTreeMap::new(),
+            picture: None,
+            error: None,
+        }
+    }
+
+    /// The same, which keeps all reversals, and the largest deviation of each block.
+    pub fn keeping_all(self) -> Self {
+        Self {
+            reversals: Reversals::Kept,
+            ..self
+        }
+    }
+
+    /// The same, which writes each reversal as a line of JSON.
+    pub fn writing_ndjson(self, writer: &'a mut (dyn Write + Send)) -> Self {
+        Self {
+            reversals: Reversals::Ndjson(writer),
+            ..self
+        }
+    }
+
+    /// The same, which writes each reversal as a row, below a header.
+    pub fn writing_csv(mut self, writer: &'a mut (dyn Write + Send)) -> Self {
+        self.error = writer.write_all(CSV_HEADER.as_bytes()).err();
+        Self {
+            reversals: Reversals::Csv(writer),
+            ..self
+        }
+    }
+
+    /// The same, which draws.
+    pub fn drawing(self, picture: ContourPicture) -> Self {
+        Self {
+            picture: Some(picture),
+            ..self
+        }
+    }
+
+    /// All reversals, where they are kept.
+    pub fn reversals(&self) -> &[ContourReversal] {
+        &self.all
+    }
+
+    /// The reversals in feed moves with the largest glitches, the largest first.
+    pub fn worst(&self) -> &[ContourReversal] {
+        &self.worst
+    }
+
+    /// Where compensation of an axis is switched while it moves on, the first ones, and how many more
+    /// there are.
+    pub fn switches(&self) -> (&[ContourReversal], u64) {
+        (&self.switches, self.more_switches)
+    }
+
+    /// The largest deviation of each block in µm, by file and line, where all is kept.
+    pub fn blocks(&self) -> &BTreeMap<(Arc<str>, u32), f64> {
+        &self.blocks
+    }
+
+    /// What was drawn.
+    pub fn take_picture(&mut self) -> Option<ContourPicture> {
+        self.picture.take()
+    }
+
+    /// Why nothing more could be written.
+    pub fn take_error(&mut self) -> Option<io::Error> {
+        self.error.take()
+    }
+
+    fn keep_worst(&mut self, reversal: &ContourReversal) {
+        let glitch = |it: &ContourReversal| it.glitch_um.programmed;
+        let at = self
+            .worst
+            .partition_point(|it| glitch(it) >= glitch(reversal));
+        if at < WORST {
+            self.worst.insert(at, reversal.clone());
+            self.worst.truncate(WORST);
+        }
+    }
+}
+
+impl ContourSink for ContourRecorder<'_> {
+    fn point(&mut self, point: &ContourPoint<'_>) {
+        if let Some(picture) = &mut self.picture {
+            picture.point(point);
+        }
+        if matches!(self.reversals, Reversals::Kept) && point.counts {
+            let deviation = point.space_um.programmed;
+            let key = (Arc::clone(&point.cause.file), point.cause.line);
+            let max = self.blocks.entry(key).or_default();
+            *max = max.max(deviation);
+        }
+    }
+
+    fn reversal(&mut self, reversal: &ContourReversal) {
+        if reversal.movement != Movement::Rapid && reversal.is_measured {
+            self.keep_worst(reversal);
+        }
+        if let Some(picture) = &mut self.picture {
+            picture.reversal(reversal);
+        }
+        let written = match &mut self.reversals {
+            Reversals::Worst => Ok(()),
+            Reversals::Kept => {
+                self.all.push(reversal.clone());
+                Ok(())
+            }
+            Reversals::Ndjson(writer) => {
+                let mut record = reversal_record(reversal, &self.names);
+                record["record"] = "reversal".into();
+                writeln!(writer, "{record}")
+            }
+            Reversals::Csv(writer) => writer.write_all(csv_row(reversal, &self.names).as_bytes()),
+        };
+        if let Err(error) = written {
+            self.error.get_or_insert(error);
+        }
+    }
+
+    fn switch(&mut self, switch: &ContourReversal) {
+        if self.switches.len() < MOST_SWITCHES {
+            self.switches.push(switch.clone());
+        } else {
+            self.more_switches += 1;
+        }
+    }
+
+    fn is_closed(&self) -> bool {
+        self.error.is_some()
+    }
+}

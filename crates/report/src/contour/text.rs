@@ -1,0 +1,338 @@
+//! A contour for people.
+
+use std::fmt::Write as _;
+
+use super::places::Block;
+use super::recorder::ContourRecorder;
+use super::remarks::{compensation, contour_remarks, not_judged};
+use crate::visible::visible_line;
+use frictcomp::comp::State;
+use frictcomp_physics::contour::{
+    ContourReversal, ContourSink, ContourSummary, Deviations, ProgramContour,
+};
+use frictcomp_physics::motion::Cause;
+
+/// What was driven.
+#[derive(Debug, Clone)]
+pub struct ContourSubject {
+    /// Path of the program.
+    pub program: String,
+    /// The plant.
+    pub plant: String,
+}
+
+impl ContourSubject {
+    /// The program, and whether its contour is judged.
+    pub fn heading<S: ContourSink>(&self, contour: &ProgramContour<S>) -> String {
+        if contour.obstacles().is_empty() {
+            self.program.clone()
+        } else {
+            format!("{}, not judged", self.program)
+        }
+    }
+}
+
+/// The figures of the three runs, a sentence for each axis, the worst reversals, and what is not
+/// modelled.
+pub fn render_text(
+    contour: &mut ProgramContour<ContourRecorder<'_>>,
+    subject: &ContourSubject,
+) -> String {
+    let mut out = String::new();
+    let axes = &contour.options().axes;
+    let _ = writeln!(
+        out,
+        "{}: contour in the plane {}{}, {:.3} s of machine time, plant {}\n",
+        visible_line(&subject.program),
+        axes[0].name,
+        axes[1].name,
+        contour.machine_time_s(),
+        visible_line(&subject.plant),
+    );
+    let obstacles = contour.obstacles();
+    for line in not_judged(&obstacles) {
+        let _ = writeln!(out, "{line}");
+    }
+    if !obstacles.is_empty() {
+        out.push('\n');
+    }
+    push_figures(&mut out, contour);
+    push_due(&mut out, contour);
+    for line in contour_remarks(contour) {
+        let _ = writeln!(out, "{line}");
+    }
+    out.push('\n');
+    let is_whole = contour.is_whole();
+    for axis in contour.axes() {
+        let _ = writeln!(out, "{}", sentence(axis, Counted::of(is_whole)));
+    }
+    push_switches(&mut out, contour.sink().switches());
+    push_beside_the_plane(&mut out, contour.axes());
+    push_worst(&mut out, contour.sink().worst(), &subject.program);
+    out.push('\n');
+    for axis in &contour.options().axes {
+        let _ = writeln!(out, "{}", compensation(axis));
+    }
+    let backlash = contour
+        .options()
+        .axes
+        .iter()
+        .all(|axis| axis.drive.backlash_m == 0.0);
+    let _ = writeln!(
+        out,
+        "not modelled: cutting forces, errors of the machine's geometry{}",
+        if backlash { ", backlash" } else { "" }
+    );
+    let unknown = contour.time_not_of_the_machine_s();
+    if unknown > 0.0 {
+        let _ = writeln!(
+            out,
+            "left out: {unknown:.3} s in which positions are those of the program, not of the machine"
+        );
+    }
+    if contour.left_out() > 0 {
+        let motions = match contour.left_out() {
+            1 => "1 motion".to_owned(),
+            count => format!("{count} motions"),
+        };
+        let _ = writeln!(
+            out,
+            "left out: {motions} whose start, end or feed is not known"
+        );
+    }
+    out
+}
+
+/// The figures of the three runs, and where the extreme ones are.
+fn push_figures<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
+    let runs = contour.deviations();
+    let runs = [&runs.programmed, &runs.all_on, &runs.all_off];
+    let _ = writeln!(
+        out,
+        "{:<24}{:>12}{:>12}{:>12}",
+        "while cutting, in µm", "programmed", "all on", "all off"
+    );
+    let mut row = |name: &str, values: [f64; 3]| {
+        let _ = write!(out, "{name:<24}");
+        for value in values {
+            let _ = write!(out, "{:>12.2}", value + 0.0);
+        }
+        out.push('\n');
+    };
+    row("largest deviation", runs.map(Deviations::max_um));
+    row("outermost", runs.map(|run| run.outermost_um));
+    row("innermost", runs.map(|run| run.innermost_um));
+    row("root mean square", runs.map(Deviations::rms_um));
+    out.push('\n');
+    for (name, at) in [
+        (
+            "largest deviation",
+            runs.map(|run| run.max_at().map(|at| &**at)),
+        ),
+        ("outermost", runs.map(|run| run.outermost_at.as_deref())),
+        ("innermost", runs.map(|run| run.innermost_at.as_deref())),
+    ] {
+        if let Some(places) = places(at) {
+            let _ = writeln!(out, "{name} at {places}");
+        }
+    }
+}
+
+/// "part.nc:165 N1640 (programmed, all off), part.nc:168 N1670 (all on)"
+fn places(at: [Option<&Cause>; 3]) -> Option<String> {
+    let mut places: Vec<(String, Vec<&str>)> = Vec::new();
+    for (at, run) in at.into_iter().zip(["programmed", "all on", "all off"]) {
+        let place = Block::from(at?).words();
+        match places.iter_mut().find(|(known, _)| *known == place) {
+            Some((_, runs)) => runs.push(run),
+            None => places.push((place, vec![run])),
+        }
+    }
+    if let [(place, _)] = places.as_slice() {
+        return Some(place.clone());
+    }
+    let places = places.into_iter();
+    let places = places.map(|(place, runs)| format!("{place} ({})", runs.join(", ")));
+    Some(places.collect::<Vec<String>>().join(", "))
+}
+
+fn push_due<S: ContourSink>(out: &mut String, contour: &ProgramContour<S>) {
+    let due = contour.due();
+    let _ = match &due.at {
+        Some(at) => writeln!(
+            out,
+            "missing compensation costs up to {:.2} µm, at {}",
+            due.um,
+            Block::from(&**at).words()
+        ),
+        None => writeln!(out, "missing compensation costs 0 µm"),
+    };
+}
+
+/// Where compensation is switched while the axis moves on (R1.57).
+fn push_switches(out: &mut String, (switches, more): (&[ContourReversal], u64)) {
+    for switch in switches {
+        let way = if switch.state == State::Active {
+            "on"
+        } else {
+            "off"
+        };
+        let _ = write!(
+            out,
+            "{} is switched {way} while it moves on, before {}",
+            switch.axis,
+            Block::from(switch).words()
+        );
+        let glitch = &switch.glitch_um;
+        let _ = if switch.is_measured {
+            writeln!(
+                out,
+                ": {:.1} µm there against {:.1} µm with all on; if the command stops the path, there is no jump",
+                glitch.programmed, glitch.all_on
+            )
+        } else {
+            writeln!(out, "; too near to a stop or a corner for a figure")
+        };
+    }
+    if more > 0 {
+        let _ = writeln!(out, "and {more} more such places");
+    }
+}
+
+/// A glitch in µm that a deviation in its plane would show.
+const NOTICEABLE_UM: f64 = 1.0;
+
+/// Says that an axis beside the plane deviates, too: in the plane that is not seen.
+fn push_beside_the_plane(out: &mut String, axes: &[ContourSummary]) {
+    let [first, second, further @ ..] = axes else {
+        return;
+    };
+    for axis in further {
+        let worst = axis.worst.as_ref();
+        if worst.is_some_and(|worst| worst.glitch_um.all_off > NOTICEABLE_UM) {
+            let _ = writeln!(
+                out,
+                "outermost and innermost are those in the plane {}{}; `--plane {},{}` shows those of {}",
+                first.axis, second.axis, first.axis, axis.axis, axis.axis
+            );
+        }
+    }
+}
+
+/// Whether every reversal of a program is counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Counted {
+    All,
+    /// Some motions were left out, and reversals with them.
+    AtLeast,
+}
+
+impl Counted {
+    fn of(is_whole: bool) -> Self {
+        if is_whole { Self::All } else { Self::AtLeast }
+    }
+}
+
+/// "X reverses 412 times while cutting, 57 times without compensation: …"
+fn sentence(axis: &ContourSummary, counted: Counted) -> String {
+    let mut text = format!("{} ", axis.axis);
+    let rapid = match axis.rapid {
+        0 => String::new(),
+        rapid => format!(" ({} in rapid)", times(rapid)),
+    };
+    match (axis.cutting, counted) {
+        (0, Counted::All) => {
+            let _ = write!(text, "does not reverse while cutting{rapid}");
+        }
+        (0, Counted::AtLeast) => {
+            let _ = write!(
+                text,
+                "has no reversal in the feed moves that were driven{rapid}; whether it reverses in \
+                 what was left out is not known"
+            );
+        }
+        (cutting, counted) => {
+            let (least, driven) = match counted {
+                Counted::All => ("", ""),
+                Counted::AtLeast => ("at least ", " in what was driven"),
+            };
+            let cutting = times(cutting);
+            let _ = write!(text, "reverses {least}{cutting} while cutting{rapid}");
+            if axis.unmeasured > 0 {
+                let _ = write!(
+                    text,
+                    ", {} too near to a stop or a corner for a figure",
+                    times(axis.unmeasured)
+                );
+            }
+            match &axis.dearest {
+                None if axis.uncompensated > 0 => {
+                    let _ = write!(
+                        text,
+                        ", {least}{} without compensation, where there is no figure",
+                        times(axis.uncompensated)
+                    );
+                }
+                None => {
+                    let _ = write!(text, ", always with compensation{driven}");
+                }
+                Some(dearest) => {
+                    let _ = write!(
+                        text,
+                        ", {least}{} without compensation: {:.1} µm there against {:.1} µm with it, at {}",
+                        times(axis.uncompensated),
+                        dearest.glitch_um.programmed,
+                        dearest.glitch_um.all_on,
+                        Block::from(dearest).words()
+                    );
+                }
+            }
+        }
+    }
+    if let Some(worst) = &axis.worst {
+        let _ = write!(
+            text,
+            "; worst at {}, {:.1} µm",
+            Block::from(worst).words(),
+            worst.glitch_um.programmed
+        );
+    }
+    text
+}
+
+fn times(count: u64) -> String {
+    match count {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        count => format!("{count} times"),
+    }
+}
+
+fn push_worst(out: &mut String, worst: &[ContourReversal], program: &str) {
+    if worst.is_empty() {
+        return;
+    }
+    let _ = writeln!(
+        out,
+        "\nworst reversals, glitch in µm, feeds in mm/min\n{:>7}  {:<4} {:<12} {:>7} {:>9} {:>9} {:>11} {:>9} {:>9}  block",
+        "line", "axis", "state", "F", "reached", "mm/s²", "programmed", "all on", "all off"
+    );
+    for reversal in worst {
+        let glitch = &reversal.glitch_um;
+        let programmed = reversal.programmed_mm_per_min;
+        let row = format!(
+            "{:>7}  {:<4} {:<12} {:>7} {:>9.0} {:>9.0} {:>11.2} {:>9.2} {:>9.2}  {}",
+            reversal.line,
+            visible_line(&reversal.axis),
+            reversal.state.as_str(),
+            programmed.map_or("-".to_owned(), |feed| format!("{feed:.0}")),
+            reversal.feed_mm_per_min,
+            reversal.acceleration_mm_per_s2.round() + 0.0,
+            glitch.programmed,
+            glitch.all_on,
+            glitch.all_off,
+            Block::from(reversal).beside(program)
+        );
+        let _ = writeln!(out, "{}", row.trim_end());
+    }
+}

@@ -1,0 +1,260 @@
+//! One row a block, for spreadsheets (R9.15), quoted as RFC 4180 says.
+
+use std::io::Write;
+use std::ops::ControlFlow;
+
+use frictcomp::comp::{AxisIndex, Change, Kind};
+use frictcomp::timeline::{End, PositionFrame, Record, Row, Sink, StateView};
+
+use super::output::{Gathered, Output};
+use super::strings::integer;
+use super::view::View;
+use super::visible::{any_byte, is_command, visible, visible_line};
+
+/// The last row: what is said at program end joins its codes.
+#[derive(Debug, Default)]
+struct Held {
+    row: Vec<u8>,
+    codes: String,
+    /// Whether it is written even if nothing more is said about it.
+    wanted: bool,
+}
+
+/// Writes one row a block.
+#[derive(Debug)]
+pub struct Csv<W> {
+    output: Output<W>,
+    view: View,
+    held: Held,
+    states: Vec<u8>,
+    version: Option<u64>,
+    changes: String,
+    positions: Positions,
+}
+
+/// Whether the rows say where the axes stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Positions {
+    /// A column `X_pos` for each axis, in mm or degrees, empty where the position is not known, and
+    /// a column `frame` that says whether positions are those of the `machine` or as `programmed`.
+    Shown,
+    /// No such column.
+    #[default]
+    Hidden,
+}
+
+impl<W: Write> Csv<W> {
+    /// A timeline of comma-separated values.
+    pub fn new(writer: W, view: View) -> Self {
+        Self {
+            output: Output::new(writer),
+            view,
+            held: Held::default(),
+            states: Vec::new(),
+            version: None,
+            changes: String::new(),
+            positions: Positions::Hidden,
+        }
+    }
+
+    /// The same with columns of positions, or without.
+    pub fn with_positions(self, positions: Positions) -> Self {
+        Self { positions, ..self }
+    }
+
+    /// The columns: every axis of the machine, whether it occurred or not.
+    fn header(&mut self, state: StateView<'_>) {
+        let out = &mut self.output.bytes;
+        out.extend_from_slice(b"program,seq,file,line,n,text,");
+        for axis in &state.machine.axes {
+            field(out, &axis.name);
+            out.push(b',');
+        }
+        if self.positions == Positions::Shown {
+            for axis in &state.machine.axes {
+                field(out, &axis.name);
+                out.extend_from_slice(b"_pos,");
+            }
+            out.extend_from_slice(b"frame,");
+        }
+        out.extend_from_slice(b"changes,codes\n");
+    }
+
+    fn block(&mut self, row: &Row<'_>) {
+        self.release();
+        self.held.wanted = self.view.shows(row);
+        self.keep_states(row.state);
+        let out = &mut self.held.row;
+        integer(out, row.program);
+        out.push(b',');
+        integer(out, row.seq);
+        out.push(b',');
+        field(out, &visible_line(row.file));
+        out.push(b',');
+        integer(out, row.line);
+        out.push(b',');
+        if let Some(number) = row.number {
+            integer(out, number);
+        }
+        out.push(b',');
+        field(out, row.text);
+        out.push(b',');
+        out.extend_from_slice(&self.states);
+        if self.positions == Positions::Shown {
+            append_positions(out, row);
+        }
+        self.changes.clear();
+        for change in row.changes {
+            if self.view.kinds.contains(change.kind) {
+                join(&mut self.changes, |list| {
+                    push_change(list, *change, row.state);
+                });
+            }
+        }
+        field(out, &self.changes);
+        out.push(b',');
+        for diagnostic in row.diagnostics {
+            join(&mut self.held.codes, |list| {
+                list.push_str(diagnostic.code.as_str());
+            });
+        }
+    }
+
+    fn end(&mut self, end: &End<'_>) {
+        for note in end.notes {
+            join(&mut self.held.codes, |list| {
+                list.push_str(note.diagnostic.code.as_str());
+            });
+            self.held.wanted = true;
+        }
+        self.release();
+    }
+
+    fn keep_states(&mut self, state: StateView<'_>) {
+        if self.version == Some(state.version) {
+            return;
+        }
+        self.version = Some(state.version);
+        self.states.clear();
+        for (index, _) in state.machine.axes.iter().enumerate() {
+            let axis = AxisIndex::new(index);
+            let word = state.state(axis, Kind::Frict).as_str();
+            self.states.extend_from_slice(word.as_bytes());
+            self.states.push(b',');
+        }
+    }
+
+    /// Writes the row that was held back.
+    fn release(&mut self) {
+        if self.held.wanted && !self.held.row.is_empty() {
+            self.output.bytes.extend_from_slice(&self.held.row);
+            field(&mut self.output.bytes, &self.held.codes);
+            self.output.bytes.push(b'\n');
+        }
+        self.held.row.clear();
+        self.held.codes.clear();
+        self.held.wanted = false;
+    }
+}
+
+impl<W: Write> Sink for Csv<W> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Session { state, .. } => self.header(*state),
+            Record::Block(row) => self.block(row),
+            Record::End(end) => {
+                self.end(end);
+                return self.output.flush();
+            }
+            Record::Machine(_) | Record::Program { .. } | Record::Summary(_) => {}
+        }
+        self.output.settle()
+    }
+}
+
+impl<W: Write> Gathered for Csv<W> {
+    type Writer = W;
+
+    fn output(&self) -> &Output<W> {
+        &self.output
+    }
+
+    fn output_mut(&mut self) -> &mut Output<W> {
+        &mut self.output
+    }
+
+    fn close(&mut self) {
+        self.release();
+    }
+}
+
+fn append_positions(out: &mut Vec<u8>, row: &Row<'_>) {
+    let axes = row.state.machine.axes.iter().enumerate();
+    let mut frame = PositionFrame::Machine;
+    for (index, _) in axes {
+        let position = row.modal.position(AxisIndex::new(index));
+        if let Some(value) = position.value {
+            // Rounded to a nanometre, so that sums of decimals look as they were programmed.
+            let rounded = (value * 1e6).round() / 1e6;
+            out.extend_from_slice(rounded.to_string().as_bytes());
+        }
+        out.push(b',');
+        frame = position.frame;
+    }
+    out.extend_from_slice(match frame {
+        PositionFrame::Machine => b"machine,",
+        PositionFrame::Programmed => b"programmed,",
+    });
+}
+
+/// Appends a text as a field, quoted where it must be. Hidden characters have pictures; a text that
+/// a spreadsheet would compute, once it has passed over what it takes for blanks, gets a `'` before it,
+/// which makes it a text there (R9.76, R9.94).
+pub(super) fn field(out: &mut Vec<u8>, text: &str) {
+    let is_special = |byte: u8| !(0x20..0x7f).contains(&byte) || matches!(byte, b',' | b'"');
+    let computes = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    if !computes && !any_byte(text.as_bytes(), is_special) {
+        out.extend_from_slice(text.as_bytes());
+        return;
+    }
+    // A line of a cell is a line of the output, and none of those is a command of a runner.
+    let text = if text.lines().skip(1).any(is_command) {
+        visible_line(text)
+    } else {
+        visible(text)
+    };
+    let quoted = text.contains([',', '"', '\n']);
+    if quoted {
+        out.push(b'"');
+    }
+    if computes {
+        out.push(b'\'');
+    }
+    for &byte in text.as_bytes() {
+        if byte == b'"' {
+            out.push(b'"');
+        }
+        out.push(byte);
+    }
+    if quoted {
+        out.push(b'"');
+    }
+}
+
+/// Appends an item to a list with `;` between its items.
+fn join(list: &mut String, append: impl FnOnce(&mut String)) {
+    if !list.is_empty() {
+        list.push(';');
+    }
+    append(list);
+}
+
+fn push_change(list: &mut String, change: Change, state: StateView<'_>) {
+    list.push_str(state.name(change.axis));
+    list.push(':');
+    list.push_str(change.kind.as_str());
+    list.push(':');
+    list.push_str(change.from.as_str());
+    list.push('>');
+    list.push_str(change.to.as_str());
+}

@@ -1,0 +1,79 @@
+//! The torque interface of drives, `drive`.
+
+use std::fmt::{self, Write};
+
+use serde_json::{Value, json};
+
+use super::visible::visible_line;
+use frictcomp::drive_interface::{DriveReport, Presence, Signal};
+
+/// Writes what is known about the drive of each axis.
+///
+/// # Errors
+/// Only those of `out`.
+pub fn render_drives(reports: &[DriveReport], out: &mut dyn Write) -> fmt::Result {
+    for (at, report) in reports.iter().enumerate() {
+        if at > 0 {
+            writeln!(out)?;
+        }
+        render_drive(report, out)?;
+    }
+    Ok(())
+}
+
+/// What is known about the drive of an axis, as a record.
+pub fn drive_record(report: &DriveReport) -> Value {
+    let mut record = json!(report);
+    if let Value::Object(keys) = &mut record {
+        keys.insert("record".to_owned(), "drive".into());
+    }
+    record
+}
+
+fn render_drive(report: &DriveReport, out: &mut dyn Write) -> fmt::Result {
+    let name = match report.axis.as_str() {
+        "" => "without a name".into(),
+        name => visible_line(name),
+    };
+    let kind = match report.drive_type {
+        Some(kind) => format!("drive type {}", kind.as_str()),
+        None => "drive type not given, the control takes simulation".to_owned(),
+    };
+    let simulated = if report.simulated {
+        ", switched to simulation"
+    } else {
+        ""
+    };
+    let configured = if report.configured {
+        ""
+    } else {
+        "; friction compensation is not configured"
+    };
+    writeln!(out, "axis {name} ({kind}{simulated}{configured})")?;
+    let presences = [&report.additive_torque, &report.actual_torque];
+    for (signal, presence) in Signal::ALL.iter().zip(presences) {
+        let (word, why) = match presence {
+            Presence::Present { evidence } => ("present", evidence.as_str()),
+            Presence::Missing { evidence } => ("missing", evidence.as_str()),
+            Presence::Unknown { reason } => ("unknown", reason.as_str()),
+            Presence::NotApplicable => ("none", "no drive takes or gives a torque here"),
+        };
+        writeln!(
+            out,
+            "  {:<24} {word:<8} {}",
+            signal.as_str(),
+            visible_line(why)
+        )?;
+    }
+    let (numerator, denominator) = (report.scale.numerator, report.scale.denominator);
+    writeln!(out, "  {:<24} {numerator}/{denominator}", "torque scaling")?;
+    if let Some(largest) = report.largest_torque {
+        let percent = largest / 10.0;
+        writeln!(
+            out,
+            "  {:<24} {percent:.1} % of the rated torque",
+            "largest compensation"
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,353 @@
+//! The report of an audit: findings, the matrix of programs and axes, and the lines that matter.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
+
+use maud::{Markup, html};
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, counted, line_id};
+use super::source::Sources;
+use crate::audit::{AuditReport, MachineAudit, Word, axis_name, is_shown};
+use frictcomp::audit::{AxisAudit, AxisFinding, Cure, Site};
+
+const FINDINGS: Part = Part::new("findings", "Findings");
+const MATRIX: Part = Part::new("programs", "Programs and axes");
+const LINES: Part = Part::new("lines", "Lines");
+
+/// Programs with a row of their own, the most dangerous ones first.
+const ROWS: usize = 2000;
+
+/// Lines that are shown with their surroundings.
+const MARKS: usize = 4000;
+
+/// Lines around one that matters.
+const AROUND: u32 = 2;
+
+/// Writes the report of an audit as one page. The programs are read once more, line by line.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_audit(
+    report: &AuditReport,
+    sources: &mut dyn Sources,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let marks = Marks::of(report);
+    let parts = [FINDINGS, MATRIX, LINES];
+    let mut page = Page::open(
+        out,
+        "What the order of programs does",
+        &lead(report),
+        &parts,
+    )?;
+    page.long_part(FINDINGS, |page| findings(page, report, &marks))?;
+    page.long_part(MATRIX, |page| matrices(page, report, &marks))?;
+    page.long_part(LINES, |page| {
+        if marks.files.is_empty() && !report.has_unknown() {
+            page.push(&html! { p { "No program leaves or inherits anything." } })?;
+        }
+        lines(page, &marks, sources)
+    })?;
+    page.close()
+}
+
+fn lead(report: &AuditReport) -> String {
+    let programs = counted(
+        u64::try_from(report.programs()).unwrap_or(u64::MAX),
+        "program",
+    );
+    let hazards = report.hazards();
+    match hazards {
+        0 if report.has_unknown() => {
+            format!("{programs}; of some it is not known what they leave or inherit")
+        }
+        0 if report.possible_hazards() > 0 => format!(
+            "{programs}, {}",
+            counted(report.possible_hazards(), "possible hazard")
+        ),
+        0 => format!(
+            "{programs}; no axis moves outside its start-up state because of what another program left"
+        ),
+        _ => format!("{programs}, {}", counted(hazards, "hazard")),
+    }
+}
+
+/// The lines that matter, by file.
+struct Marks {
+    files: BTreeMap<String, (usize, BTreeSet<u32>)>,
+    left_out: usize,
+}
+
+impl Marks {
+    fn of(report: &AuditReport) -> Self {
+        let mut marks = Self {
+            files: BTreeMap::new(),
+            left_out: 0,
+        };
+        let mut count = 0;
+        for machine in &report.machines {
+            for program in machine.archive.programs() {
+                for axis in &program.axes {
+                    for site in sites(axis) {
+                        if count == MARKS {
+                            marks.left_out += 1;
+                            continue;
+                        }
+                        let next = marks.files.len();
+                        let file = marks.files.entry(site.file.to_string());
+                        let (_, lines) = file.or_insert_with(|| (next, BTreeSet::new()));
+                        count += usize::from(lines.insert(site.line));
+                    }
+                }
+            }
+        }
+        marks
+    }
+
+    /// The identifier of a line, where it is shown.
+    fn id(&self, site: &Site) -> Option<String> {
+        let (number, lines) = self.files.get(&*site.file)?;
+        let is_shown = lines.contains(&site.line);
+        is_shown.then(|| line_id(*number, site.line))
+    }
+
+    fn link(&self, site: &Site, text: &str) -> Markup {
+        html! {
+            @match self.id(site) {
+                Some(id) => a href={ "#" (id) } { (text) },
+                None => (text),
+            }
+        }
+    }
+}
+
+/// Where a program does something dangerous to an axis.
+fn sites(axis: &AxisAudit) -> impl Iterator<Item = &Site> {
+    let leaves = axis.by.as_ref().filter(|_| axis.leaves_away());
+    let reason = axis.reason.as_ref().and_then(|reason| reason.site.as_ref());
+    let inherits = axis.inherits.motion().map(|motion| &motion.site);
+    [leaves, reason, inherits].into_iter().flatten()
+}
+
+fn findings(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Result<()> {
+    page.push(&html! {
+        p {
+            "The state of compensation outlives a program. A hazard is an ordered pair: a program \
+             that leaves an axis away from its start-up state, and one that moves the axis in the state that it \
+             finds."
+        }
+    })?;
+    for machine in &report.machines {
+        if let (true, Some(origin)) = (report.machines.len() > 1, &machine.origin) {
+            page.push(&html! { h3 { (origin) } })?;
+        }
+        let table = Table {
+            caption: Caption::Heard("Findings by axis"),
+            columns: &[
+                Column::Text("axis"),
+                Column::Number("leave it away"),
+                Column::Number("inherit it"),
+                Column::Number("may inherit it"),
+                Column::Number("both"),
+                Column::Number("not known"),
+                Column::Number("hazards"),
+                Column::Number("possible hazards"),
+                Column::Text("cure"),
+            ],
+        };
+        let shown = machine.findings.iter().filter(|it| is_shown(machine, it));
+        let rows = shown.clone().map(|finding| {
+            let cells = [
+                html! { (finding.leavers.len()) },
+                html! { (finding.inheritors.len()) },
+                html! { (finding.possible_inheritors.len()) },
+                html! { (finding.both.len()) },
+                html! { (finding.unknown.len()) },
+                html! { (finding.hazards()) },
+                html! { (finding.possible_hazards()) },
+                html! { (cure(finding)) },
+            ];
+            Row::new(&axis_name(&finding.axis, finding.kind), cells)
+        });
+        page.push(&table.render(rows))?;
+        for finding in shown.filter(|finding| finding.cure() != Cure::None) {
+            page.push(&blocks(machine, finding, marks))?;
+        }
+    }
+    Ok(())
+}
+
+fn cure(finding: &AxisFinding) -> &'static str {
+    match finding.cure() {
+        Cure::Leavers => "a block before the end of each program that leaves it",
+        Cure::Inheritors => "a block before the first motion of each program that inherits it",
+        _ if !finding.unknown.is_empty() => "not known",
+        _ => "nothing to do",
+    }
+}
+
+/// The blocks that end the hazards of an axis.
+fn blocks(machine: &MachineAudit, finding: &AxisFinding, marks: &Marks) -> Markup {
+    let movers = finding.movers();
+    let programs = match finding.cure() {
+        Cure::Leavers => &finding.leavers,
+        _ => &movers,
+    };
+    let shown = programs.len().min(ROWS);
+    html! {
+        details open[programs.len() <= 10] {
+            summary {
+                "Cure of " (axis_name(&finding.axis, finding.kind)) ": "
+                (counted(u64::try_from(programs.len()).unwrap_or(u64::MAX), "program"))
+            }
+            ul {
+                @for &program in &programs[..shown] {
+                    @let program = &machine.archive.programs()[program];
+                    @let axis = &program.axes[finding.at];
+                    li {
+                        (program.file) ": " code { (axis.way_home()) }
+                        @match (finding.cure(), axis.inherits.motion()) {
+                            (Cure::Inheritors, Some(motion)) => {
+                                " before " (marks.link(&motion.site, &format!("line {}", motion.site.line)))
+                            },
+                            _ => " before the end",
+                        }
+                    }
+                }
+            }
+            @if programs.len() > shown { p { "… " (programs.len() - shown) " more" } }
+        }
+    }
+}
+
+fn matrices(page: &mut Page<'_>, report: &AuditReport, marks: &Marks) -> io::Result<()> {
+    page.push(&html! {
+        dl.legend {
+            @for word in Word::ALL {
+                dt { (cell_word(word, &html! { (word.as_str()) })) }
+                dd { (word.meaning()) }
+            }
+        }
+    })?;
+    for machine in &report.machines {
+        page.push(&matrix(machine, marks))?;
+    }
+    Ok(())
+}
+
+fn matrix(machine: &MachineAudit, marks: &Marks) -> Markup {
+    let findings: Vec<&AxisFinding> = machine
+        .findings
+        .iter()
+        .filter(|it| is_shown(machine, it))
+        .collect();
+    let heads: Vec<String> = findings
+        .iter()
+        .map(|it| axis_name(&it.axis, it.kind))
+        .collect();
+    let columns: Vec<Column<'_>> = std::iter::once(Column::Text("program"))
+        .chain(heads.iter().map(|head| Column::Text(head)))
+        .collect();
+    let mut programs: Vec<_> = machine.archive.programs().iter().collect();
+    programs.sort_by_key(|program| {
+        let words = findings.iter().map(|it| Word::of(&program.axes[it.at]));
+        words.min()
+    });
+    let shown = programs.len().min(ROWS);
+    let rows = programs[..shown].iter().map(|program| {
+        let cells: Vec<Markup> = findings
+            .iter()
+            .map(|finding| cell(&program.axes[finding.at], marks))
+            .collect();
+        Row::new(&program.file, cells)
+    });
+    let table = Table {
+        caption: Caption::Heard("What each program does to each axis"),
+        columns: &columns,
+    };
+    html! {
+        (table.render(rows))
+        @if programs.len() > shown {
+            p { "… " (programs.len() - shown) " more programs, none of them more dangerous" }
+        }
+    }
+}
+
+/// What a program does to an axis, with links to where.
+fn cell(axis: &AxisAudit, marks: &Marks) -> Markup {
+    let link = |site: Option<&Site>, text: &str| {
+        site.map_or_else(|| html! { (text) }, |site| marks.link(site, text))
+    };
+    let inherits = axis.inherits.motion().map(|motion| &motion.site);
+    let word = Word::of(axis);
+    let content = match word {
+        Word::Both => html! {
+            (link(axis.by.as_ref(), "leaves")) ", " (link(inherits, "inherits"))
+        },
+        Word::Leaves => link(axis.by.as_ref(), word.as_str()),
+        Word::Unknown => {
+            let reason = axis.reason.as_ref().and_then(|reason| reason.site.as_ref());
+            link(reason, word.as_str())
+        }
+        Word::Inherits | Word::Perhaps => link(inherits, word.as_str()),
+        Word::StartUp | Word::Keeps => html! { (word.as_str()) },
+    };
+    cell_word(word, &content)
+}
+
+/// A word, told apart by more than colour.
+fn cell_word(word: Word, content: &Markup) -> Markup {
+    let class = match word {
+        Word::Both | Word::Leaves => "state away",
+        Word::Unknown => "state unknown",
+        Word::Inherits | Word::Perhaps => "state inactive",
+        Word::StartUp => "state active",
+        Word::Keeps => "quiet",
+    };
+    html! { span class=(class) { (content) } }
+}
+
+/// The lines that matter, with what stands around them.
+fn lines(page: &mut Page<'_>, marks: &Marks, sources: &mut dyn Sources) -> io::Result<()> {
+    for (file, (number, lines)) in &marks.files {
+        page.push(&html! { h3 { (file) } "\n" })?;
+        let Some(mut source) = sources.open(file) else {
+            page.push(&html! { p { "The file cannot be read again." } })?;
+            continue;
+        };
+        let label = html! { "Lines of " (file) }.0;
+        page.raw(&format!(
+            "<div class=\"source\" role=\"group\" aria-label=\"{label}\" tabindex=\"0\"><pre>"
+        ));
+        let last = lines.last().copied().unwrap_or_default() + AROUND;
+        let mut at = 0;
+        let mut written = 0;
+        while at < last && source.advance() {
+            at += 1;
+            let near = lines.range(at.saturating_sub(AROUND)..=at + AROUND).next();
+            if near.is_none() {
+                continue;
+            }
+            if written + 1 != at {
+                page.push(&html! { "      …\n" })?;
+            }
+            written = at;
+            let text = source.line().text.to_owned();
+            let id = lines.contains(&at).then(|| line_id(*number, at));
+            page.push(&html! {
+                (format!("{at:>6}  "))
+                @match id {
+                    Some(id) => mark id=(id) { (text) },
+                    None => (text),
+                }
+                "\n"
+            })?;
+        }
+        page.raw("</pre></div>\n");
+    }
+    if marks.left_out > 0 {
+        page.push(&html! { p { "… " (marks.left_out) " more lines are not shown." } })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,118 @@
+//! The report of a contour: picture, figures, reversals.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use maud::{Markup, html};
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, figure};
+use super::reversed::ReversedFiles;
+use super::source::Sources;
+use crate::contour::{ContourRecorder, ContourSubject, render_text};
+use crate::pictures::ContourPicture;
+use crate::svg::Frame;
+use frictcomp::comp::State;
+use frictcomp_physics::contour::{ContourReversal, ProgramContour};
+
+const PICTURE: Part = Part::new("picture", "Path and deviation");
+const FIGURES: Part = Part::new("figures", "Figures");
+const REVERSALS: Part = Part::new("reversals", "Reversals by line");
+const SOURCE: Part = Part::new("source", "Source with its reversals");
+
+/// Lines with a row of their own, those with the worst reversals first.
+const LINES: usize = 500;
+
+/// Writes the report of a contour as one page: each mark of the picture leads to its line, and each
+/// line shows its reversals.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_contour(
+    (contour, subject): (&mut ProgramContour<ContourRecorder<'_>>, &ContourSubject),
+    picture: ContourPicture,
+    sources: &mut dyn Sources,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let text = render_text(contour, subject);
+    let (lead, figures) = text.split_once('\n').unwrap_or((&text, ""));
+    let name = subject.heading(contour);
+    let is_whole = contour.is_whole();
+    let reversals = contour.sink().reversals();
+    let files = ReversedFiles::of(reversals);
+    let chart = picture.linked_chart(&name, |file, line| files.link(file, line));
+    let parts = [PICTURE, FIGURES, REVERSALS, SOURCE];
+    let mut page = Page::open(out, &chart.title, lead, &parts)?;
+    page.part(PICTURE, &figure(chart.render(Frame::Inside("contour"))))?;
+    page.part(
+        FIGURES,
+        &html! { div.wide tabindex="0" { pre { (figures.trim()) } } },
+    )?;
+    page.part(REVERSALS, &table(reversals, &files))?;
+    page.long_part(SOURCE, |page| match (reversals, is_whole) {
+        ([], true) => page.push(&html! { p { "No axis reverses." } }),
+        ([], false) => page.push(&html! { p { "No axis reverses in what was driven." } }),
+        _ => files.render(page, sources),
+    })?;
+    page.close()
+}
+
+/// The reversals of each line, the lines with the worst first.
+fn table(reversals: &[ContourReversal], files: &ReversedFiles<'_>) -> Markup {
+    let mut lines: BTreeMap<(&str, u32, &str), Vec<&ContourReversal>> = BTreeMap::new();
+    for reversal in reversals {
+        let key = (&*reversal.file, reversal.line, reversal.axis.as_str());
+        lines.entry(key).or_default().push(reversal);
+    }
+    let worst = |reversals: &[&ContourReversal]| {
+        let glitches = reversals.iter().map(|it| it.glitch_um.programmed);
+        glitches.fold(0.0, f64::max)
+    };
+    let mut lines: Vec<_> = lines.into_iter().collect();
+    lines.sort_by(|one, other| worst(&other.1).total_cmp(&worst(&one.1)));
+    let shown = lines.len().min(LINES);
+    let rows = lines[..shown].iter().map(|((file, line, axis), all)| {
+        let off = all.iter().filter(|it| it.state != State::Active).count();
+        let most = |of: fn(&ContourReversal) -> f64| {
+            let values = all.iter().map(|it| of(it));
+            format!("{:.2}", values.fold(0.0, f64::max))
+        };
+        let feeds = all.iter().map(|it| it.feed_mm_per_min);
+        let slowest = feeds.fold(f64::INFINITY, f64::min);
+        let programmed = all.iter().filter_map(|it| it.programmed_mm_per_min);
+        let programmed = programmed.reduce(f64::max).map(|feed| format!("{feed:.0}"));
+        let cells = [
+            html! { (axis) },
+            html! { (all.len()) },
+            html! { @if off > 0 { span.state.away { (off) } } @else { "0" } },
+            html! { (programmed.as_deref().unwrap_or("\u{2013}")) },
+            html! { (format!("{slowest:.0}")) },
+            html! { (most(|it| it.glitch_um.programmed)) },
+            html! { (most(|it| it.glitch_um.all_on)) },
+            html! { (most(|it| it.glitch_um.all_off)) },
+        ];
+        let name = format!("{file}:{line}");
+        match files.link(file, *line) {
+            Some(link) => Row::leading(&name, &link, cells),
+            None => Row::new(&name, cells),
+        }
+    });
+    let table = Table {
+        caption: Caption::Shown("Reversals by line and axis; glitches in µm, feeds in mm/min"),
+        columns: &[
+            Column::Text("line"),
+            Column::Text("axis"),
+            Column::Number("reversals"),
+            Column::Number("without compensation"),
+            Column::Number("F"),
+            Column::Number("slowest"),
+            Column::Number("programmed"),
+            Column::Number("all on"),
+            Column::Number("all off"),
+        ],
+    };
+    html! {
+        (table.render(rows))
+        @if lines.len() > shown { p { "… " (lines.len() - shown) " more lines" } }
+    }
+}

@@ -1,0 +1,93 @@
+//! The reports of a recorded trace and of an identification.
+
+use std::io::{self, Write};
+
+use maud::html;
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, figure};
+use crate::identify::{IdentifyReport, render_text};
+use crate::pictures::{channels, friction_curve, residuals_over_position, segments_on_trace};
+use crate::svg::Frame;
+use crate::trace::{TraceReport, render_text as render_channels};
+use frictcomp::diagnostic::Rounded;
+
+const CURVE: Part = Part::new("curve", "Friction over speed");
+const SPEEDS: Part = Part::new("speeds", "Speeds");
+const POSITION: Part = Part::new("position", "Residuals over the position");
+const SEGMENTS: Part = Part::new("segments", "Segments on the trace");
+const FINDINGS: Part = Part::new("findings", "What to look at");
+const REPORT: Part = Part::new("report", "Report");
+const PICTURE: Part = Part::new("picture", "Channels over time");
+const CHANNELS: Part = Part::new("channels", "Channels");
+
+/// Writes the report of an identification as one page.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_identification(report: &IdentifyReport, out: &mut dyn Write) -> io::Result<()> {
+    let chart = friction_curve(report);
+    let lead = format!("Identified from {}, in {}.", report.name, report.unit());
+    let parts = [FINDINGS, CURVE, SPEEDS, POSITION, SEGMENTS, REPORT];
+    let mut page = Page::open(out, &chart.title, &lead, &parts)?;
+    let findings: Vec<_> = report.findings().collect();
+    page.part(
+        FINDINGS,
+        &html! {
+            @if findings.is_empty() {
+                p { "Nothing is odd in this recording." }
+            } @else {
+                ul {
+                    @for finding in &findings {
+                        li { strong { (finding.code.as_str()) } ": " (finding.message) ". " (finding.help) "." }
+                    }
+                }
+            }
+        },
+    )?;
+    page.part(CURVE, &figure(chart.render(Frame::Inside("curve"))))?;
+    let found = &report.identified;
+    let table = Table {
+        caption: Caption::Shown("Friction at each speed"),
+        columns: &[
+            Column::Text("speed in mm/s"),
+            Column::Number("friction"),
+            Column::Number("error"),
+            Column::Number("offset"),
+            Column::Number("residual"),
+        ],
+    };
+    let rows = found.pairs.iter().map(|pair| {
+        let numbers = [
+            Some(pair.friction),
+            Some(pair.error),
+            pair.offset,
+            Some(pair.friction - found.curve.at(pair.speed)),
+        ];
+        let shown = |number: Option<f64>| {
+            number.map_or("one-sided".to_owned(), |it| Rounded(it, 3).to_string())
+        };
+        let cells = numbers.map(|number| html! { (shown(number)) });
+        Row::new(&format!("{:.3}", pair.speed), cells.to_vec())
+    });
+    page.part(SPEEDS, &table.render(rows))?;
+    let positions = residuals_over_position(report).render(Frame::Inside("position"));
+    page.part(POSITION, &figure(positions))?;
+    let segments = segments_on_trace(report).render(Frame::Inside("segments"));
+    page.part(SEGMENTS, &figure(segments))?;
+    page.part(REPORT, &html! { pre { (render_text(report)) } })?;
+    page.close()
+}
+
+/// Writes the channels of a trace as one page.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_trace(report: &TraceReport<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let chart = channels(report);
+    let lead = report.recording.layout().as_str();
+    let mut page = Page::open(out, &chart.title, lead, &[PICTURE, CHANNELS])?;
+    page.part(PICTURE, &figure(chart.render(Frame::Inside("channels"))))?;
+    page.part(CHANNELS, &html! { pre { (render_channels(report)) } })?;
+    page.close()
+}

@@ -1,0 +1,126 @@
+//! The axes of the machine, their parameters with numbers and origins, and their value lists.
+
+use maud::{Markup, html};
+
+use super::digest::RunDigest;
+use super::given::RunInputs;
+use super::parts::{Caption, Column, Row, Table, figure};
+use crate::lists::cells;
+use crate::pictures::value_curve;
+use crate::svg::Frame;
+use frictcomp::lists::{AxisType, Origin, Parameter};
+use frictcomp::machine::{AxisSet, Parameterisation};
+
+/// What the user gave and what holds on each axis.
+pub(super) fn render(digest: &RunDigest, given: &RunInputs<'_>) -> Markup {
+    html! {
+        (settings(&given.given.settings()))
+        @if digest.axis_set == AxisSet::AsTheyOccur {
+            p {
+                "Without a configuration the axes are taken as they occur, with the documented \
+                 defaults of their parameters."
+            }
+        }
+        (axes(digest))
+        @for report in given.parameters {
+            (parameters(&format!("Parameters of axis {}", report.axis), &report.parameters))
+        }
+        (parameters("Programs and macros of the machine", given.programs))
+    }
+}
+
+/// The curve of each axis with an accepted value list.
+pub(super) fn render_curves(digest: &RunDigest) -> Markup {
+    html! {
+        @for (number, accepted) in digest.accepted.iter().enumerate() {
+            @let name = format!("curve{number}");
+            (figure(value_curve(accepted).render(Frame::Inside(&name))))
+        }
+        @if digest.accepted.is_empty() {
+            p { "No axis has a value list that the control would accept." }
+        }
+    }
+}
+
+fn settings(settings: &[(&str, String)]) -> Markup {
+    let table = Table {
+        caption: Caption::Shown("Given for this run"),
+        columns: &[Column::Text("setting"), Column::Text("value")],
+    };
+    let rows = settings.iter();
+    table.render(rows.map(|(name, value)| Row::new(name, [html! { (value) }])))
+}
+
+fn axes(digest: &RunDigest) -> Markup {
+    let table = Table {
+        caption: Caption::Shown("Axes"),
+        columns: &[
+            Column::Text("axis"),
+            Column::Text("type"),
+            Column::Text("FRICT configured (P-AXIS-00522)"),
+            Column::Text("origin"),
+            Column::Text("value list"),
+        ],
+    };
+    let listed = digest.axes.iter().filter(|axis| axis.listed);
+    table.render(listed.map(|axis| {
+        let configured = if axis.configured { "1, yes" } else { "0, no" };
+        let cells = [
+            html! { (axis_type(axis.axis_type)) },
+            html! { (configured) },
+            html! { (origin(&axis.origin)) },
+            html! { (value_list(&axis.friction)) },
+        ];
+        Row::new(&axis.name, cells)
+    }))
+}
+
+fn parameters(caption: &str, parameters: &[Parameter]) -> Markup {
+    if parameters.is_empty() {
+        return html! {};
+    }
+    let table = Table {
+        caption: Caption::Shown(caption),
+        columns: &[
+            Column::Text("number"),
+            Column::Text("key"),
+            Column::Number("value"),
+            Column::Text("origin"),
+        ],
+    };
+    table.render(parameters.iter().map(|parameter| {
+        let [number, key, value, origin] = cells(parameter);
+        let cells = [
+            html! { code { (key) } },
+            html! { (value) },
+            html! { (origin) },
+        ];
+        Row::new(&number, cells)
+    }))
+}
+
+fn axis_type(axis_type: AxisType) -> &'static str {
+    match axis_type {
+        AxisType::Linear => "linear",
+        AxisType::Rotary => "rotary",
+        AxisType::Spindle => "spindle",
+    }
+}
+
+fn origin(origin: &Origin) -> String {
+    match origin {
+        Origin::Default => "default".to_owned(),
+        Origin::Assumed => "assumed".to_owned(),
+        Origin::File { file, line } => format!("{file}:{line}"),
+    }
+}
+
+fn value_list(friction: &Parameterisation) -> String {
+    match friction {
+        Parameterisation::Missing => "none".to_owned(),
+        Parameterisation::Off => "its mode is 0, off".to_owned(),
+        Parameterisation::Rejected { file, code } => format!("{file} is rejected ({code})"),
+        Parameterisation::Assumed => "assumed by --enable, its values are not known".to_owned(),
+        Parameterisation::Accepted(list) => format!("accepted, {} points", list.table.len()),
+    }
+}

@@ -1,0 +1,140 @@
+//! The frame of a page: head, style, navigation; markup goes out as it is made.
+
+use std::io::{self, Write};
+
+use maud::{Markup, PreEscaped, html};
+
+use crate::svg;
+use crate::visible::visible;
+
+/// How much markup is gathered before it is written.
+const CHUNK: usize = 64 * 1024;
+
+/// What every page begins with. Elements without content are closed, so that a page is XML too.
+const HEAD: &str = concat!(
+    "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n",
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; ",
+    "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\"/>\n",
+    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n",
+    "<meta name=\"color-scheme\" content=\"light dark\"/>\n",
+    "<meta name=\"referrer\" content=\"no-referrer\"/>\n",
+    "<meta name=\"generator\" content=\"frictcomp ",
+    env!("CARGO_PKG_VERSION"),
+    "\"/>\n",
+);
+
+/// The style of a page.
+const STYLE: &str = include_str!("style.css");
+
+/// A page on its way to a writer.
+pub(super) struct Page<'a> {
+    out: &'a mut dyn Write,
+    buffer: String,
+}
+
+/// A part of the page that the navigation leads to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    id: &'static str,
+    pub(super) title: &'static str,
+}
+
+impl Part {
+    pub(super) const fn new(id: &'static str, title: &'static str) -> Self {
+        Self { id, title }
+    }
+}
+
+impl<'a> Page<'a> {
+    /// Opens a page with its title, its lead and links to its parts.
+    pub(super) fn open(
+        out: &'a mut dyn Write,
+        title: &str,
+        lead: &str,
+        parts: &[Part],
+    ) -> io::Result<Self> {
+        let mut page = Self {
+            out,
+            buffer: String::with_capacity(CHUNK + CHUNK / 4),
+        };
+        page.buffer.push_str(HEAD);
+        page.push(&html! {
+            title { (title) } "\n"
+            style { (PreEscaped(STYLE)) (PreEscaped(svg::STYLE)) }
+        })?;
+        page.buffer.push_str("\n</head>\n<body>\n");
+        page.push(&html! {
+            a.skip href="#content" { "Skip to the content" } "\n"
+            header {
+                h1 { (title) }
+                p.lead { (lead) }
+                nav aria-label="Parts of the report" {
+                    ul {
+                        @for part in parts {
+                            li { a href={ "#" (part.id) } { (part.title) } }
+                        }
+                    }
+                }
+            }
+        })?;
+        page.buffer
+            .push_str("\n<main id=\"content\" tabindex=\"-1\">\n");
+        Ok(page)
+    }
+
+    /// Appends markup, and writes what was gathered once it is enough.
+    pub(super) fn push(&mut self, markup: &Markup) -> io::Result<()> {
+        self.buffer.push_str(&markup.0);
+        if self.buffer.len() >= CHUNK {
+            self.write()?;
+        }
+        Ok(())
+    }
+
+    /// Writes a part whose content is made at once.
+    pub(super) fn part(&mut self, part: Part, content: &Markup) -> io::Result<()> {
+        self.long_part(part, |page| page.push(content))
+    }
+
+    /// Writes a part whose content comes piece by piece.
+    pub(super) fn long_part(
+        &mut self,
+        part: Part,
+        content: impl FnOnce(&mut Self) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let Part { id, title } = part;
+        self.raw(&format!("<section id=\"{id}\" aria-labelledby=\"{id}-h\">"));
+        self.push(&html! { h2 id={ (id) "-h" } { (title) } "\n" })?;
+        content(self)?;
+        self.raw("</section>\n");
+        Ok(())
+    }
+
+    /// Appends a tag of an element whose content comes piece by piece: no template closes it.
+    pub(super) fn raw(&mut self, tag: &str) {
+        self.buffer.push_str(tag);
+    }
+
+    /// Ends the page.
+    pub(super) fn close(mut self) -> io::Result<()> {
+        self.buffer.push_str("</main>\n");
+        self.push(&html! {
+            footer {
+                p {
+                    "Made by frictcomp " (env!("CARGO_PKG_VERSION")) ", without a machine. If your \
+                     control behaves differently, the control is right."
+                }
+            }
+        })?;
+        self.buffer.push_str("\n</body>\n</html>\n");
+        self.write()?;
+        self.out.flush()
+    }
+
+    /// Everything goes out here: whatever a program holds, nothing invisible leaves (R9.76).
+    fn write(&mut self) -> io::Result<()> {
+        self.out.write_all(visible(&self.buffer).as_bytes())?;
+        self.buffer.clear();
+        Ok(())
+    }
+}

@@ -1,0 +1,163 @@
+//! What pages are put together from: tables, pictures, states, sentences.
+
+use maud::{Markup, PreEscaped, html};
+
+use crate::svg::Standing;
+use frictcomp::comp::State;
+
+/// A table with a heading in each row.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Table<'a> {
+    pub(super) caption: Caption<'a>,
+    /// The columns, of which the first is that of the headings.
+    pub(super) columns: &'a [Column<'a>],
+}
+
+/// What a table is called.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Caption<'a> {
+    /// Above the table.
+    Shown(&'a str),
+    /// Only for those who listen: the heading above the table says it already.
+    Heard(&'a str),
+}
+
+/// The name of a column.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Column<'a> {
+    /// Of texts.
+    Text(&'a str),
+    /// Of numbers.
+    Number(&'a str),
+}
+
+impl Column<'_> {
+    fn class(self) -> Option<&'static str> {
+        match self {
+            Self::Text(_) => None,
+            Self::Number(_) => Some("num"),
+        }
+    }
+}
+
+/// A row of a table.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    heading: Markup,
+    cells: Vec<Markup>,
+}
+
+impl Row {
+    pub(super) fn new(heading: &str, cells: impl Into<Vec<Markup>>) -> Self {
+        Self {
+            heading: html! { (heading) },
+            cells: cells.into(),
+        }
+    }
+
+    /// A row whose heading leads somewhere.
+    pub(super) fn leading(heading: &str, href: &str, cells: impl Into<Vec<Markup>>) -> Self {
+        Self {
+            heading: html! { a href=(href) { (heading) } },
+            cells: cells.into(),
+        }
+    }
+}
+
+impl Table<'_> {
+    /// The table, in a frame that scrolls by itself on narrow screens.
+    pub(super) fn render(&self, rows: impl IntoIterator<Item = Row>) -> Markup {
+        let (caption, class) = match self.caption {
+            Caption::Shown(caption) => (caption, None),
+            Caption::Heard(caption) => (caption, Some("unseen")),
+        };
+        html! {
+            div.wide tabindex="0" role="region" aria-label=(caption) {
+                table {
+                    caption class=[class] { (caption) }
+                    thead {
+                        tr {
+                            @for column in self.columns {
+                                @let (Column::Text(name) | Column::Number(name)) = column;
+                                th class=[column.class()] scope="col" { (name) }
+                            }
+                        }
+                    }
+                    "\n"
+                    tbody {
+                        @for row in rows {
+                            tr {
+                                th scope="row" { (row.heading) }
+                                @for (cell, column) in row.cells.iter().zip(&self.columns[1..]) {
+                                    td class=[column.class()] { (cell) }
+                                }
+                            }
+                            "\n"
+                        }
+                    }
+                }
+            }
+            "\n"
+        }
+    }
+}
+
+/// A picture.
+pub(super) fn figure(svg: String) -> Markup {
+    html! { figure.picture { (PreEscaped(svg)) } "\n" }
+}
+
+/// A state, told apart by more than colour, above all where it is away from its start-up state.
+pub(super) fn state_word(state: State, standing: Standing) -> Markup {
+    let word = state.as_str();
+    html! { span.state.(word).away[standing == Standing::Away] { (word) } }
+}
+
+/// A sentence whose words in backquotes become code.
+pub(super) fn with_code(text: &str) -> Markup {
+    html! {
+        @for (at, piece) in text.split('`').enumerate() {
+            @if at % 2 == 0 { (piece) } @else { code { (piece) } }
+        }
+    }
+}
+
+/// How often something was, unless once.
+pub(super) fn times(times: u64) -> Markup {
+    html! { @if times > 1 { " " span.quiet { "(" (times) " times)" } } }
+}
+
+/// A number of things.
+pub(super) fn counted(number: u64, noun: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {noun}{plural}")
+}
+
+/// The identifier of a line of source in the page.
+pub(super) fn line_id(file: usize, line: u32) -> String {
+    format!("f{file}l{line}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn backquotes_become_code() {
+        assert_eq!(with_code("a `<b>` c").0, "a <code>&lt;b&gt;</code> c");
+    }
+
+    #[test]
+    fn numbers_stand_on_the_right() {
+        let table = Table {
+            caption: Caption::Heard("C"),
+            columns: &[Column::Text("a"), Column::Text("b"), Column::Number("c")],
+        };
+        let row = Row::new("<1>", [html! { "x" }, html! { "2" }]);
+        let markup = table.render([row]).0;
+        assert!(
+            markup.contains("<th scope=\"row\">&lt;1&gt;</th><td>x</td><td class=\"num\">2</td>")
+        );
+        assert!(markup.contains("<caption class=\"unseen\">C</caption>"));
+    }
+}

@@ -1,0 +1,219 @@
+//! The report of a session.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+use maud::{Markup, html};
+
+use super::digest::{RunDigest, SummaryDigest};
+use super::given::RunInputs;
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, counted, line_id, state_word};
+use super::source::{self, Sources};
+use super::{assumptions, machine, messages, states};
+use crate::advice::{all_home, axis_advice, error_advice, is_home};
+use crate::assumptions::Met;
+use crate::feed_moves::feed_moves_text;
+use crate::visible::last_part;
+use frictcomp::comp::Kind;
+use frictcomp::diagnostic::Severity;
+use frictcomp::timeline::ChangedBy;
+
+const LEFT: Part = Part::new("left", "What is left");
+const STATES: Part = Part::new("states", "States over the blocks");
+const MESSAGES: Part = Part::new("messages", "Messages");
+const SOURCE: Part = Part::new("source", "Source");
+const MACHINE: Part = Part::new("machine", "Machine and parameters");
+const CURVES: Part = Part::new("curves", "Value lists");
+const READING: Part = Part::new("reading", "Assumptions");
+
+/// Writes the report of a session as one page. The sources are read once more, line by line.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_run(
+    digest: &RunDigest,
+    given: &RunInputs<'_>,
+    sources: &mut dyn Sources,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let parts = [LEFT, STATES, MESSAGES, SOURCE, MACHINE, CURVES, READING];
+    let mut page = Page::open(out, &title(digest), &lead(digest), &parts)?;
+    page.part(LEFT, &left(digest))?;
+    page.long_part(STATES, |page| states::render(page, digest))?;
+    page.part(MESSAGES, &messages::render(digest))?;
+    page.long_part(SOURCE, |page| source::render(page, digest, sources))?;
+    page.part(MACHINE, &machine::render(digest, given))?;
+    page.part(CURVES, &machine::render_curves(digest))?;
+    page.part(READING, &assumptions::render(&met(digest)))?;
+    page.close()
+}
+
+/// What the session tells about the assumptions that it depends on.
+fn met(digest: &RunDigest) -> Met {
+    let codes = digest.messages.iter().map(|it| it.diagnostic.code);
+    let passed_over = digest
+        .summary
+        .iter()
+        .flat_map(|it| it.opaque.values())
+        .sum();
+    Met {
+        reported: codes.collect(),
+        axis_set: digest.axis_set,
+        passed_over,
+        ended: digest.ended(),
+    }
+}
+
+/// More programs are counted, not named.
+const NAMED: usize = 3;
+
+fn title(digest: &RunDigest) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for program in &digest.programs {
+        let name = digest.files[program.file].name.as_str();
+        names.push(last_part(name));
+    }
+    let total = digest.programs.len();
+    names.truncate(NAMED);
+    let mut title = format!("Friction compensation: {}", names.join(", "));
+    if total > NAMED {
+        let _ = write!(title, " and {} more", total - NAMED);
+    }
+    title
+}
+
+/// What stands under the title, first of all that no machine is described (R1.37).
+fn lead(digest: &RunDigest) -> String {
+    match &digest.remark {
+        Some(remark) => format!("{remark}. {}", counts(digest)),
+        None => counts(digest),
+    }
+}
+
+fn counts(digest: &RunDigest) -> String {
+    let Some(summary) = &digest.summary else {
+        return NOT_ENDED.to_owned();
+    };
+    let count = |severity| summary.counts.get(&severity).copied().unwrap_or_default();
+    format!(
+        "{}, {}, {}, {}",
+        counted(u64::from(summary.programs), "program"),
+        counted(summary.blocks, "executed block"),
+        counted(count(Severity::Error), "error"),
+        counted(count(Severity::Warning), "warning"),
+    )
+}
+
+const NOT_ENDED: &str = "The session did not run to its end.";
+
+fn left(digest: &RunDigest) -> Markup {
+    let Some(summary) = &digest.summary else {
+        return html! { p { (NOT_ENDED) } };
+    };
+    let table = Table {
+        caption: Caption::Heard(LEFT.title),
+        columns: &[
+            Column::Text("axis"),
+            Column::Text("at start"),
+            Column::Text("at end"),
+            Column::Text("changed by"),
+        ],
+    };
+    let rows = summary.axes.iter().map(|axis| {
+        let standing = |state| digest.standing(axis.axis, Kind::Frict, state);
+        let state = |state| state_word(state, standing(state));
+        let changed = changed_by(digest, &axis.changed_by, axis.changes);
+        let cells = [state(axis.start), state(axis.end), changed];
+        Row::new(digest.axis_name(axis.axis), cells)
+    });
+    html! {
+        p {
+            "Friction compensation (FRICT) by axis, after the last program. The start-up state is the one \
+             after a start of the control; \u{25b2} marks what is away from it \
+             and remains so."
+        }
+        (table.render(rows))
+        (advice(digest, summary))
+        @if !summary.opaque.is_empty() {
+            p {
+                "Passed over without effect on the states: "
+                @for (at, (word, count)) in summary.opaque.iter().enumerate() {
+                    @if at > 0 { ", " }
+                    code { (word) } "\u{a0}\u{d7}" (count)
+                }
+            }
+        }
+    }
+}
+
+fn advice(digest: &RunDigest, summary: &SummaryDigest) -> Markup {
+    let errors = summary.counts.get(&Severity::Error).copied();
+    let mut advice: Vec<String> = (summary.axes.iter())
+        .filter_map(|axis| {
+            let name = digest.axis_name(axis.axis);
+            axis_advice(axis, name).map(|text| format!("{name}{text}"))
+        })
+        .collect();
+    advice.extend(error_advice(errors.unwrap_or_default(), digest.ended()).map(str::to_owned));
+    let uncompensated: Vec<String> = (summary.axes.iter())
+        .filter_map(|axis| {
+            let of = digest.axes.get(axis.axis.get())?;
+            let text = feed_moves_text(&axis.feed_moves, of.axis_type)?;
+            Some(format!("{}{text}.", of.name))
+        })
+        .collect();
+    let is_all_home = digest.remark.is_none() && summary.axes.iter().all(is_home);
+    html! {
+        @if !advice.is_empty() {
+            div.to-do { ul { @for text in &advice { li { (text) } } } }
+        } @else if is_all_home {
+            p { (all_home(&summary.axes, summary.footing)) }
+        }
+        @if !uncompensated.is_empty() {
+            div.to-do { ul { @for text in &uncompensated { li { (text) } } } }
+        }
+    }
+}
+
+/// The blocks that a summary names in a cell.
+const NAMED_BLOCKS: usize = 8;
+
+fn changed_by(digest: &RunDigest, blocks: &[ChangedBy], total: u64) -> Markup {
+    let mut named: Vec<&ChangedBy> = Vec::new();
+    for block in blocks {
+        // A block of a loop is named once.
+        let same = |known: &&ChangedBy| known.line == block.line && known.file == block.file;
+        if named.len() < NAMED_BLOCKS && !named.iter().any(same) {
+            named.push(block);
+        }
+    }
+    let unnamed = total.saturating_sub(u64::try_from(named.len()).unwrap_or(u64::MAX));
+    html! {
+        @if blocks.is_empty() {
+            "\u{2013}"
+        } @else {
+            @for (at, block) in named.into_iter().enumerate() {
+                @if at > 0 { ", " }
+                (changing_block(digest, block))
+            }
+            @if unnamed > 0 { " and " (unnamed) " more" }
+        }
+    }
+}
+
+/// The name of a block, as a link if the page shows its line.
+fn changing_block(digest: &RunDigest, block: &ChangedBy) -> Markup {
+    let name = match block.number {
+        Some(number) => format!("N{number} ({}:{})", block.file, block.line),
+        None => format!("{}:{}", block.file, block.line),
+    };
+    let file = digest.files.iter().position(|file| file.name == block.file);
+    let shown = file.filter(|&file| digest.files[file].events.contains_key(&block.line));
+    html! {
+        @match shown {
+            Some(file) => a href={ "#" (line_id(file, block.line)) } { (name) },
+            None => (name),
+        }
+    }
+}

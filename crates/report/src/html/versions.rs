@@ -1,0 +1,177 @@
+//! Two versions of a program side by side.
+
+use std::io::{self, Write};
+
+use maud::{Markup, html};
+
+use super::page::{Page, Part};
+use super::parts::{Caption, Column, Row, Table, with_code};
+use crate::contour::places::Block;
+use crate::versions::{ContoursReport, VersionsReport, sign};
+use frictcomp_physics::compare::{Agreement, BlockChange, Paired, Which};
+
+const RESULT: Part = Part::new("result", "Result");
+const CHANGES: Part = Part::new("changes", "Changes of state in both versions");
+const CONTOURS: Part = Part::new("contours", "Where the new version deviates more");
+
+/// Changes of state that a page shows at most (R9.52).
+const MAX_CHANGES: usize = 4000;
+
+/// Writes a comparison as one page.
+///
+/// # Errors
+/// Those of `out`.
+pub fn render_versions(report: &VersionsReport, out: &mut dyn Write) -> io::Result<()> {
+    let title = format!("{} and {}", report.old, report.new);
+    let contours = report.contours.as_ref();
+    let mut parts = vec![RESULT, CHANGES];
+    parts.extend(contours.map(|_| CONTOURS));
+    let mut page = Page::open(out, &title, &lead(report), &parts)?;
+    page.part(RESULT, &result(report))?;
+    page.part(CHANGES, &changes(report))?;
+    if let Some(contours) = contours {
+        page.part(CONTOURS, &contours_part(contours))?;
+    }
+    page.close()
+}
+
+/// The figures of both contours, and the blocks that deviate more.
+fn contours_part(report: &ContoursReport) -> Markup {
+    let comparison = &report.comparison;
+    let figures = [Which::Old, Which::New].map(|which| {
+        let deviations = comparison.deviations(which);
+        let at = deviations.max_at().map(|at| Block::from(&**at).words());
+        let cells = [
+            html! { (format!("{:.2}", deviations.max_um())) },
+            html! { (at.as_deref().unwrap_or("\u{2013}")) },
+            html! { (format!("{:.2}", deviations.rms_um())) },
+        ];
+        Row::new(which.as_str(), cells)
+    });
+    let table = Table {
+        caption: Caption::Shown("While cutting, in \u{b5}m"),
+        columns: &[
+            Column::Text("version"),
+            Column::Number("largest deviation"),
+            Column::Text("at"),
+            Column::Number("root mean square"),
+        ],
+    };
+    let changes = Table {
+        caption: Caption::Shown("Blocks that deviate more, in \u{b5}m"),
+        columns: &[
+            Column::Text("line"),
+            Column::Number("old"),
+            Column::Number("new"),
+            Column::Number("more"),
+            Column::Text("at"),
+            Column::Text("block"),
+        ],
+    };
+    let more = comparison.more();
+    let left = more.len().saturating_sub(MAX_CHANGES);
+    html! {
+        p {
+            "Plane " (report.plane.concat()) ", plant " (report.plant) ": " (report.verdict()) "."
+        }
+        @for (which, obstacle) in comparison.obstacles() {
+            p { "Not comparable: the contour of the " (which.as_str()) " version: " (obstacle.to_string()) "." }
+        }
+        (table.render(figures))
+        @if !more.is_empty() {
+            (changes.render(more.iter().take(MAX_CHANGES).map(|change| change_row(report, change))))
+        }
+        @if left > 0 { p { (left) " more blocks are left out." } }
+    }
+}
+
+fn change_row(report: &ContoursReport, change: &BlockChange) -> Row {
+    let old = change.old.map(|(_, um)| format!("{um:.2}"));
+    let cells = [
+        html! { (old.as_deref().unwrap_or("\u{2013}")) },
+        html! { (format!("{:.2}", change.new.deviation_um)) },
+        html! { (format!("{:.2}", change.more_um())) },
+        html! { (report.place(change)) },
+        html! { code { (change.block.text) } },
+    ];
+    Row::new(
+        &format!("{}:{}", change.block.file, change.block.line),
+        cells,
+    )
+}
+
+fn lead(report: &VersionsReport) -> String {
+    let verdict = report.verdict();
+    let (first, rest) = verdict.split_at(1);
+    let switched = format!("{}{rest}.", first.to_ascii_uppercase());
+    match &report.contours {
+        Some(contours) => format!("{switched} Contour: {}.", contours.verdict()),
+        None => switched,
+    }
+}
+
+fn result(report: &VersionsReport) -> Markup {
+    let comparison = &report.comparison;
+    let differences = comparison.differences().count();
+    html! {
+        @if let Some(remark) = &report.remark { p { (with_code(remark)) } }
+        p {
+            (differences) " of " (comparison.pairs().len())
+            " changes of state are in only one version."
+        }
+        @if comparison.agreement() == Agreement::NotComparable {
+            ul {
+                @for (which, obstacle) in comparison.obstacles() {
+                    li { (which.as_str()) " version: " (with_code(&obstacle.to_string())) }
+                }
+            }
+        }
+    }
+}
+
+/// A table of all changes, those of one version marked by their sign.
+fn changes(report: &VersionsReport) -> Markup {
+    let table = Table {
+        caption: Caption::Heard("Changes of state"),
+        columns: &[
+            Column::Text("version"),
+            Column::Number("old line"),
+            Column::Number("new line"),
+            Column::Text("change"),
+            Column::Text("block"),
+        ],
+    };
+    let pairs = report.comparison.pairs();
+    let more = pairs.len().saturating_sub(MAX_CHANGES);
+    html! {
+        @if pairs.is_empty() {
+            p { "Neither version changes a state." }
+        } @else {
+            (table.render(pairs.iter().take(MAX_CHANGES).map(row)))
+        }
+        @if more > 0 { p { (more) " more changes are left out." } }
+    }
+}
+
+fn row(pair: &Paired) -> Row {
+    let (heading, lines, switch) = match pair {
+        Paired::Both { old, new } => (
+            "both".to_owned(),
+            [Some(old.place()), Some(new.place())],
+            new,
+        ),
+        Paired::One(which, switch) => {
+            let line = |of| (of == *which).then(|| switch.place());
+            let heading = format!("{} {} only", sign(*which), which.as_str());
+            (heading, [line(Which::Old), line(Which::New)], switch)
+        }
+    };
+    let [old, new] = lines.map(|line| html! { @if let Some(line) = line { (line) } });
+    let cells = [
+        old,
+        new,
+        html! { (switch.to_string()) },
+        html! { code { (switch.first_line()) } },
+    ];
+    Row::new(&heading, cells)
+}

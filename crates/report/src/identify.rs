@@ -1,0 +1,269 @@
+//! An identified friction curve as text and JSON.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::findings::write_findings;
+use super::strings::to_pretty;
+use super::visible::visible_line;
+use frictcomp::diagnostic::{Rounded, Severity};
+use frictcomp_recordings::identify::{AxisRecording, Fit, FrictionCurve, Identified, TraceFinding};
+
+/// A recording and what was identified in it.
+#[derive(Debug, Clone)]
+pub struct IdentifyReport {
+    /// The name of the file.
+    pub name: String,
+    /// The axis, where it is named.
+    pub axis: Option<String>,
+    /// What was recorded.
+    pub recording: AxisRecording,
+    /// What was found.
+    pub identified: Identified,
+}
+
+impl IdentifyReport {
+    /// The findings about the channels, then those about the friction.
+    pub fn findings(&self) -> impl Iterator<Item = &TraceFinding> {
+        self.recording
+            .findings
+            .iter()
+            .chain(&self.identified.findings)
+    }
+
+    /// What is wrong with the recording, each a line for the written list (R6.21).
+    pub fn faults(&self) -> Vec<String> {
+        let faults = self
+            .findings()
+            .filter(|it| it.severity == Severity::Warning);
+        faults
+            .map(|it| format!("{}: {}", it.code, it.message))
+            .collect()
+    }
+
+    /// The unit of torque and friction.
+    pub fn unit(&self) -> &str {
+        self.recording
+            .torque_unit
+            .as_deref()
+            .unwrap_or("drive units")
+    }
+}
+
+/// Speeds, curve and points, then what there is to say.
+pub fn render_text(report: &IdentifyReport) -> String {
+    let mut out = String::new();
+    let found = &report.identified;
+    let axis = report
+        .axis
+        .as_deref()
+        .map(|axis| format!(" of axis {}", visible_line(axis)));
+    let track = &report.recording.track;
+    let length = track.times_s.last().unwrap_or(&0.0) - track.times_s.first().unwrap_or(&0.0);
+    let _ = writeln!(
+        out,
+        "{}: friction{}, {} segments of constant speed in {length:.1} s\n",
+        visible_line(&report.name),
+        axis.unwrap_or_default(),
+        found.segments.len()
+    );
+    if report.findings().next().is_some() {
+        // What is wrong comes before the list (R6.21).
+        let mut said = String::new();
+        write_findings(report.findings(), &mut said);
+        out.push_str(said.trim_start());
+        out.push('\n');
+    }
+    push_pairs(&mut out, found);
+    let _ = writeln!(
+        out,
+        "\noffset (weight, asymmetry): {} {}",
+        Rounded(found.offset, 3),
+        report.unit()
+    );
+    out.push_str(offset_words(found));
+    push_curve(&mut out, found);
+    let _ = writeln!(
+        out,
+        "\nvalue list: {} points, straight lines at most {:.3} from the curve\n\n{:>10} {:>10}\n{:>10} {:>10}",
+        found.points.len(),
+        found.point_error,
+        "in",
+        "out",
+        "µm/s",
+        report.unit()
+    );
+    for point in &found.points {
+        let output = Rounded(point.output, 3);
+        let _ = writeln!(out, "{:>10} {output:>10}", point.input);
+    }
+    for remark in &report.recording.remarks {
+        let _ = writeln!(out, "\nnote: {}", visible_line(remark));
+    }
+    out
+}
+
+fn push_pairs(out: &mut String, found: &Identified) {
+    let _ = writeln!(
+        out,
+        "{:>10} {:>10} {:>8} {:>10} {:>10} {:>7}\n{:>10}",
+        "speed", "friction", "±", "offset", "residual", "visits", "mm/s"
+    );
+    for pair in &found.pairs {
+        let offset = pair.offset.map_or("one-sided".to_owned(), |offset| {
+            Rounded(offset, 3).to_string()
+        });
+        let _ = writeln!(
+            out,
+            "{:>10.3} {:>10} {:>8.3} {:>10} {:>10} {:>7}",
+            pair.speed,
+            Rounded(pair.friction, 3),
+            pair.error,
+            offset,
+            Rounded(pair.friction - found.curve.at(pair.speed), 3),
+            pair.visits.len()
+        );
+    }
+}
+
+/// What an offset is good for.
+fn offset_words(found: &Identified) -> &'static str {
+    if found.is_offset_small() {
+        return "It is too small to be set anywhere.\n";
+    }
+    if found.offset < 0.0 {
+        "It is no part of the list. `getriebe[i].torque_offset` (P-AXIS-00324) is documented from 0 on, so \
+         a negative one cannot be set there.\n"
+    } else {
+        "It is no part of the list; it may belong into `getriebe[i].torque_offset` (P-AXIS-00324).\n"
+    }
+}
+
+fn push_curve(out: &mut String, found: &Identified) {
+    match &found.curve {
+        FrictionCurve::Fit(fit) => {
+            let _ = writeln!(
+                out,
+                "\ncurve: Fc {:.3}, Fs {:.3}, vs {:.3} mm/s, δ {}, fv {:.5} per mm/s (reduced χ² {:.2})",
+                fit.coulomb, fit.breakaway, fit.stribeck, fit.shape, fit.viscous, fit.chi_square
+            );
+        }
+        FrictionCurve::Lines(_) => out.push_str("\ncurve: straight lines through the speeds\n"),
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    axis: Option<&'a str>,
+    points: Vec<PointRecord>,
+    offset: f64,
+    fit: Option<FitRecord>,
+    pairs: Vec<PairRecord>,
+    unit: &'a str,
+    point_error: f64,
+    drift: Option<f64>,
+    ripple: Option<RippleRecord>,
+    segments: Vec<SegmentRecord>,
+    remarks: &'a [String],
+    diagnostics: Vec<&'a TraceFinding>,
+}
+
+/// A point as a value list has it.
+#[derive(Serialize)]
+pub(super) struct PointRecord {
+    #[serde(rename = "in")]
+    pub(super) input: f64,
+    pub(super) out: f64,
+}
+
+#[derive(Serialize)]
+#[allow(non_snake_case)] // the names of the parameters as they are written
+struct FitRecord {
+    Fc: f64,
+    Fs: f64,
+    vs: f64,
+    delta: f64,
+    fv: f64,
+    chi_square: f64,
+}
+
+#[derive(Serialize)]
+struct PairRecord {
+    v: f64,
+    friction: f64,
+    offset: Option<f64>,
+    error: f64,
+    residual: f64,
+}
+
+#[derive(Serialize)]
+struct RippleRecord {
+    period_mm: f64,
+    amplitude: f64,
+}
+
+#[derive(Serialize)]
+struct SegmentRecord {
+    from_s: f64,
+    to_s: f64,
+    v: f64,
+}
+
+/// The same for machines: speeds in µm/s or 0.001°/s, the rest in the unit of the torque.
+pub fn render_json(report: &IdentifyReport) -> String {
+    const PER_MM: f64 = 1000.0;
+    let found = &report.identified;
+    let fit = |fit: &Fit| FitRecord {
+        Fc: fit.coulomb,
+        Fs: fit.breakaway,
+        vs: fit.stribeck * PER_MM,
+        delta: fit.shape,
+        fv: fit.viscous,
+        chi_square: fit.chi_square,
+    };
+    to_pretty(&Document {
+        schema: 1,
+        axis: report.axis.as_deref(),
+        points: found
+            .points
+            .iter()
+            .map(|point| PointRecord {
+                input: point.input,
+                out: point.output,
+            })
+            .collect(),
+        offset: found.offset,
+        fit: found.used_fit().map(fit),
+        pairs: found
+            .pairs
+            .iter()
+            .map(|pair| PairRecord {
+                v: pair.speed * PER_MM,
+                friction: pair.friction,
+                offset: pair.offset,
+                error: pair.error,
+                residual: pair.friction - found.curve.at(pair.speed),
+            })
+            .collect(),
+        unit: report.unit(),
+        point_error: found.point_error,
+        drift: found.drift.map(|drift| drift.part),
+        ripple: found.ripple.map(|ripple| RippleRecord {
+            period_mm: ripple.period,
+            amplitude: ripple.amplitude,
+        }),
+        segments: found
+            .segments
+            .iter()
+            .map(|segment| SegmentRecord {
+                from_s: segment.from_s,
+                to_s: segment.to_s,
+                v: segment.velocity * PER_MM,
+            })
+            .collect(),
+        remarks: &report.recording.remarks,
+        diagnostics: report.findings().collect(),
+    })
+}

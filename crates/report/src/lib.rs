@@ -1,0 +1,64 @@
+//! Records and diagnostics as bytes, one file a format. Nothing here computes anything.
+//!
+//! Every timeline format is a [`Sink`](frictcomp::timeline::Sink) over a generic writer. The first error of the writer is
+//! kept and ends the dry run; a closed pipe is no error for the caller.
+
+mod advice;
+pub mod assumptions;
+pub mod audit;
+pub mod circle;
+pub mod configuration;
+pub mod contour;
+mod csv;
+mod diagnostics;
+pub mod drives;
+mod feed_moves;
+mod findings;
+pub mod html;
+pub mod identify;
+mod json;
+mod limits;
+mod listeners;
+pub mod lists;
+mod messages;
+mod ndjson;
+pub mod on_circles;
+mod output;
+pub mod pictures;
+mod records;
+pub mod stiction;
+mod strings;
+pub mod svg;
+mod text;
+mod timeline_format;
+pub mod trace;
+pub mod tune;
+mod unified;
+pub mod value_lists;
+pub mod verify;
+pub mod versions;
+mod view;
+mod visible;
+mod wording;
+
+pub use csv::{Csv, Positions};
+pub use diagnostics::wrap;
+pub use diagnostics::{DEFAULT_WIDTH, Look, Paint, fitted, render};
+pub use feed_moves::feed_moves_text;
+pub use json::Json;
+pub use limits::assumed_limits;
+pub use listeners::{Listeners, SharedReport};
+pub use messages::concise_line;
+pub use messages::{Listing, ListingFormat, Tally};
+pub use ndjson::Ndjson;
+pub use output::Report;
+pub use text::{Runs, Text, TextOptions};
+pub use timeline_format::{TimelineFormat, TimelineOptions};
+pub use unified::{TextChange, render_unified};
+pub use view::{Blocks, View};
+pub use visible::visible_line;
+pub use visible::{leading, visible};
+pub use wording::command_line;
+
+#[cfg(test)]
+mod tests;

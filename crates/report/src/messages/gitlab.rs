@@ -1,0 +1,74 @@
+//! Code Quality reports of GitLab, which shows them beside the changed lines of a merge request.
+
+use std::collections::HashMap;
+use std::hash::Hasher;
+
+use crate::strings::{integer, string};
+use fnv::FnvHasher;
+use frictcomp::diagnostic::{Diagnostic, Severity};
+
+use super::message_format::MessageFormat;
+use super::tally::Tally;
+
+/// The messages so far.
+#[derive(Debug, Default)]
+pub(super) struct GitLab {
+    /// How often a message was said with the same words about the same file.
+    said: HashMap<u64, u64>,
+}
+
+impl MessageFormat for GitLab {
+    fn open(&mut self, out: &mut Vec<u8>) {
+        out.push(b'[');
+    }
+
+    fn message(&mut self, out: &mut Vec<u8>, diagnostic: &Diagnostic) {
+        out.extend_from_slice(if self.said.is_empty() { b"\n" } else { b",\n" });
+        let path = diagnostic.place.file.replace('\\', "/");
+        let fingerprint = self.fingerprint(&path, diagnostic);
+        out.extend_from_slice(b"{\"description\":");
+        string(out, &diagnostic.line());
+        out.extend_from_slice(b",\"check_name\":");
+        string(out, diagnostic.code.as_str());
+        out.extend_from_slice(b",\"fingerprint\":");
+        string(out, &fingerprint);
+        out.extend_from_slice(b",\"severity\":");
+        string(out, severity(diagnostic.severity));
+        out.extend_from_slice(b",\"location\":{\"path\":");
+        string(out, &path);
+        out.extend_from_slice(b",\"lines\":{\"begin\":");
+        integer(out, diagnostic.place.start().line);
+        out.extend_from_slice(b",\"end\":");
+        integer(out, diagnostic.place.end().line);
+        out.extend_from_slice(b"}}}");
+    }
+
+    fn close(&mut self, out: &mut Vec<u8>, _tally: &Tally) {
+        out.extend_from_slice(b"\n]\n");
+    }
+}
+
+impl GitLab {
+    /// By this GitLab tells which messages are new. It does not change when lines above do, nor when
+    /// another program reaches the place (R17.1), so it is made of the words, and counted where they
+    /// are the same.
+    fn fingerprint(&mut self, path: &str, diagnostic: &Diagnostic) -> String {
+        let mut hasher = FnvHasher::default();
+        for part in [path, diagnostic.code.as_str(), diagnostic.uncounted()] {
+            hasher.write(part.as_bytes());
+            hasher.write_u8(0);
+        }
+        let words = hasher.finish();
+        let times = self.said.entry(words).or_default();
+        *times += 1;
+        format!("{words:016x}-{times}")
+    }
+}
+
+fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "critical",
+        Severity::Warning => "major",
+        Severity::Info => "info",
+    }
+}

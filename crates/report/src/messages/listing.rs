@@ -1,0 +1,77 @@
+//! Diagnostics without a timeline, as `check` and `lists` print them (R9.25).
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use crate::diagnostics::Look;
+use crate::output::Output;
+use frictcomp::diagnostic::{Diagnostic, Severity};
+
+use super::format::ListingFormat;
+use super::message_format::MessageFormat;
+use super::tally::Tally;
+
+/// Writes diagnostics one after another, then what they add up to.
+#[derive(Debug)]
+pub struct Listing<W> {
+    output: Output<W>,
+    format: Box<dyn MessageFormat + Send>,
+    tally: Tally,
+}
+
+impl<W: Write> Listing<W> {
+    /// A list in a format; `look` matters for text only.
+    pub fn new(writer: W, format: ListingFormat, look: Look) -> Self {
+        let mut output = Output::new(writer);
+        let mut format = format.begin(look);
+        format.open(&mut output.bytes);
+        Self {
+            output,
+            format,
+            tally: Tally::default(),
+        }
+    }
+
+    /// Counts a file that was looked at.
+    pub fn file(&mut self) {
+        self.tally.files += 1;
+    }
+
+    /// Counts diagnostics that are not written (R2.85).
+    pub fn count(&mut self, severity: Severity, more: u64) {
+        if more > 0 {
+            *self.tally.counts.entry(severity).or_default() += more;
+        }
+    }
+
+    /// What was counted so far.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// Writes one diagnostic. `Break` when the writer takes no more.
+    pub fn diagnostic(&mut self, diagnostic: &Diagnostic) -> ControlFlow<()> {
+        self.tally.count(diagnostic.severity);
+        self.format.message(&mut self.output.bytes, diagnostic);
+        self.output.settle()
+    }
+
+    /// Writes a record of another kind, in the formats that have records.
+    pub fn record(&mut self, record: &serde_json::Value) {
+        self.format.record(&mut self.output.bytes, record);
+    }
+
+    /// Writes the end of the list.
+    ///
+    /// # Errors
+    /// The first error of the writer; a closed pipe is none.
+    pub fn finish(&mut self) -> io::Result<()> {
+        self.format.close(&mut self.output.bytes, &self.tally);
+        self.output.finish()
+    }
+
+    /// Whether the reader closed the pipe.
+    pub fn is_closed(&self) -> bool {
+        self.output.is_closed()
+    }
+}

@@ -1,0 +1,139 @@
+//! Friction that was found on circles, as text and JSON.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::findings::write_findings;
+use super::identify::PointRecord;
+use super::strings::to_pretty;
+use super::visible::visible_line;
+use frictcomp::diagnostic::{Rounded, Severity};
+use frictcomp_recordings::identify::{AxisRecording, OnCircles, TraceFinding};
+
+/// Recorded circles and the friction that was found on them.
+#[derive(Debug, Clone)]
+pub struct OnCirclesReport {
+    /// The names of the files.
+    pub names: Vec<String>,
+    /// The axis, where it is named.
+    pub axis: Option<String>,
+    /// What was recorded.
+    pub recordings: Vec<AxisRecording>,
+    /// What was found.
+    pub found: OnCircles,
+}
+
+impl OnCirclesReport {
+    /// The unit of torque and friction.
+    pub fn unit(&self) -> &str {
+        let units = self
+            .recordings
+            .iter()
+            .filter_map(|it| it.torque_unit.as_deref());
+        units.into_iter().next().unwrap_or("drive units")
+    }
+
+    /// What is wrong with the recordings, each a line for the written list (R6.21).
+    pub fn faults(&self) -> Vec<String> {
+        let findings = self.findings().into_iter();
+        let faults = findings.filter(|it| it.severity == Severity::Warning);
+        faults
+            .map(|it| format!("{}: {}", it.code, it.message))
+            .collect()
+    }
+
+    /// The findings about the channels, those of several files once, then those about the friction.
+    fn findings(&self) -> Vec<&TraceFinding> {
+        let mut findings: Vec<&TraceFinding> = Vec::new();
+        let of_files = self.recordings.iter().flat_map(|it| &it.findings);
+        for finding in of_files.chain(&self.found.findings) {
+            if !findings.contains(&finding) {
+                findings.push(finding);
+            }
+        }
+        findings
+    }
+}
+
+/// The friction at each speed, for people.
+pub fn render_text(report: &OnCirclesReport) -> String {
+    let mut out = String::new();
+    let found = &report.found;
+    let names: Vec<_> = report.names.iter().map(|name| visible_line(name)).collect();
+    let axis = report
+        .axis
+        .as_deref()
+        .map(|axis| format!(" of axis {}", visible_line(axis)));
+    let _ = writeln!(
+        out,
+        "{}: friction{} on circles\n",
+        names.join(", "),
+        axis.unwrap_or_default()
+    );
+    let _ = writeln!(
+        out,
+        "{:>10} {:>12}\n{:>10} {:>12}",
+        "speed",
+        "friction",
+        "mm/s",
+        report.unit()
+    );
+    for [speed, friction] in &found.points {
+        let _ = writeln!(out, "{speed:>10.3} {:>12}", Rounded(*friction, 3));
+    }
+    let _ = writeln!(
+        out,
+        "\noffset {}, inertia {} per mm/s²",
+        Rounded(found.offset, 3),
+        Rounded(found.inertia, 6)
+    );
+    if !found.left_out.is_empty() {
+        let speeds: Vec<String> = found.left_out.iter().map(|it| format!("{it:.2}")).collect();
+        let _ = writeln!(
+            out,
+            "left out for too few samples: {} mm/s",
+            speeds.join(", ")
+        );
+    }
+    write_findings(report.findings(), &mut out);
+    out
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    axis: Option<&'a str>,
+    points: Vec<PointRecord>,
+    offset: f64,
+    inertia: f64,
+    left_out: Vec<f64>,
+    diagnostics: Vec<&'a TraceFinding>,
+}
+
+/// The same for machines; speeds in µm/s or 0.001°/s.
+pub fn render_json(report: &OnCirclesReport) -> String {
+    const PER_MM: f64 = 1000.0;
+    let points = report
+        .found
+        .points
+        .iter()
+        .map(|[speed, friction]| PointRecord {
+            input: speed * PER_MM,
+            out: *friction,
+        });
+    to_pretty(&Document {
+        schema: 1,
+        axis: report.axis.as_deref(),
+        points: points.collect(),
+        offset: report.found.offset,
+        inertia: report.found.inertia,
+        left_out: report
+            .found
+            .left_out
+            .iter()
+            .map(|speed| speed * PER_MM)
+            .collect(),
+        diagnostics: report.findings(),
+    })
+}

@@ -1,0 +1,129 @@
+//! Bytes on their way to a writer.
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use frictcomp::timeline::Sink;
+
+/// How many bytes are gathered before they are written.
+const CHUNK: usize = 64 * 1024;
+
+/// A timeline format whose output can be ended.
+pub trait Report: Sink {
+    /// Writes what is ready while it is open when the next record comes. Formats that fold or
+    /// hold back records keep those.
+    fn flush(&mut self) -> ControlFlow<()>;
+
+    /// Writes what is still held back.
+    ///
+    /// # Errors
+    /// The first error of the writer; a closed pipe is none.
+    fn finish(&mut self) -> io::Result<()>;
+
+    /// Whether the reader closed the pipe.
+    fn is_closed(&self) -> bool;
+}
+
+/// A format that gathers its bytes before it writes them.
+pub(super) trait Gathered: Sink {
+    /// Where they go.
+    type Writer: Write;
+
+    /// The bytes on their way.
+    fn output(&self) -> &Output<Self::Writer>;
+
+    /// The bytes on their way.
+    fn output_mut(&mut self) -> &mut Output<Self::Writer>;
+
+    /// Whether what was gathered may go out before the next record comes.
+    fn may_go_out(&self) -> bool {
+        true
+    }
+
+    /// Gathers what was held back, and the end of the document.
+    fn close(&mut self) {}
+}
+
+impl<F: Gathered> Report for F {
+    fn flush(&mut self) -> ControlFlow<()> {
+        if self.may_go_out() {
+            self.output_mut().flush()
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.close();
+        self.output_mut().finish()
+    }
+
+    fn is_closed(&self) -> bool {
+        self.output().is_closed()
+    }
+}
+
+/// Bytes on their way to a writer, in chunks.
+#[derive(Debug)]
+pub(super) struct Output<W> {
+    writer: W,
+    pub(super) bytes: Vec<u8>,
+    failure: Option<io::Error>,
+}
+
+impl<W: Write> Output<W> {
+    pub(super) fn new(writer: W) -> Self {
+        Self {
+            writer,
+            bytes: Vec::with_capacity(CHUNK + CHUNK / 4),
+            failure: None,
+        }
+    }
+
+    /// Writes when a chunk is full.
+    pub(super) fn settle(&mut self) -> ControlFlow<()> {
+        if self.bytes.len() >= CHUNK {
+            return self.flush();
+        }
+        self.verdict()
+    }
+
+    /// Writes everything.
+    pub(super) fn flush(&mut self) -> ControlFlow<()> {
+        if self.failure.is_none() && !self.bytes.is_empty() {
+            let written = self
+                .writer
+                .write_all(&self.bytes)
+                .and_then(|()| self.writer.flush());
+            self.failure = written.err();
+        }
+        self.bytes.clear();
+        self.verdict()
+    }
+
+    fn verdict(&self) -> ControlFlow<()> {
+        if self.failure.is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    pub(super) fn finish(&mut self) -> io::Result<()> {
+        let _ = self.flush();
+        match self.failure.take() {
+            Some(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.failure = Some(error);
+                Ok(())
+            }
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        self.failure
+            .as_ref()
+            .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    }
+}

@@ -1,0 +1,83 @@
+//! The circular test as a magnified circle (R5.23).
+
+use std::f64::consts::TAU;
+
+use crate::circle::{CircleReport, Subject};
+use crate::svg::{PolarChart, PolarPanel, PolarSeries};
+use crate::visible::{last_part, visible_line};
+use frictcomp_physics::circle::{Direction, RadialProfile, UM_PER_M};
+
+/// Points of a path in the picture.
+const POINTS: usize = 7200;
+
+/// The paths of a circular test, compensation off and on beside each other, each with its own
+/// magnification: what is left with compensation is small against what is there without.
+pub fn circle(report: &CircleReport) -> PolarChart {
+    let mut panels = Vec::new();
+    let mut told = Vec::new();
+    for side in &report.sides {
+        let paths = side.side.paths.iter();
+        let series = paths.map(|(direction, profile)| PolarSeries {
+            name: match direction {
+                Direction::Cw => "clockwise".to_owned(),
+                _ => "counter-clockwise".to_owned(),
+            },
+            points: outline(profile),
+        });
+        let name = match side.name {
+            "off" | "on" => format!("compensation {}", side.name),
+            name => name.to_owned(),
+        };
+        let glitch = match side.side.figures.glitch_max_um() {
+            Some(glitch) => format!("largest glitch {glitch:.1} \u{b5}m"),
+            None => "too fast for glitches".to_owned(),
+        };
+        told.push(format!("{name}: {glitch}"));
+        panels.push(PolarPanel {
+            label: format!("{name}, {glitch}"),
+            series: series.collect(),
+        });
+    }
+    let (title, radius) = match &report.subject {
+        Subject::Simulated { test, .. } => (
+            format!(
+                "Circular test, plant {}, diameter {} mm, {} mm/min",
+                visible_line(last_part(&test.plant.name)),
+                2.0 * test.circle.radius_mm,
+                test.circle.feed_mm_per_min
+            ),
+            test.circle.radius_mm,
+        ),
+        Subject::Recorded(recording) => {
+            let fitted = recording.circles.first().map(|circle| circle.radius_mm);
+            let radius = recording.commanded.radius_mm.or(fitted);
+            let radius = radius.unwrap_or_default();
+            (
+                format!("Recorded circle, diameter {:.3} mm", 2.0 * radius),
+                radius,
+            )
+        }
+    };
+    PolarChart {
+        description: format!(
+            "Radial deviation from the circle, magnified, over the angle. {}.",
+            told.join("; ")
+        ),
+        title,
+        axes: ["X".to_owned(), "Y".to_owned()],
+        radius,
+        panels,
+    }
+}
+
+/// Angles in rad and deviations in µm of a closed path.
+fn outline(profile: &RadialProfile) -> Vec<[f64; 2]> {
+    let points = profile.outline(POINTS).into_iter();
+    let mut points: Vec<[f64; 2]> = points
+        .map(|(angle, deviation)| [angle, deviation * UM_PER_M])
+        .collect();
+    if let Some(&[angle, deviation]) = points.first() {
+        points.push([angle + TAU, deviation]);
+    }
+    points
+}

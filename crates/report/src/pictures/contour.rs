@@ -1,0 +1,264 @@
+//! The contour of a program: the path with its deviation, reversals, and both over time.
+
+use std::sync::Arc;
+
+use crate::svg::{
+    Band, BandRow, BandState, ChartAxis, Curve, Drawn, LineChart, Panel, PanelHeight, PlaneChart,
+    PlaneMark, PlanePoint, Series, Standing, Stroke,
+};
+use frictcomp::comp::State;
+use frictcomp::interpreter::PositionFrame;
+use frictcomp_physics::contour::{ContourPoint, ContourReversal};
+use frictcomp_physics::motion::Movement;
+
+/// More points of the path are joined by two.
+const MOST_POINTS: usize = 12_000;
+
+/// More reversals are not marked, but for worse ones.
+const MOST_MARKS: usize = 20_000;
+
+/// More states over time are not kept apart.
+const MOST_BANDS: usize = 5000;
+
+/// How many of the worst reversals are labelled.
+const NAMED: usize = 6;
+
+/// The block of a reversal, or of the largest deviation.
+#[derive(Debug, Clone, Default)]
+struct Spot {
+    file: Arc<str>,
+    line: u32,
+}
+
+/// A contour while it comes in, in memory that does not grow with the length of the program.
+#[derive(Debug, Clone)]
+pub struct ContourPicture {
+    axes: [String; 2],
+    points: Vec<PlanePoint>,
+    /// Cycles that are drawn as one point.
+    every: u64,
+    filled: u64,
+    curves: [Curve; 3],
+    bands: [Vec<Band>; 2],
+    marks: Vec<(PlaneMark, Spot)>,
+    more_marks: u64,
+    largest_um: f64,
+    largest_at: Spot,
+}
+
+impl ContourPicture {
+    /// The contour in the plane of two axes, before its first cycle.
+    pub fn new(axes: [String; 2]) -> Self {
+        Self {
+            axes,
+            points: Vec::new(),
+            every: 1,
+            filled: 0,
+            curves: Default::default(),
+            bands: Default::default(),
+            marks: Vec::new(),
+            more_marks: 0,
+            largest_um: 0.0,
+            largest_at: Spot::default(),
+        }
+    }
+
+    /// Takes a cycle.
+    pub fn point(&mut self, point: &ContourPoint<'_>) {
+        let off = point.cause.friction.iter().take(2);
+        let is_on = off.into_iter().all(|state| *state == State::Active);
+        let stroke = match (point.cause.frame, point.counts, is_on) {
+            (PositionFrame::Programmed, ..) => Stroke::LeftOut,
+            (PositionFrame::Machine, false, _) => Stroke::Unjudged,
+            (PositionFrame::Machine, true, true) => Stroke::Compensated,
+            (PositionFrame::Machine, true, false) => Stroke::Uncompensated,
+        };
+        self.keep(PlanePoint {
+            place: [point.positions[0], point.positions[1]],
+            error: point.error_mm,
+            stroke,
+        });
+        let deviation = &point.deviation_um;
+        let each = [deviation.programmed, deviation.all_on, deviation.all_off];
+        for (curve, deviation) in self.curves.iter_mut().zip(each) {
+            if point.counts {
+                curve.push([point.time_s, deviation]);
+            } else {
+                curve.interrupt();
+            }
+        }
+        if point.counts && each[0].abs() > self.largest_um {
+            self.largest_um = each[0].abs();
+            self.largest_at = Spot {
+                file: Arc::clone(&point.cause.file),
+                line: point.cause.line,
+            };
+        }
+        let names = &self.axes;
+        for ((bands, state), name) in self.bands.iter_mut().zip(&*point.cause.friction).zip(names) {
+            extend(bands, name, (point.time_s, *state));
+        }
+    }
+
+    /// Of the cycles that make a point the one with the largest deviation is kept.
+    fn keep(&mut self, point: PlanePoint) {
+        let size = |it: &PlanePoint| it.error[0].hypot(it.error[1]);
+        let is_full = self.filled >= self.every;
+        match self.points.last_mut() {
+            Some(last) if !is_full && last.stroke == point.stroke => {
+                if size(&point) > size(last) {
+                    *last = point;
+                }
+                self.filled += 1;
+            }
+            _ => {
+                self.points.push(point);
+                self.filled = 1;
+            }
+        }
+        if self.points.len() >= MOST_POINTS {
+            let pairs = self.points.chunks(2);
+            let joined = pairs.map(|pair| match pair {
+                [one, other] if size(other) > size(one) || other.stroke != one.stroke => *other,
+                _ => pair[0],
+            });
+            self.points = joined.collect();
+            self.every *= 2;
+        }
+    }
+
+    /// Takes a reversal.
+    pub fn reversal(&mut self, reversal: &ContourReversal) {
+        if reversal.movement == Movement::Rapid || !self.axes.contains(&reversal.axis) {
+            return;
+        }
+        let programmed = reversal.programmed_mm_per_min;
+        let programmed = programmed.map_or(String::new(), |feed| format!(" of F{feed:.0}"));
+        let mark = PlaneMark {
+            place: [reversal.positions[0], reversal.positions[1]],
+            ringed: reversal.state != State::Active,
+            weight: reversal.glitch_um.programmed,
+            label: None,
+            title: format!(
+                "line {}: {} reverses at {:.0} mm/min{}, {}, {:.1} µm",
+                reversal.line,
+                reversal.axis,
+                reversal.feed_mm_per_min,
+                programmed,
+                reversal.state.as_str(),
+                reversal.glitch_um.programmed
+            ),
+            href: None,
+        };
+        let spot = Spot {
+            file: Arc::clone(&reversal.file),
+            line: reversal.line,
+        };
+        if self.marks.len() < MOST_MARKS {
+            self.marks.push((mark, spot));
+            return;
+        }
+        self.more_marks += 1;
+        let weakest = self
+            .marks
+            .iter_mut()
+            .min_by(|one, other| one.0.weight.total_cmp(&other.0.weight));
+        if let Some(weakest) = weakest.filter(|it| it.0.weight < mark.weight) {
+            *weakest = (mark, spot);
+        }
+    }
+
+    /// The picture: the path above, deviations over time below.
+    pub fn chart(self, program: &str) -> PlaneChart {
+        self.linked_chart(program, |_, _| None)
+    }
+
+    /// The same in a page: each mark leads where `link` says for its file and line.
+    pub fn linked_chart(
+        mut self,
+        program: &str,
+        link: impl Fn(&str, u32) -> Option<String>,
+    ) -> PlaneChart {
+        for (mark, spot) in &mut self.marks {
+            mark.href = link(&spot.file, spot.line);
+        }
+        self.marks
+            .sort_by(|one, other| other.0.weight.total_cmp(&one.0.weight));
+        let uncompensated = self.marks.iter().filter(|(mark, _)| mark.ringed).count();
+        for (mark, spot) in self.marks.iter_mut().take(NAMED) {
+            mark.label = Some(format!("line {}: {:.1} µm", spot.line, mark.weight));
+        }
+        let count = self.marks.len();
+        let (largest, at) = (self.largest_um, &self.largest_at);
+        let description = format!(
+            "The commanded path in the plane {}{}, and the simulated one with its deviation \
+             magnified. The largest deviation while cutting is {largest:.1} µm, at {}:{}. {count} \
+             reversals are marked, {uncompensated} of them without compensation.",
+            self.axes[0], self.axes[1], at.file, at.line
+        );
+        let title = format!("Contour of {program}");
+        PlaneChart {
+            below: Some(self.strip()),
+            title,
+            description,
+            points: self.points,
+            marks: self.marks.into_iter().map(|(mark, _)| mark).collect(),
+            axes: self.axes,
+        }
+    }
+
+    fn strip(&self) -> LineChart {
+        let names = ["as programmed", "all on", "all off"];
+        let series = [0, 1, 2].map(|at: usize| Series {
+            name: names[at].to_owned(),
+            points: self.curves[at].points(),
+            drawn: Drawn::Line,
+        });
+        let rows = self.axes.iter().zip(&self.bands);
+        LineChart {
+            title: "Deviation over time".to_owned(),
+            description: "The signed deviation from the path while cutting, in each of the three \
+                          runs, below the states of both axes."
+                .to_owned(),
+            x: ChartAxis::linear("time in s"),
+            bands: rows
+                .map(|(name, bands)| BandRow {
+                    label: name.clone(),
+                    bands: bands.clone(),
+                })
+                .collect(),
+            panels: vec![Panel {
+                y: ChartAxis::linear("deviation in µm, outside positive"),
+                series: series.into(),
+                height: PanelHeight::Full,
+                ..Panel::default()
+            }],
+            marks: Vec::new(),
+        }
+    }
+}
+
+fn extend(bands: &mut Vec<Band>, name: &str, (time_s, state): (f64, State)) {
+    let is_full = bands.len() >= MOST_BANDS;
+    match bands.last_mut() {
+        Some(last) if last.state == BandState::One(state) => last.to = time_s,
+        Some(last) if is_full => {
+            last.state = BandState::Changing;
+            last.standing = Standing::StartUp;
+            last.to = time_s;
+        }
+        last => {
+            if let Some(last) = last {
+                last.to = time_s;
+            }
+            bands.push(Band {
+                from: time_s,
+                to: time_s,
+                state: BandState::One(state),
+                standing: Standing::of(state, State::Active),
+                title: format!("{name} {} from {time_s} s", state.as_str()),
+                href: None,
+            });
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The channels of a trace over time.
+
+use crate::svg::{ChartAxis, Drawn, LineChart, Panel, Series};
+use crate::trace::TraceReport;
+
+/// Channels are not drawn beyond so many.
+const MOST: usize = 12;
+
+/// Every channel in a panel of its own, over its own times; over the row where the file has none.
+pub fn channels(report: &TraceReport<'_>) -> LineChart {
+    let recording = report.recording;
+    let panels: Vec<Panel> = recording
+        .kept()
+        .take(MOST)
+        .map(|index| {
+            let channel = &recording.channels()[index.get()];
+            let values = recording.values(index);
+            let times = recording.times_s(index);
+            let counted = (0_u32..).map(f64::from);
+            let points = match times {
+                Some(times) => times
+                    .iter()
+                    .copied()
+                    .zip(values)
+                    .map(|(x, y)| [x, *y])
+                    .collect(),
+                None => counted.zip(values).map(|(x, y)| [x, *y]).collect(),
+            };
+            Panel {
+                y: ChartAxis::linear(match &channel.unit {
+                    Some(unit) => format!("{} in {unit}", channel.name),
+                    None => channel.name.clone(),
+                }),
+                series: vec![Series {
+                    name: channel.name.clone(),
+                    points,
+                    drawn: Drawn::Line,
+                }],
+                ..Panel::default()
+            }
+        })
+        .collect();
+    let is_timed = recording
+        .kept()
+        .any(|index| recording.times_s(index).is_some());
+    let left_off = recording.channels().len().saturating_sub(MOST);
+    let more = match left_off {
+        0 => String::new(),
+        more => format!(" {more} more are not drawn."),
+    };
+    LineChart {
+        title: format!("Channels of {}", report.name),
+        description: format!("{} recorded channels over time.{more}", panels.len()),
+        x: ChartAxis::linear(if is_timed { "time in s" } else { "row" }),
+        panels,
+        ..LineChart::default()
+    }
+}

@@ -1,0 +1,103 @@
+//! Stiction compensation, `stiction`.
+
+use std::fmt::Write as _;
+
+use serde_json::{Map, Value, json};
+
+use frictcomp_physics::stiction::{Effect, Guideline, Quantity, Solution};
+
+/// The values as a table, what was computed with its formula, and what there is to say about them.
+pub fn render_stiction(solution: &Solution) -> String {
+    let mut out = String::new();
+    for solved in &solution.values {
+        let (symbol, value) = (
+            solved.quantity.symbol(),
+            solved.quantity.shown(solved.value),
+        );
+        let by = solved.by.unwrap_or_default();
+        let line = format!("{symbol:<12}{value:<24}{by}");
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    if let Some(clipped) = solution.clipped_to {
+        let _ = writeln!(
+            out,
+            "\nΔs_a is cut to {} by its limit",
+            Quantity::DeltaSa.shown(clipped)
+        );
+    }
+    let effect = match solution.effect {
+        Effect::Acts => "the feed is at most MP1513: stiction is compensated, with feed precontrol",
+        Effect::TooFast => "the feed is above MP1513: stiction is not compensated",
+        Effect::Unknown => {
+            "stiction is compensated up to a feed of MP1513, and only with feed precontrol"
+        }
+    };
+    let _ = writeln!(out, "\n{effect}");
+    out
+}
+
+/// What to say about a guideline that is not kept (R8.3).
+pub fn guideline(guideline: Guideline) -> &'static str {
+    match guideline {
+        Guideline::Mp1511 => "MP1511 is outside the guideline of 5000 to 10000 µs",
+        Guideline::Mp1512 => {
+            "MP1512 is not below the guideline of 50: the axis may oscillate at standstill"
+        }
+    }
+}
+
+/// The same as a JSON document.
+pub fn stiction_document(solution: &Solution) -> Value {
+    let values = solution.values.iter().map(|solved| {
+        let value = json!({
+            "value": solved.value,
+            "unit": solved.quantity.unit(),
+            "computed_by": solved.by,
+        });
+        (solved.quantity.as_str().to_owned(), value)
+    });
+    json!({
+        "schema": 1,
+        "values": values.collect::<Map<String, Value>>(),
+        "clipped_to_mm": solution.clipped_to,
+        "effect": solution.effect,
+        "guidelines": solution.guidelines,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frictcomp_physics::stiction::solve;
+
+    #[test]
+    fn the_worked_case_is_shown_with_its_formulas() {
+        // R8.1, R8.5
+        let given = [
+            (Quantity::Kv, 1.5),
+            (Quantity::Tc, 3000.0),
+            (Quantity::Mp1511, 8000.0),
+            (Quantity::DeltaSa, 0.002),
+        ];
+        let solution = solve(&given.into_iter().collect()).expect("a solution");
+        insta::assert_snapshot!(render_stiction(&solution), @r"
+        Δs_a        0.002 mm
+        t_C         3000 µs
+        k_v         1.5 (m/min)/mm
+        MP1511      8000 µs
+        F_add       0.008 m/min             F_add = Δs_a / t_C · k_v · MP1511
+
+        stiction is compensated up to a feed of MP1513, and only with feed precontrol
+        ");
+        let document = stiction_document(&solution);
+        assert_eq!(document["values"]["f_add"]["unit"], "m/min");
+        assert!(
+            (document["values"]["f_add"]["value"]
+                .as_f64()
+                .unwrap_or_default()
+                - 0.008)
+                .abs()
+                < 1e-15
+        );
+    }
+}

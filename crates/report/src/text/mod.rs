@@ -1,0 +1,362 @@
+//! The timeline for people: a column per axis, changes that are seen at a glance, diagnostics
+//! under their block, and what is left to do after program end.
+
+mod columns;
+mod line;
+mod summary;
+
+use std::io::Write;
+use std::ops::ControlFlow;
+
+use frictcomp::comp::{Change, Kind};
+use frictcomp::diagnostic::Diagnostic;
+use frictcomp::timeline::{End, EndedBy, Record, Row, Sink, StateView};
+
+use super::diagnostics::{Look, render, wrap};
+use super::output::{Gathered, Output};
+use super::strings::grouped;
+use super::view::{Blocks, View};
+use super::visible::leading;
+use columns::Columns;
+use line::{BOLD, DIM, GUTTER, Line, MARK, Paragraph};
+
+/// Below so many columns diagnostics stand further left.
+const NARROW: usize = 60;
+
+/// What happens to blocks that change nothing and about which there is nothing to say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Runs {
+    /// Several of them in a row become one line with their count.
+    #[default]
+    Folded,
+    /// Each has its line.
+    Full,
+}
+
+/// How the timeline looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(not(feature = "unstable"), non_exhaustive)]
+pub struct TextOptions {
+    /// What is shown.
+    pub view: View,
+    /// What happens to blocks without a change.
+    pub runs: Runs,
+    /// Colours and width.
+    pub look: Look,
+}
+
+impl TextOptions {
+    /// The same with another value of [`view`](Self::view).
+    pub fn with_view(mut self, view: View) -> Self {
+        self.view = view;
+        self
+    }
+
+    /// The same with another value of [`runs`](Self::runs).
+    pub fn with_runs(mut self, runs: Runs) -> Self {
+        self.runs = runs;
+        self
+    }
+
+    /// The same with another value of [`look`](Self::look).
+    pub fn with_look(mut self, look: Look) -> Self {
+        self.look = look;
+        self
+    }
+}
+
+/// Blocks without a change that wait for their count.
+#[derive(Debug, Default)]
+struct Quiet {
+    count: u64,
+    /// The line of the first, for a run of one.
+    first: Vec<u8>,
+    /// The file of the first.
+    file: String,
+}
+
+/// Writes the timeline for people.
+#[derive(Debug)]
+pub struct Text<W> {
+    output: Output<W>,
+    options: TextOptions,
+    columns: Columns,
+    version: Option<u64>,
+    quiet: Quiet,
+    /// The file of the block that was printed last.
+    file: String,
+    /// How the last program ended.
+    ended: Option<EndedBy>,
+}
+
+impl<W: Write> Text<W> {
+    /// A timeline as text. The columns show friction compensation, so its changes are always
+    /// shown.
+    pub fn new(writer: W, mut options: TextOptions) -> Self {
+        options.view.kinds.insert(Kind::Frict);
+        Self {
+            output: Output::new(writer),
+            options,
+            columns: Columns::default(),
+            version: None,
+            quiet: Quiet::default(),
+            file: String::new(),
+            ended: None,
+        }
+    }
+
+    fn line(&mut self) -> Line<'_> {
+        Line::new(&mut self.output.bytes, self.options.look.paint)
+    }
+
+    fn program(&mut self, file: &str, name: Option<&str>, state: StateView<'_>) {
+        let mut line = self.line();
+        line.styled(BOLD, &leading(file));
+        if let Some(name) = name {
+            line.plain("  %");
+            line.plain(name);
+        }
+        line.end();
+        self.line().end();
+        self.version = Some(state.version);
+        self.columns = Columns::new(state, self.options.look.width);
+        self.header();
+        self.state_line("at start", state);
+        file.clone_into(&mut self.file);
+    }
+
+    /// What stands above everything else.
+    fn remark(&mut self, remark: &str) {
+        for part in wrap(remark, self.options.look.width, 0).lines() {
+            let mut line = self.line();
+            line.plain(part);
+            line.end();
+        }
+        self.line().end();
+    }
+
+    fn header(&mut self) {
+        let mut line = Line::new(&mut self.output.bytes, self.options.look.paint);
+        line.plain("  ");
+        line.styled(BOLD, "line");
+        line.go_to(GUTTER);
+        line.styled(BOLD, "block");
+        self.columns.names(&mut line);
+        line.end();
+        if let Some(legend) = self.columns.legend() {
+            let legend = Paragraph::new(DIM, legend).indented(2);
+            legend.write(&mut self.output.bytes, self.options.look);
+        }
+    }
+
+    /// A line that is no block, with the states.
+    fn state_line(&mut self, label: &str, state: StateView<'_>) {
+        let mut line = Line::new(&mut self.output.bytes, self.options.look.paint);
+        line.go_to(GUTTER);
+        line.styled(DIM, label);
+        self.columns.states(&mut line, state, &[]);
+        line.end();
+    }
+
+    fn block(&mut self, row: &Row<'_>) {
+        let grown = self.take_version(row.state);
+        let eventful = self.options.view.is_eventful(row);
+        if !eventful && !grown && self.options.runs == Runs::Folded {
+            if self.options.view.blocks == Blocks::All {
+                self.wait(row);
+            }
+            return;
+        }
+        self.release();
+        if grown {
+            self.columns = Columns::new(row.state, self.options.look.width);
+            self.header();
+        }
+        if !eventful && self.options.view.blocks == Blocks::Changed {
+            return;
+        }
+        if row.file != self.file {
+            self.announce(row.file);
+        }
+        self.columns.block(
+            Line::new(&mut self.output.bytes, self.options.look.paint),
+            row,
+        );
+        self.other_kinds(row.changes, row.state);
+        for diagnostic in row.diagnostics {
+            self.diagnostic(diagnostic);
+        }
+    }
+
+    /// Takes over the version of the state; says whether there are more axes than before.
+    fn take_version(&mut self, state: StateView<'_>) -> bool {
+        if self.version == Some(state.version) {
+            return false;
+        }
+        self.version = Some(state.version);
+        state.axes().count() != self.columns.len()
+    }
+
+    /// Counts a block without a change.
+    fn wait(&mut self, row: &Row<'_>) {
+        self.quiet.count += 1;
+        if self.quiet.count > 1 {
+            return;
+        }
+        row.file.clone_into(&mut self.quiet.file);
+        self.quiet.first.clear();
+        let line = Line::new(&mut self.quiet.first, self.options.look.paint);
+        self.columns.block(line, row);
+    }
+
+    /// Writes the run of blocks without a change that ends here.
+    fn release(&mut self) {
+        match std::mem::take(&mut self.quiet.count) {
+            0 => {}
+            1 => {
+                let file = std::mem::take(&mut self.quiet.file);
+                if file != self.file {
+                    self.announce(&file);
+                }
+                self.quiet.file = file;
+                self.output.bytes.extend_from_slice(&self.quiet.first);
+            }
+            count => {
+                let mut line = self.line();
+                line.go_to(GUTTER - 2);
+                let count = grouped(count);
+                line.styled(DIM, &format!("… {count} blocks without a change"));
+                line.end();
+            }
+        }
+    }
+
+    /// Says that the blocks that follow are in another file.
+    fn announce(&mut self, file: &str) {
+        file.clone_into(&mut self.file);
+        let mut line = self.line();
+        line.go_to(GUTTER - 2);
+        line.styled(DIM, &format!("─ {file}"));
+        line.end();
+    }
+
+    fn other_kinds(&mut self, changes: &[Change], state: StateView<'_>) {
+        for change in changes {
+            if change.kind == Kind::Frict || !self.options.view.kinds.contains(change.kind) {
+                continue;
+            }
+            let mut line = Line::new(&mut self.output.bytes, self.options.look.paint);
+            line.go_to(GUTTER);
+            line.styled(
+                BOLD,
+                &format!(
+                    "{MARK} {} {}: {} → {}",
+                    state.name(change.axis),
+                    change.kind.as_str(),
+                    change.from.as_str(),
+                    change.to.as_str(),
+                ),
+            );
+            line.end();
+        }
+    }
+
+    fn diagnostic(&mut self, diagnostic: &Diagnostic) {
+        let whole = self.options.look.width;
+        let indent = if whole < NARROW { 2 } else { GUTTER };
+        let look = Look {
+            width: whole.saturating_sub(indent),
+            ..self.options.look
+        };
+        for shown in render(diagnostic, look).lines() {
+            if !shown.is_empty() {
+                self.output
+                    .bytes
+                    .extend_from_slice(&[b' '; GUTTER][..indent]);
+                self.output.bytes.extend_from_slice(shown.as_bytes());
+            }
+            self.output.bytes.push(b'\n');
+        }
+    }
+
+    fn end(&mut self, end: &End<'_>) {
+        self.release();
+        self.ended = Some(end.by);
+        let label = match end.by {
+            EndedBy::M30 => "end by M30",
+            EndedBy::M02 => "end by M02",
+            EndedBy::EndOfFile => "end of the file",
+            EndedBy::Error => "stopped by the error",
+            EndedBy::Budget => "stopped by a budget",
+        };
+        if self.take_version(end.state) {
+            self.columns = Columns::new(end.state, self.options.look.width);
+            self.header();
+        }
+        self.state_line(label, end.state);
+        self.other_kinds(end.changes, end.state);
+        for note in end.notes {
+            self.diagnostic(&note.diagnostic);
+        }
+        for repeat in end.repeated {
+            let (code, times) = (repeat.code, grouped(repeat.times));
+            let text = format!(
+                "{code} at {}:{} occurred {times} times",
+                repeat.file, repeat.line
+            );
+            let look = self.options.look;
+            let indent = if look.width < NARROW { 2 } else { GUTTER };
+            let repeated = Paragraph::new(anstyle::Style::new(), &text).indented(indent);
+            repeated.write(&mut self.output.bytes, look);
+        }
+        self.line().end();
+    }
+}
+
+impl<W: Write> Sink for Text<W> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match *record {
+            Record::Session { remark, .. } => {
+                if let Some(remark) = remark {
+                    self.remark(remark);
+                }
+            }
+            Record::Machine(diagnostic) => {
+                let text = render(diagnostic, self.options.look);
+                self.output.bytes.extend_from_slice(text.as_bytes());
+                self.output.bytes.push(b'\n');
+            }
+            Record::Program {
+                file, name, state, ..
+            } => self.program(file, name, state),
+            Record::Block(ref row) => self.block(row),
+            Record::End(ref end) => {
+                self.end(end);
+                return self.output.flush();
+            }
+            Record::Summary(summary) => {
+                let look = self.options.look;
+                summary::append(&mut self.output.bytes, summary, self.ended, look);
+                return self.output.flush();
+            }
+        }
+        self.output.settle()
+    }
+}
+
+impl<W: Write> Gathered for Text<W> {
+    type Writer = W;
+
+    fn output(&self) -> &Output<W> {
+        &self.output
+    }
+
+    fn output_mut(&mut self) -> &mut Output<W> {
+        &mut self.output
+    }
+
+    fn close(&mut self) {
+        self.release();
+    }
+}

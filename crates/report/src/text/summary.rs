@@ -1,0 +1,249 @@
+//! The end of the timeline: what happened to each axis and what is left to do.
+
+use anstyle::Style;
+use unicode_width::UnicodeWidthStr;
+
+use crate::advice::{all_home, axis_advice, error_advice, is_home};
+use crate::diagnostics::Look;
+use crate::feed_moves::feed_moves_text;
+use crate::strings::grouped;
+use crate::visible::last_part;
+use frictcomp::comp::State;
+use frictcomp::diagnostic::Severity;
+use frictcomp::timeline::{AxisSummary, ChangedBy, EndedBy, Summary};
+
+use super::line::{BOLD, DIM, Line, Paragraph, style};
+
+/// Columns that what changed an axis must have beside its states, or it stands below them.
+const CHANGED_BY: usize = 24;
+
+/// Columns of `changed by `.
+const CHANGED: usize = 11;
+
+/// Columns of a state in the summary.
+const STATE: usize = 14;
+
+/// Appends the summary of a session whose last program ended so.
+pub(super) fn append(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
+    let counts = format!(
+        "Summary  {}, {}, {}, {}",
+        count(u64::from(summary.programs), "program"),
+        count(summary.blocks, "block"),
+        count(summary.count(Severity::Error), "error"),
+        count(summary.count(Severity::Warning), "warning"),
+    );
+    Paragraph::new(BOLD, &counts).write(out, look);
+    table(out, summary, look);
+    opaque(out, summary, look);
+    advice(out, summary, by, look);
+}
+
+fn table(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+    if summary.axes.is_empty() {
+        return;
+    }
+    out.push(b'\n');
+    let name = |axis: &AxisSummary| summary.state.name(axis.axis);
+    let names = summary.axes.iter().map(|axis| name(axis).width());
+    let first = 4 + names.max().unwrap_or_default().max("axis".len());
+    let mut line = Line::new(out, look.paint);
+    line.go_to(2);
+    line.styled(BOLD, "axis");
+    let column = first + 2 * STATE;
+    let beside = look.width >= column + CHANGED_BY;
+    let titles = [(0, "at start"), (1, "at end"), (2, "changed by")];
+    for (at, title) in titles.into_iter().take(if beside { 3 } else { 2 }) {
+        line.go_to(first + at * STATE);
+        line.styled(BOLD, title);
+    }
+    line.end();
+    for axis in &summary.axes {
+        let mut line = Line::new(out, look.paint);
+        line.go_to(2);
+        line.plain(name(axis));
+        line.go_to(first);
+        line.styled(style(axis.start), axis.start.as_str());
+        line.go_to(first + STATE);
+        line.styled(style(axis.end), axis.end.as_str());
+        let room = look.width.saturating_sub(column);
+        let text = changed_by(axis, room);
+        let fits = beside && text.width() <= room;
+        if fits {
+            line.go_to(column);
+            line.plain(&text);
+        }
+        line.end();
+        if !fits && axis.changes > 0 {
+            let room = look.width.saturating_sub(4 + CHANGED);
+            let text = format!("changed by {}", changed_by(axis, room));
+            Paragraph::new(Style::new(), &text)
+                .indented(4)
+                .write(out, look);
+        }
+    }
+}
+
+/// How a file is named.
+#[derive(Clone, Copy)]
+enum Files {
+    /// As the user named it.
+    Path,
+    /// Without its folders.
+    Name,
+}
+
+/// The blocks that changed an axis, as many as have room; without the folders of their files if
+/// that needs too much.
+fn changed_by(axis: &AxisSummary, room: usize) -> String {
+    let whole = named_blocks(axis, room, Files::Path);
+    if whole.width() <= room {
+        return whole;
+    }
+    named_blocks(axis, room, Files::Name)
+}
+
+fn named_blocks(axis: &AxisSummary, room: usize, files: Files) -> String {
+    if axis.changes == 0 {
+        return "-".to_owned();
+    }
+    let mut text = String::new();
+    let mut named = 0;
+    for block in &axis.changed_by {
+        let name = block_name(block, files);
+        let separator = if named == 0 { "" } else { ", " };
+        let left = axis.changes.saturating_sub(named + 1);
+        let more = if left == 0 { 0 } else { more(left).width() };
+        let width = text.width() + separator.len() + name.width() + more;
+        if named > 0 && width > room {
+            break;
+        }
+        text.push_str(separator);
+        text.push_str(&name);
+        named += 1;
+    }
+    let left = axis.changes.saturating_sub(named);
+    if left > 0 {
+        text.push_str(&more(left));
+    }
+    text
+}
+
+fn more(left: u64) -> String {
+    format!(" and {} more", grouped(left))
+}
+
+fn block_name(block: &ChangedBy, files: Files) -> String {
+    let file = match files {
+        Files::Path => block.file.as_str(),
+        Files::Name => last_part(&block.file),
+    };
+    match block.number {
+        Some(number) => format!("N{number} ({file}:{})", block.line),
+        None => format!("{file}:{}", block.line),
+    }
+}
+
+fn opaque(out: &mut Vec<u8>, summary: &Summary<'_>, look: Look) {
+    if summary.opaque.is_empty() {
+        return;
+    }
+    out.push(b'\n');
+    let lead = "Passed over without effect on the states:";
+    let mut line = Line::new(out, look.paint);
+    line.plain(lead);
+    let mut column = lead.width();
+    for (at, (word, count)) in summary.opaque.iter().enumerate() {
+        let comma = if at + 1 < summary.opaque.len() {
+            ","
+        } else {
+            ""
+        };
+        let item = format!(" {word} ×{}{comma}", grouped(*count));
+        if column + item.width() > look.width {
+            line.end();
+            line = Line::new(out, look.paint);
+            line.plain(" ");
+            column = 1;
+        }
+        column += item.width();
+        line.plain(&item);
+    }
+    line.end();
+}
+
+fn advice(out: &mut Vec<u8>, summary: &Summary<'_>, by: Option<EndedBy>, look: Look) {
+    if summary.axes.is_empty() {
+        return;
+    }
+    let before = out.len();
+    out.push(b'\n');
+    let bare = out.len();
+    for axis in &summary.axes {
+        let name = summary.state.name(axis.axis);
+        let Some(text) = axis_advice(axis, name) else {
+            continue;
+        };
+        Paragraph::new(style(axis.end), &format!("{name}{text}")).write(out, look);
+    }
+    let is_all_home = summary.state.machine.is_described() && summary.axes.iter().all(is_home);
+    if let Some(text) = error_advice(summary.count(Severity::Error), by) {
+        Paragraph::new(Style::new(), text).write(out, look);
+    } else if out.len() == bare && is_all_home {
+        Paragraph::new(DIM, all_home(&summary.axes, summary.footing)).write(out, look);
+    }
+    for axis in &summary.axes {
+        let of = summary.state.machine.axis(axis.axis);
+        if let Some(text) = feed_moves_text(&axis.feed_moves, of.axis_type) {
+            let text = format!("{}{text}.", of.name);
+            Paragraph::new(style(State::Inactive), &text).write(out, look);
+        }
+    }
+    if out.len() == bare {
+        out.truncate(before);
+    }
+}
+
+fn count(number: u64, noun: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{} {noun}{plural}", grouped(number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use frictcomp::comp::AxisIndex;
+
+    #[test]
+    fn as_many_blocks_are_named_as_have_room() {
+        let mut axis = AxisSummary {
+            others_away: frictcomp::comp::KindSet::NONE,
+            axis: AxisIndex::new(0),
+            start: State::Active,
+            end: State::Inactive,
+            start_up: State::Active,
+            told: false,
+            changed_by: Vec::new(),
+            changes: 0,
+            feed_moves: frictcomp::timeline::FeedMoves::default(),
+        };
+        assert_eq!(changed_by(&axis, 40), "-");
+        for line in 1..=100 {
+            axis.changed_by.push(ChangedBy {
+                program: 1,
+                file: "a.nc".to_owned(),
+                line,
+                number: (line == 1).then_some(10),
+                to: State::Inactive,
+            });
+        }
+        axis.changes = 2300;
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1), a.nc:2 and 2 298 more");
+        assert_eq!(changed_by(&axis, 0), "N10 (a.nc:1) and 2 299 more");
+        axis.changed_by[0].file = "programs/of/a/folder/a.nc".to_owned();
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1), a.nc:2 and 2 298 more");
+        axis.changed_by[0].file = "a.nc".to_owned();
+        axis.changes = 1;
+        axis.changed_by.truncate(1);
+        assert_eq!(changed_by(&axis, 40), "N10 (a.nc:1)");
+    }
+}

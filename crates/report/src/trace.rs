@@ -1,0 +1,199 @@
+//! The channels of a recorded trace as text and JSON.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::strings::to_pretty;
+use super::visible::visible_line;
+use frictcomp_recordings::trace::{Channel, ChannelSummary, TraceRecording};
+
+/// A trace as it was read.
+#[derive(Debug)]
+pub struct TraceReport<'a> {
+    /// The name of the file.
+    pub name: String,
+    /// Its channels.
+    pub recording: &'a TraceRecording,
+}
+
+/// The channels for people, one a line, with what is odd about them.
+pub fn render_text(report: &TraceReport<'_>) -> String {
+    let mut out = String::new();
+    let recording = report.recording;
+    let _ = writeln!(
+        out,
+        "{}: {}, {} channels\n",
+        visible_line(&report.name),
+        recording.layout().as_str(),
+        recording.channels().len()
+    );
+    let _ = writeln!(
+        out,
+        "{:>8} {:>9} {:>10} {:>14} {:>14}  {:<9} channel",
+        "samples", "every ms", "length s", "least", "greatest", "unit"
+    );
+    for summary in recording.summaries() {
+        push_channel(&mut out, &summary);
+    }
+    for remark in recording.remarks() {
+        let _ = writeln!(out, "\nnote: {}", visible_line(remark));
+    }
+    out
+}
+
+fn push_channel(out: &mut String, summary: &ChannelSummary<'_>) {
+    let channel = summary.channel;
+    let clock = summary.clock.as_ref();
+    let step = clock
+        .and_then(|clock| clock.step_s)
+        .map(|step| number(step * 1000.0));
+    let length = clock.map(|clock| number(clock.last_s - clock.first_s));
+    let [least, greatest] = summary
+        .range
+        .map_or([None, None], |range| range.map(|it| Some(number(it))));
+    let shown = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+    let _ = write!(
+        out,
+        "{:>8} {:>9} {:>10} {:>14} {:>14}  {:<9} {}",
+        summary.samples,
+        shown(step),
+        shown(length),
+        shown(least),
+        shown(greatest),
+        visible_line(channel.unit.as_deref().unwrap_or("-")),
+        visible_line(&channel.name)
+    );
+    let object = channel
+        .object
+        .map(|object| object.to_string())
+        .unwrap_or_default();
+    let known = [&channel.symbol, &channel.comment, &object];
+    let known: Vec<String> = known
+        .into_iter()
+        .filter(|text| !text.is_empty() && **text != channel.name)
+        .map(|text| text.split_whitespace().collect::<Vec<_>>().join(" "))
+        .collect();
+    if !known.is_empty() {
+        let _ = write!(out, " ({})", visible_line(&known.join("; ")));
+    }
+    out.push('\n');
+    let mut odd = Vec::new();
+    if let Some(clock) = clock {
+        if clock.gaps > 0 {
+            odd.push(format!(
+                "{} gaps, the longest of {} ms after {} s",
+                clock.gaps,
+                number(clock.longest_gap_s * 1000.0),
+                number(clock.gap_at_s)
+            ));
+        }
+        if clock.backwards > 0 {
+            odd.push(format!("{} times do not rise", clock.backwards));
+        }
+    }
+    if summary.missing > 0 {
+        odd.push(format!("{} samples are no numbers", summary.missing));
+    }
+    if let Some(drawn) = &channel.drawn {
+        odd.push(format!(
+            "drawn by Scope with the factor {} and the offset {}",
+            drawn.factor, drawn.offset
+        ));
+    }
+    if let Some([factor, offset]) = channel.unit_scale {
+        odd.push(format!(
+            "the unit is scaled by Scope, with the factor {factor} and the offset {offset}"
+        ));
+    }
+    for odd in odd {
+        let _ = writeln!(out, "{:>8} {odd}", "");
+    }
+}
+
+/// A number with at most six digits that count.
+fn number(value: f64) -> String {
+    let digits = if value == 0.0 {
+        0.0
+    } else {
+        value.abs().log10().floor()
+    };
+    if !(-4.0..9.0).contains(&digits) {
+        return format!("{value:.3e}");
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 0 to 9
+    let decimals = (5.0 - digits).clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    file: &'a str,
+    layout: &'static str,
+    channels: Vec<ChannelRecord<'a>>,
+    remarks: &'a [String],
+}
+
+#[derive(Serialize)]
+struct ChannelRecord<'a> {
+    name: &'a str,
+    comment: &'a str,
+    symbol: &'a str,
+    unit: Option<&'a str>,
+    object: Option<String>,
+    samples: usize,
+    missing: u64,
+    step_s: Option<f64>,
+    first_s: Option<f64>,
+    last_s: Option<f64>,
+    least: Option<f64>,
+    greatest: Option<f64>,
+    gaps: Option<u64>,
+    longest_gap_s: Option<f64>,
+    times_not_rising: Option<u64>,
+}
+
+/// The channels for machines.
+pub fn render_json(report: &TraceReport<'_>) -> String {
+    let recording = report.recording;
+    to_pretty(&Document {
+        schema: 1,
+        file: &report.name,
+        layout: recording.layout().as_str(),
+        channels: recording
+            .summaries()
+            .map(|summary| record(&summary))
+            .collect(),
+        remarks: recording.remarks(),
+    })
+}
+
+fn record<'a>(summary: &ChannelSummary<'a>) -> ChannelRecord<'a> {
+    let channel: &'a Channel = summary.channel;
+    let clock = summary.clock.as_ref();
+    ChannelRecord {
+        name: &channel.name,
+        comment: &channel.comment,
+        symbol: &channel.symbol,
+        unit: channel.unit.as_deref(),
+        object: channel.object.map(|object| object.to_string()),
+        samples: summary.samples,
+        missing: summary.missing,
+        step_s: clock.and_then(|clock| clock.step_s),
+        first_s: clock.map(|clock| clock.first_s),
+        last_s: clock.map(|clock| clock.last_s),
+        least: summary.range.map(|range| range[0]),
+        greatest: summary.range.map(|range| range[1]),
+        gaps: clock.map(|clock| clock.gaps),
+        longest_gap_s: clock
+            .filter(|clock| clock.gaps > 0)
+            .map(|clock| clock.longest_gap_s),
+        times_not_rising: clock.map(|clock| clock.backwards),
+    }
+}

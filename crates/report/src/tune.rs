@@ -1,0 +1,250 @@
+//! The result of a tuning as text and JSON.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::circle::stiction_line;
+use super::strings::to_pretty;
+use super::visible::visible_line;
+use frictcomp::lists::{FrictionList, TablePoint};
+use frictcomp_physics::circle::{Candidate, FeedResult, Method, Tuned, TunedAxis};
+use frictcomp_physics::stiction::StictionParameters;
+
+/// A tuned plant.
+#[derive(Debug, Clone)]
+pub struct TuneReport {
+    /// The name of the plant.
+    pub plant: String,
+    /// The name of the friction model.
+    pub model: &'static str,
+    /// The reading of the documents, in words.
+    pub reading: String,
+    /// What was found.
+    pub tuned: Tuned,
+}
+
+/// A number as it is written in reports: no more digits than mean anything.
+pub fn round(value: f64) -> f64 {
+    // No negative zero.
+    (value * 1e6).round() / 1e6 + 0.0
+}
+
+/// For which accelerations lists were tuned.
+pub(crate) fn tuned_range(tuned: &Tuned) -> String {
+    let [least, most] = tuned.accelerations();
+    format!("Tuned for reversals with v\u{b2}/R from {least:.2} to {most:.2} mm/s\u{b2}")
+}
+
+/// The parameters and the glitches before and after, for people.
+pub fn render_text(reports: &[TuneReport]) -> String {
+    let mut out = String::new();
+    for (at, report) in reports.iter().enumerate() {
+        if at > 0 {
+            out.push('\n');
+        }
+        let _ = writeln!(
+            out,
+            "plant {}, friction {}, {} {} tried\nreading: {}",
+            visible_line(&report.plant),
+            report.model,
+            report.tuned.trials,
+            if report.tuned.is_stiction() {
+                "sets of parameters"
+            } else {
+                "lists"
+            },
+            report.reading
+        );
+        let [x, y] = &report.tuned.axes;
+        if x == y {
+            parameters(&mut out, "", x);
+        } else {
+            parameters(&mut out, "X: ", x);
+            parameters(&mut out, "Y: ", y);
+        }
+        let _ = writeln!(
+            out,
+            "{}; beyond that the glitch is not known\n",
+            tuned_range(&report.tuned)
+        );
+        let _ = writeln!(
+            out,
+            "v\u{b2}/R mm/s\u{b2}  feed mm/min  radius mm   glitch \u{b5}m  off      on   friction \
+             -20 %   friction +20 %"
+        );
+        let mut rows: Vec<&FeedResult> = report.tuned.feeds.iter().collect();
+        rows.sort_by(|one, other| {
+            let by = |it: &FeedResult| it.acceleration_mm_per_s2;
+            by(one).total_cmp(&by(other))
+        });
+        for row in rows {
+            let _ = writeln!(
+                out,
+                "{:>10.3}{:>13}{:>11}{:>16.3}{:>8.3}{:>17.3}{:>17.3}",
+                row.acceleration_mm_per_s2,
+                short(row.feed_mm_per_min),
+                short(row.radius_mm),
+                row.glitch_off_um,
+                row.glitch_on_um,
+                row.glitch_friction_minus20_um,
+                row.glitch_friction_plus20_um
+            );
+        }
+    }
+    out
+}
+
+/// A feed or a radius with a decimal, if it has one.
+fn short(value: f64) -> f64 {
+    (value * 10.0).round() / 10.0
+}
+
+fn parameters(out: &mut String, axis: &str, tuned: &TunedAxis) {
+    let line = match &tuned.compensation {
+        Some(Method::Current(list)) => list_line(list, tuned),
+        Some(Method::Stiction(stiction)) => stiction_line(stiction),
+        None => "no compensation".to_owned(),
+    };
+    let _ = writeln!(out, "{axis}{line}");
+}
+
+fn list_line(list: &FrictionList, tuned: &TunedAxis) -> String {
+    let table = if tuned.is_shaped {
+        "shaped below 1 mm/s"
+    } else {
+        "the friction curve"
+    };
+    format!(
+        "position_delay {}, reversal_lookahead {}, delay_cycles {}, scaling_factor {}, table: {table}",
+        list.position_delay, list.reversal_lookahead, list.delay_cycles, list.scaling_factor
+    )
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    #[serde(flatten)]
+    first: PlantRecord<'a>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    compared: Vec<PlantRecord<'a>>,
+}
+
+#[derive(Serialize)]
+struct PlantRecord<'a> {
+    plant: &'a str,
+    model: &'static str,
+    reading: &'a str,
+    trials: usize,
+    /// Those of X.
+    parameters: Option<Parameters>,
+    axes: AxisRecords,
+    tuned_for: Accelerations,
+    feeds: Vec<FeedResult>,
+    glitch_max: f64,
+}
+
+/// What was found for each axis.
+#[derive(Serialize)]
+struct AxisRecords {
+    #[serde(rename = "X")]
+    x: AxisRecord,
+    #[serde(rename = "Y")]
+    y: AxisRecord,
+}
+
+#[derive(Serialize)]
+struct AxisRecord {
+    /// `null` for an axis that nothing compensates.
+    parameters: Option<Parameters>,
+    is_shaped: bool,
+    /// Pairs of velocity and output; absent where there is no value list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table: Option<Vec<[f64; 2]>>,
+}
+
+/// Those of a value list, or of stiction compensation.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Parameters {
+    List(Candidate),
+    Stiction(StictionParameters),
+}
+
+impl Parameters {
+    fn of(axis: &TunedAxis) -> Option<Self> {
+        Some(match axis.compensation.as_ref()? {
+            Method::Current(list) => Self::List(Candidate::of(list)),
+            Method::Stiction(stiction) => Self::Stiction(*stiction),
+        })
+    }
+}
+
+/// The range of v²/R in mm/s².
+#[derive(Serialize)]
+struct Accelerations {
+    acceleration_min: f64,
+    acceleration_max: f64,
+}
+
+impl AxisRecord {
+    fn of(axis: &TunedAxis) -> Self {
+        let pair = |point: &TablePoint| [point.input, point.output];
+        Self {
+            parameters: Parameters::of(axis),
+            is_shaped: axis.is_shaped,
+            table: axis
+                .list()
+                .map(|list| list.table.iter().map(pair).collect()),
+        }
+    }
+}
+
+impl<'a> PlantRecord<'a> {
+    fn of(report: &'a TuneReport) -> Self {
+        let feeds = report.tuned.feeds.iter().map(|row| FeedResult {
+            feed_mm_per_min: round(row.feed_mm_per_min),
+            radius_mm: round(row.radius_mm),
+            acceleration_mm_per_s2: round(row.acceleration_mm_per_s2),
+            glitch_off_um: round(row.glitch_off_um),
+            glitch_on_um: round(row.glitch_on_um),
+            glitch_friction_minus20_um: round(row.glitch_friction_minus20_um),
+            glitch_friction_plus20_um: round(row.glitch_friction_plus20_um),
+        });
+        let [acceleration_min, acceleration_max] = report.tuned.accelerations().map(round);
+        let [x, y] = &report.tuned.axes;
+        Self {
+            plant: &report.plant,
+            model: report.model,
+            reading: &report.reading,
+            trials: report.tuned.trials,
+            parameters: Parameters::of(x),
+            axes: AxisRecords {
+                x: AxisRecord::of(x),
+                y: AxisRecord::of(y),
+            },
+            tuned_for: Accelerations {
+                acceleration_min,
+                acceleration_max,
+            },
+            glitch_max: round(report.tuned.worst_um()),
+            feeds: feeds.collect(),
+        }
+    }
+}
+
+/// The same for machines; glitches in µm, feeds in mm/min, radii in mm. The first plant stands at
+/// the top, the others under `compared`.
+pub fn render_json(reports: &[TuneReport]) -> String {
+    let Some((first, others)) = reports.split_first() else {
+        return String::new();
+    };
+    let document = Document {
+        schema: 1,
+        first: PlantRecord::of(first),
+        compared: others.iter().map(PlantRecord::of).collect(),
+    };
+    let mut text = to_pretty(&document);
+    text.push('\n');
+    text
+}

@@ -1,0 +1,94 @@
+//! Value lists that were found, with remarks on what they were made of.
+
+use super::tune::{TuneReport, tuned_range};
+use super::visible::visible_line;
+use frictcomp::comp::CncBuild;
+use frictcomp::lists::{FrictionList, ListHead, Points, write_value_list};
+use frictcomp_physics::circle::TunedAxis;
+
+/// Said where a list is written for a build that reads fractions.
+const FRACTIONS: &str = "Outputs with decimals need the build V3.1.3132.0 or V4.29.0";
+
+/// The tuned value list of an axis of a plant, written for a build; nothing where it has none. The
+/// head gives the number and the name of the axis.
+pub fn render_tuned(
+    report: &TuneReport,
+    axis: &TunedAxis,
+    build: Option<CncBuild>,
+    head: &ListHead<'_>,
+) -> String {
+    let Some(list) = axis.list() else {
+        return String::new();
+    };
+    let points = Points::of_build(build);
+    let made = format!(
+        "Friction compensation for the plant {}, tuned with the model {}",
+        visible_line(&report.plant),
+        report.model
+    );
+    let range = tuned_range(&report.tuned);
+    let [x, y] = &report.tuned.axes;
+    let whose = match axis {
+        both if x == y && both == x => "both axes",
+        one if one == x => "its X axis",
+        _ => "its Y axis",
+    };
+    let table = format!("The table is the friction curve of {whose}");
+    let mut remarks = vec![made.as_str(), range.as_str(), table.as_str()];
+    if axis.is_shaped {
+        remarks.push("Below 1 mm/s it is shaped for the reversals");
+    }
+    if points == Points::Real {
+        remarks.push(FRACTIONS);
+    }
+    let head = ListHead {
+        remarks: &remarks,
+        ..*head
+    };
+    write_value_list(list, points, &head)
+}
+
+/// What an identified value list was made of.
+#[derive(Debug, Clone, Copy)]
+pub struct IdentifiedFrom<'a> {
+    /// The axis, by its name or its number, where it is named.
+    pub axis: Option<&'a str>,
+    /// The recordings.
+    pub from: &'a str,
+    /// The unit of torque and friction.
+    pub unit: &'a str,
+    /// What is wrong with the recordings, each a line.
+    pub faults: &'a [String],
+}
+
+/// An identified value list, written for a build.
+pub fn render_identified(
+    list: &FrictionList,
+    made: IdentifiedFrom<'_>,
+    build: Option<CncBuild>,
+) -> String {
+    let axis = made
+        .axis
+        .map(|axis| format!(" of axis {}", visible_line(axis)));
+    let from = format!(
+        "Friction{} identified from {}",
+        axis.unwrap_or_default(),
+        visible_line(made.from)
+    );
+    let unit = format!("Outputs are in {}", visible_line(made.unit));
+    let points = Points::of_build(build);
+    let faults: Vec<_> = made.faults.iter().map(|it| visible_line(it)).collect();
+    let mut remarks = vec![from.as_str(), unit.as_str()];
+    remarks.extend(faults.iter().map(AsRef::as_ref));
+    if points == Points::Real {
+        remarks.push(FRACTIONS);
+    }
+    // An axis that is no name is a number.
+    let number = made.axis.and_then(|axis| axis.parse().ok());
+    let head = ListHead {
+        remarks: &remarks,
+        number,
+        name: made.axis.filter(|_| number.is_none()),
+    };
+    write_value_list(list, points, &head)
+}

@@ -1,0 +1,152 @@
+//! A verified value list as text and JSON.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::findings::write_findings;
+use super::strings::to_pretty;
+use super::visible::visible_line;
+use frictcomp::diagnostic::Rounded;
+use frictcomp_recordings::identify::{AxisRecording, Timing, TraceFinding, Verified};
+
+/// A recording and how a value list fits it.
+#[derive(Debug, Clone)]
+pub struct VerifyReport {
+    /// The name of the trace.
+    pub trace: String,
+    /// The name of the value list.
+    pub list: String,
+    /// What was recorded.
+    pub recording: AxisRecording,
+    /// How the list fits.
+    pub verified: Verified,
+}
+
+/// The verdict, then the figures that it comes from.
+pub fn render_text(report: &VerifyReport) -> String {
+    let mut out = String::new();
+    let verified = &report.verified;
+    let _ = writeln!(
+        out,
+        "{} against {}\n",
+        visible_line(&report.trace),
+        visible_line(&report.list)
+    );
+    let verdict = verified.verdict();
+    if verdict.is_empty() {
+        out.push_str("the list fits the recorded torque\n");
+    }
+    for line in verdict {
+        let _ = writeln!(out, "{line}");
+    }
+    let _ = writeln!(out, "{}", verified.timing.sentence());
+    let _ = writeln!(
+        out,
+        "\n{:>12} {:>12} {:>20}",
+        "from mm/s", "to mm/s", "recorded/predicted"
+    );
+    for range in &verified.ranges {
+        let _ = writeln!(
+            out,
+            "{:>12.2} {:>12.2} {:>20}",
+            range.from,
+            range.to,
+            Rounded(range.scale, 3)
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\nall speeds {}, offset {}, inertia {} per mm/s², residual {:.3}",
+        Rounded(verified.scale, 3),
+        Rounded(verified.offset, 3),
+        Rounded(verified.inertia, 6),
+        verified.residual
+    );
+    if !verified.reversals.is_empty() {
+        const SHOWN: usize = 20;
+        let _ = writeln!(
+            out,
+            "\n{:>12} {:>12} {:>12}",
+            "reversal s", "recorded", "predicted"
+        );
+        for turn in verified.reversals.iter().take(SHOWN) {
+            let _ = writeln!(
+                out,
+                "{:>12.3} {:>12} {:>12}",
+                turn.time_s,
+                Rounded(turn.recorded, 3),
+                Rounded(turn.predicted, 3)
+            );
+        }
+        let more = verified.reversals.len().saturating_sub(SHOWN);
+        if more > 0 {
+            let _ = writeln!(out, "and {more} more, in the JSON");
+        }
+    }
+    for remark in &report.recording.remarks {
+        let _ = writeln!(out, "\nnote: {}", visible_line(remark));
+    }
+    write_findings(&report.recording.findings, &mut out);
+    out
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    verdict: Vec<String>,
+    scale: f64,
+    ranges: Vec<RangeRecord>,
+    offset: f64,
+    inertia: f64,
+    timing: Timing,
+    step_s: f64,
+    residual: f64,
+    reversals: Vec<ReversalRecord>,
+    remarks: &'a [String],
+    diagnostics: &'a [TraceFinding],
+}
+
+#[derive(Serialize)]
+struct RangeRecord {
+    from: f64,
+    to: f64,
+    scale: f64,
+}
+
+#[derive(Serialize)]
+struct ReversalRecord {
+    t: f64,
+    recorded: f64,
+    predicted: f64,
+}
+
+/// The same for machines; speeds in µm/s or 0.001°/s, times in s.
+pub fn render_json(report: &VerifyReport) -> String {
+    const PER_MM: f64 = 1000.0;
+    let verified = &report.verified;
+    let ranges = verified.ranges.iter().map(|range| RangeRecord {
+        from: range.from * PER_MM,
+        to: range.to * PER_MM,
+        scale: range.scale,
+    });
+    let reversals = verified.reversals.iter().map(|turn| ReversalRecord {
+        t: turn.time_s,
+        recorded: turn.recorded,
+        predicted: turn.predicted,
+    });
+    to_pretty(&Document {
+        schema: 1,
+        verdict: verified.verdict(),
+        scale: verified.scale,
+        ranges: ranges.collect(),
+        offset: verified.offset,
+        inertia: verified.inertia,
+        timing: verified.timing,
+        step_s: verified.step_s,
+        residual: verified.residual,
+        reversals: reversals.collect(),
+        remarks: &report.recording.remarks,
+        diagnostics: &report.recording.findings,
+    })
+}

@@ -1,0 +1,209 @@
+//! The contours of two versions side by side.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::contour::places::{Block, record};
+use crate::visible::visible_line;
+use frictcomp_physics::compare::{BlockChange, ContourAgreement, ContourComparison, Which};
+
+/// Blocks that the text lists.
+const LISTED: usize = 25;
+
+/// A comparison of contours, and how the path was driven.
+#[derive(Debug)]
+pub struct ContoursReport {
+    /// The axes of the plane.
+    pub plane: [String; 2],
+    /// The plant, as the user named it.
+    pub plant: String,
+    /// The result.
+    pub comparison: ContourComparison,
+}
+
+impl ContoursReport {
+    /// What the comparison comes to, in a sentence without its end.
+    pub(crate) fn verdict(&self) -> String {
+        let comparison = &self.comparison;
+        let known = match comparison.agreement() {
+            ContourAgreement::NotComparable => "not comparable as a whole; in what is known ",
+            ContourAgreement::NoMore | ContourAgreement::More => "",
+        };
+        let less = match comparison.less() {
+            0 => String::new(),
+            less => format!("; {less} less"),
+        };
+        let tolerance = comparison.tolerance_um();
+        match comparison.more() {
+            [] => format!("{known}no block deviates more by more than {tolerance} µm{less}"),
+            [worst, ..] => format!(
+                "{known}{} more by more than {tolerance} µm, line {} of {} most, by {:.1} µm{less}",
+                match comparison.more().len() {
+                    1 => "1 block deviates".to_owned(),
+                    count => format!("{count} blocks deviate"),
+                },
+                worst.block.line,
+                visible_line(&worst.block.file),
+                worst.more_um()
+            ),
+        }
+    }
+
+    /// Where a block deviates more.
+    pub(crate) fn place(&self, change: &BlockChange) -> String {
+        let axes = self.plane.iter().zip(change.new.place);
+        let places: Vec<String> = axes.map(|(axis, at)| format!("{axis}{at:.3}")).collect();
+        visible_line(&places.join(" ")).into_owned()
+    }
+}
+
+/// The figures of both contours, then the blocks that deviate more.
+pub(super) fn push_contours(out: &mut String, report: &ContoursReport) {
+    let comparison = &report.comparison;
+    let [old, new] = [Which::Old, Which::New].map(|which| comparison.deviations(which));
+    let _ = writeln!(
+        out,
+        "\ncontour in the plane {}{}, plant {}, in µm\n{:<20}{:>9}{:>9}",
+        report.plane[0],
+        report.plane[1],
+        visible_line(&report.plant),
+        "while cutting",
+        "old",
+        "new"
+    );
+    for (name, values) in [
+        ("largest deviation", [old.max_um(), new.max_um()]),
+        ("root mean square", [old.rms_um(), new.rms_um()]),
+    ] {
+        let _ = writeln!(out, "{name:<20}{:>9.2}{:>9.2}", values[0], values[1]);
+    }
+    for (which, deviations) in [(Which::Old, old), (Which::New, new)] {
+        if let Some(at) = deviations.max_at() {
+            let (version, at) = (which.as_str(), Block::from(&**at).words());
+            let _ = writeln!(out, "largest deviation of the {version} version at {at}");
+        }
+    }
+    if let [_, ..] = comparison.more() {
+        let _ = writeln!(
+            out,
+            "\n{:>7} {:>8} {:>8} {:>8}  {:<24} block",
+            "line", "old", "new", "more", "at"
+        );
+    }
+    for change in comparison.more().iter().take(LISTED) {
+        let old = change.old.map(|(_, um)| format!("{um:.2}"));
+        let _ = writeln!(
+            out,
+            "{:>7} {:>8} {:>8.2} {:>8.2}  {:<24} {}",
+            change.block.line,
+            old.as_deref().unwrap_or("-"),
+            change.new.deviation_um,
+            change.more_um(),
+            report.place(change),
+            visible_line(&change.block.text)
+        );
+    }
+    let left = comparison.more().len().saturating_sub(LISTED);
+    if left > 0 {
+        let _ = writeln!(out, "… {left} more blocks");
+    }
+    let _ = writeln!(out, "{}", report.verdict());
+    for (which, obstacle) in comparison.obstacles() {
+        let _ = writeln!(
+            out,
+            "not comparable: the contour of the {} version: {obstacle}",
+            which.as_str()
+        );
+    }
+}
+
+/// The contours as data: µm and mm.
+#[derive(Serialize)]
+pub(super) struct ContourRecord<'a> {
+    plane: &'a [String; 2],
+    plant: &'a str,
+    verdict: &'static str,
+    tolerance: f64,
+    old: Figures,
+    new: Figures,
+    more: Vec<Change<'a>>,
+    less: usize,
+    obstacles: Vec<Hindrance>,
+}
+
+#[derive(Serialize)]
+struct Figures {
+    max: f64,
+    max_at: Value,
+    rms: f64,
+}
+
+#[derive(Serialize)]
+struct Change<'a> {
+    file: &'a str,
+    line: u32,
+    old_line: Option<u32>,
+    n: Option<i64>,
+    text: &'a str,
+    old: Option<f64>,
+    new: f64,
+    position: [f64; 2],
+}
+
+#[derive(Serialize)]
+struct Hindrance {
+    version: &'static str,
+    message: String,
+}
+
+/// A number with three decimals.
+fn rounded(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0 + 0.0
+}
+
+impl<'a> Change<'a> {
+    fn new(change: &'a BlockChange) -> Self {
+        let BlockChange { block, old, new } = change;
+        Self {
+            file: &block.file,
+            line: block.line,
+            old_line: old.map(|(line, _)| line),
+            n: block.number,
+            text: &block.text,
+            old: old.map(|(_, um)| rounded(um)),
+            new: rounded(new.deviation_um),
+            position: new.place.map(rounded),
+        }
+    }
+}
+
+impl<'a> ContourRecord<'a> {
+    pub(super) fn new(report: &'a ContoursReport) -> Self {
+        let comparison = &report.comparison;
+        let [old, new] = [Which::Old, Which::New].map(|which| {
+            let deviations = comparison.deviations(which);
+            Figures {
+                max: rounded(deviations.max_um()),
+                max_at: record(deviations.max_at().map(|at| &**at)),
+                rms: rounded(deviations.rms_um()),
+            }
+        });
+        let obstacles = comparison.obstacles().map(|(which, obstacle)| Hindrance {
+            version: which.as_str(),
+            message: obstacle.to_string(),
+        });
+        Self {
+            plane: &report.plane,
+            plant: &report.plant,
+            verdict: comparison.agreement().as_str(),
+            tolerance: comparison.tolerance_um(),
+            old,
+            new,
+            more: comparison.more().iter().map(Change::new).collect(),
+            less: comparison.less(),
+            obstacles: obstacles.collect(),
+        }
+    }
+}

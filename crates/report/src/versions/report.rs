@@ -1,0 +1,177 @@
+//! Two versions of a program side by side, `diff`.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+use unicode_width::UnicodeWidthStr;
+
+use super::contour::{ContourRecord, ContoursReport, push_contours};
+use crate::strings::to_pretty;
+use crate::visible::visible_line;
+use frictcomp_physics::compare::{Agreement, Obstacle, Reason, Switch, VersionComparison, Which};
+
+/// A comparison, and of what.
+#[derive(Debug)]
+pub struct VersionsReport {
+    /// The old version, as the user named it.
+    pub old: String,
+    /// The new version, as the user named it.
+    pub new: String,
+    /// What stands above the result: that no machine is described.
+    pub remark: Option<String>,
+    /// The result.
+    pub comparison: VersionComparison,
+    /// The contours, where they are compared.
+    pub contours: Option<ContoursReport>,
+}
+
+impl VersionsReport {
+    /// What the comparison comes to, in a sentence without its end.
+    pub(crate) fn verdict(&self) -> String {
+        match self.comparison.agreement() {
+            Agreement::Same => {
+                let count = self.comparison.common();
+                let plural = if count == 1 { "" } else { "s" };
+                format!("no difference: {count} change{plural} of state in both")
+            }
+            Agreement::Different => "the versions switch differently".to_owned(),
+            Agreement::NotComparable => "the versions cannot be compared as a whole".to_owned(),
+        }
+    }
+}
+
+/// The sign of a difference.
+pub(crate) fn sign(which: Which) -> char {
+    match which {
+        Which::Old => '-',
+        Which::New => '+',
+    }
+}
+
+/// Columns of a line number.
+const LINE: usize = 6;
+
+/// The blocks that switch in one version only, with what keeps the versions from being compared.
+pub fn render_text(report: &VersionsReport) -> String {
+    let mut out = String::new();
+    if let Some(remark) = &report.remark {
+        let _ = writeln!(out, "{}\n", visible_line(remark));
+    }
+    let comparison = &report.comparison;
+    let differences: Vec<_> = comparison.differences().collect();
+    if !differences.is_empty() {
+        let (old, new) = (visible_line(&report.old), visible_line(&report.new));
+        let _ = writeln!(out, "--- {old}\n+++ {new}");
+    }
+    let places = differences.iter().map(|(_, switch)| switch.place().width());
+    let width = places.max().unwrap_or_default().max(LINE);
+    for (which, switch) in differences {
+        let (sign, place) = (sign(which), switch.place());
+        let place = visible_line(&place);
+        let (what, text) = (switch.to_string(), visible_line(switch.first_line()));
+        let _ = writeln!(out, "{sign} {place:>width$}  {what:<28}  {text}");
+    }
+    for (_, obstacle) in comparison.obstacles() {
+        let told = obstacle.to_string();
+        let _ = writeln!(out, "not comparable: {}", visible_line(&told));
+    }
+    if comparison.agreement() == Agreement::Same {
+        let _ = writeln!(out, "{}", report.verdict());
+    }
+    if let Some(contours) = &report.contours {
+        push_contours(&mut out, contours);
+    }
+    out
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: u32,
+    old: &'a str,
+    new: &'a str,
+    remark: Option<&'a str>,
+    verdict: &'static str,
+    common: usize,
+    differences: Vec<Difference<'a>>,
+    obstacles: Vec<Hindrance<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contour: Option<ContourRecord<'a>>,
+}
+
+#[derive(Serialize)]
+struct Difference<'a> {
+    version: &'static str,
+    file: &'a str,
+    line: u32,
+    n: Option<i64>,
+    text: &'a str,
+    axis: &'a str,
+    kind: &'static str,
+    from: &'static str,
+    to: &'static str,
+}
+
+#[derive(Serialize)]
+struct Hindrance<'a> {
+    version: &'static str,
+    reason: &'static str,
+    file: &'a str,
+    line: Option<u32>,
+    code: Option<&'static str>,
+    axis: Option<&'a str>,
+    kind: Option<&'static str>,
+    message: String,
+}
+
+impl<'a> Difference<'a> {
+    fn new((which, switch): (Which, &'a Switch)) -> Self {
+        Self {
+            version: which.as_str(),
+            file: &switch.file,
+            line: switch.line,
+            n: switch.number,
+            text: &switch.text,
+            axis: &switch.axis,
+            kind: switch.kind.as_str(),
+            from: switch.from.as_str(),
+            to: switch.to.as_str(),
+        }
+    }
+}
+
+impl<'a> Hindrance<'a> {
+    fn new((which, obstacle): (Which, &'a Obstacle)) -> Self {
+        let (code, subject) = match &obstacle.reason {
+            Reason::Stopped { code, .. } => (Some(code.as_str()), None),
+            Reason::Unknown { axis, kind } => (None, Some((axis.as_str(), kind.as_str()))),
+            _ => (None, None),
+        };
+        Self {
+            version: which.as_str(),
+            reason: obstacle.reason.as_str(),
+            file: &obstacle.file,
+            line: obstacle.line,
+            code,
+            axis: subject.map(|(axis, _)| axis),
+            kind: subject.map(|(_, kind)| kind),
+            message: obstacle.to_string(),
+        }
+    }
+}
+
+/// The same as a JSON document.
+pub fn render_json(report: &VersionsReport) -> String {
+    let comparison = &report.comparison;
+    let document = Document {
+        schema: 1,
+        old: &report.old,
+        new: &report.new,
+        remark: report.remark.as_deref(),
+        verdict: comparison.agreement().as_str(),
+        common: comparison.common(),
+        differences: comparison.differences().map(Difference::new).collect(),
+        obstacles: comparison.obstacles().map(Hindrance::new).collect(),
+        contour: report.contours.as_ref().map(ContourRecord::new),
+    };
+    to_pretty(&document) + "\n"
+}

@@ -1,0 +1,44 @@
+//! The documents that tools show of the rules, the words and the parameters.
+
+/// The rules that the library follows, a line each: `- **R1.24** …`.
+pub const RULES: &str = include_str!("../docs/rules.md");
+
+/// The words of the field, a section each; its title names them in backquotes.
+pub const WORDS: &str = include_str!("../docs/words.md");
+
+/// A parameter of the lists that has a page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ParameterPage {
+    /// Its number in the manuals, `P-COMP-00041`.
+    pub number: &'static str,
+    /// Its key in the lists.
+    pub key: &'static str,
+    /// The page.
+    pub page: &'static str,
+}
+
+macro_rules! parameters {
+    ($($number:literal $key:literal;)+) => {
+        [$(ParameterPage {
+            number: $number,
+            key: $key,
+            page: include_str!(concat!("../docs/codes/", $number, ".md")),
+        },)+]
+    };
+}
+
+/// The parameters that have a page (chapter 3).
+pub static PARAMETER_PAGES: [ParameterPage; 11] = parameters! {
+    "P-AXIS-00465" "lr_param.prog_movement_requires_compensations";
+    "P-AXIS-00522" "lr_param.frict_comp";
+    "P-COMP-00041" "frict_comp.mode";
+    "P-COMP-00042" "frict_comp.table_entries";
+    "P-COMP-00043" "frict_comp.position_delay";
+    "P-COMP-00044" "frict_comp.reversal_lookahead";
+    "P-COMP-00045" "frict_comp.scaling_factor";
+    "P-COMP-00046" "frict_comp.table[i].in";
+    "P-COMP-00047" "frict_comp.table[i].out";
+    "P-COMP-00058" "frict_comp.delay_cycles";
+    "P-COMP-00062" "frict_comp.max_points";
+};

@@ -5,7 +5,7 @@
 //! Time is measured on the processor of the thread, and again where it grows too fast, so that other
 //! work on the machine fails nothing.
 
-#![cfg(all(unix, feature = "host"))]
+#![cfg(unix)]
 
 #[path = "growth/measure.rs"]
 mod measure;

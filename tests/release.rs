@@ -1,7 +1,5 @@
 //! What a release consists of, as far as texts can show it; `dist/build` makes it.
 
-#![cfg(feature = "toml")]
-
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;

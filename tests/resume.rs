@@ -125,7 +125,6 @@ fn shown(event: &Event<'_>) -> String {
                 ended.seq, ended.by, ended.changes
             )
         }
-        other => panic!("{other:?}"),
     }
 }
 

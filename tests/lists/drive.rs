@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 
 use frictcomp::drive_interface::{
-    DriveReport, Evidence, Network, Presence, SlaveOfAxis, check_drive, read_devices, read_network,
+    DriveReport, Evidence, Network, Presence, SlaveOfAxis, check_drive,
 };
 use frictcomp::lists::{FrictionList, TablePoint};
 use frictcomp::machine::{AxisReport, Parameterisation};
 use frictcomp::text::SourceFile;
+use frictcomp_drives::{read_devices, read_network};
 use frictcomp_physics::current::{AdditiveCurrent, Reading};
 
 use super::host::{judge, start};
@@ -35,7 +36,7 @@ fn known(report: &DriveReport) -> String {
         Presence::Present { .. } => 'p',
         Presence::Missing { .. } => 'm',
         Presence::Unknown { .. } => '?',
-        _ => '-',
+        Presence::NotApplicable => '-',
     };
     [&report.additive_torque, &report.actual_torque]
         .map(letter)

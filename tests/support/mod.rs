@@ -125,7 +125,6 @@ impl Bench {
                 Some(Value::Number(number)) => format!("{}", (number * 1e9).round() / 1e9),
                 Some(Value::Text(text)) => format!("{text:?}"),
                 Some(Value::Unknown(cause)) => format!("unknown: {cause}"),
-                Some(other) => panic!("{other:?}"),
                 None => said.to_owned(),
             };
             writeln!(lines, "{expression} -> {shown}").expect("text");
@@ -207,7 +206,6 @@ impl Bench {
                     let mark = match position.frame {
                         PositionFrame::Machine => "",
                         PositionFrame::Programmed => "*",
-                        other => panic!("{other:?}"),
                     };
                     write!(lines, " {}:{value}{mark}", axis.name).expect("text");
                 }
@@ -359,7 +357,6 @@ impl Sink for Transcript {
                     writeln!(self.text, "opaque {:?}", summary.opaque).expect("text");
                 }
             }
-            other => panic!("{other:?}"),
         }
         ControlFlow::Continue(())
     }

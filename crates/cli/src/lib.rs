@@ -26,6 +26,7 @@ mod golden;
 mod html;
 mod identify;
 mod init;
+mod listeners;
 mod listing;
 mod lists;
 mod lsp;

@@ -10,6 +10,7 @@ use super::execution::ExecutionArgs;
 use super::fail_on::{FailOn, of_axis};
 use super::failure::Failure;
 use super::html::HtmlFile;
+use super::listeners::{Listeners, SharedReport};
 use super::listing::explain;
 use super::machine::{MachineArgs, remark};
 use super::outputs::Outputs;
@@ -27,8 +28,8 @@ use frictcomp_host::{
 };
 use frictcomp_report::html::GivenForRun;
 use frictcomp_report::{
-    Blocks, Listeners, Positions, Report, Runs, SharedReport, TextOptions, TimelineFormat,
-    TimelineOptions, View, command_line, concise_line,
+    Blocks, Positions, Report, Runs, TextOptions, TimelineFormat, TimelineOptions, View,
+    command_line, concise_line,
 };
 
 /// Run programs one after the other in one session of the control and print the timeline

@@ -317,7 +317,7 @@ fn show_kinds(value: &mut Value, record: &Record<'_>, kinds: KindSet) {
         Record::Block(row) => (Some(row.changes), row.state),
         Record::End(end) => (Some(end.changes), end.state),
         Record::Summary(summary) => (None, summary.state),
-        _ => return,
+        Record::Machine(_) => return,
     };
     let of_axis = |axis| -> serde_json::Map<String, Value> {
         let states = kinds.iter();

@@ -1,0 +1,89 @@
+//! A timeline on its way, and what hears the same records beside it.
+
+use std::cell::RefCell;
+use std::fmt;
+use std::ops::ControlFlow;
+
+use frictcomp::diagnostic::{Code, Diagnostic, Severity};
+use frictcomp::timeline::{Record, Sink};
+use frictcomp_report::Report;
+use frictcomp_report::html::RunDigest;
+
+/// A timeline that a run writes, and that is flushed while the run waits for more of a program.
+pub(super) struct SharedReport(RefCell<Box<dyn Report>>);
+
+impl fmt::Debug for SharedReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("SharedReport")
+    }
+}
+
+impl SharedReport {
+    /// Shares a timeline.
+    pub(super) fn new(report: Box<dyn Report>) -> Self {
+        Self(RefCell::new(report))
+    }
+
+    /// Writes what is ready. A writer that takes no more says so at the next record.
+    pub(super) fn flush(&self) {
+        let _ = self.0.borrow_mut().flush();
+    }
+
+    /// The timeline, when nobody shares it any more.
+    pub(super) fn into_report(self) -> Box<dyn Report> {
+        self.0.into_inner()
+    }
+}
+
+/// What hears the records of a run: the timeline, the digest for a page, and who asks for the most
+/// severe message.
+#[derive(Debug)]
+pub(super) struct Listeners<'a> {
+    report: &'a SharedReport,
+    digest: Option<&'a mut RunDigest>,
+    /// The first of the most severe diagnostics.
+    most_severe: Option<(Severity, Code)>,
+}
+
+impl<'a> Listeners<'a> {
+    /// A timeline, and perhaps a digest.
+    pub(super) fn new(report: &'a SharedReport, digest: Option<&'a mut RunDigest>) -> Self {
+        Self {
+            report,
+            digest,
+            most_severe: None,
+        }
+    }
+
+    /// The first of the most severe messages.
+    pub(super) fn most_severe(&self) -> Option<Code> {
+        self.most_severe.map(|(_, code)| code)
+    }
+
+    fn weigh<'d>(&mut self, said: impl IntoIterator<Item = &'d Diagnostic>) {
+        for diagnostic in said {
+            if self
+                .most_severe
+                .is_none_or(|(most, _)| diagnostic.severity > most)
+            {
+                self.most_severe = Some((diagnostic.severity, diagnostic.code));
+            }
+        }
+    }
+}
+
+impl Sink for Listeners<'_> {
+    /// A reader of the timeline that has seen enough ends the run, unless there is a digest.
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        match record {
+            Record::Block(row) => self.weigh(row.diagnostics),
+            Record::End(end) => self.weigh(end.notes.iter().map(|note| &note.diagnostic)),
+            _ => {}
+        }
+        let flow = self.report.0.borrow_mut().record(record);
+        match &mut self.digest {
+            Some(digest) => digest.record(record),
+            None => flow,
+        }
+    }
+}

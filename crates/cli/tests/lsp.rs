@@ -1,0 +1,18 @@
+//! The language server, as a client sees it.
+
+#[path = "lsp/fixes.rs"]
+mod fixes;
+mod folder;
+#[path = "lsp/lifecycle.rs"]
+mod lifecycle;
+#[path = "lsp/client.rs"]
+mod lsp_client;
+#[path = "lsp/messages.rs"]
+mod messages;
+#[path = "lsp/scripts.rs"]
+mod scripts;
+#[path = "lsp/shown.rs"]
+mod shown;
+#[path = "lsp/typing.rs"]
+mod typing;
+mod workspace;

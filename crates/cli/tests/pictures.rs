@@ -1,0 +1,705 @@
+//! Pictures: well-formed, bounded, told in words, and the same bytes for the same input.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use roxmltree::Document;
+
+use frictcomp::comp::State;
+use frictcomp::lists::{AxisType, FrictionList, TablePoint};
+use frictcomp::machine::AcceptedList;
+use frictcomp_physics::circle::{FeedResult, Tuned, TunedAxis};
+use frictcomp_physics::current::{AdditiveCurrent, Reading};
+use frictcomp_report::pictures::{
+    AxisPlot, AxisSample, CurrentPlot, tuning, value_curve, value_curves,
+};
+use frictcomp_report::svg::{
+    Band, BandChart, BandRow, BandState, ChartAxis, Drawn, Frame, LineChart, Panel, PolarChart,
+    PolarPanel, PolarSeries, Series, Standing,
+};
+use frictcomp_report::tune::TuneReport;
+
+fn list() -> FrictionList {
+    let points = [
+        (0.0, 126.0),
+        (1800.0, 112.0),
+        (4000.0, 96.0),
+        (16667.0, 104.0),
+        (50000.0, 131.0),
+    ];
+    FrictionList {
+        position_delay: 100,
+        reversal_lookahead: 20,
+        scaling_factor: 900,
+        delay_cycles: 2,
+        max_points: 20,
+        table: points
+            .into_iter()
+            .map(|(input, output)| TablePoint { input, output })
+            .collect(),
+    }
+}
+
+fn band(from: f64, to: f64, state: BandState) -> Band {
+    let standing = match state {
+        BandState::One(state) => Standing::of(state, State::Active),
+        BandState::Changing => Standing::StartUp,
+        other => panic!("{other:?}"),
+    };
+    Band {
+        standing,
+        from,
+        to,
+        state,
+        title: format!("from {from} to {to}: {}", state.as_str()),
+        href: Some("#line-1".to_owned()),
+    }
+}
+
+fn value_list() -> LineChart {
+    value_curve(&AcceptedList {
+        axis: "X".to_owned(),
+        axis_type: AxisType::Linear,
+        list: list(),
+    })
+}
+
+fn current() -> LineChart {
+    let times: Vec<f64> = (0..4000_u32)
+        .map(|cycle| f64::from(cycle) * 0.001)
+        .collect();
+    let velocities: Vec<f64> = times
+        .iter()
+        .map(|time| 16000.0 * (time * 4.0).sin())
+        .collect();
+    let positions: Vec<f64> = times
+        .iter()
+        .map(|time| -40000.0 * (time * 4.0).cos())
+        .collect();
+    let cycles = AdditiveCurrent::new(&list(), Reading::default()).trace(&positions, &velocities);
+    let mut plot = CurrentPlot::new(vec![AxisPlot::new("X", Some(AxisType::Linear))]);
+    for ((&time, &velocity), cycle) in times.iter().zip(&velocities).zip(&cycles) {
+        let state = match time {
+            1.4..2.1 => State::Inactive,
+            3.0.. => State::Unknown,
+            _ => State::Active,
+        };
+        if time == 0.0 {
+            plot.block(time, Some(10), 1);
+        } else if (time - 2.0).abs() < 1e-9 {
+            plot.block(time, None, 3);
+        }
+        let sample = AxisSample {
+            velocity,
+            state,
+            added: cycle,
+        };
+        plot.push(time, [sample]);
+    }
+    plot.chart()
+}
+
+fn circle() -> PolarChart {
+    let turn = |offset: f64, peak: f64| -> Vec<[f64; 2]> {
+        (0..=20_000_u32)
+            .map(|step| {
+                let angle = TAU * f64::from(step) / 20_000.0;
+                let near = (angle % (TAU / 4.0)) / 0.1;
+                [angle, offset + peak * near * (1.0 - near).exp()]
+            })
+            .collect()
+    };
+    PolarChart {
+        title: "Circular test, X and Y, R 100 mm, 2000 mm/min, counter-clockwise".to_owned(),
+        description: "Without compensation 19 µm at a reversal, with compensation 0.8 µm."
+            .to_owned(),
+        axes: ["X".to_owned(), "Y".to_owned()],
+        radius: 100.0,
+        panels: [("compensation off", 19.2), ("compensation on", 0.8)]
+            .map(|(label, peak)| PolarPanel {
+                label: label.to_owned(),
+                series: vec![PolarSeries {
+                    name: "counter-clockwise".to_owned(),
+                    points: turn(-0.6, peak),
+                }],
+            })
+            .to_vec(),
+    }
+}
+
+fn glitches() -> LineChart {
+    let feeds = [
+        [500.0, 10.6, 1.4, 3.1, 3.3],
+        [1000.0, 14.8, 1.2, 3.4, 3.6],
+        [2000.0, 19.2, 0.8, 3.9, 4.2],
+        [5000.0, 23.3, 1.0, 4.4, 4.9],
+    ];
+    let feeds = feeds.map(|[feed, off, on, minus20, plus20]| FeedResult {
+        feed_mm_per_min: feed,
+        radius_mm: 100.0,
+        acceleration_mm_per_s2: (feed / 60.0).powi(2) / 100.0,
+        glitch_off_um: off,
+        glitch_on_um: on,
+        glitch_friction_minus20_um: minus20,
+        glitch_friction_plus20_um: plus20,
+    });
+    let axis = TunedAxis {
+        compensation: Some(list().into()),
+        is_shaped: false,
+    };
+    tuning(&[TuneReport {
+        plant: "stiff".to_owned(),
+        model: "lugre",
+        reading: Reading::default().to_string(),
+        tuned: Tuned {
+            axes: [axis.clone(), axis],
+            feeds: feeds.to_vec(),
+            trials: 1,
+        },
+    }])
+}
+
+fn states() -> BandChart {
+    use State::{Active, Inactive, Ineffective, Unconfigured, Unknown};
+    let row = |label: &str, states: [State; 3]| BandRow {
+        label: label.to_owned(),
+        bands: (0_u32..)
+            .zip(states)
+            .map(|(at, state)| {
+                let from = f64::from(at * 40);
+                band(from, from + 40.0, BandState::One(state))
+            })
+            .collect(),
+    };
+    let flicker = (0..50_000_u32).map(|at| {
+        let from = f64::from(at) * 0.0024;
+        let state = if at % 2 == 0 { Active } else { Inactive };
+        band(from, from + 0.0024, BandState::One(state))
+    });
+    BandChart {
+        title: "States over the blocks".to_owned(),
+        description: "Four rows of states.".to_owned(),
+        x: ChartAxis::linear("executed blocks"),
+        steps: None,
+        rows: vec![
+            row("X", [Active, Inactive, Active]),
+            row("Y", [Ineffective, Unknown, Inactive]),
+            row("Z", [Unconfigured; 3]),
+            BandRow {
+                label: "X LEAD".to_owned(),
+                bands: flicker.collect(),
+            },
+        ],
+    }
+}
+
+fn all() -> Vec<(&'static str, String)> {
+    vec![
+        ("value-list", value_list().render(Frame::Alone)),
+        ("current", current().render(Frame::Alone)),
+        ("circle", circle().render(Frame::Alone)),
+        ("tuning", glitches().render(Frame::Alone)),
+        ("states", states().render(Frame::Alone)),
+    ]
+}
+
+fn parse(svg: &str) -> Document<'_> {
+    Document::parse(svg).unwrap_or_else(|error| panic!("{error}:\n{svg}"))
+}
+
+fn texts<'a>(document: &'a Document<'_>) -> Vec<&'a str> {
+    let nodes = document
+        .descendants()
+        .filter(|node| node.has_tag_name((SVG, "text")));
+    nodes.filter_map(|node| node.text()).collect()
+}
+
+const SVG: &str = "http://www.w3.org/2000/svg";
+
+#[test]
+fn every_picture_is_told_in_words() {
+    for (name, svg) in all() {
+        let document = parse(&svg);
+        let root = document.root_element();
+        for (reference, element) in [("aria-labelledby", "title"), ("aria-describedby", "desc")] {
+            let id = root.attribute(reference).expect("a reference");
+            let told = document
+                .descendants()
+                .find(|node| node.attribute("id") == Some(id));
+            let told = told.expect("what is referred to");
+            assert!(told.has_tag_name((SVG, element)), "{name}");
+            assert!(
+                told.text().is_some_and(|text| text.len() > 10),
+                "{name} has no {element}"
+            );
+        }
+        assert!(
+            svg.contains("prefers-color-scheme:dark"),
+            "{name} has one ground only"
+        );
+        assert!(svg.contains("@media print"), "{name}");
+    }
+}
+
+#[test]
+fn the_same_input_gives_the_same_picture() {
+    // R9.16
+    assert_eq!(all(), all());
+}
+
+#[test]
+fn a_circle_shows_off_and_on_magnified() {
+    // R5.23
+    let svg = circle().render(Frame::Alone);
+    let document = parse(&svg);
+    let texts = texts(&document);
+    for wanted in [
+        "X+",
+        "Y+",
+        "X\u{2212}",
+        "Y\u{2212}",
+        "10 \u{b5}m",
+        "+20 \u{b5}m",
+        "+0.6 \u{b5}m",
+        "compensation off",
+        "compensation on",
+    ] {
+        assert!(texts.contains(&wanted), "no `{wanted}` in {texts:?}");
+    }
+    let magnified = texts
+        .iter()
+        .find(|text| text.starts_with("deviation magnified"));
+    // 10 µm are 31 units where 100 mm are 105.
+    assert_eq!(
+        magnified.copied(),
+        Some("deviation magnified 3000\u{d7} against the circle of 100 mm")
+    );
+    let paths: Vec<_> = document
+        .descendants()
+        .filter(|node| node.has_tag_name((SVG, "path")))
+        .collect();
+    assert_eq!(paths.len(), 2, "off and on beside each other");
+    for (path, centre) in paths.into_iter().zip([215.0, 645.0]) {
+        let data = path.attribute("d").expect("data").replace(['M', 'L'], " ");
+        let numbers: Vec<f64> = data
+            .split_whitespace()
+            .map(|number| number.parse().expect("a number"))
+            .collect();
+        for place in numbers.chunks(2) {
+            let radius = (place[0] - centre).hypot(place[1] - 313.0);
+            assert!(
+                (42.0..=168.0).contains(&radius),
+                "{place:?} is outside of the rings"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_value_list_shows_its_points_and_held_ends() {
+    // R4.7
+    let svg = value_list().render(Frame::Alone);
+    let document = parse(&svg);
+    let with = |class: &str| {
+        let nodes = document.descendants();
+        let count = nodes.filter(|node| {
+            let classes = node.attribute("class").unwrap_or_default();
+            classes.split(' ').any(|it| it == class)
+        });
+        count.count()
+    };
+    assert_eq!(with("fc-m0"), 5, "five points");
+    assert_eq!(with("fc-m1"), 5, "the scaled points, of another shape");
+    assert_eq!(with("fc-held"), 2);
+    let texts = texts(&document);
+    for text in [
+        "scaled by 90 %",
+        // Velocities also as feeds, from 0 to beyond the last point; values from 0 on.
+        "velocity in \u{b5}m/s, logarithmic from 1800 on",
+        "velocity in mm/min",
+        "1800",
+        "108",
+        "2000",
+        "0",
+        "held above 50\u{202f}000",
+    ] {
+        assert!(texts.contains(&text), "{text}: {texts:?}");
+    }
+    // A tenth of the axis shows the slow points apart from each other.
+    let places: Vec<f64> = document
+        .descendants()
+        .filter(|node| node.attribute("class") == Some("fc-m0"))
+        .map(|node| node.attribute("cx").unwrap().parse().unwrap())
+        .collect();
+    assert!(places[2] - places[0] > 200.0, "{places:?}");
+}
+
+#[test]
+fn a_list_without_a_point_at_standstill_says_what_is_held() {
+    // R4.7
+    let mut list = list();
+    list.table.remove(0);
+    let svg = value_curve(&AcceptedList {
+        axis: "C".to_owned(),
+        axis_type: AxisType::Rotary,
+        list,
+    })
+    .render(Frame::Alone);
+    let document = parse(&svg);
+    let texts = texts(&document);
+    for text in [
+        "held below 1800",
+        "held above 50\u{202f}000",
+        "velocity in \u{b0}/min",
+    ] {
+        assert!(texts.contains(&text), "{text}: {texts:?}");
+    }
+}
+
+#[test]
+fn value_lists_of_several_axes_share_a_picture() {
+    let accepted = |axis: &str, axis_type| AcceptedList {
+        axis: axis.to_owned(),
+        axis_type,
+        list: list(),
+    };
+    let lists = [
+        accepted("X", AxisType::Linear),
+        accepted("C", AxisType::Rotary),
+    ];
+    let svg = value_curves(&lists.iter().collect::<Vec<_>>()).render(Frame::Alone);
+    let document = parse(&svg);
+    let texts = texts(&document);
+    assert!(
+        texts.contains(&"velocity in \u{b5}m/s or 0.001\u{b0}/s, logarithmic from 1800 on"),
+        "{texts:?}"
+    );
+    assert!(texts.iter().any(|text| text.starts_with("axis C: ")));
+}
+
+#[test]
+fn currents_are_steps_and_blocks_stand_along_the_time() {
+    // R4.2 R4.3
+    let chart = current();
+    assert_eq!(chart.panels.len(), 4);
+    let drawn: Vec<Drawn> = (chart.panels.iter())
+        .map(|panel| panel.series[0].drawn)
+        .collect();
+    let (steps, weight) = (Drawn::Steps, Drawn::Notches);
+    assert_eq!(drawn, [steps, Drawn::Line, weight, weight]);
+    let svg = chart.render(Frame::Alone);
+    let document = parse(&svg);
+    let seen = texts(&document);
+    for text in ["N10", "line 3", "time in s, and where blocks begin"] {
+        assert!(seen.contains(&text), "{text}: {seen:?}");
+    }
+    // A step is drawn level, then upright.
+    let line = document
+        .descendants()
+        .find(|node| node.attribute("class") == Some("fc-curve fc-s0 fc-steps"));
+    let path = line.and_then(|node| node.attribute("d")).unwrap();
+    let places: Vec<(&str, &str)> = path
+        .split(['M', 'L'])
+        .filter_map(|place| place.split_once(' '))
+        .collect();
+    assert!(
+        places
+            .windows(2)
+            .all(|pair| pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1)
+    );
+    assert_eq!(
+        document
+            .descendants()
+            .filter(|node| node.attribute("class") == Some("fc-f0"))
+            .count(),
+        2
+    );
+    // More blocks than there is room for are thinned out.
+    let mut plot = CurrentPlot::new(vec![AxisPlot::new("X", None)]);
+    for block in 0..100_000_u32 {
+        plot.block(f64::from(block), Some(i64::from(block)), 1);
+    }
+    let marks = plot.chart().marks;
+    assert!(marks.len() <= 2000, "{}", marks.len());
+    assert!(marks.is_sorted_by(|one, other| one.at < other.at));
+    assert!(marks.last().unwrap().at > 99_000.0);
+}
+
+#[test]
+fn many_blocks_have_ticks_where_they_have_names() {
+    let svg_of = |blocks: u32| {
+        let mut plot = CurrentPlot::new(vec![AxisPlot::new("X", None)]);
+        let cycles = AdditiveCurrent::new(&list(), Reading::default()).trace(&[0.0], &[0.0]);
+        for block in 0..blocks {
+            plot.block(f64::from(block), Some(i64::from(block)), 1);
+            let sample = AxisSample {
+                velocity: 0.0,
+                state: State::Active,
+                added: &cycles[0],
+            };
+            plot.push(f64::from(block), [sample]);
+        }
+        plot.chart().render(Frame::Alone)
+    };
+    // Ticks of blocks and of seconds, and names of blocks.
+    let counted = |blocks| {
+        let svg = svg_of(blocks);
+        let ticks = svg.matches("fc-axis").count();
+        (ticks, svg.matches(">N").count())
+    };
+    let ((few_ticks, few_names), (many_ticks, many_names)) = (counted(100), counted(600));
+    assert!(few_ticks > 100 && few_names < 40, "{few_ticks} {few_names}");
+    assert!(many_ticks < 60, "{many_ticks} ticks of {many_names} names");
+    assert!(many_names > 10, "{many_names}");
+}
+
+#[test]
+fn glitches_are_drawn_from_zero() {
+    // R5.25
+    let mut chart = glitches();
+    for point in (chart.panels.iter_mut())
+        .flat_map(|panel| &mut panel.series)
+        .flat_map(|series| &mut series.points)
+    {
+        // As large as those of a soft plant, and as much alike.
+        point[1] += 100.0;
+    }
+    let svg = chart.render(Frame::Alone);
+    let document = parse(&svg);
+    let zeros = texts(&document).into_iter().filter(|text| *text == "0");
+    assert_eq!(zeros.count(), chart.panels.len());
+}
+
+#[test]
+fn points_without_a_line_have_none_in_the_legend() {
+    // R6.18
+    let series = |name: &str, drawn| Series {
+        name: name.to_owned(),
+        points: vec![[0.0, 1.0], [1.0, 2.0]],
+        drawn,
+    };
+    let chart = LineChart {
+        panels: vec![Panel {
+            series: vec![
+                series("measured", Drawn::Scattered),
+                series("curve", Drawn::Line),
+            ],
+            ..Panel::default()
+        }],
+        ..LineChart::default()
+    };
+    let svg = chart.render(Frame::Alone);
+    let document = parse(&svg);
+    assert!(texts(&document).contains(&"measured"));
+    let lines = |class: &str| {
+        let nodes = document.descendants();
+        nodes
+            .filter(|node| node.attribute("class") == Some(class))
+            .count()
+    };
+    assert_eq!([lines("fc-curve fc-s0"), lines("fc-curve fc-s1")], [0, 2]);
+}
+
+#[test]
+fn a_million_cycles_are_a_picture_of_bounded_size() {
+    let points = (0..1_000_000_u32).map(|at| [f64::from(at), f64::from(at % 977)]);
+    let chart = LineChart {
+        title: "long".to_owned(),
+        description: "A million cycles.".to_owned(),
+        x: ChartAxis::linear("time in s"),
+        panels: vec![Panel {
+            y: ChartAxis::linear("value"),
+            series: vec![Series {
+                name: "value".to_owned(),
+                points: points.collect(),
+                drawn: Drawn::Line,
+            }],
+            ..Panel::default()
+        }],
+        ..LineChart::default()
+    };
+    let svg = chart.render(Frame::Alone);
+    assert!(svg.len() < 100_000, "{} bytes", svg.len());
+    // The peaks are still there: the curve reaches the tick above 976.
+    assert!(texts(&parse(&svg)).contains(&"1000"));
+}
+
+#[test]
+fn changes_that_cannot_be_seen_are_one_bar() {
+    let svg = states().render(Frame::Inside("here"));
+    let document = parse(&svg);
+    let titles: Vec<_> = document
+        .descendants()
+        .filter(|node| node.has_tag_name("title"))
+        .filter_map(|node| node.text())
+        .collect();
+    let several = titles
+        .iter()
+        .filter(|title| title.contains("several short changes"));
+    assert_eq!(several.count(), 1);
+    assert!(titles.contains(&"from 40 to 80: unknown"));
+    assert!(!svg.contains("<style>"), "the page has the style");
+    assert!(svg.contains("id=\"here-title\""));
+}
+
+#[test]
+fn odd_values_make_no_odd_picture() {
+    let odd = [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::MAX,
+        f64::MIN,
+        f64::MIN_POSITIVE,
+        0.0,
+        -0.0,
+    ];
+    let points: Vec<[f64; 2]> = odd.iter().flat_map(|&x| odd.map(|y| [x, y])).collect();
+    for points in [points, Vec::new(), vec![[3.0, 3.0]]] {
+        for x in [ChartAxis::linear("<x> & \0"), ChartAxis::logarithmic("]]>")] {
+            let chart = LineChart {
+                title: "<script>alert(1)</script>\0\u{202e}\u{ffff}".to_owned(),
+                description: "--> \u{b} \" '".to_owned(),
+                x,
+                panels: vec![Panel {
+                    y: ChartAxis::linear("y"),
+                    series: vec![Series {
+                        name: "</svg>".to_owned(),
+                        points: points.clone(),
+                        drawn: Drawn::Marked,
+                    }],
+                    ..Panel::default()
+                }],
+                ..LineChart::default()
+            };
+            assert_sound(&chart.render(Frame::Alone));
+        }
+        let polar = PolarChart {
+            panels: vec![PolarPanel {
+                label: "&".to_owned(),
+                series: vec![PolarSeries {
+                    name: "&".to_owned(),
+                    points: points.clone(),
+                }],
+            }],
+            ..circle()
+        };
+        assert_sound(&polar.render(Frame::Alone));
+    }
+}
+
+/// Well-formed, with nothing but numbers where numbers belong.
+fn assert_sound(svg: &str) {
+    let document = parse(svg);
+    for node in document.descendants() {
+        assert!(!node.has_tag_name((SVG, "script")));
+        for attribute in node.attributes() {
+            let numeric = [
+                "d", "x", "y", "x1", "x2", "y1", "y2", "r", "cx", "cy", "width", "height",
+            ];
+            if numeric.contains(&attribute.name()) {
+                let value = attribute.value();
+                assert!(!value.contains("NaN") && !value.contains("inf"), "{value}");
+            }
+        }
+    }
+}
+
+/// Runs the tool in a folder and gives the picture that it draws there.
+fn drawn(folder: &Path, arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+        .current_dir(folder)
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .expect("the tool starts");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+    let svg = fs::read_to_string(folder.join("out.svg")).expect("a picture");
+    assert_sound(&svg);
+    svg
+}
+
+#[test]
+fn commands_draw_what_they_compute() {
+    // R5.23
+    let folder = tempfile::tempdir().expect("a folder");
+    let write =
+        |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
+    write(
+        "frictcomp.toml",
+        "[[axis]]\nname = \"X\"\nfrict_comp = true\n\
+         value = { mode = 3, position_delay = 10, reversal_lookahead = 2, table = [[0, 12], [1800, 10]] }\n",
+    );
+    write("v.lis", LIST);
+    write(
+        "t.csv",
+        "t,x,v,comp\n0,0,0,on\n0.001,10,1000,on\n0.002,20,1000,off\n0.003,30,1000,on\n",
+    );
+    write(
+        "a.nc",
+        "N10 G90 G01 X0 F1000\nN20 X1\nN30 X[COMP OFF FRICT]\nN40 X0\nN50 X[COMP ON FRICT]\nN60 X1\nN70 M30\n",
+    );
+    let draw = |arguments: &[&str]| drawn(folder.path(), arguments);
+    let svg = draw(&["lists", "--svg", "out.svg", "v.lis"]);
+    assert!(svg.contains("Value list of axis X"), "{svg}");
+    let recorded = [
+        "current",
+        "--trace",
+        "t.csv",
+        "--value-list",
+        "v.lis",
+        "--svg",
+        "out.svg",
+    ];
+    let svg = draw(&recorded);
+    let document = parse(&svg);
+    let shown = texts(&document);
+    for wanted in [
+        "active",
+        "inactive",
+        "additive current in drive units",
+        "time in s",
+    ] {
+        assert!(shown.contains(&wanted), "no `{wanted}` in {shown:?}");
+    }
+    let svg = draw(&[
+        "current", "a.nc", "--axis", "X", "--svg", "out.svg", "-o", "a.csv",
+    ]);
+    assert!(svg.contains("Additive current of axis X"));
+    assert!(svg.contains("X inactive from"), "{svg}");
+    let svg = draw(&[
+        "circle", "--feed", "5000", "--radius", "50", "--svg", "out.svg",
+    ]);
+    let document = parse(&svg);
+    let shown = texts(&document);
+    for wanted in ["counter-clockwise", "clockwise", "X+", "Y\u{2212}"] {
+        assert!(shown.contains(&wanted), "no `{wanted}` in {shown:?}");
+    }
+}
+
+/// A value list of the axis X.
+const LIST: &str = "kopf.achs_nr 1\nkopf.log_achs_name X\nfrict_comp.mode 3\nfrict_comp.table_entries 2\n\
+    frict_comp.position_delay 10\nfrict_comp.reversal_lookahead 2\n\
+    frict_comp.table[0].in 0\nfrict_comp.table[0].out 12\n\
+    frict_comp.table[1].in 1800\nfrict_comp.table[1].out 10\n";
+
+#[test]
+fn there_is_no_picture_of_a_list_that_is_not_taken() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(
+        folder.path().join("v.lis"),
+        LIST.replace("mode 3", "mode 0"),
+    )
+    .expect("written");
+    let output = Command::new(env!("CARGO_BIN_EXE_frictcomp"))
+        .current_dir(folder.path())
+        .args(["lists", "--svg", "out.svg", "v.lis"])
+        .output()
+        .expect("the tool starts");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no value list to draw"));
+    assert!(!folder.path().join("out.svg").exists());
+}

@@ -1,0 +1,232 @@
+//! What every host may rely on: the names that are public, and that all of it can be sent to another
+//! thread.
+
+#[path = "public/sent.rs"]
+mod sent;
+mod workspace;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use workspace::root;
+
+/// A package that others may use.
+struct Package {
+    name: &'static str,
+    /// Its folder.
+    folder: &'static str,
+    /// What stands before its rooms in the list.
+    prefix: &'static str,
+}
+
+const PACKAGES: [Package; 7] = [
+    package("frictcomp", ".", ""),
+    package("frictcomp-physics", "crates/physics", ""),
+    package("frictcomp-recordings", "crates/recordings", ""),
+    package("frictcomp-drives", "crates/drives", "drives"),
+    package("frictcomp-report", "crates/report", "report"),
+    package("frictcomp-host", "crates/host", "host"),
+    package("frictcomp-editor", "crates/editor", ""),
+];
+
+const fn package(name: &'static str, folder: &'static str, prefix: &'static str) -> Package {
+    Package {
+        name,
+        folder,
+        prefix,
+    }
+}
+
+impl Package {
+    /// The file that says what a room makes public; the package itself is the room without a name.
+    fn face(&self, room: &str) -> PathBuf {
+        let source = root().join(self.folder).join("src");
+        match room {
+            "" => source.join("lib.rs"),
+            room => source.join(room).join("mod.rs"),
+        }
+    }
+
+    /// Whether a room shows what belongs to another one, which is the same thing.
+    fn shows(&self, room: &str, name: &str) -> bool {
+        let room = room.strip_prefix(self.prefix).unwrap_or(room);
+        let room = room.trim_start_matches("::").replace("::", "/");
+        let face = code(&self.face(&room));
+        let is_word = |statement: &str| {
+            let mut words = statement.split(|c: char| !c.is_alphanumeric() && c != '_');
+            words.any(|word| word == name)
+        };
+        let mut shown = face
+            .split(';')
+            .filter(|it| it.contains("pub use crate::") || it.contains("pub use frictcomp::"));
+        shown.any(is_word)
+    }
+
+    /// Every public name with its room and the feature that it needs, sorted.
+    fn items(&self) -> Vec<String> {
+        let mut items = Vec::new();
+        self.gather("", "", &mut items);
+        items.sort();
+        items
+    }
+
+    /// Appends what the face of a room makes public, and the rooms in it.
+    fn gather(&self, room: &str, needed: &str, items: &mut Vec<String>) {
+        for item in public(&code(&self.face(room))) {
+            let feature = match item.feature.as_str() {
+                "" => needed,
+                feature => feature,
+            };
+            let path = format!("{room}/{}", item.name);
+            let path = path.trim_start_matches('/');
+            if item.is_room && self.face(path).is_file() {
+                self.gather(path, feature, items);
+                continue;
+            }
+            let path = format!("{}/{path}", self.prefix);
+            let path = path.trim_start_matches('/').replace('/', "::");
+            items.push(if feature.is_empty() {
+                path
+            } else {
+                format!("{path} ({feature})")
+            });
+        }
+    }
+}
+
+/// The text of a source file without comments.
+fn code(path: &Path) -> String {
+    let text = fs::read_to_string(path).expect("a source file");
+    let lines = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(line));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// What the statements of a file make public.
+struct Public {
+    name: String,
+    /// The feature that it needs, or nothing.
+    feature: String,
+    is_room: bool,
+}
+
+fn public(code: &str) -> Vec<Public> {
+    let mut found = Vec::new();
+    let mut feature = "";
+    for statement in code.split_inclusive([';', ']']) {
+        let statement = statement.trim();
+        if let Some(rest) = statement.strip_prefix("#[cfg(feature = \"") {
+            feature = rest.trim_end_matches("\")]");
+            continue;
+        }
+        let names = statement
+            .strip_prefix("pub use ")
+            .or_else(|| statement.strip_prefix("pub mod "));
+        if let Some(names) = names.map(|names| names.trim_end_matches(';')) {
+            let names = names.split_once('{').map_or_else(
+                || names.rsplit("::").next().unwrap_or(names),
+                |(_, names)| names.trim_end_matches('}'),
+            );
+            for name in names
+                .split(',')
+                .map(str::trim)
+                .filter(|name| !name.is_empty())
+            {
+                let name = name.rsplit(" as ").next().unwrap_or(name);
+                found.push(Public {
+                    name: name.to_owned(),
+                    feature: feature.to_owned(),
+                    is_room: statement.starts_with("pub mod "),
+                });
+            }
+        }
+        feature = "";
+    }
+    found
+}
+
+/// Every public name of every package, sorted.
+fn items() -> Vec<String> {
+    let mut items: Vec<String> = PACKAGES.iter().flat_map(Package::items).collect();
+    items.sort();
+    items
+}
+
+#[test]
+fn the_public_names_change_on_purpose() {
+    // `INSTA_UPDATE=always cargo test --test public` takes a change over.
+    let listed = PACKAGES.iter().map(|package| {
+        let items = package.items().join("\n");
+        format!("# {}\n{items}\n", package.name)
+    });
+    insta::assert_snapshot!("public_items", listed.collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn a_type_has_a_name_of_its_own() {
+    let mut rooms: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for package in &PACKAGES {
+        for item in package.items() {
+            // What only packages of the same version see is named within its room.
+            if item.ends_with("(unstable)") {
+                continue;
+            }
+            let Some((room, name)) = item.rsplit_once("::") else {
+                continue;
+            };
+            if name.starts_with(|c: char| c.is_uppercase()) && !package.shows(room, name) {
+                let places = rooms.entry(name.to_owned()).or_default();
+                places.push(room.to_owned());
+            }
+        }
+    }
+    rooms.retain(|_, rooms| rooms.len() > 1);
+    assert_eq!(rooms, BTreeMap::new());
+}
+
+/// Whether a public name is that of a trait.
+fn is_trait(name: &str) -> bool {
+    const TRAITS: [&str; 13] = [
+        "ContourSink",
+        "CurrentSink",
+        "Finder",
+        "LineSource",
+        "ListFiles",
+        "Observer",
+        "Question",
+        "Report",
+        "Simulations",
+        "Sources",
+        "Sink",
+        "TraceSink",
+        "Watcher",
+    ];
+    TRAITS.contains(&name)
+}
+
+#[test]
+fn every_public_type_is_checked_to_be_send() {
+    let is_type = |item: &String| {
+        let name = item.rsplit("::").next().unwrap_or(item);
+        item.contains("::")
+            && name.starts_with(|c: char| c.is_ascii_uppercase())
+            && name.contains(|c: char| c.is_ascii_lowercase())
+            && !is_trait(name)
+    };
+    let public = items().into_iter().map(|item| {
+        let path = item.split(' ').next().unwrap_or_default();
+        path.to_owned()
+    });
+    // They borrow what flushes the output of the thread that runs the programs.
+    let is_at_home = |item: &String| item == "host::Surroundings";
+    let public: Vec<String> = public
+        .filter(|item| is_type(item) && !is_at_home(item))
+        .collect();
+    let sent: Vec<String> = sent::SENT
+        .iter()
+        .map(|name| name.split('<').next().unwrap_or(name).replace(' ', ""))
+        .collect();
+    assert_eq!(sent, public, "the list in tests/public/sent.rs");
+}

@@ -1,0 +1,8 @@
+//! States across programs: the lints on use, the state file, what is said where no machine is
+//! described.
+
+mod folder;
+mod states;
+#[path = "../../../tests/support/mod.rs"]
+mod support;
+mod workspace;

@@ -1,0 +1,199 @@
+//! The state file: what it holds, what it refuses, what it reads of older versions.
+
+use fastrand::Rng;
+use frictcomp::interpreter::Value;
+use frictcomp::machine::Setting;
+use frictcomp::session::{SavedState, Session, StateError};
+use frictcomp::timeline::{Record, Sink};
+use std::ops::ControlFlow;
+
+use super::program::machine;
+use super::sessions::{options, play, resumed};
+use crate::folder::{Bench, json, of_schema_2};
+
+struct Nobody;
+
+impl Sink for Nobody {
+    fn record(&mut self, _: &Record<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+fn left_off() -> Session {
+    let mut session = Session::new(machine(), options());
+    let program = "%FRICTION\nN10 X[COMP OFF FRICT] ; known\nY[COMP OFF FRICT]\nM30\n";
+    play(&mut session, ("friction.nc", program), &mut Nobody);
+    session
+}
+
+#[test]
+fn it_says_who_made_a_state() {
+    // R9.32
+    let saved = serde_json::to_value(left_off().save()).unwrap();
+    assert_eq!(saved["schema"], 3);
+    let away = &saved["axes"][0]["away"];
+    let expected = r#"[{"kind":"FRICT","by":{"program":"FRICTION","file":"friction.nc","line":2,"text":"N10 X[COMP OFF FRICT] ; known"}}]"#;
+    assert_eq!(*away, json(expected));
+    assert!(
+        saved["axes"][2].get("away").is_none(),
+        "Z is in its start-up state"
+    );
+}
+
+/// What a resumed session says about a state that was changed.
+fn refusal(change: impl FnOnce(&mut SavedState)) -> String {
+    let mut saved = left_off().save();
+    change(&mut saved);
+    match Session::resume(machine(), options(), saved) {
+        Ok(_) => String::new(),
+        Err(error @ (StateError::Damaged { .. } | StateError::OtherMachine { .. })) => {
+            error.to_string()
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
+
+#[test]
+fn axes_are_matched_by_name() {
+    // R9.30 R9.32: in any order, each once.
+    assert_eq!(refusal(|_| ()), "");
+    assert_eq!(refusal(|saved| saved.axes.reverse()), "");
+    assert_eq!(refusal(|saved| saved.machine.reverse()), "");
+    let said = refusal(|saved| drop(saved.axes.pop()));
+    assert_eq!(said, "it is damaged (axis `B` is missing)");
+    let said = refusal(|saved| saved.axes[1].axis = "X".to_owned());
+    assert_eq!(said, "it is damaged (axis `X` occurs twice)");
+    let said = refusal(|saved| {
+        let mut surplus = saved.axes[2].clone();
+        surplus.axis = "C".to_owned();
+        saved.axes.push(surplus);
+    });
+    assert_eq!(said, "it is damaged (the machine has no axis `C`)");
+    let said = refusal(|saved| saved.axes[2].selected = saved.axes[3].selected);
+    assert!(
+        said.contains("`FRICT` of axis `Z` is not configured"),
+        "{said}"
+    );
+
+    let mut saved = left_off().save();
+    saved.axes.swap(0, 1);
+    saved.axes[0].selected = saved.axes[3].selected;
+    let (session, _) = Session::resume(machine(), options(), saved).unwrap();
+    let text = serde_json::to_string(&session.save().axes).unwrap();
+    assert!(text.find("\"X\"") < text.find("\"Y\""), "{text}");
+    let state = session.state();
+    let word = |name| {
+        let axis = state.machine.find(name).unwrap();
+        state.state(axis, frictcomp::comp::Kind::Frict).as_str()
+    };
+    assert_eq!((word("X"), word("Y")), ("inactive", "active"));
+}
+
+#[test]
+fn a_damaged_file_stays_as_it_is() {
+    // R9.30 R9.32: as files, through the tool.
+    let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n")]);
+    let run = ["run", "--state", "s.json", "a.nc"];
+    assert_eq!(bench.status(&run), Some(0));
+    let good = of_schema_2(&bench.read("s.json"));
+    let mut swapped = json(&good);
+    swapped["axes"].as_array_mut().expect("a list").swap(0, 1);
+    bench.write("s.json", &swapped.to_string());
+    assert_eq!(
+        bench.records(&["--state", "s.json", "a.nc"])[0],
+        bench.records(&["--state", "s.json", "a.nc"])[0]
+    );
+    for damage in ["missing", "doubled", "surplus"] {
+        let mut state = json(&good);
+        let axes = state["axes"].as_array_mut().expect("a list");
+        match damage {
+            "missing" => drop(axes.remove(1)),
+            "doubled" => axes.push(axes[0].clone()),
+            _ => axes.push({
+                let mut other = axes[0].clone();
+                other["axis"] = "Q".into();
+                other
+            }),
+        }
+        let text = state.to_string();
+        bench.write("s.json", &text);
+        let output = bench.call(&run);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{damage}: {said}");
+        assert!(said.contains("damaged"), "{damage}: {said}");
+        assert_eq!(bench.read("s.json"), text, "{damage}");
+    }
+}
+
+#[test]
+fn a_file_of_schema_1_is_read_with_nobody_known() {
+    // R9.32
+    let bench = Bench::new(&[("a.nc", "X[COMP OFF FRICT]\nM30\n"), ("b.nc", "X1\nM30\n")]);
+    assert_eq!(bench.status(&["run", "--state", "s.json", "a.nc"]), Some(0));
+    let mut old = json(&of_schema_2(&bench.read("s.json")));
+    old["schema"] = 1.into();
+    for axis in old["axes"].as_array_mut().expect("a list") {
+        axis.as_object_mut().unwrap().retain(|key, _| {
+            ["axis", "selected", "unknown", "max_points", "friction"].contains(&key.as_str())
+        });
+    }
+    bench.write("s.json", &old.to_string());
+    let text = bench.stdout(&["run", "--width", "200", "--state", "s.json", "b.nc"]);
+    assert!(text.contains("info[FC403]"), "{text}");
+    assert!(text.contains("a program that is not known"), "{text}");
+    assert_eq!(json(&bench.read("s.json"))["schema"], 3);
+}
+
+#[test]
+fn the_demo_says_fc403_twice_in_two_processes() {
+    // R9.32
+    let demo = |name: &str| {
+        let path = crate::workspace::root().join("programs/demo").join(name);
+        std::fs::read_to_string(path).unwrap()
+    };
+    let (friction, next) = (demo("friction.nc"), demo("next.nc"));
+    let bench = Bench::new(&[("friction.nc", &friction), ("next.nc", &next)]);
+    bench.stdout(&["run", "--state", "s", "friction.nc"]);
+    let apart = bench.stdout(&["run", "--width", "200", "--state", "s", "next.nc"]);
+    assert_eq!(apart.matches("info[FC403]").count(), 2, "{apart}");
+    assert!(
+        apart.contains("friction.nc:5") && apart.contains("friction.nc:3"),
+        "{apart}"
+    );
+    assert!(
+        apart.contains("`FRICTION`") && apart.contains("N45 X[COMP OFF FRICT]"),
+        "{apart}"
+    );
+    assert!(!apart.contains("Nothing to do"), "{apart}");
+    // Nobody in this output has said how to bring them back to its start-up state.
+    assert!(apart.contains("X stays inactive"), "{apart}");
+}
+
+#[test]
+fn whatever_is_saved_is_read() {
+    // R9.30 R9.32: extreme numbers, any text, what is not known.
+    let mut rng = Rng::with_seed(14);
+    for _ in 0..400 {
+        let mut settings = options();
+        for at in 0..rng.usize(1..8) {
+            let value = match rng.u8(..3) {
+                0 => Setting::Number(f64::from_bits(rng.u64(..))),
+                1 => Setting::Number([f64::INFINITY, f64::NAN, -0.0, 5e-324][rng.usize(..4)]),
+                _ => Setting::Text((0..rng.usize(..20)).map(|_| rng.char(..)).collect()),
+            };
+            settings.settings.push((format!("V.S.N{at}"), value));
+        }
+        let mut session = Session::new(machine(), settings);
+        let program = "V.S.B = V.S.N0\nV.S.U = V.E.X\n#VAR\nV.S.A[2,3]\n#ENDVAR\nV.S.A[1,1] = 2\nX1e300\nM30\n";
+        play(&mut session, ("a.nc", program), &mut Nobody);
+        let again = resumed(machine(), &session);
+        let (first, second) = (session.save(), again.save());
+        assert_eq!(
+            serde_json::to_string(&first).unwrap(),
+            serde_json::to_string(&second).unwrap()
+        );
+        assert_eq!(first, second);
+        let finite = |value: &Value| value.number().is_none_or(f64::is_finite);
+        assert!(second.variables.values().all(finite));
+    }
+}

@@ -1,0 +1,16 @@
+//! Nothing is lost whatever happens: full disks, closed pipes, killed runs, damaged files, old
+//! encodings. `docs/reliability.md` says what is promised.
+//!
+//! What takes minutes is ignored: `cargo test --release --test unbreakable -- --ignored`.
+
+#![allow(clippy::print_stderr, reason = "figures, and what a system cannot try")]
+
+mod folder;
+
+mod unbreakable {
+    mod encodings;
+    mod kill;
+    #[cfg(unix)]
+    mod resources;
+    mod state;
+}

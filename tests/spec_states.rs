@@ -1,6 +1,0 @@
-//! States across programs: the lints on use, the state file, what is said where no machine is
-//! described.
-
-mod folder;
-mod states;
-mod support;

@@ -12,6 +12,18 @@ fn read(path: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
+/// The folders of all packages.
+fn packages() -> Vec<String> {
+    let mut folders = vec![".".to_owned()];
+    for parent in ["crates", "bindings"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(parent);
+        let entries = fs::read_dir(path).expect("packages");
+        let names = entries.map(|entry| entry.expect("an entry").file_name());
+        folders.extend(names.map(|name| format!("{parent}/{}", name.to_string_lossy())));
+    }
+    folders
+}
+
 /// The functions that a text names.
 fn functions(text: &str) -> BTreeSet<&str> {
     let words = text.split(|letter: char| !(letter.is_alphanumeric() || letter == '_'));
@@ -180,7 +192,7 @@ fn the_hook_takes_every_program_that_the_command_takes() {
     let (_, endings) = hooks.split_once(r"(?i)\.(").expect("letters of any case");
     let (endings, _) = endings.split_once(")$").expect("an end");
     let endings: BTreeSet<&str> = endings.split('|').collect();
-    let kinds = read("src/host/file_kind.rs");
+    let kinds = read("crates/host/src/file_kind.rs");
     let (_, known) = kinds
         .split_once("EXTENSIONS: [&str; 9] =")
         .expect("the endings");
@@ -193,18 +205,32 @@ fn the_hook_takes_every_program_that_the_command_takes() {
 #[test]
 fn every_package_says_where_its_sources_are_and_can_be_published() {
     // R13.10
-    for folder in ["", "bindings/c/", "bindings/python/", "bindings/web/"] {
-        let manifest = read(&format!("{folder}Cargo.toml"));
-        for key in ["repository", "homepage", "documentation"] {
-            assert!(
-                manifest.contains(&format!("\n{key} = \"https://")),
-                "{folder}{key}"
-            );
+    let manifest = read("Cargo.toml");
+    for key in ["repository", "homepage"] {
+        assert!(manifest.contains(&format!("\n{key} = \"https://")), "{key}");
+    }
+    for folder in packages() {
+        let manifest = read(&format!("{folder}/Cargo.toml"));
+        for key in ["version", "repository", "homepage"] {
+            let inherited = manifest.contains(&format!("\n{key}.workspace = true"));
+            assert!(inherited, "{folder}: {key}");
         }
+        assert!(
+            manifest.contains("\ndocumentation = \"https://"),
+            "{folder}"
+        );
     }
     // A version here would be looked for in the registry, where it is not before it is published.
-    let manifest = read("Cargo.toml");
-    assert!(manifest.contains("\nfrictcomp = { path = \".\", default-features = false"));
+    let (_, tests) = manifest
+        .split_once("\n[dev-dependencies]\n")
+        .expect("those of tests");
+    let own = tests.lines().filter(|line| line.starts_with("frictcomp"));
+    for line in own {
+        assert!(
+            line.contains("path = ") && !line.contains("version"),
+            "{line}"
+        );
+    }
     let build = read("dist/build");
     assert!(
         build.contains("--remap-path-prefix=$home=")

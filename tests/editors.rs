@@ -53,7 +53,7 @@ fn the_extension_and_the_server_have_commands_of_their_own() {
     let commands = manifest["contributes"]["commands"]
         .as_array()
         .expect("commands");
-    let server = file("src/lsp/commands.rs");
+    let server = file("crates/editor/src/lsp/commands.rs");
     assert!(server.contains("\"frictcomp.showTimeline\""));
     for command in commands {
         assert!(

@@ -54,8 +54,11 @@ fn no_dependency_needs_a_younger_rust() {
 
 #[test]
 fn every_dependency_has_its_reason() {
-    let bindings = fs::read_dir(root().join("bindings")).expect("a folder");
-    let folders = bindings.map(|entry| entry.expect("an entry").path());
+    let parents = ["bindings", "crates"].map(|parent| root().join(parent));
+    let packages = parents
+        .iter()
+        .flat_map(|parent| fs::read_dir(parent).expect("a folder"));
+    let folders = packages.map(|entry| entry.expect("an entry").path());
     for folder in folders.chain([root().to_owned()]) {
         let path = folder.join("Cargo.toml");
         let manifest = fs::read_to_string(&path).expect("a manifest");

@@ -106,6 +106,7 @@ fn imported<'a>(modules: &Modules<'a>, own: &[&'a str], file: &File) -> BTreeSet
         }
         let (name, path) = (&head[begin..], &text[at + 2..]);
         match name {
+            "crate" if file.is_whole => found.extend(targets(modules, &[], path)),
             "crate" => {
                 let (room, rest) = split_name(path);
                 if room == file.room {
@@ -271,7 +272,7 @@ fn circles_of_rooms() -> BTreeMap<String, Vec<String>> {
     }
     let lines = |modules: &Modules| {
         let left = circles(modules);
-        let name = |path: &Vec<&str>| format!("src/{}", modules[path].path);
+        let name = |path: &Vec<&str>| modules[path].shown();
         let line = |(path, imports): (&Vec<&str>, &BTreeSet<Vec<&str>>)| {
             let names: Vec<String> = imports.iter().map(name).collect();
             format!("{} imports {}", name(path), names.join(", "))
@@ -297,8 +298,10 @@ fn no_room_has_a_circle_inside() {
 #[test]
 fn every_way_to_write_an_import_is_seen() {
     let file = |path: &str, text: &str| File {
-        path: path.to_owned(),
+        package: ".",
         room: "room".to_owned(),
+        is_whole: false,
+        path: path.to_owned(),
         text: text.to_owned(),
     };
     let files = [
@@ -339,8 +342,10 @@ fn every_way_to_write_an_import_is_seen() {
 #[test]
 fn a_call_of_a_method_in_another_file_is_seen() {
     let file = |path: &str, text: &str| File {
-        path: path.to_owned(),
+        package: ".",
         room: "room".to_owned(),
+        is_whole: false,
+        path: path.to_owned(),
         text: text.to_owned(),
     };
     let files = [

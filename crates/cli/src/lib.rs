@@ -1,4 +1,10 @@
 //! The command line: files, arguments, exit status. One file a command.
+//!
+//! In go the arguments; the exit status comes out, for a process that goes on:
+//!
+//! ```
+//! assert_eq!(frictcomp_cli::status(["frictcomp", "explain", "no such word"].map(Into::into)), 2);
+//! ```
 
 mod audit;
 mod channels;

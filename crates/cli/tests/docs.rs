@@ -31,6 +31,13 @@ fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
     found
 }
 
+/// The sources of all packages, with the tests of those in `crates`.
+fn sources() -> Vec<PathBuf> {
+    let mut sources = files("src", "rs");
+    sources.extend(files("crates", "rs"));
+    sources
+}
+
 fn documents() -> Vec<PathBuf> {
     let names = [
         "README.md",
@@ -113,7 +120,7 @@ fn tests() -> BTreeMap<String, String> {
     for path in files("tests", "rs") {
         parts.insert(path.display().to_string(), read(&path));
     }
-    for path in files("src", "rs") {
+    for path in sources() {
         let text = read(&path);
         let name = path.display().to_string();
         let all_tests = name.replace('\\', "/").contains("/tests/");
@@ -148,10 +155,19 @@ fn rows<'a>(text: &'a str, heading: &str) -> Vec<&'a str> {
 #[test]
 fn the_architecture_names_rooms_and_files_that_exist() {
     let text = read(&root().join("ARCHITECTURE.md"));
-    let source = root().join("src");
+    let packages = fs::read_dir(root().join("crates")).expect("packages");
+    let packages: Vec<PathBuf> = packages
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    let is_room = |source: &Path, room: &str| {
+        source.join(room).is_dir() || source.join(format!("{room}.rs")).is_file()
+    };
     for row in rows(&text, "| room | holds |") {
         let room = row.split('`').nth(1).expect("a room");
-        let exists = source.join(room).is_dir() || source.join(format!("{room}.rs")).is_file();
+        let exists = is_room(&root().join("src"), room)
+            || packages
+                .iter()
+                .any(|it| it.ends_with(room) || is_room(&it.join("src"), room));
         assert!(exists, "there is no room `{room}`");
     }
     let rows = rows(&text, "| new | files |");
@@ -160,8 +176,7 @@ fn the_architecture_names_rooms_and_files_that_exist() {
         let words = row.split('`').skip(1).step_by(2);
         let mut files = 0;
         for path in words.filter(|word| word.contains('/')) {
-            let found = source.join(path).exists() || root().join(path).exists();
-            assert!(found, "there is no `{path}`: {row}");
+            assert!(root().join(path).exists(), "there is no `{path}`: {row}");
             files += 1;
         }
         assert!(files <= 4, "too many files for one change: {row}");
@@ -275,7 +290,7 @@ fn every_rule_has_a_test() {
 #[test]
 fn every_named_rule_exists() {
     let listed = rules(&read(&root().join("docs/rules.md")));
-    for path in documents().into_iter().chain(files("src", "rs")) {
+    for path in documents().into_iter().chain(sources()) {
         let here = rules(&read(&path));
         // Pages may speak of chapters that are not built yet.
         let chapter = |rule: &str| rule.split('.').next().map(|chapter| format!("{chapter}."));
@@ -332,7 +347,7 @@ fn no_text_calls_the_start_up_state_home() {
         });
         named.map(|(at, _)| at + 1).collect::<Vec<_>>()
     };
-    for file in documents().into_iter().chain(files("src", "rs")) {
+    for file in documents().into_iter().chain(sources()) {
         let lines = names_home(&read(&file));
         assert!(lines.is_empty(), "{}: {lines:?}", file.display());
     }

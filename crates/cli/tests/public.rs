@@ -228,5 +228,5 @@ fn every_public_type_is_checked_to_be_send() {
         .iter()
         .map(|name| name.split('<').next().unwrap_or(name).replace(' ', ""))
         .collect();
-    assert_eq!(sent, public, "the list in tests/public/sent.rs");
+    assert_eq!(sent, public, "the list in crates/cli/tests/public/sent.rs");
 }

@@ -9,6 +9,16 @@
 //!
 //! Nothing here prints or knows an option: long work is followed by a [`Watcher`], and what cannot
 //! be done is a [`HostError`].
+//!
+//! ```
+//! use frictcomp_host::{EncodedText, decode};
+//!
+//! // An umlaut of an old system.
+//! assert_eq!(decode(b"N10 M30 (f\xfcr X)\n".to_vec()), "N10 M30 (für X)\n");
+//! let file = EncodedText::new(b"N10 M30 (f\xfcr X)\n".to_vec());
+//! assert_eq!(file.replaced([(4..7, "M2")])?, b"N10 M2 (f\xfcr X)\n");
+//! # Ok::<(), frictcomp_host::NotEncodable>(())
+//! ```
 
 mod agreed;
 mod assumed;

@@ -1,13 +1,33 @@
 //! What a CNC program makes the axes do, in numbers.
 //!
-//! The records of a [session](frictcomp::Session) go in. A [`motion::TrajectoryPlanner`] turns them into
-//! commanded traces, and a [`current::AdditiveCurrent`] traces into the currents that friction compensation
-//! adds; [`currents`] does both. [`simulation`] has feed drives with friction, on which [`circle`] simulates
-//! and judges circular tests and [`contour`] drives a program. [`compare`] lays two versions of a program side
-//! by side, and [`stiction`] has the formulas of the compensation of another control.
+//! In go the records of a [session](frictcomp::Session), the parameters of a machine, and a plant. A
+//! [`motion::TrajectoryPlanner`] turns records into commanded traces, and a [`current::AdditiveCurrent`]
+//! traces into the currents that friction compensation adds; [`currents`] does both. On feed drives with
+//! friction ([`simulation`]), [`circle`] simulates and judges circular tests, and [`contour`] drives a
+//! program. [`compare`] lays two versions of a program side by side, and [`stiction`] has the formulas of
+//! Heidenhain's stiction compensation.
 //!
 //! ```
-//! use frictcomp_physics::circle;
+//! use std::ops::ControlFlow;
+//!
+//! use frictcomp::{Machine, SourceFile};
+//! use frictcomp_physics::current::CurrentCycle;
+//!
+//! let machine = r#"
+//! [[axis]]
+//! name = "X"
+//! frict_comp = true
+//! value = { mode = 3, table = [[0, 126], [3000, 112]] }
+//! "#;
+//! let program = SourceFile::new("a.nc", "N10 G01 X0 F1500\nN20 X5\nN30 X0\nN40 M30\n");
+//! let mut most = 0.0_f64;
+//! let sink = |cycle: &CurrentCycle<'_>| {
+//!     most = most.max(cycle.axes[0].added.current_units);
+//!     ControlFlow::Continue(())
+//! };
+//! frictcomp_physics::currents(program, Machine::from_toml(machine)?, &["X".to_owned()], sink)?;
+//! assert!(most > 100.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub mod circle;

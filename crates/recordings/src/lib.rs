@@ -1,8 +1,18 @@
 //! Recorded traces of machines: what they hold, and the friction that they show.
 //!
-//! The bytes of a recording go in, from Scope, SINUMERIK or a plain table; a [`trace::TraceReader`] gives its
-//! channels with their times. [`identify`] finds friction curves and value lists in them, and judges a value
-//! list by them.
+//! In go the bytes of a recording from Scope, SINUMERIK or a plain table; a [`trace::TraceReader`] gives
+//! its channels with their times. [`identify`] finds friction curves and value lists in them, and
+//! judges a value list by them.
+//!
+//! ```
+//! use frictcomp_recordings::trace::{Choice, TraceReader};
+//!
+//! let mut reader = TraceReader::new(1000, |channels| Ok(Choice::all(channels, None)));
+//! reader.feed(b"t [s];torque [%]\n0.000;1.5\n0.001;1.7\n")?;
+//! let recording = reader.finish()?;
+//! assert_eq!(recording.kept().count(), 2);
+//! # Ok::<(), frictcomp_recordings::trace::TraceProblem>(())
+//! ```
 
 pub mod identify;
 pub mod trace;

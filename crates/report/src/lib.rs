@@ -1,7 +1,20 @@
-//! Records and diagnostics as bytes, one file a format. Nothing here computes anything.
+//! Records, messages and results as bytes: formats, pictures, HTML. Nothing here computes anything.
 //!
-//! Every timeline format is a [`Sink`](frictcomp::timeline::Sink) over a generic writer. The first error of the writer is
-//! kept and ends the dry run; a closed pipe is no error for the caller.
+//! Every format of the timeline is a [`Sink`](frictcomp::timeline::Sink) over a generic writer. The first error of the
+//! writer is kept and ends the dry run; a closed pipe is no error for the caller.
+//!
+//! ```
+//! use frictcomp::{Machine, SourceFile};
+//! use frictcomp_report::{Ndjson, View};
+//!
+//! let program = SourceFile::new("a.nc", "N10 X[COMP OFF FRICT]\nN20 M30\n");
+//! let mut records = Vec::new();
+//! let mut sink = Ndjson::new(&mut records, View::default());
+//! let _ = frictcomp::run(program, Machine::enabled(["X"]), &mut sink);
+//! drop(sink);
+//! assert!(String::from_utf8(records)?.contains(r#""record":"block""#));
+//! # Ok::<(), std::string::FromUtf8Error>(())
+//! ```
 
 mod advice;
 pub mod assumptions;

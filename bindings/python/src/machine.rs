@@ -42,8 +42,7 @@ impl PyMachine {
         variables: Option<HashMap<String, Given>>,
         allow_outside: bool,
     ) -> PyResult<Self> {
-        let mut options = MachineOptions::default();
-        options.configuration = match (config, isolated) {
+        let configuration = match (config, isolated) {
             (Some(_), true) => {
                 return Err(refused(
                     "a machine has a `config` or is `isolated`, not both",
@@ -53,8 +52,12 @@ impl PyMachine {
             (None, true) => ConfigurationChoice::Isolated,
             (None, false) => ConfigurationChoice::Nearest,
         };
-        options.startup = startup;
-        options.enable = enable.unwrap_or_default();
+        let mut options = MachineOptions {
+            configuration,
+            startup,
+            enable: enable.unwrap_or_default(),
+            ..MachineOptions::default()
+        };
         if allow_outside {
             options.elsewhere = Elsewhere::Allowed;
         }

@@ -262,7 +262,7 @@ fn stopped_with_open_ways() -> Snapshot {
     });
     assert_eq!(outcome, RunOutcome::Paused);
     let saved = snapshot(&run);
-    let ways = &document(&saved)["state"]["ways"];
+    let ways = &document(&saved)["state"]["track"]["ways"];
     assert!(
         ways["open"][0].is_object() && ways["end"].is_object(),
         "{ways}"
@@ -290,18 +290,18 @@ fn forged(place: &str, value: Value) -> Result<Interpreter, ResumeError> {
 fn a_snapshot_that_names_what_is_not_there_is_refused() {
     assert!(resume(stopped()).is_ok());
     for (place, value) in [
-        ("/state/frames/0/unit", json!(9)),
-        ("/state/frames/0/section", json!(9)),
-        ("/state/frames/0/next", json!(4_000_000)),
-        ("/state/frames/0/level", json!(4_000_000_000_u32)),
+        ("/state/control/frames/0/unit", json!(9)),
+        ("/state/control/frames/0/section", json!(9)),
+        ("/state/control/frames/0/next", json!(4_000_000)),
+        ("/state/control/frames/0/level", json!(4_000_000_000_u32)),
         ("/state/seq", json!(u64::MAX)),
         ("/state/blocks", json!(u64::MAX)),
         ("/state/effort/level", json!(u64::MAX)),
         ("/state/occurred", json!([true])),
-        ("/state/modal/positions", json!([])),
-        ("/state/modal/references", json!([1.0])),
-        ("/state/modal/suspended", json!([1.0])),
-        ("/state/couplings/holding", json!({"900": 1})),
+        ("/state/control/modal/positions", json!([])),
+        ("/state/control/modal/references", json!([1.0])),
+        ("/state/control/modal/suspended", json!([1.0])),
+        ("/state/control/couplings/holding", json!({"900": 1})),
         ("/state/parked", json!({"Jump": 4_000_000})),
         ("/executed/0/0", json!(4_000_000)),
         ("/executed", json!([[], [], [], [], [], []])),

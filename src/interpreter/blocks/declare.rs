@@ -20,12 +20,12 @@ impl Interpreter {
             };
             match self.target_place(place, at)? {
                 Place::Parameter(_, index) => {
-                    self.state.ways.write_anything(self.state.seq);
-                    self.state.memory.delete_parameter(index);
+                    self.state.track.ways.write_anything(self.state.seq);
+                    self.state.control.memory.delete_parameter(index);
                 }
                 Place::Variable(name) => {
-                    self.state.ways.write_anything(self.state.seq);
-                    self.state.memory.delete(&name);
+                    self.state.track.ways.write_anything(self.state.seq);
+                    self.state.control.memory.delete(&name);
                 }
                 unknown @ (Place::Elements(_, _) | Place::Parameters(_)) => {
                     self.write(unknown, Value::Number(0.0));
@@ -42,7 +42,7 @@ impl Interpreter {
         at: &At<'_>,
     ) -> Result<(), Box<Fault>> {
         self.journal.begin_anew();
-        self.state.ways.write_anything(self.state.seq);
+        self.state.track.ways.write_anything(self.state.seq);
         for declaration in declarations {
             let mut stack = std::mem::take(&mut self.work.stack);
             let dimensions = self.with_evaluator(at, |evaluator| {
@@ -61,7 +61,7 @@ impl Interpreter {
                 Value::Number(0.0)
             };
             self.work.wrote = true;
-            let memory = &mut self.state.memory;
+            let memory = &mut self.state.control.memory;
             if dimensions.is_empty() {
                 let value = values.into_iter().next().unwrap_or(default);
                 match name.strip_prefix('P').map(str::parse) {

@@ -58,7 +58,7 @@ impl Interpreter {
         span: Span,
         at: &At<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
-        let Some(frame) = self.state.frames.running_mut() else {
+        let Some(frame) = self.state.control.frames.running_mut() else {
             return Ok(None);
         };
         let entry = frame.next - 1;
@@ -162,7 +162,7 @@ impl Interpreter {
     }
 
     fn seek(&mut self, seeking: Seeking) {
-        if let Some(frame) = self.state.frames.running_mut() {
+        if let Some(frame) = self.state.control.frames.running_mut() {
             frame.seeking = Some(seeking);
         }
     }
@@ -213,7 +213,7 @@ impl Interpreter {
         let counter = &count.counter;
         let end = self.value(count.end, at)?;
         let step = self.value(count.step, at)?;
-        let region_end = self.state.frames.running().map_or(opener, |frame| {
+        let region_end = self.state.control.frames.running().map_or(opener, |frame| {
             self.programs.index(frame.unit).links(opener).end
         });
         for value in [counter, &end, &step] {
@@ -245,7 +245,7 @@ impl Interpreter {
         span: Span,
         at: &At<'_>,
     ) -> Result<Option<Step>, Box<Fault>> {
-        let Some(unit) = self.state.frames.running().map(|frame| frame.unit) else {
+        let Some(unit) = self.state.control.frames.running().map(|frame| frame.unit) else {
             return Ok(None);
         };
         let parsed = self.programs.parsed(unit, opener);
@@ -312,7 +312,7 @@ impl Interpreter {
                 return Ok(None);
             }
         };
-        let Some(frame) = self.state.frames.running() else {
+        let Some(frame) = self.state.control.frames.running() else {
             return Ok(None);
         };
         let found = self
@@ -372,7 +372,7 @@ impl Interpreter {
                 return None;
             }
             Flow::EndFor | Flow::EndDo(_) | Flow::EndWhile | Flow::Until(_) => {
-                let frame = self.state.frames.running()?;
+                let frame = self.state.control.frames.running()?;
                 self.programs.index(frame.unit).links(whole.start).opener..whole.start
             }
             _ => whole,

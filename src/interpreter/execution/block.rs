@@ -31,7 +31,7 @@ impl Interpreter {
         }
         self.move_around(words);
         self.carry_along(words);
-        if self.any_required && self.state.described.is_none() {
+        if self.any_required && self.state.control.described.is_none() {
             let goes_on = !self.work.diagnostics.iter().any(stops);
             if goes_on || self.options.stop != StopPolicy::FirstError {
                 self.check_required(words, at);
@@ -49,7 +49,7 @@ impl Interpreter {
         self.work.clear();
         self.state.seq += 1;
         self.state.blocks += 1;
-        if self.state.ways.has_targets() {
+        if self.state.track.ways.has_targets() {
             self.arrive(finder);
         }
         let mut intent = Intent::default();
@@ -94,11 +94,11 @@ impl Interpreter {
             Some(Step::End(ended_by(&self.work.diagnostics)))
         } else if undecided.is_some() {
             intent.step
-        } else if calls.is_empty() && intent.goes_on() && self.state.cycles.is_empty() {
+        } else if calls.is_empty() && intent.goes_on() && self.state.control.cycles.is_empty() {
             None
         } else {
             match self.step(intent, calls, at, finder) {
-                Some(Step::Jump(target)) if self.state.frames.is_passed(target) => {
+                Some(Step::Jump(target)) if self.state.control.frames.is_passed(target) => {
                     Some(self.come_round(target, at, finder))
                 }
                 step => step,
@@ -127,8 +127,8 @@ impl Interpreter {
             notes: &self.work.notes.borrow(),
             diagnostics: &self.work.diagnostics,
             stopped,
-            compensation: &self.state.compensation,
-            modal: &self.state.modal,
+            compensation: &self.state.control.compensation,
+            modal: &self.state.control.modal,
             occurred: &self.state.occurred,
             version: self.version,
         }));
@@ -196,7 +196,7 @@ impl Interpreter {
             intent.step = Some(Step::Call(calls));
         }
         if let Some(by) = intent.end {
-            if self.state.ending.is_none() && at.level > 0 {
+            if self.state.control.ending.is_none() && at.level > 0 {
                 let fault = Fault::new(
                     Code::Fc315,
                     Span::new(0, at.text.len()),
@@ -205,7 +205,7 @@ impl Interpreter {
                 .with_help("end a subprogram with `M17` or `M29`");
                 self.work.diagnostics.push(at.diagnostic(fault));
             }
-            if at.used.is_none() && self.state.ending.is_none() {
+            if at.used.is_none() && self.state.control.ending.is_none() {
                 self.work.end = Some(OwnEnd {
                     place: at.place(Span::new(0, at.text.len())),
                     is_passed_into: !self.may_be_jumped_to(at),
@@ -225,7 +225,7 @@ impl Interpreter {
 
     /// Whether a jump of the running program may go to the block.
     fn may_be_jumped_to(&self, at: &At<'_>) -> bool {
-        let Some(frame) = self.state.frames.running() else {
+        let Some(frame) = self.state.control.frames.running() else {
             return true;
         };
         let labels = at.block.items.iter();

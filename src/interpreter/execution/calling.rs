@@ -11,16 +11,17 @@ use crate::syntax::ast::CallForm;
 impl Interpreter {
     pub(in crate::interpreter) fn push_call(&mut self, request: Request) {
         let ProgramId { unit, section } = request.found;
-        let level = self.state.frames.level() + 1;
+        let level = self.state.control.frames.level() + 1;
         self.state
+            .control
             .memory
             .enter_call(usize::try_from(level).unwrap_or(usize::MAX));
         let restores = match request.form {
             CallForm::Plain => None,
-            CallForm::Cycle => Some(Box::new(self.state.modal.save())),
+            CallForm::Cycle => Some(Box::new(self.state.control.modal.save())),
         };
         self.journal.begin_anew();
-        self.state.frames.push(Frame {
+        self.state.control.frames.push(Frame {
             unit,
             section,
             next: request.passage.map_or(
@@ -39,19 +40,21 @@ impl Interpreter {
     }
 
     pub(in crate::interpreter) fn leave(&mut self) {
-        if let Some(frame) = self.state.frames.pop() {
+        if let Some(frame) = self.state.control.frames.pop() {
             self.journal.begin_anew();
             self.state
+                .control
                 .memory
                 .leave_call(usize::try_from(frame.level).unwrap_or(usize::MAX));
             if let Some(saved) = &frame.restores {
-                let kept = (frame.retains == Retains::Perhaps).then(|| self.state.modal.clone());
-                self.state.modal.restore(saved);
+                let kept =
+                    (frame.retains == Retains::Perhaps).then(|| self.state.control.modal.clone());
+                self.state.control.modal.restore(saved);
                 if let Some(kept) = kept {
-                    self.state.modal.doubt(&kept);
+                    self.state.control.modal.doubt(&kept);
                 }
             }
-            if self.state.ways.has_targets() {
+            if self.state.track.ways.has_targets() {
                 self.leave_ways(&frame);
             }
         }
@@ -60,7 +63,7 @@ impl Interpreter {
     /// Calls the next of several programs that one block calls.
     #[cold]
     pub(in crate::interpreter) fn call_waiting(&mut self) {
-        let frame = self.state.frames.running_mut();
+        let frame = self.state.control.frames.running_mut();
         if let Some(request) = frame.and_then(|frame| frame.waiting.pop()) {
             self.push_call(request);
         }
@@ -69,7 +72,7 @@ impl Interpreter {
     /// A part of a program begins once more, or a program is left.
     pub(in crate::interpreter) fn end_of_pass(&mut self) {
         let executed = self.state.seq;
-        let frame = self.state.frames.running_mut();
+        let frame = self.state.control.frames.running_mut();
         let again = frame.and_then(|frame| {
             let start = frame.passage.as_mut()?.again(executed)?;
             frame.next = start;
@@ -85,13 +88,14 @@ impl Interpreter {
     pub(in crate::interpreter) fn go_back(&mut self, to: &Destination) {
         while self
             .state
+            .control
             .frames
             .running()
             .is_some_and(|frame| frame.level > to.level)
         {
             self.leave();
         }
-        if let Some(frame) = self.state.frames.running_mut() {
+        if let Some(frame) = self.state.control.frames.running_mut() {
             frame.waiting.clear();
             if let Some(entry) = to.entry {
                 frame.next = entry;
@@ -102,7 +106,7 @@ impl Interpreter {
 
     pub(in crate::interpreter) fn enter(&mut self, unit: usize, section: usize) {
         let next = self.programs.section(ProgramId { unit, section }).start;
-        self.state.frames.push(Frame {
+        self.state.control.frames.push(Frame {
             unit,
             section,
             next,

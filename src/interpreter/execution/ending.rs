@@ -46,7 +46,7 @@ impl Interpreter {
         };
         let mut notes = self.refused();
         notes.extend(self.work.over.take());
-        if by == EndedBy::EndOfFile && !self.state.frames.is_empty() {
+        if by == EndedBy::EndOfFile && !self.state.control.frames.is_empty() {
             notes.extend(self.missing_end());
         }
         if self.options.stop == StopPolicy::CheckAll {
@@ -87,13 +87,13 @@ impl Interpreter {
         let at = self.work.end.take();
         let ends = self.all_ends(at.as_ref());
         let mut changes = std::mem::take(&mut self.work.changes);
-        changes.extend(self.state.compensation.program_end());
+        changes.extend(self.state.control.compensation.program_end());
         if !changes.is_empty() {
             self.version += 1;
         }
-        self.state.frames.clear();
+        self.state.control.frames.clear();
         self.release_couplings();
-        self.state.couplings.end_following();
+        self.state.control.couplings.end_following();
         // The observer wants no more, or it does not: the program has ended either way.
         let _ = observer.event(Event::Ended(Ended {
             seq: self.state.seq,
@@ -105,7 +105,7 @@ impl Interpreter {
             changes: &changes,
             diagnostics: &notes.said,
             unsaid: &notes.unsaid,
-            compensation: &self.state.compensation,
+            compensation: &self.state.control.compensation,
             occurred: &self.state.occurred,
             version: self.version,
         }));
@@ -114,8 +114,8 @@ impl Interpreter {
 
     /// Every end that the program may reach, with the state that is left there.
     fn all_ends(&mut self, at: Option<&OwnEnd>) -> Vec<ProgramEnd> {
-        let others = std::mem::take(&mut self.state.ways.ends);
-        let own = self.state.ways.own.take();
+        let others = std::mem::take(&mut self.state.track.ways.ends);
+        let own = self.state.track.ways.own.take();
         let last = self.state.last.as_ref().map(|last| Place {
             file: last.file.clone(),
             text: last.text.as_str().into(),
@@ -142,7 +142,7 @@ impl Interpreter {
 
     /// The state after a program end with these kinds.
     fn left_with(&self, kinds: Option<&[AxisKinds]>) -> Compensation {
-        let mut compensation = self.state.compensation.clone();
+        let mut compensation = self.state.control.compensation.clone();
         for (position, kinds) in kinds.unwrap_or_default().iter().enumerate() {
             let axis = AxisIndex::new(position);
             compensation.restore(axis, kinds.selected, kinds.unknown);

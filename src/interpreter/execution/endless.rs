@@ -67,9 +67,9 @@ impl Interpreter {
 
     /// Counts a pass of a loop; why it need not be run any further, where that is so.
     fn note_pass(&mut self, target: EntryIndex) -> Option<Enough> {
-        let depth = self.state.frames.depth();
-        let place = self.state.frames.program()?;
-        let from = self.state.frames.running()?.next.checked_sub(1)?;
+        let depth = self.state.control.frames.depth();
+        let place = self.state.control.frames.program()?;
+        let from = self.state.control.frames.running()?.next.checked_sub(1)?;
         let index = self.programs.index(place.unit);
         // A `$FOR` goes back to the block after its opener.
         let head = if index.is_linked(from) {
@@ -77,17 +77,17 @@ impl Interpreter {
         } else {
             target
         };
-        while let Some(last) = self.state.loops.last() {
+        while let Some(last) = self.state.track.loops.last() {
             let stays =
                 last.depth < depth || (last.depth == depth && last.is_around(place, head, from));
             if stays {
                 break;
             }
-            self.state.loops.pop();
+            self.state.track.loops.pop();
         }
-        let known = self.state.loops.last();
+        let known = self.state.track.loops.last();
         if known.is_none_or(|last| last.depth < depth || last.head != head) {
-            self.state.loops.push(Loop {
+            self.state.track.loops.push(Loop {
                 depth,
                 unit: place.unit,
                 section: place.section,
@@ -99,7 +99,7 @@ impl Interpreter {
                 endless: None,
             });
         }
-        let last = self.state.loops.last_mut()?;
+        let last = self.state.track.loops.last_mut()?;
         last.from = last.from.max(from);
         last.passes += 1;
         let (passes, is_due) = (last.passes, last.is_due());
@@ -121,7 +121,7 @@ impl Interpreter {
     /// Whether the state is that of an earlier pass; if there is none, it is kept for that.
     #[cold]
     fn repeats(&mut self) -> bool {
-        let Some(mut last) = self.state.loops.pop() else {
+        let Some(mut last) = self.state.track.loops.pop() else {
             return false;
         };
         if let Some(mark) = &last.mark {
@@ -129,12 +129,21 @@ impl Interpreter {
             if last.passes >= mark.pass + LONGEST_PERIOD {
                 last.mark = None;
             }
-        } else if self.state.memory.weight() <= MAX_WEIGHT {
-            last.mark = Some(Box::new(mark_of(&self.state, last.passes)));
+        } else if self.state.control.memory.weight() <= MAX_WEIGHT {
+            last.mark = Some(Box::new(Mark {
+                pass: last.passes,
+                control: self.state.control.clone(),
+                occurred: self.state.occurred.clone(),
+            }));
         }
         let repeats = last.endless.is_some();
-        self.state.loops.push(last);
-        self.state.watching = self.state.loops.iter().any(|known| known.mark.is_some());
+        self.state.track.loops.push(last);
+        self.state.watching = self
+            .state
+            .track
+            .loops
+            .iter()
+            .any(|known| known.mark.is_some());
         if !self.state.watching {
             *self.state.reads.borrow_mut() = Reads::default();
         }
@@ -143,21 +152,24 @@ impl Interpreter {
 
     /// The value that may end a loop which was left often enough.
     fn left_often(&self, unit: usize, head: EntryIndex) -> Option<Arc<str>> {
-        let mut left = self.state.left_loops.iter();
+        let mut left = self.state.track.left_loops.iter();
         let found = left.find(|it| (it.unit, it.head) == (unit, head))?;
         (found.times >= RUN_THROUGH).then(|| found.cause.clone())
     }
 
     /// Where the innermost loop may be left.
     fn way_out(&self) -> Option<WayOut> {
-        let last = self.state.loops.last()?;
-        self.state.ways.out_of(last.depth, last.from, last.since)
+        let last = self.state.track.loops.last()?;
+        self.state
+            .track
+            .ways
+            .out_of(last.depth, last.from, last.since)
     }
 
     /// Makes unknown what the innermost loop could change in the passes that are not run.
     #[cold]
     fn forget_loop(&mut self, cause: &Arc<str>, finder: &mut dyn Finder) {
-        let Some(last) = self.state.loops.last() else {
+        let Some(last) = self.state.track.loops.last() else {
             return;
         };
         let (unit, head, from) = (last.unit, last.head, last.from);
@@ -179,12 +191,12 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Option<Step> {
-        let known = self.state.loops.pop()?;
+        let known = self.state.track.loops.pop()?;
         let (unit, head) = (known.unit, known.head);
-        let mut left = self.state.left_loops.iter_mut();
+        let mut left = self.state.track.left_loops.iter_mut();
         match left.find(|it| (it.unit, it.head) == (unit, head)) {
             Some(left) => left.times = left.times.saturating_add(1),
-            None => self.state.left_loops.push(LeftLoop {
+            None => self.state.track.left_loops.push(LeftLoop {
                 unit,
                 head,
                 times: 1,
@@ -221,7 +233,7 @@ impl Interpreter {
 
     /// FC910 where the innermost loop is known to be endless.
     pub(in crate::interpreter) fn endless_loop(&self) -> Option<Diagnostic> {
-        let known = self.state.loops.last()?;
+        let known = self.state.track.loops.last()?;
         let counters = known.endless.as_ref()?;
         Some(self.endless(known, counters))
     }
@@ -247,50 +259,20 @@ impl Interpreter {
 
     /// How often the loop that begins at a block was repeated.
     pub(in crate::interpreter) fn passes(&self, unit: usize, opener: EntryIndex) -> Option<u64> {
-        let loops = self.state.loops.iter().rev();
+        let loops = self.state.track.loops.iter().rev();
         let mut known = loops.filter(|known| known.unit == unit);
         let found = known.find(|known| known.head == opener);
         found.map(|known| known.passes)
     }
 }
 
-/// The state at the start of a pass.
-fn mark_of(state: &State, pass: u64) -> Mark {
-    Mark {
-        pass,
-        compensation: state.compensation.clone(),
-        memory: state.memory.clone(),
-        modal: state.modal.clone(),
-        frames: state.frames.clone(),
-        occurred: state.occurred.clone(),
-        couplings: state.couplings.clone(),
-        cycles: state.cycles.clone(),
-        refused: state.refused.clone(),
-        ending: state.ending,
-        named: state.named.clone(),
-        channel_axes: state.channel_axes.clone(),
-        described: state.described.clone(),
-    }
-}
-
 /// What differs from the state of the moment, where that only counts; `None` where anything
 /// else differs.
 fn counters(mark: &Mark, state: &State) -> Option<Vec<Target>> {
-    let same = mark.frames == state.frames
-        && mark.modal == state.modal
-        && mark.compensation == state.compensation
-        && mark.occurred == state.occurred
-        && mark.couplings.is_like(&state.couplings)
-        && mark.cycles == state.cycles
-        && mark.refused == state.refused
-        && mark.ending == state.ending
-        && mark.named == state.named
-        && mark.channel_axes == state.channel_axes
-        && mark.described == state.described;
-    if !same {
+    if mark.occurred != state.occurred {
         return None;
     }
-    let differing = mark.memory.differing_numbers(&state.memory)?;
+    let differing = mark.control.differing_numbers(&state.control)?;
     let reads = state.reads.borrow();
     let only_counts = differing.iter().all(|target| !reads.has(target));
     only_counts.then_some(differing)

@@ -8,18 +8,19 @@ impl Interpreter {
     /// What the next program finds.
     pub fn carried(&self) -> Carried {
         let name = |axis: &AxisIndex| self.machine.axis(*axis).name.clone();
-        let couplings = self.state.couplings.groups();
+        let couplings = self.state.control.couplings.groups();
         Carried {
             couplings: couplings
                 .map(|(group, axes)| (group.to_owned(), axes.iter().map(name).collect()))
                 .collect(),
             lost_couplings: self
                 .state
+                .control
                 .couplings
                 .lost()
                 .map(|axis| name(&axis))
                 .collect(),
-            ..self.state.memory.carried(self.machine.parameters)
+            ..self.state.control.memory.carried(self.machine.parameters)
         }
     }
 
@@ -28,21 +29,21 @@ impl Interpreter {
         for (group, names) in &carried.couplings {
             let found = names.iter().filter_map(|name| self.machine.find(name));
             let axes = found.collect();
-            self.state.couplings.define(group, axes);
+            self.state.control.couplings.define(group, axes);
         }
         if !carried.lost_couplings.is_empty() {
             let names = carried.lost_couplings.iter();
             let axes = names.filter_map(|name| self.machine.find(name));
-            self.state.couplings.lose(axes);
+            self.state.control.couplings.lose(axes);
         }
-        self.state.memory.take_over(carried);
+        self.state.control.memory.take_over(carried);
         self.journal.begin_anew();
     }
 
     /// Takes over the position of an axis, and that a program named it.
     pub fn place_axis(&mut self, axis: AxisIndex, position: Option<f64>) {
         self.state.occurred[axis.get()] = true;
-        self.state.modal.place(axis, position);
+        self.state.control.modal.place(axis, position);
         self.version += 1;
     }
 }

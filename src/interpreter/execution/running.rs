@@ -18,8 +18,14 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> RunOutcome {
         loop {
-            let Some(frame) = self.state.frames.running() else {
-                return RunOutcome::Ended(self.state.ending.take().unwrap_or(EndedBy::EndOfFile));
+            let Some(frame) = self.state.control.frames.running() else {
+                return RunOutcome::Ended(
+                    self.state
+                        .control
+                        .ending
+                        .take()
+                        .unwrap_or(EndedBy::EndOfFile),
+                );
             };
             let (unit, section, next) = (frame.unit, frame.section, frame.next);
             if !frame.waiting.is_empty() {
@@ -37,7 +43,7 @@ impl Interpreter {
             }
             let is_repeated = self.programs.was_read(unit, next);
             let parsed = self.programs.parsed(unit, next);
-            if let Some(frame) = self.state.frames.running_mut() {
+            if let Some(frame) = self.state.control.frames.running_mut() {
                 frame.next = next + 1;
             }
             if self.is_skipped(&parsed.block) {
@@ -45,10 +51,11 @@ impl Interpreter {
             }
             let called_from = self
                 .state
+                .control
                 .frames
                 .running_mut()
                 .and_then(|frame| frame.called_from.take());
-            let level = self.state.frames.level();
+            let level = self.state.control.frames.level();
             let shown = Shown::default();
             let at = At::of_parsed(&parsed, level, &shown).with_caller(called_from.as_ref());
             if let Some(over) = self.over_budget(&at) {
@@ -56,7 +63,7 @@ impl Interpreter {
                 self.work.over = Some(over);
                 return RunOutcome::Ended(EndedBy::Budget);
             }
-            let depth = self.state.frames.depth();
+            let depth = self.state.control.frames.depth();
             let spent = self.state.effort.spent();
             let flow = self.execute(&at, finder, observer);
             if is_repeated {
@@ -64,7 +71,7 @@ impl Interpreter {
                     .effort
                     .repeat(parsed.weight, self.work.said, spent);
             }
-            if let Some(frame) = self.state.frames.at_depth_mut(depth) {
+            if let Some(frame) = self.state.control.frames.at_depth_mut(depth) {
                 frame.called_from = called_from;
             }
             let step = match flow {
@@ -92,7 +99,7 @@ impl Interpreter {
                     self.work.endless = true;
                     return ControlFlow::Break(EndedBy::Budget);
                 }
-                if let Some(frame) = self.state.frames.running_mut() {
+                if let Some(frame) = self.state.control.frames.running_mut() {
                     frame.next = entry;
                 }
             }
@@ -100,13 +107,13 @@ impl Interpreter {
                 let Some(first) = (!requests.is_empty()).then(|| requests.remove(0)) else {
                     return ControlFlow::Continue(());
                 };
-                if let Some(frame) = self.state.frames.running_mut() {
+                if let Some(frame) = self.state.control.frames.running_mut() {
                     requests.reverse();
                     frame.waiting = requests;
                 }
                 self.push_call(first);
             }
-            Step::Return => match self.state.frames.running() {
+            Step::Return => match self.state.control.frames.running() {
                 Some(frame) if frame.level > 0 => self.end_of_pass(),
                 _ => {
                     // A subprogram run by itself ends as it should.

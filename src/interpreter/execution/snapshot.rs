@@ -65,7 +65,7 @@ pub enum ResumeError {
 
 impl Snapshot {
     /// The number of the format that is written and read.
-    pub const SCHEMA: u32 = 5;
+    pub const SCHEMA: u32 = 6;
 
     /// The number of the format that the snapshot has.
     pub fn schema(&self) -> u32 {
@@ -146,7 +146,12 @@ impl Interpreter {
             return Err(ResumeError::Damaged("its content is not what was saved"));
         }
         let machine = machine.into();
-        if !snapshot.state.compensation.fits(machine.axis_setups()) {
+        if !snapshot
+            .state
+            .control
+            .compensation
+            .fits(machine.axis_setups())
+        {
             return Err(ResumeError::OtherMachine);
         }
         let mut resumed = Self::with_state(machine, options, snapshot.state);

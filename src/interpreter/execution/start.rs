@@ -97,23 +97,26 @@ impl Interpreter {
 
     /// Prepares the state for a program start.
     pub(in crate::interpreter) fn start(&mut self) {
-        self.state.modal = self.state.modal.next_program(&self.machine.channel);
-        self.state.memory.start_program(self.machine.parameters);
-        self.state.frames.clear();
+        self.state.control.modal = self.state.control.modal.next_program(&self.machine.channel);
+        self.state
+            .control
+            .memory
+            .start_program(self.machine.parameters);
+        self.state.control.frames.clear();
         self.state.seq = 0;
-        self.state.cycles = ModalCycles::default();
-        self.state.loops.clear();
-        self.state.left_loops.clear();
+        self.state.control.cycles = ModalCycles::default();
+        self.state.track.loops.clear();
+        self.state.track.left_loops.clear();
         self.state.watching = false;
-        self.state.refused.clear();
+        self.state.control.refused.clear();
         self.state.once.clear();
-        self.state.ending = None;
+        self.state.control.ending = None;
         self.state.last = None;
         self.state.parked = None;
-        self.state.named.clear();
-        self.state.channel_axes = ChannelAxes::default();
-        self.state.described = None;
-        self.state.ways = Ways::default();
+        self.state.control.named.clear();
+        self.state.control.channel_axes = ChannelAxes::default();
+        self.state.control.described = None;
+        self.state.track.ways = Ways::default();
         self.state.told = Told::default();
         self.programs.clear();
         self.pending.clear();
@@ -131,7 +134,7 @@ impl Interpreter {
     ) -> ControlFlow<()> {
         observer.event(Event::Started {
             name,
-            compensation: &self.state.compensation,
+            compensation: &self.state.control.compensation,
             occurred: &self.state.occurred,
             version: self.version,
         })

@@ -27,21 +27,31 @@ impl Interpreter {
         self.check_ways()?;
         let state = &self.state;
         let begins = !self.programs.units().is_empty()
-            || (state.frames.is_empty() && state.parked.is_none());
+            || (state.control.frames.is_empty() && state.parked.is_none());
         holds(begins, "a run without a file")
     }
 
     fn check_axes(&self) -> Doubt {
         let (state, axes) = (&self.state, self.machine.axes.len());
         holds(state.occurred.len() == axes, "occurrences of other axes")?;
-        let described = state.described.iter().map(|described| &described.before);
-        let mut modals = described.chain([&state.modal]);
+        let described = state
+            .control
+            .described
+            .iter()
+            .map(|described| &described.before);
+        let mut modals = described.chain([&state.control.modal]);
         holds(
             modals.all(|modal| modal.fits(axes)),
             "positions of other axes",
         )?;
-        holds(state.couplings.fits(axes), "a coupling of other axes")?;
-        holds(state.channel_axes.fits(axes), "a name of another axis")
+        holds(
+            state.control.couplings.fits(axes),
+            "a coupling of other axes",
+        )?;
+        holds(
+            state.control.channel_axes.fits(axes),
+            "a name of another axis",
+        )
     }
 
     fn check_counters(&self) -> Doubt {
@@ -55,7 +65,7 @@ impl Interpreter {
         ];
         let counted = counted.iter().all(|count| *count < MOST_COUNTED);
         holds(counted, "a counter that is too large")?;
-        let mut loops = state.loops.iter();
+        let mut loops = state.track.loops.iter();
         let loops = loops.all(|known| known.fits(MOST_COUNTED) && self.has(known.program()));
         holds(loops, "a loop in a program that is not there")?;
         let lines = state.last.iter().all(|last| last.line < MOST_LINES);
@@ -63,22 +73,31 @@ impl Interpreter {
     }
 
     fn check_frames(&self) -> Doubt {
-        let frames = self.state.frames.iter().all(|frame| self.has_frame(frame));
+        let frames = self
+            .state
+            .control
+            .frames
+            .iter()
+            .all(|frame| self.has_frame(frame));
         holds(frames, "a block that is not there")
     }
 
     fn check_calls(&self) -> Doubt {
         let state = &self.state;
-        holds(self.has_cycles(&state.cycles), "a cycle that is not there")?;
+        holds(
+            self.has_cycles(&state.control.cycles),
+            "a cycle that is not there",
+        )?;
         let parked = match &state.parked {
             Some(Step::Jump(entry)) => state
+                .control
                 .frames
                 .running()
                 .is_some_and(|frame| self.has_block(frame.program(), *entry)),
             Some(Step::Call(requests)) => requests.iter().all(|request| self.has_request(request)),
             Some(Step::ReturnTo(back)) => back.entry.is_none_or(|entry| {
                 let to = |frame: &&Frame| frame.level <= back.level;
-                let frame = state.frames.iter().rev().find(to);
+                let frame = state.control.frames.iter().rev().find(to);
                 frame.is_none_or(|frame| self.has_block(frame.program(), entry))
             }),
             Some(Step::Begin | Step::Return | Step::End(_)) | None => true,
@@ -87,7 +106,7 @@ impl Interpreter {
     }
 
     fn check_ways(&self) -> Doubt {
-        let ways = &self.state.ways;
+        let ways = &self.state.track.ways;
         let axes = self.machine.axes.len();
         holds(ways.fit(axes), "a way of other axes")?;
         let tails = ways.tails().all(|(place, _)| self.has(place));
@@ -110,8 +129,8 @@ impl Interpreter {
 
     fn has_frame(&self, frame: &Frame) -> bool {
         let program = frame.program();
-        let is_deep =
-            usize::try_from(frame.level).is_ok_and(|level| level > self.state.frames.depth());
+        let is_deep = usize::try_from(frame.level)
+            .is_ok_and(|level| level > self.state.control.frames.depth());
         let called = frame.called_from.iter();
         !is_deep
             && self.has_block(program, frame.next)

@@ -5,16 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::channel_axes::ChannelAxes;
-use super::coupling::Couplings;
-use super::cycles::ModalCycles;
+use super::control::ControlState;
 use super::journal::{Journal, Regions, Scan};
 use super::options::{Handed, Options};
-use super::stack::CallStack;
-use super::state::State;
+use super::state::{State, Track};
 use super::step::Sought;
 use super::undecided::Told;
-use super::ways::{Departing, Ways};
+use super::ways::Departing;
 use super::work::Work;
 use crate::comp::{AxisIndex, Compensation, KindSet};
 use crate::diagnostic::Collected;
@@ -22,7 +19,6 @@ use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Programs;
 use crate::interpreter::values::effort::Effort;
-use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::value::Value;
 use crate::machine::{AxisSet, Machine, Setting};
 use crate::syntax::SkipLevels;
@@ -92,31 +88,20 @@ impl Interpreter {
             .iter()
             .map(|axis| configured || axis.frict_comp_origin != crate::machine::Origin::Default)
             .collect();
+        let modal = Modal::at_start(axes, &machine.channel);
         let state = State {
-            compensation,
-            memory: Memory::default(),
-            modal: Modal::at_start(axes, &machine.channel),
-            frames: CallStack::default(),
+            control: ControlState::new(compensation, modal),
+            track: Track::default(),
             seq: 0,
             blocks: 0,
             effort: Effort::default(),
             opaque: BTreeMap::new(),
             once: BTreeSet::new(),
             occurred,
-            couplings: Couplings::default(),
-            channel_axes: ChannelAxes::default(),
-            cycles: ModalCycles::default(),
-            loops: Vec::new(),
-            left_loops: Vec::new(),
             watching: false,
             reads: RefCell::default(),
-            refused: BTreeSet::new(),
-            ending: None,
             last: None,
             parked: None,
-            named: BTreeMap::new(),
-            described: None,
-            ways: Ways::default(),
             told: Told::default(),
         };
         let mut interpreter = Self::with_state(machine, options, state);
@@ -164,7 +149,7 @@ impl Interpreter {
 
     /// Gives a variable the value that only the machine knows (R2.36).
     pub fn set(&mut self, name: &str, setting: &Setting) {
-        self.state.memory.give(name, setting.into());
+        self.state.control.memory.give(name, setting.into());
         self.journal.begin_anew();
     }
 
@@ -172,7 +157,7 @@ impl Interpreter {
     /// is passed over.
     pub fn place(&mut self, name: &str, position: f64) {
         if let Some(axis) = self.axis_named(name) {
-            self.state.modal.place(axis, Some(position));
+            self.state.control.modal.place(axis, Some(position));
         }
     }
 
@@ -183,7 +168,7 @@ impl Interpreter {
 
     /// The compensation state of the moment.
     pub fn compensation(&self) -> &Compensation {
-        &self.state.compensation
+        &self.state.control.compensation
     }
 
     /// The axes that occurred so far, by position; every axis of a configured machine.
@@ -214,37 +199,37 @@ impl Interpreter {
 
     /// The position of an axis after the last block: the programmed coordinate in mm or degrees.
     pub fn position(&self, axis: AxisIndex) -> AxisPosition {
-        self.state.modal.position(axis)
+        self.state.control.modal.position(axis)
     }
 
     /// The G functions in force.
     pub fn modal(&self) -> &Modal {
-        &self.state.modal
+        &self.state.control.modal
     }
 
     /// The `V.S.` variables, which outlive programs (R2.34).
     pub fn shared_variables(&self) -> BTreeMap<String, Value> {
-        self.state.memory.shared()
+        self.state.control.memory.shared()
     }
 
     /// The values that the running program sees, by name: the own parameters of its call, the
     /// parameters in the order of their numbers, and the variables.
     pub fn values(&self) -> Vec<(String, Value)> {
-        let running = self.state.frames.running();
+        let running = self.state.control.frames.running();
         let own = running.into_iter().flat_map(|frame| &frame.own);
         let own = own.map(|(index, value)| (format!("@P{index}"), value.clone()));
-        own.chain(self.state.memory.all()).collect()
+        own.chain(self.state.control.memory.all()).collect()
     }
 
     /// Takes over the compensation state of an earlier session.
     pub fn set_compensation(&mut self, compensation: Compensation) {
-        self.state.compensation = compensation;
+        self.state.control.compensation = compensation;
         self.version += 1;
     }
 
     /// The axis that `@X` means in the plane in force.
     pub(in crate::interpreter) fn main_axis(&self, letter: u8) -> Option<AxisIndex> {
-        let letter = self.state.modal.main_axis(letter)?;
+        let letter = self.state.control.modal.main_axis(letter)?;
         self.letters[usize::from(letter - b'A')]
     }
 
@@ -293,7 +278,7 @@ impl Interpreter {
     /// The level that decides whether the parts of a control block belong together: one of them has a
     /// skip mark and its opener has none.
     pub(in crate::interpreter) fn split_level(&self) -> Option<u8> {
-        let frame = self.state.frames.running()?;
+        let frame = self.state.control.frames.running()?;
         let entry = frame.next.checked_sub(1)?;
         let level = self.programs.index(frame.unit).split.get(&entry).copied()?;
         self.skip_levels().is_none().then_some(level)
@@ -320,13 +305,13 @@ impl Interpreter {
     /// 208400267).
     pub(in crate::interpreter) fn define_machine_macros(&mut self) {
         for (name, code) in &self.machine.programs.macros {
-            self.state.memory.define_macro(name, code);
+            self.state.control.memory.define_macro(name, code);
         }
     }
 
     /// The statement that is executed and the end of its control block.
     pub(in crate::interpreter) fn current_block(&self) -> Range<EntryIndex> {
-        self.state.frames.running().map_or(0..0, |frame| {
+        self.state.control.frames.running().map_or(0..0, |frame| {
             let entry = frame.next - 1;
             entry..self.programs.index(frame.unit).links(entry).end
         })
@@ -334,7 +319,7 @@ impl Interpreter {
 
     /// Kinds of an axis become unknown.
     pub(in crate::interpreter) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
-        let compensation = &mut self.state.compensation;
+        let compensation = &mut self.state.control.compensation;
         compensation.forget(axis, kinds, &mut self.work.changes);
         let doubted = compensation.unknown(axis).intersection(kinds);
         if !doubted.is_empty() {

@@ -1,22 +1,12 @@
 //! The loops that a run repeats, and the state at an earlier pass of each (R2.84).
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::channel_axes::ChannelAxes;
-use super::coupling::Couplings;
-use super::cycles::ModalCycles;
-use super::description::Description;
-use super::event::EndedBy;
-use super::stack::CallStack;
-use crate::comp::Compensation;
-use crate::interpreter::coordinates::modal::Modal;
+use super::control::ControlState;
 use crate::interpreter::programs::index::{EntryIndex, ProgramId};
-use crate::interpreter::values::memory::Memory;
 use crate::interpreter::values::target::Target;
-use crate::interpreter::values::value::Value;
 
 /// A loop that was repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -80,22 +70,12 @@ pub(in crate::interpreter) struct LeftLoop {
     pub(in crate::interpreter) cause: Arc<str>,
 }
 
-/// Everything that the blocks of a program can see or change.
+/// The state at the start of a pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Mark {
     pub(in crate::interpreter) pass: u64,
-    pub(in crate::interpreter) compensation: Compensation,
-    pub(in crate::interpreter) memory: Memory,
-    pub(in crate::interpreter) modal: Modal,
-    pub(in crate::interpreter) frames: CallStack,
+    pub(in crate::interpreter) control: ControlState,
     pub(in crate::interpreter) occurred: Vec<bool>,
-    pub(in crate::interpreter) couplings: Couplings,
-    pub(in crate::interpreter) cycles: ModalCycles,
-    pub(in crate::interpreter) refused: BTreeSet<usize>,
-    pub(in crate::interpreter) ending: Option<EndedBy>,
-    pub(in crate::interpreter) named: BTreeMap<String, Value>,
-    pub(in crate::interpreter) channel_axes: ChannelAxes,
-    pub(in crate::interpreter) described: Option<Box<Description>>,
 }
 
 /// The pass after which a loop is looked at for the first time, then at each doubling.

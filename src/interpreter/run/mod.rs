@@ -2,6 +2,7 @@
 
 pub(super) mod at;
 pub(super) mod channel_axes;
+pub(super) mod control;
 pub(super) mod coupling;
 pub(super) mod cycles;
 pub(super) mod description;

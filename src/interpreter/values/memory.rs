@@ -1,12 +1,13 @@
 //! Parameters, variables and macros of a run.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::carried::Carried;
-use super::names::{Array, Names, Weight, compare, parts, sorted, weight};
+use super::names::{Array, Names, Weight, compare, join_value, parts, sorted, weight};
+use super::shared::Shared;
 use super::target::Target;
 use super::value::Value;
 use super::variable::set_name;
@@ -16,24 +17,30 @@ use crate::syntax::ast::Owner;
 /// Parameters up to this number have a place in a vector of their own.
 const DIRECT: u32 = 1024;
 
+/// The code of each macro, or why it is not known.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+struct Macros {
+    #[serde(serialize_with = "sorted")]
+    code: HashMap<String, Value>,
+}
+
 /// Everything a program can write and read back.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::interpreter) struct Memory {
-    direct: Vec<Option<Value>>,
-    parameters: BTreeMap<u32, Value>,
+    direct: Shared<Vec<Option<Value>>>,
+    parameters: Shared<BTreeMap<u32, Value>>,
     /// Set when some parameter was written, but it is not known which: the value that made it so.
     lost: Option<Arc<str>>,
     /// `V.P.`, `V.S.`, `V.CYC.`, `V.E.` … and arrays of P parameters.
-    variables: Names,
+    variables: Shared<Names>,
     /// What the user said that parameters and variables hold which no program wrote.
-    given: BTreeMap<String, Value>,
+    given: Shared<BTreeMap<String, Value>>,
     /// Set when any of those that programs write may have been: the text that made it so.
     unknown_names: Option<Arc<str>>,
     /// `V.L.` of each call level.
-    locals: Vec<Names>,
-    /// The code of each, or why it is not known.
-    #[serde(serialize_with = "sorted")]
-    macros: HashMap<String, Value>,
+    locals: Vec<Shared<Names>>,
+    macros: Shared<Macros>,
     /// Rises with every change of the macros.
     macro_version: u64,
     /// The weight of parameters beyond the direct ones, and of macros.
@@ -125,7 +132,7 @@ impl Memory {
             self.variables.set(name, value);
             return;
         }
-        let holds = |level: &&mut Names| level.value(name).is_some();
+        let holds = |level: &&mut Shared<Names>| level.value(name).is_some();
         match self.locals.iter_mut().rev().find(holds) {
             Some(level) => level.set(name, value),
             None => self.level().set(name, value),
@@ -135,7 +142,7 @@ impl Memory {
     /// The `V.L.` variables of the current level.
     fn level(&mut self) -> &mut Names {
         if self.locals.is_empty() {
-            self.locals.push(Names::default());
+            self.locals.push(Shared::default());
         }
         let last = self.locals.len() - 1;
         &mut self.locals[last]
@@ -182,7 +189,7 @@ impl Memory {
             return;
         }
         let (base, subscripts) = parts(name);
-        let holds = |level: &&mut Names| {
+        let holds = |level: &&mut Shared<Names>| {
             let variable = level.names.get(base);
             variable.is_some_and(|variable| {
                 subscripts.is_empty() || variable.element(subscripts).is_some()
@@ -254,7 +261,7 @@ impl Memory {
         }
         let mut differing = Vec::new();
         let parameter = |index| Target::Parameter(Owner::Program, index);
-        for (index, pair) in (0..).zip(self.direct.iter().zip(&other.direct)) {
+        for (index, pair) in (0..).zip(self.direct.iter().zip(other.direct.iter())) {
             match pair {
                 (Some(mine), Some(theirs)) => {
                     compare(mine, theirs, || parameter(index), &mut differing)?;
@@ -263,7 +270,7 @@ impl Memory {
                 _ => return None,
             }
         }
-        for ((index, mine), (at, theirs)) in self.parameters.iter().zip(&other.parameters) {
+        for ((index, mine), (at, theirs)) in self.parameters.iter().zip(other.parameters.iter()) {
             if index != at {
                 return None;
             }
@@ -276,11 +283,83 @@ impl Memory {
         Some(differing)
     }
 
+    /// What differs in another memory becomes unknown: two ways meet (R14.1).
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) {
+        let Self {
+            direct,
+            parameters,
+            lost,
+            variables,
+            // What the user gave is the same on all ways.
+            given: _,
+            unknown_names,
+            locals,
+            macros,
+            macro_version,
+            weight: _,
+        } = other;
+        let indices: BTreeSet<u32> = if self.direct == *direct && self.parameters == *parameters {
+            BTreeSet::new()
+        } else {
+            self.known_parameters()
+                .chain(other.known_parameters())
+                .collect()
+        };
+        for index in indices {
+            let mut mine = self.parameter(index);
+            join_value(&mut mine, other.parameter(index).as_ref(), cause);
+            if let Some(value) = mine {
+                self.set_parameter(index, value);
+            }
+        }
+        if self.lost.is_none() {
+            self.lost.clone_from(lost);
+        }
+        if self.unknown_names.is_none() {
+            self.unknown_names.clone_from(unknown_names);
+        }
+        if self.variables != *variables {
+            self.variables.join(variables, cause);
+        }
+        while self.locals.len() < locals.len() {
+            self.locals.push(Shared::default());
+        }
+        let none = Shared::default();
+        for (place, mine) in self.locals.iter_mut().enumerate() {
+            let theirs = locals.get(place).unwrap_or(&none);
+            if mine != theirs {
+                mine.join(theirs, cause);
+            }
+        }
+        if self.macros != *macros {
+            let names = self.macros.code.keys().chain(macros.code.keys());
+            let names: BTreeSet<String> = names.cloned().collect();
+            for name in names {
+                if self.macros.code.get(&name) != macros.code.get(&name) {
+                    self.forget_macro(&name, cause);
+                }
+            }
+            self.macro_version = self.macro_version.max(*macro_version).wrapping_add(1);
+        }
+    }
+
+    /// Whether the macros of another memory are the same.
+    pub(in crate::interpreter) fn has_macros_of(&self, other: &Self) -> bool {
+        self.macros == other.macros
+    }
+
+    /// The parameters that have a value, or are known to be unknown.
+    fn known_parameters(&self) -> impl Iterator<Item = u32> {
+        let direct = (0..).zip(self.direct.iter());
+        let direct = direct.filter_map(|(index, value)| value.as_ref().map(|_| index));
+        direct.chain(self.parameters.keys().copied())
+    }
+
     pub(in crate::interpreter) fn enter_call(&mut self, depth: usize) {
         while self.locals.len() < depth {
-            self.locals.push(Names::default());
+            self.locals.push(Shared::default());
         }
-        self.locals.push(Names::default());
+        self.locals.push(Shared::default());
     }
 
     pub(in crate::interpreter) fn leave_call(&mut self, depth: usize) {
@@ -294,14 +373,14 @@ impl Memory {
     fn hold_macro(&mut self, name: &str, code: Value) {
         self.macro_version = self.macro_version.wrapping_add(1);
         self.weight.add(weight(name, &code));
-        if let Some(before) = self.macros.insert(name.to_owned(), code) {
+        if let Some(before) = self.macros.code.insert(name.to_owned(), code) {
             self.weight.take(weight(name, &before));
         }
     }
 
     /// A macro may have been defined, or redefined (R2.51).
     pub(in crate::interpreter) fn forget_macro(&mut self, name: &str, cause: &Arc<str>) {
-        if !matches!(self.macros.get(name.trim()), Some(Value::Unknown(_))) {
+        if !matches!(self.macros.code.get(name.trim()), Some(Value::Unknown(_))) {
             self.hold_macro(name.trim(), Value::Unknown(cause.clone()));
         }
     }
@@ -319,6 +398,7 @@ impl Memory {
         };
         let names = self
             .macros
+            .code
             .iter()
             .filter(goes)
             .map(|(name, _)| name.clone());
@@ -330,14 +410,18 @@ impl Memory {
     /// `#INIT MACRO TAB`
     pub(in crate::interpreter) fn clear_macros(&mut self) {
         self.macro_version = self.macro_version.wrapping_add(1);
-        let weights = self.macros.iter().map(|(name, code)| weight(name, code));
+        let weights = self
+            .macros
+            .code
+            .iter()
+            .map(|(name, code)| weight(name, code));
         self.weight.take(weights.sum::<usize>());
-        self.macros.clear();
+        self.macros.code.clear();
     }
 
     /// The code of a macro, which may be unknown.
     pub(in crate::interpreter) fn macro_code(&self, name: &str) -> Option<&Value> {
-        self.macros.get(name.trim())
+        self.macros.code.get(name.trim())
     }
 
     /// What a quoted name means: the code of its macro, or itself.
@@ -354,7 +438,7 @@ impl Memory {
     /// What a program start leaves (R9.32).
     pub(in crate::interpreter) fn carried(&self, parameters: Parameters) -> Carried {
         let mut carried = Carried::default();
-        for (name, code) in &self.macros {
+        for (name, code) in self.macros.code.iter() {
             match code {
                 Value::Text(code) => {
                     carried.macros.insert(name.clone(), code.to_string());
@@ -366,7 +450,7 @@ impl Memory {
             }
         }
         if parameters == Parameters::Kept {
-            let direct = (0..).zip(&self.direct);
+            let direct = (0..).zip(self.direct.iter());
             let direct = direct.filter_map(|(at, value)| Some((at, value.clone()?)));
             let rest = self.parameters.iter();
             let rest = rest.map(|(at, value)| (*at, value.clone()));
@@ -412,7 +496,7 @@ impl Memory {
 
     /// The parameters, and the variables that the program sees which runs.
     pub(in crate::interpreter) fn all(&self) -> Vec<(String, Value)> {
-        let direct = (0..).zip(&self.direct);
+        let direct = (0..).zip(self.direct.iter());
         let direct = direct.filter_map(|(index, value)| Some((index, value.as_ref()?)));
         let further = self.parameters.iter().map(|(index, value)| (*index, value));
         let parameters = direct.chain(further);

@@ -8,6 +8,7 @@ pub(super) mod functions;
 pub(super) mod memory;
 pub(super) mod names;
 pub(super) mod reads;
+pub(super) mod shared;
 pub(super) mod target;
 pub(super) mod value;
 pub(super) mod variable;

@@ -1,6 +1,6 @@
 //! Variables by name, with their arrays, and what they weigh.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize, Serializer};
@@ -127,6 +127,34 @@ impl Variable {
             .as_ref()
             .map(|_| cause.clone())
             .or(self.lost.take());
+    }
+
+    /// What differs from another variable of the name becomes unknown.
+    fn join(&mut self, other: &Self, cause: &Arc<str>) {
+        join_value(&mut self.scalar, other.scalar.as_ref(), cause);
+        if self.array != other.array {
+            // An array that may have another shape holds nothing that is known.
+            self.array = self.array.take().or_else(|| other.array.clone());
+            self.elements.clear();
+            self.lost.get_or_insert_with(|| cause.clone());
+            return;
+        }
+        let keys: BTreeSet<String> = self
+            .elements
+            .keys()
+            .chain(other.elements.keys())
+            .cloned()
+            .collect();
+        for key in keys {
+            let mut mine = self.element(&key);
+            join_value(&mut mine, other.element(&key).as_ref(), cause);
+            if let Some(value) = mine {
+                self.elements.insert(key, value);
+            }
+        }
+        if self.lost.is_none() {
+            self.lost.clone_from(&other.lost);
+        }
     }
 
     pub(in crate::interpreter) fn elements_weight(&self) -> usize {
@@ -285,6 +313,22 @@ impl Names {
         Some(())
     }
 
+    /// What differs in another memory becomes unknown.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self, cause: &Arc<str>) {
+        for (name, theirs) in &other.names {
+            let mine = self.names.entry(name.clone()).or_default();
+            if mine != theirs {
+                mine.join(theirs, cause);
+            }
+        }
+        for (name, mine) in &mut self.names {
+            if !other.names.contains_key(name) {
+                mine.join(&Variable::default(), cause);
+            }
+        }
+        self.weight = Weight(self.weigh());
+    }
+
     pub(in crate::interpreter) fn weigh(&self) -> usize {
         let weight_of = |(name, variable): (&String, &Variable)| {
             let scalar = variable.scalar.as_ref();
@@ -295,6 +339,21 @@ impl Names {
         };
         self.names.iter().map(weight_of).sum()
     }
+}
+
+/// The value on two ways: unknown where they differ.
+pub(in crate::interpreter) fn join_value(
+    mine: &mut Option<Value>,
+    theirs: Option<&Value>,
+    cause: &Arc<str>,
+) {
+    let joined = match (mine.as_ref(), theirs) {
+        (Some(Value::Unknown(_)), _) => return,
+        (mine, theirs) if mine == theirs => return,
+        (_, Some(unknown @ Value::Unknown(_))) => unknown.clone(),
+        _ => Value::Unknown(cause.clone()),
+    };
+    *mine = Some(joined);
 }
 
 /// Different numbers beyond which a comparison is given up.

@@ -114,6 +114,7 @@ fn shown(event: &Event<'_>) -> String {
             write!(shown, " {:?} {:?}", block.remark, block.modal).expect("text");
             shown
         }
+        Event::Joined(joined) => format!("joined {}", joined.seq),
         Event::Ended(ended) => {
             let notes: Vec<String> = ended
                 .diagnostics
@@ -158,7 +159,7 @@ fn a_run_is_resumed_at_any_block() {
         let said = RefCell::new(Vec::new());
         let (run, outcome) = start(&mut |event| {
             said.borrow_mut().push(shown(event));
-            if said.borrow().len() == stop {
+            if said.borrow().len() >= stop {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())

@@ -18,6 +18,11 @@ impl Linter<'_> {
         if executed.seq == 1 && **executed.file == *self.file {
             self.begin = Some(memory::place(executed, Span::default()));
         }
+        if executed.branch != self.branch.as_deref() {
+            // What moved before moved on another way.
+            self.jumps.clear();
+            self.branch = executed.branch.map(<[_]>::to_vec);
+        }
         if !executed.outcomes.is_empty() {
             self.commands(executed, said);
         }

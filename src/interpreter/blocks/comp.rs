@@ -28,6 +28,8 @@ impl Interpreter {
         };
         let result = axis.and_then(|axis| {
             self.see(axis);
+            let kinds = command.selection.kinds();
+            self.state.control.possible.replace(axis, kinds);
             self.state
                 .control
                 .compensation

@@ -9,10 +9,12 @@ use std::sync::Arc;
 use crate::diagnostic::Code;
 use crate::interpreter::programs::index::{EntryIndex, LabelName};
 use crate::interpreter::run::at::{At, Shown};
+use crate::interpreter::run::condition::ConditionKind;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Exit;
 use crate::interpreter::run::stack::Seeking;
 use crate::interpreter::run::step::Step;
+use crate::interpreter::unknown::branching::Goal;
 use crate::interpreter::values::cause::{how_to_set, skip_level, unknown_value};
 use crate::interpreter::values::functions::finite;
 use crate::interpreter::values::value::Value;
@@ -42,6 +44,9 @@ impl Interpreter {
         }
         let value = self.value(*condition, at)?;
         if let Value::Unknown(cause) = &value {
+            if self.part_at_jump(*condition, cause, at) {
+                return Ok(Some(false));
+            }
             self.leave_jump(cause, flow_span(at.block), at);
             return Ok(Some(false));
         }
@@ -91,6 +96,9 @@ impl Interpreter {
                     self.write(place, value.clone());
                 }
                 if let Value::Unknown(cause) = &value {
+                    if self.part_at_cases(*operand, cause, span, at) {
+                        return Ok(None);
+                    }
                     self.skip_unknown(entry..links.end, cause, span, at)
                 } else {
                     self.seek(Seeking::Case(value));
@@ -138,6 +146,10 @@ impl Interpreter {
                 let value = self.value(*condition, at)?;
                 match (&value, value.truth()) {
                     (Value::Unknown(cause), _) => {
+                        let goals = [links.opener, entry + 1].map(Goal::block);
+                        if self.part_at(*condition, cause, (ConditionKind::Loop, span), goals, at) {
+                            return Ok(None);
+                        }
                         self.skip_unknown(links.opener..entry, cause, span, at)
                     }
                     (_, Some(true)) => Some(Step::Jump(links.opener)),
@@ -148,6 +160,10 @@ impl Interpreter {
                 let value = self.value(*condition, at)?;
                 match (&value, value.truth()) {
                     (Value::Unknown(cause), _) => {
+                        let goals = [entry + 1, links.opener].map(Goal::block);
+                        if self.part_at(*condition, cause, (ConditionKind::Loop, span), goals, at) {
+                            return Ok(None);
+                        }
                         self.skip_unknown(links.opener..entry, cause, span, at)
                     }
                     (_, Some(false)) => Some(Step::Jump(links.opener)),
@@ -176,7 +192,15 @@ impl Interpreter {
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
-            (Value::Unknown(cause), _) => self.skip_unknown(self.current_block(), cause, span, at),
+            (Value::Unknown(cause), _) => {
+                let whole = self.current_block();
+                let mut goals = [whole.start + 1, next].map(Goal::block);
+                goals[1].seeking = (next != whole.end).then_some(Seeking::Condition);
+                if self.part_at(condition, cause, (ConditionKind::Branch, span), goals, at) {
+                    return Ok(None);
+                }
+                self.skip_unknown(whole, cause, span, at)
+            }
             (_, Some(true)) => None,
             (_, Some(false)) => {
                 self.seek(Seeking::Condition);
@@ -195,7 +219,13 @@ impl Interpreter {
     ) -> Result<Option<Step>, Box<Fault>> {
         let value = self.value(condition, at)?;
         Ok(match (&value, value.truth()) {
-            (Value::Unknown(cause), _) => self.skip_unknown(region, cause, span, at),
+            (Value::Unknown(cause), _) => {
+                let goals = [region.start + 1, region.end + 1].map(Goal::block);
+                if self.part_at(condition, cause, (ConditionKind::Loop, span), goals, at) {
+                    return Ok(None);
+                }
+                self.skip_unknown(region, cause, span, at)
+            }
             (_, Some(true)) => None,
             (_, Some(false)) => Some(Step::Jump(region.end + 1)),
             (_, None) => return Err(no_condition(span)),
@@ -218,6 +248,10 @@ impl Interpreter {
         });
         for value in [counter, &end, &step] {
             if let Value::Unknown(cause) = value {
+                let goals = [opener + 1, region_end + 1].map(Goal::block);
+                if self.part_at_count(cause, span, goals, at) {
+                    return Ok(None);
+                }
                 return Ok(self.skip_unknown(opener..region_end, cause, span, at));
             }
         }
@@ -378,20 +412,6 @@ impl Interpreter {
             _ => whole,
         };
         self.skip_unknown(region, cause, span, at)
-    }
-
-    /// Where a jump goes that is not taken.
-    fn exit(&mut self, target: &JumpTarget, at: &At<'_>) -> Result<Exit, Box<Fault>> {
-        let value = match target {
-            JumpTarget::Label(name) => return Ok(Exit::label(name.of(at.text))),
-            JumpTarget::Number(operand) => self.value(*operand, at)?,
-            JumpTarget::Variable(place) => self.value(Operand::Expression(*place), at)?,
-        };
-        Ok(match value {
-            Value::Number(number) => Exit::Label(LabelName::numbered(number)),
-            Value::Text(name) => Exit::label(&name),
-            Value::Unknown(_) => Exit::AnyLabel,
-        })
     }
 
     /// FC902: a jump that is not known offline (R2.91).

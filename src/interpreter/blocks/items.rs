@@ -203,7 +203,9 @@ impl Interpreter {
                     return Ok(());
                 }
                 if matches!(flow, Flow::Goto(_)) && self.jump_is_probed(intent, at) {
-                    self.leave_jump(&PROBE.into(), *span, at);
+                    if !self.part_at_probe(at) {
+                        self.leave_jump(&PROBE.into(), *span, at);
+                    }
                     return Ok(());
                 }
                 let step = self.flow(flow, *span, at);

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::cycles::RepeatedCall;
-use crate::interpreter::run::event::{Note, NoteKind, Notes};
 use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::region::Region;
@@ -39,18 +38,6 @@ impl Interpreter {
             .running()
             .map_or(0, |frame| frame.next);
         self.note_exits(&region, next.saturating_sub(1)..=next, &cause, None);
-    }
-
-    /// Takes a note of the level as of a value of the machine.
-    fn note_unknown(&mut self, cause: &str, at: &At<'_>) {
-        if self.options.notes == Notes::Taken {
-            let note = Note {
-                kind: NoteKind::Unknown,
-                name: cause.to_owned(),
-                place: at.place(Span::new(0, at.text.trim_end().len())),
-            };
-            self.work.notes.borrow_mut().push(note);
-        }
     }
 
     /// Says which COMP commands and values the control refuses if it executes the block.

@@ -110,6 +110,24 @@ pub(in crate::interpreter) struct Saved {
     transformed: [bool; 2],
 }
 
+impl Saved {
+    /// What may also have been saved instead becomes unknown.
+    pub(in crate::interpreter) fn doubt(&mut self, other: &Self) {
+        if self == other {
+            return;
+        }
+        for group in Group::ALL {
+            self.functions.unknown.insert(group);
+        }
+        for (mine, theirs) in self.functions.feeds.iter_mut().zip(other.functions.feeds) {
+            *mine = mine.filter(|_| *mine == theirs);
+        }
+        for (mine, theirs) in self.transformed.iter_mut().zip(other.transformed) {
+            *mine |= theirs;
+        }
+    }
+}
+
 /// A coordinate that counts from a place; not known where any part is not, nor where the sum
 /// leaves the range of numbers.
 #[inline]
@@ -355,6 +373,13 @@ impl Modal {
             Group::CircleCentre => u32::from(functions.centre_absolute),
             Group::ExactStop => u32::from(functions.block_end == BlockEnd::ExactStop),
         }
+    }
+
+    /// Whether it is known that two states have different functions of a group in force, or unknown
+    /// in one of them only.
+    pub(in crate::interpreter) fn differs_in(&self, other: &Self, group: Group) -> bool {
+        let (mine, theirs) = (self.is_known(group), other.is_known(group));
+        mine != theirs || (mine && self.value(group) != other.value(group))
     }
 
     /// The groups in which two states differ, or may, become unknown.

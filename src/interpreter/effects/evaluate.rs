@@ -183,6 +183,19 @@ impl Interpreter {
         }
     }
 
+    /// Whether the value of a variable follows from the state of the run.
+    pub(in crate::interpreter) fn is_own(&self, name: &str) -> bool {
+        self.own_variable(name).is_some()
+    }
+
+    /// The kind of an axis whose state a variable shows.
+    pub(in crate::interpreter) fn active_variable(&self, name: &str) -> Option<(AxisIndex, Kind)> {
+        match self.own_variable(name)? {
+            OwnVariable::Active(axis, kind) => Some((axis, kind)),
+            _ => None,
+        }
+    }
+
     /// The variable of an axis whose value follows from the state of the run.
     fn own_variable(&self, name: &str) -> Option<OwnVariable> {
         let rest = name.strip_prefix("V.A.")?;
@@ -301,6 +314,9 @@ impl Interpreter {
         }
         self.work.wrote = true;
         self.journal.write(&place, &value);
+        self.state
+            .track
+            .write(&place, &mut self.state.control.memory);
         if self.state.track.ways.is_open() {
             self.state.track.ways.write(&place, self.state.seq);
         }

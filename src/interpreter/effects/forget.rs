@@ -71,11 +71,15 @@ impl Interpreter {
     pub(in crate::interpreter) fn forget_memory(&mut self, cause: &Arc<str>) {
         self.journal.begin_anew();
         self.work.wrote = true;
+        self.state
+            .track
+            .write_anything(&mut self.state.control.memory);
         self.state.control.memory.forget_all(cause);
     }
 
     /// Every kind of every axis becomes unknown.
     pub(in crate::interpreter) fn forget_compensation(&mut self) {
+        self.state.control.possible.clear();
         for position in 0..self.machine.axes.len() {
             let axis = AxisIndex::new(position);
             self.state

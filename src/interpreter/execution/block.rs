@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use crate::comp::KindSet;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::interpreter::blocks::items::MAX_SAID;
 use crate::interpreter::coordinates::axis_words::AxisWords;
@@ -11,7 +12,7 @@ use crate::interpreter::run::event::{EndedBy, Event, Executed, Observer};
 use crate::interpreter::run::intent::Intent;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::StopPolicy;
-use crate::interpreter::run::state::Last;
+use crate::interpreter::run::path::Last;
 use crate::interpreter::run::step::{Departure, Request, Step};
 use crate::interpreter::run::stopping::{ended_by, stops};
 use crate::interpreter::run::work::OwnEnd;
@@ -47,6 +48,8 @@ impl Interpreter {
         observer: &mut dyn Observer,
     ) -> ControlFlow<Departure> {
         self.work.clear();
+        self.work.diagnostics.append(&mut self.met);
+        self.work.aside.withheld.append(&mut self.met_withheld);
         self.state.seq += 1;
         self.state.blocks += 1;
         if self.state.track.ways.has_targets() {
@@ -85,6 +88,7 @@ impl Interpreter {
         let is_over = !is_plain && self.settle(at);
         if !self.work.changes.is_empty() || self.work.new_axes {
             self.version += 1;
+            self.replace_possible();
         }
         self.remember_last(at);
         self.work.aside.asked.append(self.work.asked.get_mut());
@@ -104,6 +108,7 @@ impl Interpreter {
                 step => step,
             }
         };
+        self.show_ways();
         let flow = observer.event(Event::Executed(Executed {
             seq: self.state.seq,
             file: at.file,
@@ -128,6 +133,8 @@ impl Interpreter {
             diagnostics: &self.work.diagnostics,
             stopped,
             compensation: &self.state.control.compensation,
+            possible: &self.shown.possible,
+            branch: self.shown.branch.as_deref(),
             modal: &self.state.control.modal,
             occurred: &self.state.occurred,
             version: self.version,
@@ -232,6 +239,14 @@ impl Interpreter {
         let has_label = labels.clone().any(|item| matches!(item, Item::Label(_)));
         let text = self.programs.index(frame.unit).source.text();
         (has_label || at.block.number.is_some()) && names_target(text, at.text)
+    }
+
+    /// What the block changed is known by itself.
+    fn replace_possible(&mut self) {
+        let possible = &mut self.state.control.possible;
+        for change in &self.work.changes {
+            possible.replace(change.axis, KindSet::of(change.kind));
+        }
     }
 
     /// Keeps the block in mind for FC310; it is not known beforehand whether M30 follows.

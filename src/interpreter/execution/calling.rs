@@ -1,11 +1,13 @@
 //! How programs are entered and left.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use crate::interpreter::programs::index::ProgramId;
+use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::stack::{Frame, Retains};
-use crate::interpreter::run::step::{Destination, Request};
+use crate::interpreter::run::step::{Destination, Request, Step};
 use crate::syntax::ast::CallForm;
 
 impl Interpreter {
@@ -21,6 +23,8 @@ impl Interpreter {
             CallForm::Cycle => Some(Box::new(self.state.control.modal.save())),
         };
         self.journal.begin_anew();
+        let depth = self.state.control.frames.depth();
+        self.state.track.change_level(depth);
         self.state.control.frames.push(Frame {
             unit,
             section,
@@ -42,6 +46,9 @@ impl Interpreter {
     pub(in crate::interpreter) fn leave(&mut self) {
         if let Some(frame) = self.state.control.frames.pop() {
             self.journal.begin_anew();
+            let depth = self.state.control.frames.depth();
+            self.state.track.change_level(depth);
+            self.state.track.loops.retain(|known| known.depth <= depth);
             self.state
                 .control
                 .memory
@@ -119,5 +126,48 @@ impl Interpreter {
             waiting: Vec::new(),
             passage: None,
         });
+    }
+
+    /// Does what a block asked for. `Break` when the program ends.
+    pub(in crate::interpreter) fn follow(&mut self, step: Step) -> ControlFlow<EndedBy> {
+        match step {
+            // Only a run that has not begun is parked with `Begin`; `go_on` begins it.
+            Step::Begin => {}
+            Step::Jump(entry) => {
+                if let Some(endless) = self.endless_loop() {
+                    self.work.over.push(endless);
+                    self.work.endless = true;
+                    return ControlFlow::Break(EndedBy::Budget);
+                }
+                if let Some(frame) = self.state.control.frames.running_mut() {
+                    frame.next = entry;
+                }
+            }
+            Step::Call(mut requests) => {
+                let Some(first) = (!requests.is_empty()).then(|| requests.remove(0)) else {
+                    return ControlFlow::Continue(());
+                };
+                if let Some(frame) = self.state.control.frames.running_mut() {
+                    requests.reverse();
+                    frame.waiting = requests;
+                }
+                self.push_call(first);
+            }
+            Step::Return => match self.state.control.frames.running() {
+                Some(frame) if frame.level > 0 => self.end_of_pass(),
+                _ => {
+                    // A subprogram run by itself ends as it should.
+                    self.state.last = None;
+                    return ControlFlow::Break(EndedBy::EndOfFile);
+                }
+            },
+            Step::ReturnTo(destination) => self.go_back(&destination),
+            Step::End(by) => return ControlFlow::Break(by),
+            Step::Covered => {
+                self.work.covered = true;
+                return ControlFlow::Break(EndedBy::EndOfFile);
+            }
+        }
+        ControlFlow::Continue(())
     }
 }

@@ -16,11 +16,13 @@ use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::run::at::At;
 use crate::interpreter::run::event::EndedBy;
 use crate::interpreter::run::interpreter::Interpreter;
-use crate::interpreter::run::loops::{LeftLoop, Loop, Mark};
+use crate::interpreter::run::path::{LeftLoop, Loop, Mark};
+use crate::interpreter::run::path::{Path, Track};
 use crate::interpreter::run::state::State;
 use crate::interpreter::run::step::Step;
 use crate::interpreter::run::ways::{Leaving, WayOut};
 use crate::interpreter::values::cause::{how_to_set, unknown_value};
+use crate::interpreter::values::effort::ITEM;
 use crate::interpreter::values::reads::Reads;
 use crate::interpreter::values::target::Target;
 
@@ -36,6 +38,22 @@ const MOST_PASSES: u64 = 1 << 20;
 /// How often a loop is run until its state repeats. One that is left more often stands in another
 /// loop, and nested loops must not multiply their passes.
 const RUN_THROUGH: u32 = 2;
+
+/// Passes of a loop that is left on other ways and whose own condition is known.
+const MOST_FOLLOWED_PASSES: u64 = 32;
+
+/// The same of a `$FOR`, which ends by itself.
+const MOST_COUNTED_PASSES: u64 = 1000;
+
+/// Passes after which a loop that is joined at its head is given up (R14.4).
+const MOST_JOINED_PASSES: u64 = 64;
+
+/// Whether it is known that a loop is repeated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Repeats {
+    Known,
+    Unknown,
+}
 
 /// Why a loop need not be run any further.
 #[derive(Debug)]
@@ -55,7 +73,11 @@ impl Interpreter {
         at: &At<'_>,
         finder: &mut dyn Finder,
     ) -> Step {
-        let left = self.note_pass(target).and_then(|why| {
+        let why = self.note_pass(target);
+        if self.is_left_meanwhile() {
+            return self.follow_loop(target, Repeats::Known, finder);
+        }
+        let left = why.and_then(|why| {
             if let Enough::TooMany(cause) = &why {
                 self.forget_loop(cause, finder);
             }
@@ -63,6 +85,107 @@ impl Interpreter {
             self.leave_loop(&why, &out, at, finder)
         });
         left.unwrap_or(Step::Jump(target))
+    }
+
+    /// A way that only the machine decides leads back: what the control does next on it.
+    pub(in crate::interpreter) fn come_back(
+        &mut self,
+        target: EntryIndex,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        let _ = self.note_pass(target);
+        self.follow_loop(target, Repeats::Unknown, finder)
+    }
+
+    /// Whether other ways have left the innermost loop.
+    fn is_left_meanwhile(&self) -> bool {
+        let Some(known) = self.state.track.loops.last() else {
+            return false;
+        };
+        let ended = self.state.ended.iter().map(|ended| &ended.path);
+        let mut others = self.state.pending.iter().chain(ended);
+        others.any(|path| path.parted >= known.since)
+    }
+
+    /// A loop that is left on other ways is followed until a pass begins with what passes before it
+    /// began with (R14.3).
+    #[cold]
+    fn follow_loop(
+        &mut self,
+        target: EntryIndex,
+        repeats: Repeats,
+        finder: &mut dyn Finder,
+    ) -> Step {
+        let Some(mut known) = self.state.track.loops.pop() else {
+            return Step::Jump(target);
+        };
+        if let Some(counters) = known.endless.take() {
+            self.lose_counters(&counters, known.since);
+        }
+        let index = self.programs.index(known.unit);
+        let place = (known.depth, known.unit, known.head);
+        let counts = index.links(known.head).opener == known.head && target == known.head + 1;
+        let most = match repeats {
+            Repeats::Unknown => 0,
+            Repeats::Known if self.state.track.open_loops.contains(&place) => 0,
+            Repeats::Known if counts => MOST_COUNTED_PASSES,
+            Repeats::Known => MOST_FOLLOWED_PASSES,
+        };
+        if known.passes > most + MOST_JOINED_PASSES {
+            let after = known.from.saturating_add(1);
+            self.state.track.loops.push(known);
+            self.forget_loop(&"a loop that goes on too long".into(), finder);
+            return Step::Jump(after);
+        }
+        let now = self.at_head(target);
+        let cause = "a loop that is repeated".into();
+        match known.covered.take() {
+            Some(before) if before.covers(&now, &cause) => return Step::Covered,
+            Some(mut before) if known.passes > most => {
+                before.join(now, &cause);
+                let Path { control, track, .. } = (*before).clone();
+                self.state.control = control;
+                self.state.track.reach = track.reach;
+                self.state.track.assumed = track.assumed;
+                self.state.track.asked = track.asked;
+                self.journal.begin_anew();
+                known.covered = Some(before);
+            }
+            _ => known.covered = Some(Box::new(now)),
+        }
+        self.state.track.loops.push(known);
+        Step::Jump(target)
+    }
+
+    /// The state with which a pass begins.
+    fn at_head(&mut self, target: EntryIndex) -> Path {
+        if let Some(frame) = self.state.control.frames.running_mut() {
+            frame.next = target;
+        }
+        let (control, track) = (&self.state.control, &self.state.track);
+        let cost = ITEM * 8 + self.machine.axes.len() * 4 + control.memory.weight();
+        self.state.effort.charge(cost);
+        Path {
+            control: control.clone(),
+            track: Track {
+                reach: track.reach.clone(),
+                asked: track.asked.clone(),
+                assumed: track.assumed.clone(),
+                ..Track::default()
+            },
+            parted: self.state.seq,
+        }
+    }
+
+    /// What only counts has any value where other ways have left a loop that is not run to its end.
+    fn lose_counters(&mut self, counters: &[Target], since: u64) {
+        let cause: Arc<str> = "a loop that is repeated".into();
+        let ended = self.state.ended.iter_mut().map(|ended| &mut ended.path);
+        for path in self.state.pending.iter_mut().chain(ended) {
+            if path.parted >= since {
+                path.control.memory.lose(counters, &cause);
+            }
+        }
     }
 
     /// Counts a pass of a loop; why it need not be run any further, where that is so.
@@ -97,6 +220,7 @@ impl Interpreter {
                 since: self.state.seq,
                 mark: None,
                 endless: None,
+                covered: None,
             });
         }
         let last = self.state.track.loops.last_mut()?;
@@ -138,12 +262,7 @@ impl Interpreter {
         }
         let repeats = last.endless.is_some();
         self.state.track.loops.push(last);
-        self.state.watching = self
-            .state
-            .track
-            .loops
-            .iter()
-            .any(|known| known.mark.is_some());
+        self.state.watching = watches(&self.state.track);
         if !self.state.watching {
             *self.state.reads.borrow_mut() = Reads::default();
         }
@@ -276,4 +395,9 @@ fn counters(mark: &Mark, state: &State) -> Option<Vec<Target>> {
     let reads = state.reads.borrow();
     let only_counts = differing.iter().all(|target| !reads.has(target));
     only_counts.then_some(differing)
+}
+
+/// Whether a loop is compared with an earlier pass.
+pub(super) fn watches(track: &Track) -> bool {
+    track.loops.iter().any(|known| known.mark.is_some())
 }

@@ -14,10 +14,10 @@ use crate::interpreter::run::cycles::ModalCycles;
 use crate::interpreter::run::event::{EndedBy, Event, Observer};
 use crate::interpreter::run::interpreter::Interpreter;
 use crate::interpreter::run::options::{Handed, RunOutcome, StopPolicy};
+use crate::interpreter::run::path::Track;
 use crate::interpreter::run::step::{Request, Step};
 use crate::interpreter::run::stopping::one;
 use crate::interpreter::run::undecided::Told;
-use crate::interpreter::run::ways::Ways;
 use crate::syntax::ast::{CallForm, CallScope};
 use crate::text::{Place, SourceFile, Span};
 
@@ -105,8 +105,6 @@ impl Interpreter {
         self.state.control.frames.clear();
         self.state.seq = 0;
         self.state.control.cycles = ModalCycles::default();
-        self.state.track.loops.clear();
-        self.state.track.left_loops.clear();
         self.state.watching = false;
         self.state.control.refused.clear();
         self.state.once.clear();
@@ -116,7 +114,12 @@ impl Interpreter {
         self.state.control.named.clear();
         self.state.control.channel_axes = ChannelAxes::default();
         self.state.control.described = None;
-        self.state.track.ways = Ways::default();
+        self.state.track = Track::default();
+        self.state.pending.clear();
+        self.state.ended.clear();
+        self.sides.clear();
+        self.met.clear();
+        self.met_withheld.clear();
         self.state.told = Told::default();
         self.programs.clear();
         self.pending.clear();
@@ -132,8 +135,10 @@ impl Interpreter {
         name: Option<&str>,
         observer: &mut dyn Observer,
     ) -> ControlFlow<()> {
+        self.show_ways();
         observer.event(Event::Started {
             name,
+            possible: &self.shown.possible,
             compensation: &self.state.control.compensation,
             occurred: &self.state.occurred,
             version: self.version,

@@ -250,7 +250,7 @@ impl Interpreter {
             RunOutcome::Ended(EndedBy::EndOfFile) => None,
             RunOutcome::Ended(by) => {
                 let mut notes = Collected::default();
-                notes.extend(self.work.over.take());
+                notes.extend(self.work.over.drain(..));
                 Some(self.ended(by, &notes, observer))
             }
             stopped @ (RunOutcome::Paused | RunOutcome::Stopped) => Some(stopped),

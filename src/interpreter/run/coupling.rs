@@ -206,6 +206,19 @@ impl Couplings {
         self.named.iter().copied().collect()
     }
 
+    /// Other couplings may be in force instead. Returns the axes whose coupling may have changed.
+    pub(in crate::interpreter) fn join(&mut self, other: &Self) -> Vec<AxisIndex> {
+        if self == other {
+            return Vec::new();
+        }
+        self.named.extend(&other.named);
+        let mut followers: Vec<AxisIndex> = other.strays.iter().copied().collect();
+        let pairs = other.followers.values().flatten();
+        followers.extend(pairs.map(|(axis, _)| *axis));
+        self.doubt_followers(&followers);
+        self.doubt()
+    }
+
     /// Groups with these axes may have been defined, or redefined: that changes a coupling only
     /// where some group may be in force.
     pub(in crate::interpreter) fn doubt_definitions(

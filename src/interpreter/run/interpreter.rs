@@ -8,13 +8,15 @@ use std::sync::Arc;
 use super::control::ControlState;
 use super::journal::{Journal, Regions, Scan};
 use super::options::{Handed, Options};
-use super::state::{State, Track};
+use super::path::{BranchSide, Track};
+use super::possible_state::{PossibleStates, WayCondition, shown, ways_of};
+use super::state::State;
 use super::step::Sought;
 use super::undecided::Told;
 use super::ways::Departing;
 use super::work::Work;
 use crate::comp::{AxisIndex, Compensation, KindSet};
-use crate::diagnostic::Collected;
+use crate::diagnostic::{Collected, Diagnostic};
 use crate::interpreter::coordinates::modal::{AxisPosition, Modal};
 use crate::interpreter::programs::index::EntryIndex;
 use crate::interpreter::programs::store::Programs;
@@ -64,6 +66,14 @@ pub struct Interpreter {
     pub(in crate::interpreter) pending: Vec<Scan>,
     /// Ways that leave at the block that is executed.
     pub(in crate::interpreter) departing: Vec<Departing>,
+    /// Where the answers to the condition of the block lead that is executed.
+    pub(in crate::interpreter) sides: Vec<BranchSide>,
+    /// The states that are possible, as users see them, and where they count.
+    pub(in crate::interpreter) shown: Shown,
+    /// What there is to say about ways that met before the block that is executed.
+    pub(in crate::interpreter) met: Vec<Diagnostic>,
+    /// The same where it was said before, or where nothing differs.
+    pub(in crate::interpreter) met_withheld: Vec<Diagnostic>,
     pub(in crate::interpreter) regions: Regions,
     /// What there is to say about lines that are no blocks and not kept.
     pub(in crate::interpreter) lost: Collected,
@@ -73,7 +83,49 @@ pub struct Interpreter {
     pub(in crate::interpreter) work: Work,
 }
 
+/// What is shown of the ways that lead to a block.
+#[derive(Debug, Clone, Default)]
+pub(in crate::interpreter) struct Shown {
+    version: u64,
+    pub(in crate::interpreter) possible: Vec<PossibleStates>,
+    pub(in crate::interpreter) branch: Option<Vec<Vec<WayCondition>>>,
+}
+
 impl Interpreter {
+    /// Brings up to date what is shown of ways.
+    #[inline]
+    pub(in crate::interpreter) fn show_ways(&mut self) {
+        let is_plain = self.state.control.possible.is_empty() && self.state.track.reach.is_always();
+        if is_plain && self.shown.possible.is_empty() && self.shown.branch.is_none() {
+            return;
+        }
+        self.show_ways_anew();
+    }
+
+    #[cold]
+    fn show_ways_anew(&mut self) {
+        if self.shown.version == self.version {
+            return;
+        }
+        let State {
+            control,
+            track,
+            conditions,
+            ..
+        } = &self.state;
+        let state = (&control.compensation, &control.possible);
+        self.shown = Shown {
+            version: self.version,
+            possible: shown(state, &track.reach, conditions),
+            branch: (!track.reach.is_always()).then(|| ways_of(&track.reach, conditions)),
+        };
+    }
+
+    /// The kinds that are unknown because ways differ, with the states that are possible (R14.2).
+    pub fn possible(&self) -> &[PossibleStates] {
+        &self.shown.possible
+    }
+
     /// An interpreter for a machine whose compensation is in a given state.
     pub fn new(
         machine: impl Into<Arc<Machine>>,
@@ -92,6 +144,9 @@ impl Interpreter {
         let state = State {
             control: ControlState::new(compensation, modal),
             track: Track::default(),
+            pending: Vec::new(),
+            ended: Vec::new(),
+            conditions: Vec::new(),
             seq: 0,
             blocks: 0,
             effort: Effort::default(),
@@ -138,6 +193,10 @@ impl Interpreter {
             sought: None,
             pending: Vec::new(),
             departing: Vec::new(),
+            sides: Vec::new(),
+            met: Vec::new(),
+            met_withheld: Vec::new(),
+            shown: Shown::default(),
             regions: Regions::new(),
             lost: Collected::default(),
             journal: Journal::default(),
@@ -223,6 +282,7 @@ impl Interpreter {
 
     /// Takes over the compensation state of an earlier session.
     pub fn set_compensation(&mut self, compensation: Compensation) {
+        self.state.control.possible.clear();
         self.state.control.compensation = compensation;
         self.version += 1;
     }
@@ -272,7 +332,19 @@ impl Interpreter {
     /// The skip level that decides whether a block is executed, where that is not known.
     #[inline]
     pub(in crate::interpreter) fn undecided_level(&self, block: &Block) -> Option<u8> {
-        block.skip.filter(|_| self.skip_levels().is_none())
+        block
+            .skip
+            .filter(|_| self.skip_levels().is_none() && !self.is_on_marked_way())
+    }
+
+    /// Whether the way that is followed executes the blocks with a skip mark around this one.
+    fn is_on_marked_way(&self) -> bool {
+        let frames = &self.state.control.frames;
+        let here = frames.running().zip(self.state.track.marked);
+        here.is_some_and(|(frame, marked)| {
+            (marked.depth, marked.unit) == (frames.depth(), frame.unit)
+                && (marked.first < frame.next && frame.next <= marked.after)
+        })
     }
 
     /// The level that decides whether the parts of a control block belong together: one of them has a
@@ -281,7 +353,8 @@ impl Interpreter {
         let frame = self.state.control.frames.running()?;
         let entry = frame.next.checked_sub(1)?;
         let level = self.programs.index(frame.unit).split.get(&entry).copied()?;
-        self.skip_levels().is_none().then_some(level)
+        let is_known = self.skip_levels().is_some() || self.is_on_marked_way();
+        (!is_known).then_some(level)
     }
 
     /// The work of the session so far, in units: characters of macros, texts and regions that were
@@ -319,6 +392,7 @@ impl Interpreter {
 
     /// Kinds of an axis become unknown.
     pub(in crate::interpreter) fn doubt(&mut self, axis: AxisIndex, kinds: KindSet) {
+        self.state.control.possible.replace(axis, kinds);
         let compensation = &mut self.state.control.compensation;
         compensation.forget(axis, kinds, &mut self.work.changes);
         let doubted = compensation.unknown(axis).intersection(kinds);

@@ -2,15 +2,14 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::condition::Condition;
 use super::control::ControlState;
-use super::loops::{LeftLoop, Loop};
+use super::path::{EndedPath, Last, Path, Track};
 use super::step::Step;
 use super::undecided::Told;
-use super::ways::Ways;
 use crate::interpreter::values::effort::Effort;
 use crate::interpreter::values::reads::Reads;
 
@@ -21,6 +20,12 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) control: ControlState,
     /// How it came there.
     pub(in crate::interpreter) track: Track,
+    /// The other ways that are still executed.
+    pub(in crate::interpreter) pending: Vec<Path>,
+    /// The ways that have ended.
+    pub(in crate::interpreter) ended: Vec<EndedPath>,
+    /// The conditions that ways name, by their numbers.
+    pub(in crate::interpreter) conditions: Vec<Condition>,
     /// Executed blocks of the program.
     pub(in crate::interpreter) seq: u64,
     /// Executed blocks of the session.
@@ -41,23 +46,4 @@ pub(in crate::interpreter) struct State {
     pub(in crate::interpreter) parked: Option<Step>,
     /// The unknown values that messages were about.
     pub(in crate::interpreter) told: Told,
-}
-
-/// How the run came to where it stands.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Track {
-    /// The loops that were repeated, the outermost first.
-    pub(in crate::interpreter) loops: Vec<Loop>,
-    /// The loops that were left where a value of the machine may end them.
-    pub(in crate::interpreter) left_loops: Vec<LeftLoop>,
-    /// Where the control may have gone instead (R2.52).
-    pub(in crate::interpreter) ways: Ways,
-}
-
-/// The last executed block, in case that the program ends without M30.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::interpreter) struct Last {
-    pub(in crate::interpreter) file: Arc<str>,
-    pub(in crate::interpreter) line: u32,
-    pub(in crate::interpreter) text: String,
 }

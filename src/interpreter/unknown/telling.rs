@@ -272,7 +272,7 @@ impl Interpreter {
 }
 
 /// How a message names a kind of several axes.
-fn of_axes(kind: Kind, axes: &[&str]) -> String {
+pub(in crate::interpreter) fn of_axes(kind: Kind, axes: &[&str]) -> String {
     let shown: Vec<String> = axes
         .iter()
         .take(MAX_NAMED)

@@ -343,6 +343,34 @@ impl Memory {
         }
     }
 
+    /// The variables that others than the program read and that differ in another memory.
+    pub(in crate::interpreter) fn differing_variables(&self, other: &Self) -> BTreeSet<String> {
+        if self.variables == other.variables {
+            return BTreeSet::new();
+        }
+        let names = self.variables.names.keys();
+        let names = names.chain(other.variables.names.keys());
+        let differs = |name: &&String| {
+            name.starts_with("V.")
+                && !(name.starts_with("V.P.") || name.starts_with("V.CYC."))
+                && self.variables.names.get(*name) != other.variables.names.get(*name)
+        };
+        names.filter(differs).cloned().collect()
+    }
+
+    /// Values of the program that it is not known any more.
+    pub(in crate::interpreter) fn lose(&mut self, targets: &[Target], cause: &Arc<str>) {
+        let unknown = || Value::Unknown(cause.clone());
+        for target in targets {
+            match target {
+                Target::Parameter(_, index) => self.set_parameter(*index, unknown()),
+                Target::Variable(name) => self.set_variable(name, unknown()),
+                Target::Elements(name) => self.forget_elements(name, cause),
+                Target::Parameters => self.forget_parameters(cause),
+            }
+        }
+    }
+
     /// Whether the macros of another memory are the same.
     pub(in crate::interpreter) fn has_macros_of(&self, other: &Self) -> bool {
         self.macros == other.macros

@@ -7,6 +7,7 @@ pub(super) mod expression;
 pub(super) mod functions;
 pub(super) mod memory;
 pub(super) mod names;
+pub(super) mod plain;
 pub(super) mod reads;
 pub(super) mod shared;
 pub(super) mod target;
